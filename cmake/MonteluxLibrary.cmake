@@ -1,0 +1,15 @@
+# montelux_library(NAME [DEPS layer...] [PRIVATE third-party-target...]): the one target of the folder src/NAME.
+# It is made of every .cpp of the folder and below; a folder of headers alone becomes an interface library.
+function(montelux_library name)
+  cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(TRANSFORM ARG_DEPS PREPEND montelux::)
+  if(sources)
+    add_library(montelux_${name} STATIC ${sources})
+    target_link_libraries(montelux_${name} PUBLIC montelux_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(montelux_${name} INTERFACE)
+    target_link_libraries(montelux_${name} INTERFACE montelux_options ${ARG_DEPS})
+  endif()
+  add_library(montelux::${name} ALIAS montelux_${name})
+endfunction()

@@ -1,0 +1,35 @@
+# Compiler settings that every target shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
+endif()
+
+set(MONTELUX_ARCH "native" CACHE STRING "Instruction set, as the compiler's -march takes it (native, x86-64-v3, x86-64-v4, ...)")
+set(MONTELUX_SANITIZE "" CACHE STRING "Sanitizers, comma-separated, as -fsanitize takes them")
+option(MONTELUX_TESTS "Build the tests" ON)
+option(MONTELUX_BENCH "Build the benchmarks" OFF)
+option(MONTELUX_WERROR "Treat warnings as errors" ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(montelux_options INTERFACE)
+target_include_directories(montelux_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
+# No contraction and no reassociation: a lane of a pack and a single float round alike.
+target_compile_options(montelux_options INTERFACE
+  -march=${MONTELUX_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Wno-psabi)
+if(MONTELUX_WERROR)
+  target_compile_options(montelux_options INTERFACE -Werror)
+endif()
+if(MONTELUX_SANITIZE)
+  target_compile_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE})
+endif()
