@@ -1,0 +1,39 @@
+// Rays, and where they meet a surface.
+#pragma once
+#include "math/functions.h"
+
+namespace montelux {
+
+// Points o + t d for t in [0, t_max]; d need not be unit unless stated.
+template <class F>
+struct Ray {
+  Vec3<F> o, d;
+  F t_max;
+};
+
+// A point of a surface, as shading needs it. All in world space.
+template <class F>
+struct SurfacePoint {
+  Vec3<F> p;
+  Vec3<F> p_error;  // bound of the absolute rounding error of p, by component
+  Vec3<F> ng;       // geometric normal, unit, on the side that the surface's orientation says
+  Vec3<F> ns;       // shading normal, unit
+  Vec3<F> dpdu;     // tangent along u, not normalised
+  Vec2<F> uv;
+};
+
+// The origin of a ray that leaves p toward w without meeting the surface again: p moved along ng by the rounding
+// error's bound (Waechter and Binder 2019; Pharr, Jakob and Humphreys 2023, sec. 6.8.6).
+template <class F>
+MONTELUX_INLINE Vec3<F> offset_origin(const Vec3<F>& p, const Vec3<F>& p_error, const Vec3<F>& ng, const Vec3<F>& w) {
+  F d = dot(abs(ng), p_error);
+  Vec3<F> moved = p + ng * copysign(d, dot(ng, w));
+  // One more step away from p in the last place, so that the sum's own rounding cannot bring it back.
+  auto widen = [](F from, F to) {
+    F step = abs(to) * 0x1p-23f;
+    return select(to > from, to + step, select(to < from, to - step, to));
+  };
+  return {widen(p.x, moved.x), widen(p.y, moved.y), widen(p.z, moved.z)};
+}
+
+}  // namespace montelux

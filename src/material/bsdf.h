@@ -1,0 +1,75 @@
+// What every scattering model offers. Local frame: z is the shading normal; wo and wi are unit and point away from the
+// surface; wo.z may have either sign. A model is a template over F, made from the rows of the points at hand.
+#pragma once
+#include <concepts>
+#include <string_view>
+
+#include "color/spectrum.h"
+#include "mc/density.h"
+#include "mc/random.h"
+
+namespace montelux {
+
+// The parameters of a BSDF at one point, already looked up: which slot means what is the model's own affair.
+inline constexpr int bsdf_row_size = 24;
+struct alignas(32) BsdfRow {
+  float v[bsdf_row_size] = {};
+};
+
+// The rows of all lanes, one behind the other.
+template <class F>
+struct BsdfRows {
+  const BsdfRow* rows;
+  MONTELUX_INLINE F number(int slot) const {
+    if constexpr (lanes_of<F> == 1)
+      return rows[0].v[slot];
+    else
+      return gather(rows[0].v + slot, Uint<F>(lane_index<F>() * std::uint32_t(bsdf_row_size)));
+  }
+  MONTELUX_INLINE Spectrum<F> spectrum(int slot) const {
+    Spectrum<F> s;
+    for (int i = 0; i < spectrum_size; ++i) s.c[i] = number(slot + i);
+    return s;
+  }
+};
+
+// Radiance flows from light to eye: refraction scales it by the squared ratio of the indices. Importance does not
+// scale.
+enum class TransportMode { radiance, importance };
+
+// What a model may need beside directions: random numbers of its own (for models that walk), independent of all others.
+template <class F>
+struct BsdfContext {
+  TransportMode mode = TransportMode::radiance;
+  RandomStream<F> random;
+};
+
+// f(wo, wi) |cos wi| and the density with which sample() draws wi; both zero where the model has only deltas there.
+// A model whose value is itself an estimate (layers) returns an unbiased one, and a density that is independent of it.
+template <class F>
+struct BsdfValue {
+  Spectrum<F> f_cos;
+  Density<SolidAngle, F> density;
+};
+
+template <class F>
+struct BsdfSample {
+  Vec3<F> wi;
+  Spectrum<F> weight;              // f |cos| / density; for a delta, the weight of the discrete choice
+  Density<SolidAngle, F> density;  // of wi, over all ways to draw it; meaningless for a delta
+  F eta_scale;    // squared relative index of refraction crossed (radiance mode), else 1: roulette divides it out
+  Mask<F> valid;  // no: absorbed
+  Mask<F> delta;  // drawn from a delta distribution
+};
+
+// Models state, beside these two functions:
+//   static constexpr std::string_view name;
+//   static constexpr bool has_reflection, has_transmission, is_delta_only (may be false where roughness decides);
+//   explicit Model(const BsdfRows<F>&);
+template <class Model, class F>
+concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, BsdfContext<F>& context) {
+  { model.evaluate(w, w, context) } -> std::same_as<BsdfValue<F>>;
+  { model.sample(w, u, u2, context) } -> std::same_as<BsdfSample<F>>;
+};
+
+}  // namespace montelux

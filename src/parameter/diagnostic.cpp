@@ -1,0 +1,52 @@
+#include "parameter/diagnostic.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace montelux {
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::error) ++errors_;
+  all_.push_back(std::move(diagnostic));
+}
+void Diagnostics::error(const SourceLocation& where, std::string message, std::string hint) {
+  add({Severity::error, where, std::move(message), std::move(hint)});
+}
+void Diagnostics::warning(const SourceLocation& where, std::string message, std::string hint) {
+  add({Severity::warning, where, std::move(message), std::move(hint)});
+}
+void Diagnostics::note(const SourceLocation& where, std::string message, std::string hint) {
+  add({Severity::note, where, std::move(message), std::move(hint)});
+}
+
+namespace {
+
+// Levenshtein distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      std::size_t substitution = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates) {
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
+  for (std::string_view candidate : candidates) {
+    std::size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) best = candidate, best_distance = distance;
+  }
+  return best;
+}
+
+}  // namespace montelux

@@ -1,0 +1,75 @@
+// A scene as a file states it: plain data that can be printed, changed and written again.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "math/transform.h"
+#include "parameter/value.h"
+
+namespace montelux {
+
+enum class MaterialDescId : std::uint32_t {};
+enum class ObjectDescId : std::uint32_t {};
+
+struct TextureDesc {
+  std::string name;
+  bool is_spectrum = false;  // else a texture of numbers
+  Entity entity;
+  Transform texture_to_world;
+};
+
+struct MaterialDesc {
+  std::string name;  // empty for one that was stated in place
+  Entity entity;
+};
+
+struct ShapeDesc {
+  Entity entity;
+  Transform object_to_world;
+  bool reverse_orientation = false;
+  MaterialDescId material{};
+  std::optional<Entity> area_light;
+  // Vertices in object space, for trianglemesh, plymesh (already read), and the control mesh of loopsubdiv.
+  std::shared_ptr<const Mesh> mesh;
+};
+
+struct LightDesc {
+  Entity entity;
+  Transform light_to_world;
+};
+
+// Shapes that are placed by instances; their transforms lead to the object's space.
+struct ObjectDesc {
+  std::string name;
+  std::vector<ShapeDesc> shapes;
+};
+
+struct InstanceDesc {
+  ObjectDescId object{};
+  Transform object_to_world;
+  SourceLocation where;
+};
+
+struct SceneDesc {
+  std::string file;    // the file that was read; paths of the description are relative to `folder`
+  std::string folder;  // absolute or relative to the working directory
+  Entity camera{"perspective", {}, {}};
+  Transform world_to_camera;
+  Entity film{"rgb", {}, {}};
+  Entity filter{"gaussian", {}, {}};
+  Entity sampler{"zsobol", {}, {}};
+  Entity integrator{"volpath", {}, {}};
+  Entity accelerator{"bvh", {}, {}};
+  ParameterList options;
+  std::vector<TextureDesc> textures;
+  std::vector<MaterialDesc> materials;  // number 0 is the default material (diffuse)
+  std::vector<LightDesc> lights;
+  std::vector<ShapeDesc> shapes;
+  std::vector<ObjectDesc> objects;
+  std::vector<InstanceDesc> instances;
+};
+
+}  // namespace montelux
