@@ -1,0 +1,147 @@
+#include "film/film.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace montelux {
+
+namespace {
+
+// Adds one value to a mean and a sum of squared deviations; n counts the new value.
+void add_value(double x, double n, double& mean, double& m2) {
+  double delta = x - mean;
+  mean += delta / n;
+  m2 += delta * (x - mean);
+}
+
+bool all_finite(const Rgb& c) {
+  for (float x : c.c)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+
+void add_features(PixelFeatures& sum, const Features& f) {
+  sum.samples += 1;
+  if (f.coverage <= 0) return;
+  sum.hits += 1;
+  for (int i = 0; i < spectrum_size; ++i) sum.albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
+  const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
+  for (int i = 0; i < 3; ++i) sum.normal[i] += n[i], sum.position[i] += p[i];
+  sum.depth += f.depth;
+  if (sum.object == 0) sum.object = f.object;
+}
+
+}  // namespace
+
+void PixelEstimate::add(const double (&pass_mean)[spectrum_size]) {
+  ++passes;
+  for (int i = 0; i < spectrum_size; ++i) add_value(pass_mean[i], passes, mean[i], m2[i]);
+}
+
+void PixelEstimate::merge(const PixelEstimate& other) {
+  non_finite += other.non_finite;
+  if (other.passes == 0) return;
+  // Chan, Golub and LeVeque 1979.
+  double n = double(passes) + double(other.passes);
+  for (int i = 0; i < spectrum_size; ++i) {
+    double delta = other.mean[i] - mean[i];
+    mean[i] += delta * (double(other.passes) / n);
+    m2[i] += other.m2[i] + delta * delta * (double(passes) * double(other.passes) / n);
+  }
+  passes += other.passes;
+}
+
+double PixelEstimate::variance_of_mean(int channel) const {
+  if (passes < 2) return std::numeric_limits<double>::infinity();
+  return m2[channel] / (double(passes) - 1) / double(passes);
+}
+
+Film::Film(PixelBounds bounds)
+    : bounds_(bounds),
+      pixels_(std::size_t(bounds.area())),
+      features_(std::size_t(bounds.area())),
+      tile_sums_(std::size_t(bounds.area())) {}
+
+void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples) {
+  PassSum tile_sum;
+  const PixelSample* sample = samples.data();
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      PixelEstimate& estimate = pixels_[index(x, y)];
+      PixelFeatures& features = features_[index(x, y)];
+      double mean[spectrum_size] = {};
+      int finite = 0;
+      for (int s = 0; s < samples_per_pixel; ++s, ++sample) {
+        add_features(features, sample->features);
+        if (!all_finite(sample->radiance)) continue;
+        ++finite;
+        for (int i = 0; i < spectrum_size; ++i) mean[i] += sample->radiance.c[i];
+      }
+      estimate.non_finite += std::uint32_t(samples_per_pixel - finite);
+      if (finite == 0) continue;
+      for (double& m : mean) m /= finite;
+      estimate.add(mean);
+      for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
+      ++tile_sum.pixels;
+    }
+  auto& sums = tile_sums_[index(tile.x0, tile.y0)];
+  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
+  sums[std::size_t(pass)] = tile_sum;
+}
+
+void Film::merge(const Film& other) {
+  if (!(bounds_ == other.bounds_)) throw std::invalid_argument("films of different bounds cannot be merged");
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    pixels_[i].merge(other.pixels_[i]);
+    PixelFeatures& a = features_[i];
+    const PixelFeatures& b = other.features_[i];
+    for (int c = 0; c < spectrum_size; ++c) a.albedo[c] += b.albedo[c];
+    for (int c = 0; c < 3; ++c) a.normal[c] += b.normal[c], a.position[c] += b.position[c];
+    a.depth += b.depth, a.hits += b.hits, a.samples += b.samples;
+    if (a.object == 0) a.object = b.object;
+    tile_sums_[i].insert(tile_sums_[i].end(), other.tile_sums_[i].begin(), other.tile_sums_[i].end());
+  }
+}
+
+std::uint64_t Film::non_finite() const {
+  std::uint64_t n = 0;
+  for (const PixelEstimate& p : pixels_) n += p.non_finite;
+  return n;
+}
+
+ImageEstimate Film::image() const {
+  ImageEstimate image;
+  double m2[spectrum_size] = {};
+  for (std::size_t pass = 0;; ++pass) {
+    PassSum total;
+    for (const auto& sums : tile_sums_) {
+      if (pass >= sums.size()) continue;
+      for (int i = 0; i < spectrum_size; ++i) total.sum[i] += sums[pass].sum[i];
+      total.pixels += sums[pass].pixels;
+    }
+    if (total.pixels < bounds_.area()) break;
+    ++image.passes;
+    for (int i = 0; i < spectrum_size; ++i) add_value(total.sum[i] / total.pixels, image.passes, image.mean[i], m2[i]);
+  }
+  for (int i = 0; i < spectrum_size; ++i)
+    image.standard_error[i] = image.passes < 2 ? std::numeric_limits<double>::infinity()
+                                               : std::sqrt(m2[i] / (image.passes - 1.0) / image.passes);
+  return image;
+}
+
+double Film::relative_mse() const {
+  double sum = 0;
+  for (const PixelEstimate& p : pixels_)
+    for (int i = 0; i < spectrum_size; ++i) sum += p.variance_of_mean(i) / (p.mean[i] * p.mean[i] + 0.01);
+  return sum / (double(pixels_.size()) * spectrum_size);
+}
+
+double Film::mse() const {
+  double sum = 0;
+  for (const PixelEstimate& p : pixels_)
+    for (int i = 0; i < spectrum_size; ++i) sum += p.variance_of_mean(i);
+  return sum / (double(pixels_.size()) * spectrum_size);
+}
+
+}  // namespace montelux

@@ -1,0 +1,107 @@
+// The film: at every pixel an estimate over independent passes. A pass contributes one number a pixel (the mean of the
+// pass's samples there), so the spread over passes is the true spread of the estimator, whatever the correlation of the
+// samples inside a pass.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "color/spectrum.h"
+#include "math/vec.h"
+
+namespace montelux {
+
+// Pixels x0 <= x < x1, y0 <= y < y1 of the full image; row 0 on top.
+struct PixelBounds {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  int area() const { return width() * height(); }
+  bool operator==(const PixelBounds&) const = default;
+};
+
+// What the first surface of a camera path shows; coverage 0: the path left the scene.
+struct Features {
+  Rgb albedo{};      // directional albedo: mean of the weight of a scattered direction
+  Vec3f normal{};    // shading normal, world space, facing the camera
+  Vec3f position{};  // world space
+  float depth = 0;   // distance along the ray from the camera's origin
+  float coverage = 0;
+  std::uint32_t object = 0;  // number of the object from 1; 0: none
+};
+
+// One sample of a pixel: what an integrator returns.
+struct PixelSample {
+  Rgb radiance{};
+  Features features;
+};
+
+// Mean and spread of one pixel over passes (Welford 1962; West 1979), by channel.
+struct PixelEstimate {
+  double mean[spectrum_size] = {};
+  double m2[spectrum_size] = {};  // sum of squared deviations of the pass means
+  std::uint32_t passes = 0;
+  std::uint32_t non_finite = 0;  // samples kept out of the mean
+
+  void add(const double (&pass_mean)[spectrum_size]);
+  void merge(const PixelEstimate& other);
+  // Variance of `mean` (not of one pass), by channel; infinite below two passes.
+  double variance_of_mean(int channel) const;
+};
+
+struct PixelFeatures {
+  double albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;  // sums over samples that hit
+  double hits = 0, samples = 0;
+  std::uint32_t object = 0;  // of the first sample that hit
+};
+
+// The mean of the whole image over passes, with the error that correlations between pixels leave it.
+struct ImageEstimate {
+  double mean[spectrum_size] = {};
+  double standard_error[spectrum_size] = {};  // infinite below two complete passes
+  int passes = 0;
+};
+
+class Film {
+ public:
+  explicit Film(PixelBounds bounds);
+
+  const PixelBounds& bounds() const { return bounds_; }
+
+  // Adds one pass of a tile: samples in row-major pixel order, `samples_per_pixel` of one pixel behind each other.
+  // Passes of one tile must be added in their order, for the sums to be the same bits in every run; tiles are
+  // independent, so different tiles may be added by different threads at once.
+  void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples);
+
+  // The film of all passes of both; the same bounds are required. `other` holds the later passes.
+  void merge(const Film& other);
+
+  const PixelEstimate& pixel(int x, int y) const { return pixels_[index(x, y)]; }
+  const PixelFeatures& features(int x, int y) const { return features_[index(x, y)]; }
+  // Samples taken at a pixel.
+  double samples(int x, int y) const { return features_[index(x, y)].samples; }
+  std::uint64_t non_finite() const;
+  // Over the passes that are complete.
+  ImageEstimate image() const;
+  // Estimated relative mean squared error: mean over pixels and channels of variance / (mean^2 + 0.01).
+  double relative_mse() const;
+  // Estimated mean squared error: mean over pixels and channels of the variance of the mean.
+  double mse() const;
+
+ private:
+  struct PassSum {
+    double sum[spectrum_size] = {};  // of the pass means of the pixels, in tile order
+    int pixels = 0;
+  };
+  std::size_t index(int x, int y) const {
+    return std::size_t(y - bounds_.y0) * std::size_t(bounds_.width()) + std::size_t(x - bounds_.x0);
+  }
+  PixelBounds bounds_;
+  std::vector<PixelEstimate> pixels_;
+  std::vector<PixelFeatures> features_;
+  // The sum of every pass over a tile, by the tile's first pixel and then by pass: threads write to different tiles,
+  // and the sum over tiles is taken in their order.
+  std::vector<std::vector<PassSum>> tile_sums_;
+};
+
+}  // namespace montelux
