@@ -1,0 +1,50 @@
+// Radical inverses in prime bases with nested random digit permutations: the scrambled Halton sequence.
+#pragma once
+#include <array>
+
+#include "mc/digital.h"
+
+namespace montelux {
+
+inline constexpr std::uint32_t halton_dimensions = 128;
+
+// The first primes, one base for each dimension.
+inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] {
+  std::array<std::uint32_t, halton_dimensions> bases{};
+  std::uint32_t candidate = 2;
+  for (auto& base : bases) {
+    const auto is_prime = [](std::uint32_t n) {
+      for (std::uint32_t k = 2; k * k <= n; ++k)
+        if (n % k == 0) return false;
+      return true;
+    };
+    while (!is_prime(candidate)) ++candidate;
+    base = candidate++;
+  }
+  return bases;
+}();
+
+// The digits of the index mirrored at the point, each permuted by a random permutation that hangs on the digits before
+// it (Owen 1995). Goes on below the digits of the index, down to 2^-32, where the digits are random.
+inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, std::uint32_t key) {
+  const double inverse_base = 1.0 / double(base);
+  double value = 0;
+  for (double scale = inverse_base; scale > 0x1p-32; scale *= inverse_base) {
+    const std::uint32_t digit = index % base;
+    value += scale * permute(digit, base, key);
+    key = mix_bits(key + (digit + 1u) * 0x9e3779b9u);
+    index /= base;
+  }
+  return std::min(float(value), one_minus_epsilon);
+}
+
+// The scrambled radical inverse in every lane; the base is that of the dimension (below halton_dimensions).
+template <class F>
+F halton(Uint<F> index, Uint<F> dimension, Uint<F> key) {
+  F result = 0.0f;
+  for (int k = 0; k < lanes_of<F>; ++k)
+    set_lane(result, k, scrambled_radical_inverse(lane(index, k), halton_bases[lane(dimension, k)], lane(key, k)));
+  return result;
+}
+
+}  // namespace montelux

@@ -1,0 +1,208 @@
+#include "mc/point_set.h"
+
+#include "mc/digital.h"
+#include "mc/halton.h"
+#include "mc/sobol.h"
+
+namespace montelux {
+
+std::string_view name_of(PointSetKind kind) { return point_set_names[std::size_t(kind)].name; }
+
+std::optional<PointSetKind> point_set_named(std::string_view name) {
+  for (const NamedPointSet& entry : point_set_names)
+    if (entry.name == name) return entry.kind;
+  return std::nullopt;
+}
+
+namespace {
+
+template <class F>
+RandomStream<F> stream_of_pixel(const PointSet& set, Uint<F> x, Uint<F> y) {
+  using U = Uint<F>;
+  const std::uint32_t low = mix_bits(set.pass + mix_bits(set.seed + 0x2545f491u));
+  const std::uint32_t high = mix_bits(set.pass + 0x9e3779b9u * mix_bits(set.seed ^ 0xb5297a4du));
+  return RandomStream<F>(mix_bits(U(x + mix_bits(U(y + U(low))))), mix_bits(U(y ^ mix_bits(U(x ^ U(high))))));
+}
+
+// ---- jittered strata ------------------------------------------------------------------------------------------------
+
+// i / n rounded down; exact for i < 2^24.
+template <class F>
+Uint<F> divide(Uint<F> i, F n) {
+  return to_uint(floor(to_float(i) / n));
+}
+
+// Which of the n strata the point takes, at random. Points past the first n start the next round of strata.
+template <class F>
+Uint<F> stratum(Uint<F> index, std::uint32_t n, Uint<F> key) {
+  using U = Uint<F>;
+  U round = divide<F>(index, F(float(n)));
+  return permute(U(index - round * U(n)), n, mix_bits(U(key + round)));
+}
+
+template <class F>
+F stratified1(Uint<F> index, std::uint32_t n, Uint<F> key, F jitter) {
+  return min((to_float(stratum<F>(index, n, key)) + jitter) / F(float(n)), F(one_minus_epsilon));
+}
+
+// n cells of equal area for any n: columns as many as the root of n, the first of them with one cell more where n does
+// not divide; a column is as wide as it has cells.
+template <class F>
+Vec2<F> stratified2(Uint<F> index, std::uint32_t n, Uint<F> key, Vec2<F> jitter) {
+  using U = Uint<F>;
+  const auto columns = std::max(1u, std::uint32_t(std::lround(std::sqrt(double(n)))));
+  const std::uint32_t base = n / columns, tall = n % columns, in_tall = tall * (base + 1u);
+  U cell = stratum<F>(index, n, key);
+  Mask<F> is_tall = cell < U(in_tall);
+  F rows = select(is_tall, F(float(base + 1u)), F(float(base)));
+  U first = select(is_tall, U(0u), U(in_tall));
+  U column = divide<F>(U(cell - first), rows);
+  U row = cell - first - column * to_uint(rows);
+  F start = to_float(first) + to_float(column) * rows;
+  F u = (start + jitter.x * rows) / F(float(n));
+  F v = (to_float(row) + jitter.y) / rows;
+  return {min(u, F(one_minus_epsilon)), min(v, F(one_minus_epsilon))};
+}
+
+// ---- (0,2)-sequences ------------------------------------------------------------------------------------------------
+
+// The point of the scrambled (0,2)-sequence; the keys of its two coordinates lie at d and d + 1.
+template <class F>
+Vec2<F> scrambled_02(Uint<F> index, const RandomStream<F>& keys, Uint<F> d) {
+  using U = Uint<F>;
+  U second = multiply_by_pascal(index);
+  return {fraction_of_reversed<F>(scramble_upwards(index, keys.bits_at(d))),
+          fraction_of_reversed<F>(scramble_upwards(second, keys.bits_at(U(d + U(1u)))))};
+}
+
+template <class F>
+Uint<F> padded_index(Uint<F> index, const RandomStream<F>& keys, Uint<F> d) {
+  return shuffle_index(index, keys.bits_at(Uint<F>(d ^ Uint<F>(0x80000000u))));
+}
+
+// ---- Z curve --------------------------------------------------------------------------------------------------------
+
+// A zero bit before each of the lower 16 bits.
+template <class U>
+U spread_bits(U x) {
+  x = x & U(0xffffu);
+  x = (x ^ (x << 8)) & U(0x00ff00ffu);
+  x = (x ^ (x << 4)) & U(0x0f0f0f0fu);
+  x = (x ^ (x << 2)) & U(0x33333333u);
+  return (x ^ (x << 1)) & U(0x55555555u);
+}
+
+// The 24 permutations of four digits, two bits to a digit.
+constexpr std::array<std::uint32_t, 24> digit_permutations = [] {
+  std::array<std::uint32_t, 24> table{};
+  std::array<std::uint32_t, 4> p{0, 1, 2, 3};
+  std::size_t i = 0;
+  do table[i++] = p[0] | p[1] << 2 | p[2] << 4 | p[3] << 6;
+  while (std::next_permutation(p.begin(), p.end()));
+  return table;
+}();
+
+// Permutes the digits of the place on the Z curve in base 4, each by a permutation that hangs on the digits above it;
+// an odd lowest bit is flipped alike (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling
+// Error via Hierarchical Ordering of Pixels").
+template <class F>
+Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
+  using U = Uint<F>;
+  U result = 0u;
+  const int lowest = bits & 1;
+  for (int shift = lowest + 2 * ((bits - lowest) / 2 - 1); shift >= lowest; shift -= 2) {
+    U above = shift + 2 < 32 ? U(order >> (shift + 2)) : U(0u);
+    U hash = mix_bits(U(key + above + U(std::uint32_t(shift) * 0x9e3779b9u)));
+    U permutation = gather(digit_permutations.data(), U(((hash >> 16) * U(24u)) >> 16));
+    U digit = (order >> shift) & U(3u);
+    result = result | (((permutation >> (digit << 1)) & U(3u)) << shift);
+  }
+  if (lowest == 1) result = result | ((order ^ mix_bits(U(key + (order >> 1) + U(0x632be5abu)))) & U(1u));
+  return result;
+}
+
+}  // namespace
+
+template <class F>
+Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
+    : set_(set), shared_(stream_of_pixel<F>(set, x, y)), index_(index), index_bits_(0) {
+  using U = Uint<F>;
+  own_ = shared_.fork(U(index + U(0x3c6ef372u)));
+  if (set.kind != PointSetKind::blue_noise) return;
+  // One sequence for the grid: the bits of the pixel's place on the Z curve above those of the index. Where 32 bits do
+  // not hold all of them, the grid falls into squares with a randomisation each.
+  const int sample_bits = int(std::bit_width(set.samples_per_pass - 1u));
+  const std::uint32_t side = std::max(set.width, set.height);
+  const int fit = std::min(16, (32 - sample_bits) / 2);
+  const int side_bits = set.width == 0 || set.height == 0 ? fit : std::min(fit, int(std::bit_width(side - 1u)));
+  const U low_bits = U((1u << side_bits) - 1u);
+  const U place = spread_bits(U(x & low_bits)) | (spread_bits(U(y & low_bits)) << 1);
+  shared_ = stream_of_pixel<F>(set, U(x >> side_bits), U(y >> side_bits));
+  index_ = (place << sample_bits) | index;
+  index_bits_ = 2 * side_bits + sample_bits;
+}
+
+template <class F>
+F Sampler<F>::get1(Uint<F> dimension) const {
+  using U = Uint<F>;
+  const U d = dimension;
+  const auto padded = [&] {
+    return fraction_of_reversed<F>(scramble_upwards(padded_index<F>(index_, shared_, d), shared_.bits_at(d)));
+  };
+  switch (set_.kind) {
+    case PointSetKind::independent:
+      break;
+    case PointSetKind::stratified:
+      return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), own_.at(d));
+    case PointSetKind::halton: {
+      Mask<F> inside = d < U(halton_dimensions);
+      F tabulated = halton<F>(index_, select(inside, d, U(0u)), shared_.bits_at(d));
+      return all(inside) ? tabulated : select(inside, tabulated, padded());
+    }
+    case PointSetKind::sobol: {
+      Mask<F> inside = d < U(sobol_dimensions);
+      U x = sobol_reversed(index_, select(inside, d, U(0u)));
+      F tabulated = fraction_of_reversed<F>(scramble_upwards(x, shared_.bits_at(d)));
+      return all(inside) ? tabulated : select(inside, tabulated, padded());
+    }
+    case PointSetKind::padded_sobol:
+      return padded();
+    case PointSetKind::blue_noise: {
+      U place = shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u))));
+      return fraction_of_reversed<F>(scramble_upwards(place, shared_.bits_at(d)));
+    }
+  }
+  return own_.at(d);
+}
+
+template <class F>
+Vec2<F> Sampler<F>::get2(Uint<F> dimension) const {
+  using U = Uint<F>;
+  const U d = dimension, next = d + U(1u);
+  switch (set_.kind) {
+    case PointSetKind::stratified:
+      return stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {own_.at(d), own_.at(next)});
+    case PointSetKind::halton:
+    case PointSetKind::sobol: {
+      const U size = set_.kind == PointSetKind::sobol ? sobol_dimensions : halton_dimensions;
+      Mask<F> inside = next < size;
+      if (!any(inside)) return scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d);
+      Vec2<F> tabulated{get1(select(inside, d, U(0u))), get1(select(inside, next, U(1u)))};
+      if (all(inside)) return tabulated;
+      return select(inside, tabulated, scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d));
+    }
+    case PointSetKind::padded_sobol:
+      return scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d);
+    case PointSetKind::blue_noise:
+      return scrambled_02<F>(shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u)))), shared_,
+                             d);
+    case PointSetKind::independent:
+      break;
+  }
+  return {own_.at(d), own_.at(next)};
+}
+
+template class Sampler<float>;
+template class Sampler<NativeFloats>;
+
+}  // namespace montelux

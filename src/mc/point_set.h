@@ -1,0 +1,69 @@
+// Point sets: where the numbers in [0, 1) of a pass come from. Every number is a pure function of the seed, the pass,
+// the pixel, the index of the point and the dimension. Passes are independent randomisations of the same construction,
+// so their spread is an honest error bar whatever the correlation inside a pass.
+#pragma once
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "mc/random.h"
+
+namespace montelux {
+
+enum class PointSetKind : std::uint8_t { independent, stratified, halton, sobol, padded_sobol, blue_noise };
+
+struct NamedPointSet {
+  std::string_view name;
+  PointSetKind kind;
+  std::string_view description;
+};
+
+inline constexpr std::array<NamedPointSet, 6> point_set_names{{
+    {"independent", PointSetKind::independent, "independent random numbers"},
+    {"stratified", PointSetKind::stratified, "jittered strata of equal size, shuffled in each dimension"},
+    {"halton", PointSetKind::halton, "radical inverses in prime bases with nested random digits"},
+    {"sobol", PointSetKind::sobol, "one Sobol' sequence over all dimensions, Owen-scrambled"},
+    {"padded-sobol", PointSetKind::padded_sobol,
+     "(0,2)-sequences, Owen-scrambled and shuffled in each pair of dimensions"},
+    {"blue-noise", PointSetKind::blue_noise,
+     "one (0,2)-sequence along a shuffled Z curve: the error is blue over the screen"},
+}};
+
+std::string_view name_of(PointSetKind kind);
+std::optional<PointSetKind> point_set_named(std::string_view name);
+
+// The points of one pass over a grid of pixels (an integral without pixels takes pixel (0, 0)).
+struct PointSet {
+  PointSetKind kind = PointSetKind::padded_sobol;
+  std::uint32_t seed = 0;
+  std::uint32_t pass = 0;
+  std::uint32_t samples_per_pass = 1;   // points that a pixel takes in this pass; >= 1
+  std::uint32_t width = 0, height = 0;  // of the grid; 0: unknown. Only blue_noise asks, and only to save time.
+};
+
+// The coordinates of one point in every lane. Lanes may differ in pixel, index (below samples_per_pass) and dimension.
+// A two-dimensional request at d takes up d and d + 1; any dimension number is good, and no two give the same numbers.
+template <class F>
+class Sampler {
+ public:
+  Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index);
+
+  // The coordinate in [0, 1).
+  F get1(Uint<F> dimension) const;
+  // The coordinates d and d + 1, well spread as a pair.
+  Vec2<F> get2(Uint<F> dimension) const;
+  // Independent numbers that belong to this point and dimension alone, for walks of unknown length.
+  RandomStream<F> stream(Uint<F> dimension) const { return own_.fork(dimension); }
+
+ private:
+  PointSet set_;
+  RandomStream<F> shared_;  // the randomisation that the points of a set share
+  RandomStream<F> own_;     // of this point alone
+  Uint<F> index_;           // the point's number in its set
+  int index_bits_;          // bits of index_ that count (blue_noise)
+};
+
+extern template class Sampler<float>;
+extern template class Sampler<NativeFloats>;
+
+}  // namespace montelux
