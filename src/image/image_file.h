@@ -1,0 +1,69 @@
+// Image files: reading of whatever OpenImageIO understands, and writing of EXR, Radiance HDR, PFM, PNG and JPEG.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "color/transfer.h"
+#include "image/pixel_buffer.h"
+#include "math/result.h"
+
+namespace montelux {
+
+// How a file holds its samples.
+enum class SampleType { uint8, uint16, half, float32 };
+
+// One typed entry of a file's header.
+struct Attribute {
+  std::string name;
+  std::variant<std::string, std::int32_t, float, double> value;
+
+  friend bool operator==(const Attribute&, const Attribute&) = default;
+};
+
+// An image file in memory. The pixels are linear; encoding says how the colour channels were stored, and stored how
+// wide a sample was (8-bit integers are decoded exactly once, here).
+struct Image {
+  PixelBuffer pixels;
+  SampleType stored = SampleType::float32;
+  ColorEncoding encoding;
+  std::vector<Attribute> attributes;
+};
+
+// The most samples (pixels times channels) that a file may hold.
+inline constexpr std::size_t largest_sample_count = std::size_t(1) << 29;
+
+// Reads any image file. Without an encoding, integers are taken as sRGB and floating-point samples as linear; alpha is
+// always linear and is not multiplied into the colour. All parts of a multi-part EXR whose size is that of the first
+// are appended as layers. Fails for missing, corrupt and absurdly large files; never throws.
+Result<Image> read_image(const std::filesystem::path& path, std::optional<ColorEncoding> encoding = std::nullopt);
+
+// Header entries of an EXR and the channels to be stored as half; the others are 32-bit floats.
+struct ExrOptions {
+  std::vector<Attribute> attributes;
+  std::vector<std::string> half_channels;
+};
+
+// Writes linear values by the extension of path: .exr with every channel under its own name, .hdr and .pfm with the
+// colour alone. The same arguments give the same bytes. Replaces the file in one step; never throws.
+Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options = {});
+
+// An 8-bit picture that is ready for display: 1 (gray) or 3 (RGB) interleaved channels, the top row first.
+struct DisplayImage {
+  int width = 0;
+  int height = 0;
+  int channel_count = 3;
+  std::vector<std::uint8_t> values;
+};
+
+// Writes .png or .jpg (any 8-bit format that OpenImageIO writes). Replaces the file in one step; never throws.
+Status write_image(const std::filesystem::path& path, const DisplayImage& image);
+
+// The header entry capDate for the time in the environment variable SOURCE_DATE_EPOCH; nothing if it is not set. Files
+// carry no other time.
+std::optional<Attribute> date_attribute();
+
+}  // namespace montelux

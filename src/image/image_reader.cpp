@@ -1,0 +1,127 @@
+#include <OpenImageIO/imageio.h>
+
+#include <system_error>
+
+#include "image/image_file.h"
+
+namespace montelux {
+namespace {
+
+SampleType sample_type(OIIO::TypeDesc type) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+    case OIIO::TypeDesc::INT8:
+      return SampleType::uint8;
+    case OIIO::TypeDesc::UINT16:
+    case OIIO::TypeDesc::INT16:
+      return SampleType::uint16;
+    case OIIO::TypeDesc::HALF:
+      return SampleType::half;
+    default:
+      return SampleType::float32;
+  }
+}
+
+bool is_integer(SampleType type) { return type == SampleType::uint8 || type == SampleType::uint16; }
+
+// The header entries of the types that an Attribute can hold.
+std::vector<Attribute> header(const OIIO::ImageSpec& spec) {
+  std::vector<Attribute> attributes;
+  for (const OIIO::ParamValue& entry : spec.extra_attribs) {
+    std::string name = entry.name().string();
+    if (entry.type() == OIIO::TypeString)
+      attributes.push_back({name, entry.get_string()});
+    else if (entry.type() == OIIO::TypeInt)
+      attributes.push_back({name, std::int32_t(entry.get_int())});
+    else if (entry.type() == OIIO::TypeFloat)
+      attributes.push_back({name, entry.get_float()});
+    else if (entry.type() == OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE))
+      attributes.push_back({name, *static_cast<const double*>(entry.data())});
+  }
+  return attributes;
+}
+
+std::string size_complaint(const OIIO::ImageSpec& spec) {
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) return "the image is empty";
+  if (spec.depth > 1) return "it is a volume, not an image";
+  if (spec.deep) return "deep images are not supported";
+  std::uint64_t samples = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+  if (samples > largest_sample_count || samples * std::uint64_t(spec.nchannels) > largest_sample_count)
+    return "its size of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
+           std::to_string(spec.nchannels) + " samples is beyond all reason";
+  return {};
+}
+
+Result<PixelBuffer> read_part(OIIO::ImageInput& input, int part) {
+  OIIO::ImageSpec spec = input.spec(part);
+  std::string complaint = size_complaint(spec);
+  if (!complaint.empty()) return Failure{complaint};
+  PixelBuffer pixels = make_pixel_buffer(spec.width, spec.height, spec.channelnames);
+  if (!input.read_image(part, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.values.data()))
+    return Failure{input.geterror()};
+  return pixels;
+}
+
+// Appends the further parts of the file as layers; a part that is named like its channels' prefix is not named twice.
+Status read_further_parts(OIIO::ImageInput& input, PixelBuffer& pixels) {
+  for (int part = 1; input.seek_subimage(part, 0); ++part) {
+    OIIO::ImageSpec spec = input.spec(part);
+    if (spec.width != pixels.width || spec.height != pixels.height) continue;
+    std::size_t total = pixels.pixel_count() * (pixels.channels.size() + std::size_t(std::max(spec.nchannels, 0)));
+    if (total > largest_sample_count) return Failure{"its parts together are beyond all reason"};
+    Result<PixelBuffer> added = read_part(input, part);
+    if (!added) return added.failure();
+    std::string name(spec.get_string_attribute("oiio:subimagename", "part" + std::to_string(part)));
+    bool prefixed = added->channels.front().find('.') != std::string::npos;
+    append_layer(pixels, prefixed ? "" : name, *added);
+  }
+  return Done{};
+}
+
+void decode_colors(PixelBuffer& pixels, const ColorEncoding& encoding, int alpha) {
+  if (encoding.kind == ColorEncoding::Kind::linear) return;
+  int c = 0;
+  for (float& value : pixels.values) {
+    if (c != alpha) value = decode(encoding, value);
+    if (++c == pixels.channel_count()) c = 0;
+  }
+}
+
+Result<Image> read_open(const std::filesystem::path& path, std::optional<ColorEncoding> encoding) {
+  std::error_code error;
+  std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return Failure{"no such file"};
+  if (std::filesystem::is_directory(status)) return Failure{"it is a directory"};
+
+  OIIO::ImageSpec wishes;
+  wishes["oiio:UnassociatedAlpha"] = 1;
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &wishes);
+  if (!input) return Failure{OIIO::geterror()};
+
+  const OIIO::ImageSpec spec = input->spec();
+  Image image{{}, sample_type(spec.format), {}, header(spec)};
+  image.encoding =
+      encoding.value_or(is_integer(image.stored) ? ColorEncoding{ColorEncoding::Kind::srgb, 1.0f} : ColorEncoding{});
+  Result<PixelBuffer> pixels = read_part(*input, 0);
+  if (!pixels) return pixels.failure();
+  image.pixels = std::move(pixels).value();
+  decode_colors(image.pixels, image.encoding, spec.alpha_channel);
+  Status parts = read_further_parts(*input, image.pixels);
+  if (!parts) return parts.failure();
+  return image;
+}
+
+}  // namespace
+
+Result<Image> read_image(const std::filesystem::path& path, std::optional<ColorEncoding> encoding) {
+  std::string prefix = "cannot read image '" + path.string() + "': ";
+  try {
+    Result<Image> image = read_open(path, encoding);
+    if (image) return image;
+    return Failure{prefix + (image.error().empty() ? "unknown or corrupt format" : image.error())};
+  } catch (const std::exception& e) {
+    return Failure{prefix + e.what()};
+  }
+}
+
+}  // namespace montelux

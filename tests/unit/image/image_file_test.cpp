@@ -1,0 +1,234 @@
+#include "image/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "image/display.h"
+
+namespace montelux {
+namespace {
+
+// A folder of its own for each test, removed at the end.
+class ImageFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "montelux_image_XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::string bytes(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void write(const std::filesystem::path& path, std::string_view content) {
+    std::ofstream(path, std::ios::binary).write(content.data(), std::streamsize(content.size()));
+  }
+  std::filesystem::path folder;
+};
+
+PixelBuffer ramp(std::vector<std::string> channels) {
+  PixelBuffer image = make_pixel_buffer(5, 3, std::move(channels));
+  for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = 0.37f * float(i) - 1.0f;
+  return image;
+}
+
+TEST_F(ImageFile, exr_layers_come_back_bit_for_bit_under_their_names) {
+  PixelBuffer image = ramp({"R", "G", "B"});
+  append_layer(image, "stderr", ramp({"R", "G", "B"}));
+  append_layer(image, "N", ramp({"X", "Y", "Z"}));
+  append_layer(image, "", ramp({"Z", "samples", "material_id"}));
+  ASSERT_TRUE(write_image(folder / "a.exr", image));
+  Result<Image> back = read_image(folder / "a.exr");
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->stored, SampleType::float32);
+  EXPECT_EQ(back->pixels.channel_count(), 12);
+  for (const std::string& name : image.channels) {
+    std::optional<int> place = find_channel(back->pixels, name);
+    ASSERT_TRUE(place) << name;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        EXPECT_EQ(back->pixels.at(x, y, *place), image.at(x, y, *find_channel(image, name)));
+  }
+  std::optional<PixelBuffer> error = layer(back->pixels, "stderr");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->channels, (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(error->values, ramp({"R", "G", "B"}).values);
+  EXPECT_FALSE(layer(back->pixels, "albedo"));
+}
+
+TEST_F(ImageFile, exr_header_keeps_the_types_of_its_entries) {
+  ExrOptions options;
+  options.attributes = {{"integrator", "path"}, {"passes", std::int32_t(64)}, {"exposure", 1.5f}, {"seconds", 0.1}};
+  ASSERT_TRUE(write_image(folder / "a.exr", ramp({"R", "G", "B"}), options));
+  Result<Image> back = read_image(folder / "a.exr");
+  ASSERT_TRUE(back) << back.error();
+  for (const Attribute& attribute : options.attributes)
+    EXPECT_NE(std::find(back->attributes.begin(), back->attributes.end(), attribute), back->attributes.end())
+        << attribute.name;
+}
+
+TEST_F(ImageFile, half_channels_are_rounded_to_half_and_the_others_are_not) {
+  PixelBuffer image = make_pixel_buffer(1, 1, {"R", "G", "B"});
+  image.values = {1.0f / 3.0f, 1e6f, 1.0f / 3.0f};
+  ExrOptions options;
+  options.half_channels = {"R", "G"};
+  ASSERT_TRUE(write_image(folder / "a.exr", image, options));
+  Result<Image> back = read_image(folder / "a.exr");
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->pixels.values, (std::vector<float>{0.333251953125f, 65504.0f, 1.0f / 3.0f}));
+}
+
+TEST_F(ImageFile, exr_and_png_bytes_depend_on_nothing_but_the_image) {
+  for (const char* name : {"a.exr", "b.exr"}) ASSERT_TRUE(write_image(folder / name, ramp({"R", "G", "B"})));
+  EXPECT_EQ(bytes(folder / "a.exr"), bytes(folder / "b.exr"));
+  EXPECT_EQ(bytes(folder / "a.exr").find("capDate"), std::string::npos);
+  for (const char* name : {"a.png", "b.png"})
+    ASSERT_TRUE(write_image(folder / name, to_display(ramp({"R", "G", "B"}))));
+  EXPECT_EQ(bytes(folder / "a.png"), bytes(folder / "b.png"));
+}
+
+TEST_F(ImageFile, date_is_that_of_the_environment_or_absent) {
+  unsetenv("SOURCE_DATE_EPOCH");
+  EXPECT_FALSE(date_attribute());
+  setenv("SOURCE_DATE_EPOCH", "86400", 1);
+  std::optional<Attribute> date = date_attribute();
+  unsetenv("SOURCE_DATE_EPOCH");
+  ASSERT_TRUE(date);
+  EXPECT_EQ(*date, (Attribute{"capDate", "1970:01:02 00:00:00"}));
+}
+
+TEST_F(ImageFile, png_bytes_are_decoded_as_srgb_or_as_asked) {
+  DisplayImage picture{2, 1, 3, {0, 128, 255, 64, 10, 200}};
+  ASSERT_TRUE(write_image(folder / "a.png", picture));
+  Result<Image> srgb = read_image(folder / "a.png");
+  ASSERT_TRUE(srgb) << srgb.error();
+  EXPECT_EQ(srgb->stored, SampleType::uint8);
+  EXPECT_EQ(to_string(srgb->encoding), "sRGB");
+  EXPECT_NEAR(srgb->pixels.at(0, 0, 1), 0.2158605f, 1e-6f);
+  EXPECT_EQ(to_display(srgb->pixels).values, picture.values);
+  Result<Image> linear = read_image(folder / "a.png", ColorEncoding{});
+  ASSERT_TRUE(linear);
+  EXPECT_NEAR(linear->pixels.at(0, 0, 1), 128.0f / 255.0f, 1e-7f);
+  Result<Image> gamma = read_image(folder / "a.png", parse_encoding("gamma 2"));
+  ASSERT_TRUE(gamma);
+  EXPECT_NEAR(gamma->pixels.at(0, 0, 1), 128.0f / 255.0f * 128.0f / 255.0f, 1e-6f);
+}
+
+TEST_F(ImageFile, gray_jpeg_reads_as_one_channel) {
+  DisplayImage picture{16, 16, 1, std::vector<std::uint8_t>(256, 100)};
+  ASSERT_TRUE(write_image(folder / "a.jpg", picture));
+  Result<Image> back = read_image(folder / "a.jpg", ColorEncoding{});
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->pixels.channel_count(), 1);
+  EXPECT_NEAR(back->pixels.at(3, 3, 0), 100.0f / 255.0f, 1.5f / 255.0f);
+}
+
+TEST_F(ImageFile, uncompressed_tga_reads_with_its_top_row_first) {
+  // A 1 x 2 true-colour TGA whose first stored row is the bottom one: blue below red.
+  std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\2\0\30\0", 18);
+  tga += std::string("\xff\0\0\0\0\xff", 6);
+  write(folder / "a.tga", tga);
+  Result<Image> back = read_image(folder / "a.tga");
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->pixels.values, (std::vector<float>{1, 0, 0, 0, 0, 1}));
+}
+
+TEST_F(ImageFile, pfm_reads_from_the_bottom_row_up) {
+  std::string pfm = "PF\n1 2\n-1.0\n";
+  float values[6] = {0.5f, 1.5f, 2.5f, 10.0f, 20.0f, 30.0f};
+  pfm.append(reinterpret_cast<const char*>(values), sizeof values);
+  write(folder / "a.pfm", pfm);
+  Result<Image> back = read_image(folder / "a.pfm");
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(to_string(back->encoding), "linear");
+  EXPECT_EQ(back->pixels.values, (std::vector<float>{10, 20, 30, 0.5f, 1.5f, 2.5f}));
+}
+
+TEST_F(ImageFile, hdr_and_pfm_come_back_within_their_precision) {
+  PixelBuffer image = ramp({"R", "G", "B"});
+  for (float& value : image.values) value = std::fabs(value) + 1.0f;
+  for (const char* name : {"a.hdr", "a.pfm"}) {
+    Status written = write_image(folder / name, image);
+    ASSERT_TRUE(written) << written.error();
+    Result<Image> back = read_image(folder / name);
+    ASSERT_TRUE(back) << back.error();
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < 3; ++c) {
+          float tolerance = std::string_view(name) == "a.hdr" ? image.at(x, y, 0) / 64.0f + 0.1f : 0.0f;
+          EXPECT_NEAR(back->pixels.at(x, y, c), image.at(x, y, c), tolerance) << name;
+        }
+  }
+}
+
+TEST_F(ImageFile, missing_corrupt_and_truncated_files_are_explained) {
+  Result<Image> missing = read_image(folder / "none.png");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().find("none.png"), std::string::npos);
+  EXPECT_NE(missing.error().find("no such file"), std::string::npos);
+  EXPECT_FALSE(read_image(folder));
+
+  for (const char* name : {"a.png", "a.exr", "a.jpg", "a.hdr", "a.pfm", "a.tga", "a.xyz"}) {
+    write(folder / name, "this is no image at all");
+    EXPECT_FALSE(read_image(folder / name)) << name;
+    write(folder / name, "");
+    EXPECT_FALSE(read_image(folder / name)) << name;
+  }
+  ASSERT_TRUE(write_image(folder / "whole.exr", make_pixel_buffer(64, 64, {"R", "G", "B"})));
+  std::string whole = bytes(folder / "whole.exr");
+  write(folder / "part.exr", std::string_view(whole).substr(0, whole.size() / 2));
+  EXPECT_FALSE(read_image(folder / "part.exr"));
+}
+
+TEST_F(ImageFile, absurd_sizes_are_refused_before_memory_is_taken) {
+  write(folder / "a.pfm", "PF\n1000000 1000000\n-1.0\n1234");
+  Result<Image> back = read_image(folder / "a.pfm");
+  ASSERT_FALSE(back);
+  std::string ppm = "P6\n60000 60000\n255\n1234";
+  write(folder / "a.ppm", ppm);
+  EXPECT_FALSE(read_image(folder / "a.ppm"));
+}
+
+TEST_F(ImageFile, a_failed_write_leaves_nothing_behind) {
+  EXPECT_FALSE(write_image(folder / "no" / "such" / "folder.exr", ramp({"R"})));
+  EXPECT_FALSE(write_image(folder / "a.unknown", ramp({"R"})));
+  EXPECT_FALSE(write_image(folder / "a.unknown", DisplayImage{1, 1, 1, {7}}));
+  EXPECT_FALSE(write_image(folder / "a.exr", PixelBuffer{}));
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  ASSERT_TRUE(write_image(folder / "a.exr", ramp({"R"})));
+  ASSERT_TRUE(write_image(folder / "a.exr", ramp({"G"})));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+}
+
+TEST(Display, curves_are_monotone_and_stay_in_range) {
+  for (ToneCurve curve : {ToneCurve::clip, ToneCurve::hable, ToneCurve::aces}) {
+    float last = 0.0f;
+    for (float x = 0.0f; x < 1e6f; x = x * 1.1f + 1e-4f) {
+      float y = apply_curve(curve, x);
+      EXPECT_GE(y, last);
+      EXPECT_LE(y, 1.0f);
+      last = y;
+    }
+    EXPECT_EQ(apply_curve(curve, std::numeric_limits<float>::quiet_NaN()), 0.0f);
+    EXPECT_EQ(apply_curve(curve, std::numeric_limits<float>::infinity()), 1.0f);
+  }
+  EXPECT_NEAR(apply_curve(ToneCurve::hable, 5.6f), 1.0f, 1e-6f);
+  EXPECT_NEAR(apply_curve(ToneCurve::aces, 1.0f), 0.803797f, 1e-5f);
+}
+
+TEST(Display, one_stop_of_exposure_doubles_the_light) {
+  PixelBuffer image = make_pixel_buffer(1, 1, {"R", "G", "B"});
+  image.values = {0.1f, 0.2f, 0.5f};
+  DisplayImage brighter = to_display(image, {1.0f, ToneCurve::clip});
+  EXPECT_EQ(brighter.values, (std::vector<std::uint8_t>{124, 170, 255}));
+}
+
+}  // namespace
+}  // namespace montelux
