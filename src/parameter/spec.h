@@ -17,6 +17,7 @@ struct ParameterSpec {
   double low = -1e30, high = 1e30;          // valid range of numbers and integers, inclusive
   std::vector<std::string_view> choices{};  // valid strings; empty: any
   bool array = false;                       // more than one value is meant
+  bool later = false;                       // known and not applied yet: a reader warns where it is given
 };
 
 // One name of a family. `later` says that Montelux knows the name and cannot do it yet.

@@ -1,0 +1,94 @@
+#include "geometry/table.h"
+
+namespace montelux {
+
+namespace {
+
+using enum ParameterType;
+using List = std::vector<ParameterSpec>;
+
+constexpr double most = 1e30;
+constexpr double positive = 1e-30;
+
+ParameterSpec array(std::string_view name, ParameterType type, std::string_view meaning, double low = -most) {
+  return {name, {type}, meaning, low, most, {}, true};
+}
+ParameterSpec later(ParameterSpec spec) {
+  spec.later = true;
+  return spec;
+}
+
+// Every shape may be cut out by a texture.
+List with_alpha(List list) {
+  list.push_back({"alpha", {number, texture}, "opacity; default 1", 0, 1});
+  return list;
+}
+
+std::vector<EntitySpec> meshes() {
+  ParameterSpec face_indices = later(array("faceIndices", integer, "numbers of the faces, for ptex"));
+  return {
+      {"trianglemesh", "triangles",
+       with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
+                   array("S", vector3, "tangents, one a vertex"),
+                   array("uv", point2, "texture coordinates, one a vertex"),
+                   array("indices", integer, "three a triangle; default 0 1 2", 0), face_indices})},
+      {"plymesh", "triangles and quadrilaterals of a PLY file",
+       with_alpha({{"filename", {string}, "the file"},
+                   later({"displacement", {number, texture}, "height of displacement; default none"}),
+                   later({"edgelength", {number}, "edge length of displaced triangles; default 1", positive, most})})},
+      {"bilinearmesh", "bilinear patches",
+       with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
+                   array("uv", point2, "texture coordinates, one a vertex"),
+                   array("indices", integer, "four a patch; default 0 1 2 3", 0), face_indices,
+                   later({"emissionfilename", {string}, "image of the emission over the patch"})})},
+      {"loopsubdiv", "Loop's subdivision surface",
+       with_alpha({array("P", point3, "control vertices"),
+                   array("indices", integer, "three a triangle", 0),
+                   {"levels", {integer}, "times subdivided; default 3", 0, 10},
+                   {"scheme", {string}, "default loop", 0, 0, {"loop"}}})},
+  };
+}
+
+std::vector<EntitySpec> quadrics_and_curves() {
+  ParameterSpec sweep{"phimax", {number}, "sweep in degrees; default 360", 1e-3, 360};
+  return {
+      {"sphere", "a sphere around the origin, or a part of it",
+       with_alpha({{"radius", {number}, "default 1", positive, most},
+                   {"zmin", {number}, "default -radius"},
+                   {"zmax", {number}, "default radius"},
+                   sweep})},
+      {"disk", "a disk or ring across the z axis",
+       with_alpha({{"radius", {number}, "default 1", positive, most},
+                   {"innerradius", {number}, "default 0", 0, most},
+                   {"height", {number}, "its z; default 0"},
+                   sweep})},
+      {"cylinder", "an open cylinder around the z axis",
+       with_alpha({{"radius", {number}, "default 1", positive, most},
+                   {"zmin", {number}, "default -1"},
+                   {"zmax", {number}, "default 1"},
+                   sweep})},
+      {"curve", "Bezier or B-spline curves of varying width",
+       with_alpha({array("P", point3, "control points"),
+                   array("N", normal, "normals of a ribbon"),
+                   {"basis", {string}, "default bezier", 0, 0, {"bezier", "bspline"}},
+                   {"degree", {integer}, "2 or 3; default 3", 2, 3},
+                   {"type", {string}, "default flat", 0, 0, {"flat", "ribbon", "cylinder"}},
+                   {"width", {number}, "default 1", 0, most},
+                   {"width0", {number}, "at the start; default width", 0, most},
+                   {"width1", {number}, "at the end; default width", 0, most},
+                   {"splitdepth", {integer}, "times split for the kernel; default 3", 0, 20}})},
+  };
+}
+
+}  // namespace
+
+std::span<const EntitySpec> shape_table() {
+  static const std::vector<EntitySpec> table = [] {
+    std::vector<EntitySpec> all = meshes(), more = quadrics_and_curves();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return table;
+}
+
+}  // namespace montelux

@@ -1,0 +1,12 @@
+// What a scene may say about shapes.
+#pragma once
+#include <span>
+
+#include "parameter/spec.h"
+
+namespace montelux {
+
+// Every shape by name, with its parameters.
+std::span<const EntitySpec> shape_table();
+
+}  // namespace montelux

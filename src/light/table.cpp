@@ -1,0 +1,83 @@
+#include "light/table.h"
+
+namespace montelux {
+
+namespace {
+
+using enum ParameterType;
+using List = std::vector<ParameterSpec>;
+
+constexpr double most = 1e30;
+
+ParameterSpec scale() { return {"scale", {number}, "factor of the emission; default 1", 0, most}; }
+ParameterSpec power() {
+  return {"power", {number}, "total power in watts that the light is scaled to; default: not", -1, most};
+}
+ParameterSpec illuminance(std::string_view meaning) { return {"illuminance", {number}, meaning, -1, most}; }
+ParameterSpec intensity() { return {"I", {spectrum}, "radiant intensity; default 1", 0, most}; }
+ParameterSpec portal() {
+  ParameterSpec spec{"portal", {point3}, "four corners through which the light enters", -most, most, {}, true};
+  spec.later = true;
+  return spec;
+}
+
+std::vector<EntitySpec> lights() {
+  return {
+      {"point",
+       "the same intensity in all directions",
+       {intensity(), {"from", {point3}, "position; default 0 0 0"}, power(), scale()}},
+      {"spot",
+       "a cone with a soft edge",
+       {intensity(),
+        {"from", {point3}, "position; default 0 0 0"},
+        {"to", {point3}, "where it points; default 0 0 1"},
+        {"coneangle", {number}, "half-angle in degrees; default 30", 1e-3, 180},
+        {"conedeltaangle", {number}, "width of the edge in degrees; default 5", 0, 180},
+        power(),
+        scale()}},
+      {"distant",
+       "parallel rays",
+       {{"L", {spectrum}, "radiance, that is irradiance at normal incidence; default 1", 0, most},
+        {"from", {point3}, "the direction is from `from` to `to`; default 0 0 0"},
+        {"to", {point3}, "default 0 0 1"},
+        illuminance("illuminance at normal incidence in lux that the light is scaled to; default: not"),
+        scale()}},
+      {"goniometric",
+       "an intensity that an image gives by direction",
+       {intensity(), {"filename", {string}, "square equal-area image; default constant"}, power(), scale()}},
+      {"projection",
+       "a slide projector along +z",
+       {{"filename", {string}, "the slide"},
+        {"I", {spectrum}, "factor of the slide; default 1", 0, most},
+        {"fov", {number}, "field of view of the shorter side in degrees; default 90", 1e-3, 179.99},
+        power(),
+        scale()}},
+      {"infinite",
+       "an environment",
+       {{"L", {spectrum}, "radiance; default 1", 0, most},
+        {"filename", {string}, "square equal-area image of the sphere, instead of L"},
+        illuminance("illuminance of the upward plane in lux that the light is scaled to; default: not"),
+        scale(),
+        portal()}},
+  };
+}
+
+}  // namespace
+
+std::span<const EntitySpec> light_table() {
+  static const std::vector<EntitySpec> table = lights();
+  return table;
+}
+
+std::span<const EntitySpec> area_light_table() {
+  static const std::vector<EntitySpec> table{{"diffuse",
+                                              "the same radiance in all directions",
+                                              {{"L", {spectrum}, "radiance; default 1", 0, most},
+                                               {"filename", {string}, "image over (u, v), instead of L"},
+                                               {"twosided", {boolean}, "emits on both sides; default false"},
+                                               power(),
+                                               scale()}}};
+  return table;
+}
+
+}  // namespace montelux

@@ -1,0 +1,12 @@
+// What a scene may say about materials.
+#pragma once
+#include <span>
+
+#include "parameter/spec.h"
+
+namespace montelux {
+
+// Every material by name, with its parameters.
+std::span<const EntitySpec> material_table();
+
+}  // namespace montelux

@@ -1,0 +1,208 @@
+#include "scene/table.h"
+
+namespace montelux {
+
+namespace {
+
+using enum ParameterType;
+using List = std::vector<ParameterSpec>;
+
+constexpr double most = 1e30;
+constexpr double most_integer = 2147483647;
+
+ParameterSpec later(ParameterSpec spec) {
+  spec.later = true;
+  return spec;
+}
+
+List film_parameters(List more = {}) {
+  List list{
+      {"xresolution", {integer}, "width in pixels; default 1280", 1, 65536},
+      {"yresolution", {integer}, "height in pixels; default 720", 1, 65536},
+      {"cropwindow", {number}, "x0 x1 y0 y1 of the part to render, in [0, 1]; default all", 0, 1, {}, true},
+      {"pixelbounds", {integer}, "x0 x1 y0 y1 of the part to render, in pixels; default all", 0, 65536, {}, true},
+      later({"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, most}),
+      {"filename", {string}, "picture to write; default pbrt.exr"},
+      later({"savefp16", {boolean}, "write half floats; default true"}),
+      {"iso", {number}, "sensitivity: scales the picture with the exposure time; default 100", 1e-6, most},
+      later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, most}),
+      later({"sensor", {string}, "camera sensor; default cie1931"}),
+      {"maxcomponentvalue", {number}, "clamp of a sample's components (biased); default none", 0, most}};
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+List sampler_parameters(List more = {}) {
+  List list{{"pixelsamples", {integer}, "samples a pixel; default 16", 1, 1 << 24},
+            {"seed", {integer}, "default 0", -most_integer, most_integer}};
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+ParameterSpec randomization() {
+  return {"randomization", {string}, "default fastowen", 0, 0, {"none", "permutedigits", "fastowen", "owen"}};
+}
+
+List integrator_parameters(List more = {}) {
+  List list{{"maxdepth", {integer}, "most bounces; default 5", 0, most_integer}};
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+List path_parameters() {
+  return integrator_parameters(
+      {{"lightsampler",
+        {string},
+        "how a light is chosen; default bvh",
+        0,
+        0,
+        {"uniform", "power", "bvh", "exhaustive"}},
+       later({"regularize", {boolean}, "blurs narrow lobes after the first bounce (biased); default false"})});
+}
+
+std::vector<EntitySpec> camera_integrators() {
+  return {
+      {"path", "path tracing with light sampling", path_parameters()},
+      {"volpath", "path tracing with media", path_parameters()},
+      {"simplepath", "path tracing, its techniques one by one",
+       integrator_parameters({{"samplebsdf", {boolean}, "draw directions by the BSDF; default true"},
+                              {"samplelights", {boolean}, "draw points of lights; default true"}}),
+       false, "path"},
+      {"simplevolpath", "path tracing with media, without light sampling", integrator_parameters(), false, "path"},
+      {"randomwalk", "path tracing with uniform directions", integrator_parameters(), false, "path"},
+      {"ambientocclusion",
+       "the share of open directions",
+       {{"cossample", {boolean}, "draw directions by the cosine; default true"},
+        {"maxdistance", {number}, "farther things do not occlude; default infinite", 0, most}},
+       false,
+       "path"},
+      {"ao",
+       "the share of open directions, the short name",
+       {{"cossample", {boolean}, "draw directions by the cosine; default true"},
+        {"maxdistance", {number}, "farther things do not occlude; default infinite", 0, most}},
+       false,
+       "path"},
+  };
+}
+
+std::vector<EntitySpec> bidirectional_integrators() {
+  return {
+      {"bdpt", "bidirectional path tracing",
+       integrator_parameters({{"regularize", {boolean}, "blurs narrow lobes (biased); default false"},
+                              {"lightsampler", {string}, "how a light is chosen; default power"},
+                              {"visualizestrategies", {boolean}, "one picture a technique; default false"},
+                              {"visualizeweights", {boolean}, "with the weights; default false"}}),
+       false, "path"},
+      {"mlt", "Metropolis light transport",
+       integrator_parameters({{"bootstrapsamples", {integer}, "default 100000", 1, most_integer},
+                              {"chains", {integer}, "default 1000", 1, most_integer},
+                              {"mutationsperpixel", {integer}, "default 100", 1, most_integer},
+                              {"largestepprobability", {number}, "default 0.3", 0, 1},
+                              {"sigma", {number}, "size of a small step; default 0.01", 1e-9, most},
+                              {"regularize", {boolean}, "default false"}}),
+       false, "path"},
+      {"sppm", "stochastic progressive photon mapping",
+       integrator_parameters({{"photonsperiteration", {integer}, "default one a pixel", -1, most_integer},
+                              {"radius", {number}, "first search radius; default 1", 1e-30, most},
+                              {"seed", {integer}, "default 0", -most_integer, most_integer},
+                              {"regularize", {boolean}, "default false"}}),
+       false, "path"},
+      {"lightpath", "paths from the lights alone", integrator_parameters(), false, "path"},
+      {"function",
+       "the integral of a test function",
+       {{"function", {string}, "which"}, {"skipbad", {boolean}, "default true"}},
+       true,
+       "path"},
+  };
+}
+
+std::vector<EntitySpec> samplers() {
+  return {
+      {"independent", "random points", sampler_parameters()},
+      {"stratified",
+       "a jittered grid",
+       {{"xsamples", {integer}, "strata along x; default 4", 1, 4096},
+        {"ysamples", {integer}, "strata along y; default 4", 1, 4096},
+        {"jitter", {boolean}, "default true"},
+        {"seed", {integer}, "default 0", -most_integer, most_integer}}},
+      {"halton", "Halton points", sampler_parameters({randomization()})},
+      {"sobol", "Sobol points over the image", sampler_parameters({randomization()})},
+      {"paddedsobol", "Sobol points, two dimensions at a time", sampler_parameters({randomization()}), false,
+       "padded-sobol"},
+      {"zsobol", "Sobol points along a Morton curve", sampler_parameters({randomization()}), false, "blue-noise"},
+      {"pmj02bn", "progressive multi-jittered points", sampler_parameters(), false, "blue-noise"},
+  };
+}
+
+}  // namespace
+
+std::span<const EntitySpec> film_table() {
+  static const std::vector<EntitySpec> table{
+      {"rgb", "a picture in a colour space", film_parameters()},
+      {"gbuffer", "a picture with the geometry behind it",
+       film_parameters({{"coordinatesystem", {string}, "default camera", 0, 0, {"camera", "world"}}}), false, "rgb"},
+      {"spectral", "a picture in buckets of wavelength",
+       film_parameters({{"nbuckets", {integer}, "default 16", 1, 4096},
+                        {"lambdamin", {number}, "nm; default 360", 1, most},
+                        {"lambdamax", {number}, "nm; default 830", 1, most}}),
+       false, "rgb"},
+  };
+  return table;
+}
+
+std::span<const EntitySpec> sampler_table() {
+  static const std::vector<EntitySpec> table = samplers();
+  return table;
+}
+
+std::span<const EntitySpec> integrator_table() {
+  static const std::vector<EntitySpec> table = [] {
+    std::vector<EntitySpec> all = camera_integrators(), more = bidirectional_integrators();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return table;
+}
+
+std::span<const EntitySpec> accelerator_table() {
+  static const std::vector<EntitySpec> table{
+      {"bvh", "a hierarchy of boxes", {{"maxnodeprims", {integer}, "ignored"}, {"splitmethod", {string}, "ignored"}}},
+      {"kdtree",
+       "a k-d tree",
+       {{"intersectcost", {integer}, "ignored"},
+        {"traversalcost", {integer}, "ignored"},
+        {"emptybonus", {number}, "ignored"},
+        {"maxprims", {integer}, "ignored"},
+        {"maxdepth", {integer}, "ignored"}}},
+  };
+  return table;
+}
+
+std::span<const EntitySpec> medium_table() {
+  static const std::vector<EntitySpec> table{
+      {"homogeneous", "the same everywhere", {}, true},     {"uniformgrid", "densities on a grid", {}, true},
+      {"rgbgrid", "coefficients on a grid", {}, true},      {"cloud", "procedural cloud", {}, true},
+      {"nanovdb", "densities of a NanoVDB file", {}, true},
+  };
+  return table;
+}
+
+const EntitySpec& option_spec() {
+  static const EntitySpec spec{
+      "Option",
+      "settings of the whole",
+      {{"seed", {integer}, "seed of all randomness; default 0", -most_integer, most_integer},
+       {"disablepixeljitter", {boolean}, "all samples at the pixel's centre; default false"},
+       later({"disabletexturefiltering", {boolean}, "default false"}),
+       later({"disablewavelengthjitter", {boolean}, "default false"}),
+       later({"displacementedgescale", {number}, "default 1", 0, most}),
+       later({"forcediffuse", {boolean}, "all materials diffuse; default false"}),
+       later({"msereferenceimage", {string}, "picture to compare with"}),
+       later({"msereferenceout", {string}, "where to write the comparison"}),
+       later({"pixelstats", {boolean}, "default false"}),
+       later({"rendercoordsys", {string}, "default cameraworld", 0, 0, {"camera", "cameraworld", "world"}}),
+       later({"wavefront", {boolean}, "default false"})}};
+  return spec;
+}
+
+}  // namespace montelux

@@ -1,0 +1,13 @@
+// What a scene may say about textures.
+#pragma once
+#include <span>
+
+#include "parameter/spec.h"
+
+namespace montelux {
+
+// Every texture by name, with its parameters. A parameter that takes numbers and spectra takes the kind of the texture
+// that states it: numbers in a texture of numbers, spectra in a texture of spectra.
+std::span<const EntitySpec> texture_table();
+
+}  // namespace montelux
