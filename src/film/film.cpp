@@ -130,18 +130,21 @@ ImageEstimate Film::image() const {
   return image;
 }
 
-double Film::relative_mse() const {
-  double sum = 0;
-  for (const PixelEstimate& p : pixels_)
-    for (int i = 0; i < spectrum_size; ++i) sum += p.variance_of_mean(i) / (p.mean[i] * p.mean[i] + 0.01);
-  return sum / (double(pixels_.size()) * spectrum_size);
-}
-
-double Film::mse() const {
-  double sum = 0;
-  for (const PixelEstimate& p : pixels_)
-    for (int i = 0; i < spectrum_size; ++i) sum += p.variance_of_mean(i);
-  return sum / (double(pixels_.size()) * spectrum_size);
+ErrorEstimate Film::error(const PixelBounds& part) const {
+  ErrorEstimate error;
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x) {
+      const PixelEstimate& p = pixel(x, y);
+      if (p.passes < 2) continue;
+      ++error.pixels;
+      for (int i = 0; i < spectrum_size; ++i) {
+        double variance = p.variance_of_mean(i) / spectrum_size;
+        error.mse += variance;
+        error.relative_mse += variance / (p.mean[i] * p.mean[i] + 0.01);
+      }
+    }
+  if (error.pixels > 0) error.mse /= double(error.pixels), error.relative_mse /= double(error.pixels);
+  return error;
 }
 
 }  // namespace montelux

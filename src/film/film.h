@@ -6,35 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "color/spectrum.h"
-#include "math/vec.h"
+#include "image/pixel_sample.h"
 
 namespace montelux {
-
-// Pixels x0 <= x < x1, y0 <= y < y1 of the full image; row 0 on top.
-struct PixelBounds {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  int area() const { return width() * height(); }
-  bool operator==(const PixelBounds&) const = default;
-};
-
-// What the first surface of a camera path shows; coverage 0: the path left the scene.
-struct Features {
-  Rgb albedo{};      // directional albedo: mean of the weight of a scattered direction
-  Vec3f normal{};    // shading normal, world space, facing the camera
-  Vec3f position{};  // world space
-  float depth = 0;   // distance along the ray from the camera's origin
-  float coverage = 0;
-  std::uint32_t object = 0;  // number of the object from 1; 0: none
-};
-
-// One sample of a pixel: what an integrator returns.
-struct PixelSample {
-  Rgb radiance{};
-  Features features;
-};
 
 // Mean and spread of one pixel over passes (Welford 1962; West 1979), by channel.
 struct PixelEstimate {
@@ -62,6 +36,13 @@ struct ImageEstimate {
   int passes = 0;
 };
 
+// Estimated from the spread over passes: means over pixels and channels, over the pixels that have two passes.
+struct ErrorEstimate {
+  double mse = 0;           // variance of the mean
+  double relative_mse = 0;  // variance / (mean^2 + 0.01)
+  std::size_t pixels = 0;
+};
+
 class Film {
  public:
   explicit Film(PixelBounds bounds);
@@ -83,10 +64,8 @@ class Film {
   std::uint64_t non_finite() const;
   // Over the passes that are complete.
   ImageEstimate image() const;
-  // Estimated relative mean squared error: mean over pixels and channels of variance / (mean^2 + 0.01).
-  double relative_mse() const;
-  // Estimated mean squared error: mean over pixels and channels of the variance of the mean.
-  double mse() const;
+  // Estimated mean squared errors of a part of the picture.
+  ErrorEstimate error(const PixelBounds& part) const;
 
  private:
   struct PassSum {

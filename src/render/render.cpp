@@ -1,0 +1,177 @@
+#include "render/render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "render/float_mode.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr int tile_size = 32;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// A tile, and how many of its passes are in the film.
+struct TileState {
+  PixelBounds bounds;
+  int passes_added = 0;
+  std::mutex mutex;
+  std::condition_variable added;
+  TileState(PixelBounds b) : bounds(b) {}
+};
+
+std::deque<TileState> cut_into_tiles(const PixelBounds& b) {
+  std::deque<TileState> tiles;
+  for (int y = b.y0; y < b.y1; y += tile_size)
+    for (int x = b.x0; x < b.x1; x += tile_size)
+      tiles.emplace_back(PixelBounds{x, y, std::min(x + tile_size, b.x1), std::min(y + tile_size, b.y1)});
+  return tiles;
+}
+
+// The shared state of one render. Work units are numbered pass by pass; a unit enters the film after the same tile's
+// previous pass, whichever thread did that one.
+class Job {
+ public:
+  Job(const PixelIntegrator& integrator, const RenderSettings& settings)
+      : integrator_(integrator),
+        settings_(settings),
+        film_(settings.bounds),
+        tiles_(cut_into_tiles(settings.bounds)),
+        units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
+
+  void work() {
+    FlushDenormals flush;
+    RayCounts rays;
+    std::vector<PixelSample> samples;
+    try {
+      for (std::uint64_t unit; !stop_ && (unit = next_unit_.fetch_add(1)) < units_;) {
+        rays += do_unit(unit, samples);
+        units_done_.fetch_add(1);
+      }
+    } catch (...) {
+      std::scoped_lock lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+      for (TileState& tile : tiles_) tile.added.notify_all();
+    }
+    std::scoped_lock lock(mutex_);
+    rays_ += rays;
+    if (--running_ == 0) finished_.notify_all();
+  }
+
+  // Watches over the threads; true if the observer stopped them before the work was done.
+  bool watch(int threads, RenderObserver& observer) {
+    running_ = threads;
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
+    bool interrupted = false;
+    std::unique_lock lock(mutex_);
+    while (!finished_.wait_for(lock, poll_interval(), [this] { return running_ == 0; })) {
+      lock.unlock();
+      if (observer.stop_requested()) stop_ = interrupted = true;
+      if (settings_.seconds && seconds_since(start_) >= *settings_.seconds) stop_ = true;
+      observer.progress(progress(false));
+      lock.lock();
+    }
+    lock.unlock();
+    pool.clear();
+    if (failure_) std::rethrow_exception(failure_);
+    observer.progress(progress(true));
+    return interrupted && units_done_ < units_;
+  }
+
+  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, seconds_since(start_), interrupted}; }
+
+ private:
+  RayCounts do_unit(std::uint64_t unit, std::vector<PixelSample>& samples) {
+    const int pass = int(unit / tiles_.size());
+    TileState& tile = tiles_[unit % tiles_.size()];
+    const int k = settings_.plan.samples_per_pass;
+    samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
+    TilePass request{tile.bounds,
+                     {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass), std::uint32_t(k),
+                      std::uint32_t(settings_.width), std::uint32_t(settings_.height)}};
+    RayCounts rays = integrator_.trace(request, samples);
+    std::unique_lock lock(tile.mutex);
+    tile.added.wait(lock, [&] { return tile.passes_added == pass || failure_; });
+    film_.add_pass(tile.bounds, pass, k, samples);
+    ++tile.passes_added;
+    tile.added.notify_all();
+    return rays;
+  }
+
+  Progress progress(bool finished) {
+    Progress p;
+    p.elapsed = seconds_since(start_);
+    p.finished = finished;
+    p.fraction = double(units_done_) / double(units_);
+    if (settings_.seconds) p.fraction = std::max(p.fraction, p.elapsed / *settings_.seconds);
+    p.fraction = std::min(p.fraction, 1.0);
+    p.remaining = p.fraction > 0 ? p.elapsed * (1 - p.fraction) / p.fraction : 0;
+    for (TileState& tile : tiles_) {
+      std::scoped_lock lock(tile.mutex);
+      p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(tile.passes_added) *
+                   std::uint64_t(settings_.plan.samples_per_pass);
+      ErrorEstimate e = film_.error(tile.bounds);
+      p.error.mse += e.mse * double(e.pixels), p.error.relative_mse += e.relative_mse * double(e.pixels);
+      p.error.pixels += e.pixels;
+    }
+    if (p.error.pixels > 0) p.error.mse /= double(p.error.pixels), p.error.relative_mse /= double(p.error.pixels);
+    return p;
+  }
+
+  // Short at first, so that a quick render is not held up; then a few times a second.
+  std::chrono::milliseconds poll_interval() const {
+    return std::chrono::milliseconds(seconds_since(start_) < 0.5 ? 20 : 200);
+  }
+
+  const PixelIntegrator& integrator_;
+  const RenderSettings& settings_;
+  const Clock::time_point start_ = Clock::now();
+  Film film_;
+  std::deque<TileState> tiles_;
+  const std::uint64_t units_;
+  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable finished_;
+  int running_ = 0;
+  RayCounts rays_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+PassPlan plan_passes(int samples, PointSetKind kind) {
+  samples = std::max(samples, 1);
+  // Independent samples lose nothing by short passes; the others want the longest sets that leave enough replicates.
+  constexpr int enough_replicates = 16, bare_replicates = 8;
+  const int replicates = samples >= 256 ? enough_replicates : bare_replicates;
+  int k = 1;
+  if (kind == PointSetKind::independent) {
+    while (samples / (2 * k) >= 64) k *= 2;
+  } else {
+    while (samples / (2 * k) >= replicates) k *= 2;
+  }
+  return {k, (samples + k - 1) / k};
+}
+
+RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
+  int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  Job job(integrator, settings);
+  bool interrupted = job.watch(threads, observer);
+  return job.take_result(interrupted);
+}
+
+}  // namespace montelux

@@ -1,0 +1,60 @@
+// Spends samples: hands the passes of every tile to threads and adds them up in the film, until a rule says stop.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "film/film.h"
+#include "integrator/integrator.h"
+
+namespace montelux {
+
+// How many samples a pass takes at each pixel, and how many passes there are.
+struct PassPlan {
+  int samples_per_pass = 1;
+  int passes = 1;
+  int samples() const { return samples_per_pass * passes; }
+};
+
+// The plan for at least `samples` samples a pixel. Passes are replicates: more of them make the error bar surer, fewer
+// make each point set longer and so the picture better; docs/error-bars.md has the measurement behind the choice.
+PassPlan plan_passes(int samples, PointSetKind kind);
+
+struct RenderSettings {
+  PixelBounds bounds;         // of the picture, or of the crop; within width x height
+  int width = 0, height = 0;  // of the full image
+  PointSetKind sampler = PointSetKind::blue_noise;
+  std::uint32_t seed = 0;
+  PassPlan plan;
+  std::optional<double> seconds;  // stop at this time, with as many passes as fit; plan.passes is then a bound
+  int threads = 0;                // 0: all of the machine
+  int first_pass = 0;             // for a render that goes on
+};
+
+struct Progress {
+  double fraction = 0;   // of the work, or of the time, in [0, 1]
+  double elapsed = 0;    // seconds
+  double remaining = 0;  // seconds, estimated
+  std::uint64_t samples = 0;
+  ErrorEstimate error;
+  bool finished = false;
+};
+
+// Told of progress a few times a second, from one thread; decides whether to go on.
+class RenderObserver {
+ public:
+  virtual ~RenderObserver() = default;
+  virtual void progress(const Progress&) {}
+  virtual bool stop_requested() { return false; }
+};
+
+struct RenderResult {
+  Film film;
+  RayCounts rays;
+  double seconds = 0;
+  bool interrupted = false;  // the observer asked to stop before the work was done
+};
+
+// The film is the same bits for any number of threads (where no time limit is set and nobody interrupts).
+RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer);
+
+}  // namespace montelux
