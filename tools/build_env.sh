@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by ./quickstart and ./check: the compiler and the number of parallel jobs that suit this machine.
 
 # Where the system's g++ is older than 12, take g++-12 unless the caller has chosen.
