@@ -1,0 +1,122 @@
+// Cameras: from a place on the picture and a place on the lens to a ray in the world. Camera space is left-handed, with
+// x to the right, y up and the view along +z; raster y runs down.
+#pragma once
+#include <variant>
+
+#include "geometry/ray.h"
+#include "math/square_maps.h"
+#include "math/transform.h"
+#include "parameter/value.h"
+
+namespace montelux {
+
+// A ray in world space with unit direction and without an end (t_max is 1e30). weight multiplies what it carries.
+template <class F>
+struct CameraRay {
+  Ray<F> ray;
+  F weight;
+};
+
+inline constexpr float camera_ray_end = 1e30f;
+
+// A point of world space that depends affinely on the raster: corner + x dx + y dy.
+struct RasterPlane {
+  Vec3f corner, dx, dy;
+
+  template <class F>
+  MONTELUX_INLINE Vec3<F> operator()(Vec2<F> raster) const {
+    return splat<F>(corner) + splat<F>(dx) * raster.x + splat<F>(dy) * raster.y;
+  }
+};
+
+// A lens of zero thickness in the plane z = 0 of camera space.
+struct ThinLens {
+  Vec3f x{0, 0, 0}, y{0, 0, 0};  // its radii along the axes of camera space, in world space
+  float inverse_distance = 0;    // of the plane in focus, along z of camera space
+  bool open = false;             // false: a pinhole
+
+  template <class F>
+  MONTELUX_INLINE CameraRay<F> through(Vec3<F> o, Vec3<F> d, Vec2<F> u) const {
+    if (open) {
+      Vec2<F> disk = disk_from_square(u);
+      Vec3<F> offset = splat<F>(x) * disk.x + splat<F>(y) * disk.y;
+      o = o + offset;
+      // d reaches the plane z = 1: all rays of the lens meet on it where it is scaled to the plane in focus.
+      d = d - offset * inverse_distance;
+    }
+    return {{o, normalize(d), F(camera_ray_end)}, F(1.0f)};
+  }
+};
+
+struct PerspectiveCamera {
+  Vec3f origin;
+  RasterPlane direction;  // to the plane z = 1 of camera space
+  ThinLens lens;
+
+  template <class F>
+  CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
+    return lens.through(splat<F>(origin), direction(raster), lens_u);
+  }
+};
+
+struct OrthographicCamera {
+  RasterPlane origin;
+  Vec3f direction;  // z of camera space
+  ThinLens lens;
+
+  template <class F>
+  CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
+    return lens.through(origin(raster), splat<F>(direction), lens_u);
+  }
+};
+
+// All directions from a point, y of camera space up.
+struct SphericalCamera {
+  // equirectangular: azimuth along x of the raster and polar angle along y; equal_area: octahedral.
+  enum class Mapping { equirectangular, equal_area };
+  Vec3f origin;
+  Vec3f x, y, z;  // the axes of camera space
+  Vec2f to_unit;  // one over the resolution
+  Mapping mapping = Mapping::equal_area;
+
+  template <class F>
+  CameraRay<F> generate(Vec2<F> raster, Vec2<F>) const {
+    Vec2<F> uv{raster.x * to_unit.x, raster.y * to_unit.y};
+    Vec3<F> w;
+    if (mapping == Mapping::equal_area) {
+      w = sphere_from_square(wrap_sphere_square(uv));
+    } else {
+      SinCos<F> polar = sin_cos(uv.y * pi), azimuth = sin_cos_two_pi(uv.x - floor(uv.x));
+      w = {polar.sin * azimuth.cos, polar.sin * azimuth.sin, polar.cos};
+    }
+    // The maps have z up; camera space has y up.
+    Vec3<F> d = splat<F>(x) * w.x + splat<F>(y) * w.z + splat<F>(z) * w.y;
+    return {{splat<F>(origin), normalize(d), F(camera_ray_end)}, F(1.0f)};
+  }
+};
+
+// One of the cameras.
+class Camera {
+ public:
+  using Variant = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera>;
+  Camera(Variant camera) : camera_(std::move(camera)) {}
+
+  // raster: in pixels, continuous, (0, 0) the upper left corner of the picture, (width, height) the lower right one.
+  // lens_u in [0, 1)^2. To compile a loop for one camera, std::visit on variant() outside it.
+  template <class F>
+  CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
+    return std::visit([&](const auto& camera) { return camera.generate(raster, lens_u); }, camera_);
+  }
+  const Variant& variant() const { return camera_; }
+
+ private:
+  Variant camera_;
+};
+
+// The camera for a picture of width x height pixels (the whole, not a crop). Parameters: fov (degrees, of the shorter
+// axis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius, focaldistance; mapping. Values
+// that make no camera are reported, and the usual ones taken in their place.
+Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
+                    Diagnostics& diagnostics);
+
+}  // namespace montelux

@@ -1,0 +1,58 @@
+// Maps of the unit square that keep areas up to a constant.
+#pragma once
+#include "math/functions.h"
+
+namespace montelux {
+
+// The unit disk from (u, v) in [0, 1]^2: squares about the centre become circles (Shirley and Chiu 1997). Jacobian pi.
+template <class F>
+MONTELUX_INLINE Vec2<F> disk_from_square(Vec2<F> uv) {
+  F x = uv.x * 2.0f - 1.0f, y = uv.y * 2.0f - 1.0f;
+  Mask<F> wide = abs(x) > abs(y);
+  F radius = select(wide, x, y), other = select(wide, y, x);
+  // An eighth of a turn at most, from the axis that the point is nearer to.
+  F eighth = other / select(radius == F(0.0f), F(1.0f), radius);
+  SinCos<F> turn = sin_cos(eighth * (0.25f * pi));
+  return {radius * select(wide, turn.cos, turn.sin), radius * select(wide, turn.sin, turn.cos)};
+}
+
+// The unit sphere from (u, v) in [0, 1]^2: the centre is +z, the corners -z, the octahedron's diagonals the equator
+// (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"). Jacobian 4 pi.
+template <class F>
+MONTELUX_INLINE Vec3<F> sphere_from_square(Vec2<F> uv) {
+  F u = uv.x * 2.0f - 1.0f, v = uv.y * 2.0f - 1.0f;
+  F au = abs(u), av = abs(v);
+  F to_equator = F(1.0f) - (au + av);
+  F r = F(1.0f) - abs(to_equator);
+  F phi = select(r == F(0.0f), F(1.0f), (av - au) / max(r, F(1e-30f)) + 1.0f) * (0.25f * pi);
+  SinCos<F> turn = sin_cos(phi);
+  F across = r * safe_sqrt(F(2.0f) - r * r);
+  return {copysign(turn.cos, u) * across, copysign(turn.sin, v) * across, copysign(F(1.0f) - r * r, to_equator)};
+}
+
+// The inverse of sphere_from_square for a unit vector.
+template <class F>
+MONTELUX_INLINE Vec2<F> square_from_sphere(Vec3<F> w) {
+  F r = safe_sqrt(F(1.0f) - abs(w.z));
+  F phi = atan2(abs(w.y), abs(w.x)) * (2.0f * inv_pi);
+  F v = phi * r, u = r - v;
+  // The lower half is folded outward over the diagonals.
+  Mask<F> below = w.z < F(0.0f);
+  F fu = select(below, F(1.0f) - v, u), fv = select(below, F(1.0f) - u, v);
+  return {(copysign(fu, w.x) + 1.0f) * 0.5f, (copysign(fv, w.y) + 1.0f) * 0.5f};
+}
+
+// A point a little outside of the square, brought to where the sphere's map continues inside.
+template <class F>
+MONTELUX_INLINE Vec2<F> wrap_sphere_square(Vec2<F> uv) {
+  auto fold = [](F inside, F& across) {
+    Mask<F> out = (inside < F(0.0f)) | (inside > F(1.0f));
+    across = select(out, F(1.0f) - across, across);
+    return select(inside < F(0.0f), -inside, select(inside > F(1.0f), F(2.0f) - inside, inside));
+  };
+  uv.x = fold(uv.x, uv.y);
+  uv.y = fold(uv.y, uv.x);
+  return uv;
+}
+
+}  // namespace montelux

@@ -1,0 +1,214 @@
+#include "camera/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mc/random.h"
+
+namespace montelux {
+namespace {
+
+Parameter number(const char* name, float value) { return {name, ParameterType::number, std::vector<float>{value}, {}}; }
+Entity entity(const char* type, std::vector<Parameter> parameters = {}) {
+  Entity e{type, {}, {}};
+  for (Parameter& p : parameters) e.parameters.add(std::move(p));
+  return e;
+}
+Camera built(const Entity& e, const Transform& world_to_camera, int width, int height) {
+  Diagnostics diagnostics;
+  Camera camera = build_camera(e, world_to_camera, width, height, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors());
+  return camera;
+}
+void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5f) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+Ray<float> ray(const Camera& camera, float x, float y, Vec2f lens = {0.5f, 0.5f}) {
+  return camera.generate(Vec2f{x, y}, lens).ray;
+}
+
+TEST(PerspectiveCamera, edge_rays_enclose_the_field_of_view_of_the_shorter_axis) {
+  Camera wide = built(entity("perspective", {number("fov", 40)}), {}, 640, 480);
+  float t = std::tan(20 * pi / 180);
+  expect_near(ray(wide, 320, 240).d, {0, 0, 1});
+  expect_near(ray(wide, 320, 0).d, normalize(Vec3f{0, t, 1}));
+  expect_near(ray(wide, 320, 480).d, normalize(Vec3f{0, -t, 1}));
+  expect_near(ray(wide, 640, 240).d, normalize(Vec3f{t * 4 / 3, 0, 1}));
+  Camera tall = built(entity("perspective", {number("fov", 40)}), {}, 480, 640);
+  expect_near(ray(tall, 0, 320).d, normalize(Vec3f{-t, 0, 1}));
+  expect_near(ray(tall, 240, 0).d, normalize(Vec3f{0, t * 4 / 3, 1}));
+}
+
+TEST(PerspectiveCamera, screen_window_replaces_the_aspect_of_the_picture) {
+  Entity e = entity("perspective", {number("fov", 90)});
+  e.parameters.add({"screenwindow", ParameterType::number, std::vector<float>{-0.5f, 1.0f, -0.25f, 2.0f}, {}});
+  Camera camera = built(e, {}, 100, 100);
+  expect_near(ray(camera, 0, 0).d, normalize(Vec3f{-0.5f, 2, 1}));
+  expect_near(ray(camera, 100, 100).d, normalize(Vec3f{1, -0.25f, 1}));
+}
+
+TEST(PerspectiveCamera, frame_aspect_ratio_replaces_that_of_the_resolution) {
+  Camera camera = built(entity("perspective", {number("fov", 90), number("frameaspectratio", 2)}), {}, 100, 100);
+  expect_near(ray(camera, 0, 50).d, normalize(Vec3f{-2, 0, 1}));
+  expect_near(ray(camera, 50, 0).d, normalize(Vec3f{0, 1, 1}));
+}
+
+TEST(PerspectiveCamera, looks_from_the_eye_at_the_target_with_right_and_up_on_the_picture) {
+  auto view = look_at({1, 2, 3}, {1, 2, 13}, {0, 1, 0});
+  ASSERT_TRUE(view);
+  Camera camera = built(entity("perspective"), *view, 200, 200);
+  expect_near(ray(camera, 100, 100).o, {1, 2, 3});
+  expect_near(ray(camera, 100, 100).d, {0, 0, 1});
+  // Left-handed: looking along +z with y up, +x is to the right.
+  EXPECT_GT(ray(camera, 199, 100).d.x, 0.5f);
+  EXPECT_GT(ray(camera, 100, 1).d.y, 0.5f);
+}
+
+TEST(PerspectiveCamera, mirroring_the_camera_space_mirrors_the_picture_and_scaling_it_changes_nothing) {
+  auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
+  ASSERT_TRUE(view);
+  Camera plain = built(entity("perspective"), *view, 300, 200);
+  Camera mirrored = built(entity("perspective"), scale(-1, 1, 1) * *view, 300, 200);
+  Camera scaled = built(entity("perspective"), scale(7, 7, 7) * *view, 300, 200);
+  for (Vec2f p : {Vec2f{12, 30}, Vec2f{150, 100}, Vec2f{250.5f, 199}}) {
+    expect_near(ray(mirrored, p.x, p.y).d, ray(plain, 300 - p.x, p.y).d);
+    expect_near(ray(mirrored, p.x, p.y).o, {3, 1, -2});
+    expect_near(ray(scaled, p.x, p.y).d, ray(plain, p.x, p.y).d);
+    EXPECT_NEAR(length(ray(mirrored, p.x, p.y).d), 1, 1e-6f);
+  }
+}
+
+// Where a ray crosses the plane z = depth of camera space.
+Vec3f at_depth(const Ray<float>& r, const Transform& to_camera, float depth) {
+  Vec3f o = to_camera.point(r.o), d = to_camera.direction(r.d);
+  return o + d * ((depth - o.z) / d.z);
+}
+
+TEST(ThinLens, all_rays_of_a_pixel_meet_in_the_plane_in_focus_and_start_on_the_lens) {
+  auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
+  ASSERT_TRUE(view);
+  for (const char* type : {"perspective", "orthographic"}) {
+    Camera camera = built(entity(type, {number("lensradius", 0.25f), number("focaldistance", 4)}), *view, 300, 200);
+    Camera pinhole = built(entity(type), *view, 300, 200);
+    RandomStream<float> random(3u, 4u);
+    for (int k = 0; k < 100; ++k) {
+      Vec2f raster{random.next() * 300, random.next() * 200}, u = random.next2();
+      Ray<float> r = ray(camera, raster.x, raster.y, u), centre = ray(pinhole, raster.x, raster.y);
+      expect_near(at_depth(r, *view, 4), at_depth(centre, *view, 4), 2e-5f);
+      EXPECT_LE(length(r.o - centre.o), 0.25f * 1.00001f);
+      EXPECT_NEAR(view->point(r.o).z, 0, 1e-5f);
+      EXPECT_NEAR(length(r.d), 1, 1e-6f);
+    }
+    EXPECT_NEAR(length(ray(camera, 10, 10, {0, 0}).o - ray(camera, 10, 10, {1, 1}).o), 0.5f, 1e-5f);
+  }
+}
+
+TEST(OrthographicCamera, rays_are_parallel_and_start_on_the_screen_window) {
+  Camera camera = built(entity("orthographic"), translate(0, 0, 5), 400, 200);
+  expect_near(ray(camera, 0, 0).o, {-2, 1, -5});
+  expect_near(ray(camera, 400, 200).o, {2, -1, -5});
+  expect_near(ray(camera, 17, 120).d, {0, 0, 1});
+}
+
+TEST(SphericalCamera, equirectangular_rows_are_polar_angles_about_y) {
+  Entity e = entity("spherical");
+  e.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
+  Camera camera = built(e, {}, 400, 200);
+  expect_near(ray(camera, 0, 0).d, {0, 1, 0});
+  expect_near(ray(camera, 123, 200).d, {0, -1, 0});
+  expect_near(ray(camera, 0, 100).d, {1, 0, 0});
+  expect_near(ray(camera, 100, 100).d, {0, 0, 1});
+  expect_near(ray(camera, 200, 100).d, {-1, 0, 0});
+  expect_near(ray(camera, 300, 100).d, {0, 0, -1});
+}
+
+TEST(SphericalCamera, equal_area_centre_is_up_and_corners_are_down) {
+  Camera camera = built(entity("spherical"), {}, 200, 200);
+  expect_near(ray(camera, 100, 100).d, {0, 1, 0});
+  expect_near(ray(camera, 0, 0).d, {0, -1, 0});
+  expect_near(ray(camera, 200, 100).d, {1, 0, 0});
+  expect_near(ray(camera, 100, 200).d, {0, 0, 1});
+}
+
+TEST(SquareMaps, the_sphere_map_keeps_areas_and_inverts) {
+  // The mean of z^2 and of x^2 y^2 over the sphere are 1/3 and 1/15.
+  double zz = 0, xxyy = 0;
+  const int n = 600;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      Vec2f uv{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n};
+      Vec3f w = sphere_from_square(uv);
+      zz += double(w.z) * w.z, xxyy += double(w.x) * w.x * w.y * w.y;
+      ASSERT_NEAR(length(w), 1, 1e-6f);
+      Vec2f back = square_from_sphere(w);
+      ASSERT_NEAR(back.x, uv.x, 2e-5f) << uv.x << " " << uv.y;
+      ASSERT_NEAR(back.y, uv.y, 2e-5f) << uv.x << " " << uv.y;
+    }
+  EXPECT_NEAR(zz / (n * n), 1.0 / 3, 1e-5);
+  EXPECT_NEAR(xxyy / (n * n), 1.0 / 15, 1e-5);
+}
+
+TEST(SquareMaps, the_sphere_map_goes_on_across_its_edges) {
+  const float e = 1e-4f;
+  for (float t : {0.1f, 0.37f, 0.5f, 0.8f}) {
+    for (Vec2f out : {Vec2f{-e, t}, Vec2f{1 + e, t}, Vec2f{t, -e}, Vec2f{t, 1 + e}}) {
+      Vec2f edge{std::clamp(out.x, 0.0f, 1.0f), std::clamp(out.y, 0.0f, 1.0f)};
+      EXPECT_GT(dot(sphere_from_square(wrap_sphere_square(out)), sphere_from_square(edge)), 1 - 1e-5f);
+    }
+  }
+}
+
+TEST(SquareMaps, the_disk_map_keeps_areas) {
+  double rr = 0, xxyy = 0;
+  const int n = 600;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      Vec2f p = disk_from_square(Vec2f{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n});
+      rr += double(p.x) * p.x + double(p.y) * p.y, xxyy += double(p.x) * p.x * p.y * p.y;
+    }
+  EXPECT_NEAR(rr / (n * n), 0.5, 1e-5);
+  EXPECT_NEAR(xxyy / (n * n), 1.0 / 24, 1e-5);
+}
+
+TEST(Camera, a_lane_gives_the_bits_of_a_float) {
+  using F = NativeFloats;
+  auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
+  Entity equirectangular = entity("spherical");
+  equirectangular.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
+  for (const Entity& e : {entity("perspective", {number("lensradius", 0.1f), number("focaldistance", 3)}),
+                          entity("orthographic", {number("lensradius", 0.1f)}), entity("spherical"), equirectangular}) {
+    Camera camera = built(e, *view, 64, 48);
+    RandomStream<float> random(5u, 6u);
+    for (int round = 0; round < 50; ++round) {
+      Vec2<F> raster, u;
+      for (int k = 0; k < native_lanes; ++k) {
+        set_lane(raster, k, Vec2f{random.next() * 64, random.next() * 48});
+        set_lane(u, k, random.next2());
+      }
+      CameraRay<F> pack = camera.generate(raster, u);
+      for (int k = 0; k < native_lanes; ++k) {
+        Ray<float> one = camera.generate(lane(raster, k), lane(u, k)).ray;
+        Vec3f o = lane(pack.ray.o, k), d = lane(pack.ray.d, k);
+        ASSERT_TRUE(o.x == one.o.x && o.y == one.o.y && o.z == one.o.z) << e.type;
+        ASSERT_TRUE(d.x == one.d.x && d.y == one.d.y && d.z == one.d.z) << e.type;
+      }
+    }
+  }
+}
+
+TEST(Camera, values_that_make_no_camera_are_reported) {
+  for (const Entity& e : {entity("perspective", {number("fov", 180)}), entity("fisheye"),
+                          entity("orthographic", {number("lensradius", 1), number("focaldistance", 0)}),
+                          entity("perspective", {number("screenwindow", 1)})}) {
+    Diagnostics diagnostics;
+    build_camera(e, {}, 10, 10, diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors()) << e.type;
+  }
+}
+
+}  // namespace
+}  // namespace montelux
