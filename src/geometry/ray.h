@@ -11,6 +11,9 @@ struct Ray {
   F t_max;
 };
 
+// A distance that ends beyond every scene.
+inline constexpr float ray_infinity = 1e30f;
+
 // A point of a surface, as shading needs it. All in world space.
 template <class F>
 struct SurfacePoint {

@@ -1,0 +1,48 @@
+// Rendering a scene, and the picture with everything that is known of it.
+#pragma once
+#include "api/scene.h"
+#include "image/display.h"
+#include "image/image_file.h"
+#include "math/result.h"
+#include "render/render.h"
+
+namespace montelux {
+
+struct RenderOptions {
+  std::optional<int> samples;     // a pixel; default: what the file asks for
+  std::optional<double> seconds;  // instead of a number of samples
+  std::uint32_t seed = 0;
+  int threads = 0;                                            // 0: all of the machine
+  std::optional<PixelBounds> crop;                            // within the picture; default: the file's
+  std::optional<std::string> integrator;                      // name; default: the file's
+  std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
+  std::optional<std::string> sampler;                         // name of a point set; default: the file's
+};
+
+// A rendered picture, its error and its layers.
+struct Rendering {
+  RenderResult result;
+  std::vector<Attribute> header;   // seed, passes, samples, biased options, non-finite count, version, ...
+  std::vector<std::string> notes;  // for the user: what was replaced by what
+  PassPlan plan;
+};
+
+// Fails where an option does not fit the scene (an unknown integrator, setting or sampler, a crop outside the picture).
+Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer);
+
+// The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
+// P.X ...; Z; samples; id.
+PixelBuffer layers_of(const Rendering& rendering);
+
+// Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
+// file is replaced in one step.
+Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display);
+
+// Names that --integrator and --sampler take, with a line for each.
+std::vector<std::pair<std::string, std::string>> integrator_names();
+std::vector<std::pair<std::string, std::string>> sampler_names();
+
+// "0.1.0".
+std::string version();
+
+}  // namespace montelux

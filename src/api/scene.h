@@ -1,0 +1,65 @@
+// Reading a scene and preparing it for rendering.
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/pixel_sample.h"
+#include "parameter/diagnostic.h"
+
+namespace montelux {
+
+struct LoadOptions {
+  bool lenient = false;  // unknown parameters and what Montelux cannot do yet are warnings, not errors
+  std::optional<std::pair<int, int>> resolution;  // width, height instead of the file's
+  int threads = 0;                                // for building; 0: all of the machine
+};
+
+// What is in a scene, for people.
+struct SceneInfo {
+  std::string file;
+  int width = 0, height = 0;
+  PixelBounds crop;  // of the file; the whole picture where it has none
+  std::string camera, film, filter, sampler, integrator;
+  int samples = 0;                      // that the file asks for
+  std::optional<int> max_depth;         // that the file asks for
+  std::size_t triangles = 0;            // in memory
+  std::size_t instanced_triangles = 0;  // as rays see them
+  std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;
+  std::size_t materials = 0, textures = 0, images = 0;
+  std::vector<std::pair<std::string, std::size_t>> lights;  // by kind, with how many there are
+  float low[3] = {}, high[3] = {};                          // bounds of the scene
+  std::size_t geometry_bytes = 0, accel_bytes = 0, texture_bytes = 0, light_bytes = 0;
+  double read_seconds = 0, prepare_seconds = 0, build_seconds = 0;
+};
+
+// A scene that is ready to render. Opaque; movable; may be rendered from many threads at once.
+class LoadedScene {
+ public:
+  struct Parts;
+  explicit LoadedScene(std::unique_ptr<Parts> parts);
+  ~LoadedScene();
+  LoadedScene(LoadedScene&&) noexcept;
+
+  const SceneInfo& info() const;
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+struct LoadResult {
+  std::optional<LoadedScene> scene;  // none where there were errors
+  Diagnostics diagnostics;           // all of them, in the order of the file
+};
+
+// Never throws: what is wrong is in the diagnostics.
+LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+// "file:line:column: error: message", an excerpt with a caret, and the hint; for a terminal or a log.
+std::string to_text(const Diagnostic& diagnostic, bool color);
+
+}  // namespace montelux
