@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace montelux {
+namespace montelux::special {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -202,4 +202,4 @@ double student_t_quantile(double p, double dof) {
 
 double chi_square_tail(double x, double dof) { return gamma_q(0.5 * dof, 0.5 * x); }
 
-}  // namespace montelux
+}  // namespace montelux::special

@@ -3,7 +3,7 @@
 // stay below 1e-8 for parameters up to 1e7.
 #pragma once
 
-namespace montelux {
+namespace montelux::special {
 
 // log Gamma(x) for x > 0, by Stirling's series after shifting x above 10 (DLMF 5.11.1).
 double log_gamma(double x);
@@ -26,4 +26,4 @@ double student_t_quantile(double p, double dof);
 // P(X > x) for a chi-square variable X with dof > 0 degrees of freedom.
 double chi_square_tail(double x, double dof);
 
-}  // namespace montelux
+}  // namespace montelux::special

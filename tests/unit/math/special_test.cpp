@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace montelux {
+namespace montelux::special {
 namespace {
 
 void expect_relative(double value, double truth, double tolerance) {
@@ -96,4 +96,4 @@ TEST(Special, chi_square_tail_matches_the_published_critical_values) {
 }
 
 }  // namespace
-}  // namespace montelux
+}  // namespace montelux::special

@@ -1,0 +1,27 @@
+// How far an image is from a reference, as one number and as a picture of where.
+#pragma once
+#include "image/pixel_buffer.h"
+
+namespace montelux {
+
+// Means over all pixels and the three colour channels of a (the test) and b (the reference), which must be of the same
+// size. Pixels that are not finite in either image are left out and counted.
+struct ErrorMeasures {
+  double mse = 0.0;
+  // mean((a - b)^2 / (b^2 + 0.01)) (Rousselle, Knaus and Zwicker 2011, with their epsilon).
+  double relative_mse = 0.0;
+  // 10 log10(1 / mse), for images in [0, 1]; infinite for equal images.
+  double psnr = 0.0;
+  double mean_difference = 0.0;
+  std::size_t non_finite = 0;
+};
+ErrorMeasures measure_error(const PixelBuffer& test, const PixelBuffer& reference);
+
+enum class ErrorKind { absolute, squared, relative_squared };
+// One channel "error": the mean over the colour channels of the error of that kind at each pixel.
+PixelBuffer error_map(const PixelBuffer& test, const PixelBuffer& reference, ErrorKind kind);
+
+// A map of one channel as colours for display, dark to bright over [0, largest]: black, purple, orange, pale yellow.
+PixelBuffer false_color(const PixelBuffer& map, float largest);
+
+}  // namespace montelux
