@@ -1,9 +1,59 @@
 // Lights: what they send toward a point, with which density a point of them is drawn, and which light is chosen.
 #pragma once
+#include <array>
+#include <string_view>
+
 #include "color/spectrum.h"
 #include "mc/density.h"
 
 namespace montelux {
+
+// A light of a LightSet, counted in the order in which the builder took them.
+enum class LightId : std::uint32_t {};
+
+// Every kind of light, in this order: surfaces that emit, lights in one point, lights without a place.
+enum class LightKind : std::uint32_t {
+  triangle,
+  parallelogram,
+  bilinear_patch,
+  disk,
+  sphere,
+  cylinder,
+  point,
+  spot,
+  goniometric,
+  projection,
+  distant,
+  uniform_infinite,
+  image_infinite
+};
+inline constexpr std::array<std::string_view, 13> light_kind_names{
+    "triangle", "parallelogram", "bilinear patch", "disk",    "sphere",           "cylinder",      "point",
+    "spot",     "goniometric",   "projection",     "distant", "uniform infinite", "image infinite"};
+
+inline constexpr bool is_surface(LightKind k) { return k <= LightKind::cylinder; }
+// Lights that send the same from everywhere: they have no bounds.
+inline constexpr bool is_unbounded(LightKind k) { return k >= LightKind::distant; }
+// Lights that a ray that leaves the scene meets.
+inline constexpr bool is_infinite(LightKind k) { return k >= LightKind::uniform_infinite; }
+// Lights that no ray meets: only sampling finds them.
+inline constexpr bool is_delta(LightKind k) { return !is_surface(k) && !is_infinite(k); }
+
+// How the light to sample is chosen: all alike, by power, or by a hierarchy that looks at the reference point.
+enum class LightSelection { uniform, power, bvh };
+inline constexpr std::array<std::string_view, 3> light_selection_names{"uniform", "power", "bvh"};
+
+struct LightSettings {
+  LightSelection selection = LightSelection::bvh;
+};
+
+// Which light was chosen, and how probable that was.
+template <class F>
+struct LightChoice {
+  Uint<F> light;
+  Mass<F> mass;
+  Mask<F> valid;  // no: there is no light, or none that reaches the point
+};
 
 // A direction toward a light, drawn at a reference point.
 template <class F>

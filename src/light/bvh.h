@@ -1,0 +1,186 @@
+// A hierarchy over the lights that have a place: which one to sample at a point, by bounds of what each cluster of
+// lights can send there (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting"; the importance as in Pharr, Jakob and Humphreys 2023, sec. 12.6.3).
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "light/light.h"
+
+namespace montelux {
+
+// Where a light is, where it looks, and how strong it is.
+struct LightBounds {
+  Vec3f low{}, high{};     // box of its points
+  Vec3f axis{0, 0, 1};     // unit: the middle of its normals
+  float intensity = 0;     // largest radiant intensity, averaged over the components, W / sr
+  float cos_spread = -1;   // of the largest angle between the axis and a normal
+  float cos_emission = 0;  // of the largest angle between a normal and a direction that gets light
+  bool two_sided = false;  // sends as much along the opposite directions
+};
+
+// The bounds of both.
+LightBounds unite(const LightBounds& a, const LightBounds& b);
+
+class LightBvh {
+ public:
+  // Over all lights by number; those without bounds are left out. O(n log n).
+  explicit LightBvh(std::span<const std::optional<LightBounds>> bounds);
+  LightBvh() = default;
+
+  bool empty() const { return nodes_.empty(); }
+
+  // One light for the point p, by u in [0, 1). n is unit where only directions on its side matter, else zero.
+  // Never leaves out a light that reaches p on that side.
+  template <class F>
+  LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
+
+  // The probability with which choose() takes the light at p, to the last bit the same. Of lights with bounds only.
+  template <class F>
+  Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
+
+ private:
+  static constexpr int node_size = 16;
+  struct alignas(64) Node {
+    float v[node_size] = {};
+  };
+  // Slots of a node. `link` is the first of two children that follow each other, or the light of a leaf.
+  enum Slot {
+    centre = 0,
+    radius_squared = 3,
+    axis = 4,
+    intensity,
+    cos_spread = 8,
+    sin_spread,
+    cos_emission,
+    two_sided,
+    link,
+    leaf
+  };
+
+  struct Item {
+    std::uint32_t light;
+    Vec3f middle, axis;
+  };
+  struct Builder;
+
+  template <class F>
+  MONTELUX_INLINE F number(Uint<F> node, int slot) const {
+    return gather(nodes_.data()->v + slot, Uint<F>(node * std::uint32_t(node_size)));
+  }
+  template <class F>
+  F importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const;
+  // The probability of the first of two children, and whether either can send light to p.
+  template <class F>
+  struct Fork {
+    F first;
+    Mask<F> any_light;
+  };
+  template <class F>
+  MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n) const {
+    F a = importance(first_child, p, n);
+    F b = importance(Uint<F>(first_child + Uint<F>(1u)), p, n);
+    F sum = a + b;
+    return {a / max(sum, F(1e-37f)), sum > F(0.0f)};
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> turns_;  // a light: bit k is the turn at depth k
+};
+
+namespace light_bvh {
+
+// cos and sin of max(0, a - b) for angles in [0, pi], from their cosines and sines.
+template <class F>
+MONTELUX_INLINE F cos_of_difference(F sin_a, F cos_a, F sin_b, F cos_b) {
+  return select(cos_a > cos_b, F(1.0f), cos_a * cos_b + sin_a * sin_b);
+}
+template <class F>
+MONTELUX_INLINE F sin_of_difference(F sin_a, F cos_a, F sin_b, F cos_b) {
+  return select(cos_a > cos_b, F(0.0f), sin_a * cos_b - cos_a * sin_b);
+}
+
+// Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
+inline constexpr float slack = 1e-3f;
+
+}  // namespace light_bvh
+
+template <class F>
+F LightBvh::importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const {
+  using namespace light_bvh;
+  Vec3<F> from = p - Vec3<F>{number<F>(node, centre), number<F>(node, centre + 1), number<F>(node, centre + 2)};
+  F r2 = number<F>(node, radius_squared), d2 = max(length_squared(from), F(1e-30f));
+  Vec3<F> w = from * (F(1.0f) / sqrt(d2));
+
+  // The angle under which the ball of the bounds is seen; from inside, every direction.
+  Mask<F> inside = d2 <= r2;
+  F sin2_b = min(r2 / d2, F(1.0f));
+  F sin_b = select(inside, F(0.0f), sqrt(sin2_b)), cos_b = select(inside, F(-1.0f), sqrt(F(1.0f) - sin2_b));
+
+  // The least angle between a normal of the cluster and a direction to p.
+  Vec3<F> a{number<F>(node, axis), number<F>(node, axis + 1), number<F>(node, axis + 2)};
+  F cos_w = clamp(dot(a, w), F(-1.0f), F(1.0f));
+  cos_w = select(number<F>(node, two_sided) > F(0.0f), abs(cos_w), cos_w);
+  F sin_w = safe_sqrt(F(1.0f) - cos_w * cos_w);
+  F cos_o = number<F>(node, cos_spread), sin_o = number<F>(node, sin_spread);
+  F cos_x = cos_of_difference(sin_w, cos_w, sin_o, cos_o), sin_x = sin_of_difference(sin_w, cos_w, sin_o, cos_o);
+  F cos_p = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
+  F result = number<F>(node, intensity) * max(cos_p, F(slack)) / max(max(d2, r2), F(1e-18f));
+  result = select(cos_p > number<F>(node, cos_emission) - slack, result, F(0.0f));
+
+  // The least angle between n and a direction to the cluster.
+  F cos_i = clamp(F(0.0f) - dot(n, w), F(-1.0f), F(1.0f));
+  F cos_q = cos_of_difference(safe_sqrt(F(1.0f) - cos_i * cos_i), cos_i, sin_b, cos_b);
+  F facing = select(cos_q > F(-slack), max(cos_q, F(slack)), F(0.0f));
+  return result * select(length_squared(n) > F(0.5f), facing, F(1.0f));
+}
+
+template <class F>
+LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
+  Uint<F> node(0u);
+  F mass(1.0f);
+  Mask<F> valid = on & Mask<F>(!nodes_.empty());
+  Mask<F> inner = valid;
+  while (any(inner)) {
+    inner = inner & (number<F>(node, leaf) <= F(0.0f));
+    if (!any(inner)) break;
+    Uint<F> child = select(inner, float_bits(number<F>(node, link)), Uint<F>(0u));
+    Fork<F> f = fork<F>(child, p, n);
+    // The rest of u, stretched, decides further down.
+    Mask<F> first = u < f.first;
+    F share = select(first, f.first, F(1.0f) - f.first);
+    F rest = min(select(first, u, u - f.first) / max(share, F(1e-37f)), F(one_minus_epsilon));
+    u = select(inner, rest, u);
+    mass = select(inner, mass * share, mass);
+    node = select(inner, select(first, child, Uint<F>(child + Uint<F>(1u))), node);
+    valid = valid & (f.any_light | !inner);
+    inner = inner & f.any_light;
+  }
+  Uint<F> light(0u);
+  if (any(valid)) light = select(valid, float_bits(number<F>(node, link)), Uint<F>(0u));
+  return {light, {select(valid, mass, F(0.0f))}, valid};
+}
+
+template <class F>
+Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
+  if (!any(on) || nodes_.empty()) return {F(0.0f)};
+  Uint<F> node(0u), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
+  F mass(1.0f);
+  Mask<F> inner = on;
+  while (any(inner)) {
+    inner = inner & (number<F>(node, leaf) <= F(0.0f));
+    if (!any(inner)) break;
+    Uint<F> child = select(inner, float_bits(number<F>(node, link)), Uint<F>(0u));
+    Fork<F> f = fork<F>(child, p, n);
+    Uint<F> turn = turns & Uint<F>(1u);
+    F share = select(turn == Uint<F>(0u), f.first, F(1.0f) - f.first);
+    share = select(f.any_light, share, F(0.0f));
+    mass = select(inner, mass * share, mass);
+    node = select(inner, Uint<F>(child + turn), node);
+    turns = select(inner, Uint<F>(turns >> 1), turns);
+  }
+  return {select(on, mass, F(0.0f))};
+}
+
+}  // namespace montelux

@@ -1,0 +1,101 @@
+// All lights of a scene, ready for sampling: flat tables that packs gather from.
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "light/bvh.h"
+#include "light/image.h"
+#include "light/infinite.h"
+#include "light/point.h"
+#include "light/triangle.h"
+
+namespace montelux {
+
+// The tables of a LightSet, as a builder fills them: one entry a light unless stated.
+struct LightTables {
+  std::vector<LightRow> rows;
+  std::vector<std::uint32_t> kinds;
+  std::vector<std::optional<LightBounds>> bounds;         // none: the light has no place
+  std::vector<float> powers;                              // emitted, W, averaged over the components
+  std::vector<std::shared_ptr<const LightImage>> images;  // by the number in a row
+  Vec3f scene_centre{};
+  float scene_radius = 1;
+};
+
+// Immutable. Every function is for one lane or many; `n` is the unit normal of the side that scatters at the reference
+// point, or the zero vector where both sides do (or there is no surface). Where n is given, lights and directions
+// wholly on its other side may have probability zero. Idle lanes may hold anything.
+class LightSet {
+ public:
+  LightSet() = default;  // no lights
+  explicit LightSet(LightTables tables, LightSettings settings = {});
+
+  std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
+  LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
+  const LightSettings& settings() const { return settings_; }
+  float scene_radius() const { return tables_.scene_radius; }
+
+  // Which light to sample at p, and the probability of that choice (equal to the last bit).
+  template <class F>
+  LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
+  template <class F>
+  Mass<F> choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
+
+  // A direction toward some light.
+  template <class F>
+  LightSample<F> sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on) const;
+  // The same for a light that is given: its density and radiance are without the choice.
+  template <class F>
+  LightSample<F> sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
+
+  // For a ray that left reference_p along the unit wi and met the surface of `light` at p, where the oriented unit
+  // normal is ng and uv are the surface's parameters.
+  template <class F>
+  LightHit<F> hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
+                  Vec3<F> wi, Mask<F> on) const;
+  // The radiance of hit() alone, as a camera ray needs it.
+  template <class F>
+  Spectrum<F> hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const;
+
+  // The lights that a ray meets that leaves the scene, by their place in 0 ... infinite_count() - 1.
+  int infinite_count() const { return infinite_count_; }
+  LightId infinite_light(int index) const { return LightId(unbounded_[std::size_t(index)]); }
+  template <class F>
+  LightHit<F> escaped(int infinite_index, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> wi, Mask<F> on) const;
+  // The radiance of all of them together.
+  template <class F>
+  Spectrum<F> escaped_radiance(Vec3<F> wi, Mask<F> on) const;
+
+ private:
+  template <class F>
+  MONTELUX_INLINE LightRows<F> rows(Uint<F> light, Mask<F> on) const {
+    return {tables_.rows.data(), select(on, light, Uint<F>(0u))};
+  }
+  // Calls f(kind, lanes) once for each kind of light among the lanes.
+  template <class F, class Function>
+  void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;
+  // Calls f(emitter) with the surface of the kind.
+  template <class F, class Function>
+  static void with_emitter(LightKind kind, const LightRows<F>& rows, Function f);
+
+  template <class F>
+  LightSample<F> sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u,
+                             Mask<F> on) const;
+  template <class F>
+  Spectrum<F> surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const;
+  template <class F>
+  LightHit<F> escaped_kind(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
+
+  LightTables tables_;
+  LightSettings settings_;
+  LightBvh bvh_;
+  std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
+  int infinite_count_ = 0;
+  float unbounded_mass_ = 0;  // of each unbounded light, by the hierarchy's choice
+};
+
+}  // namespace montelux
+
+#include "light/light_set_choice.h"
+#include "light/light_set_sampling.h"

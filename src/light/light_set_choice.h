@@ -1,0 +1,46 @@
+// The choice of a light: bodies of LightSet's templates.
+#pragma once
+#include "light/light_set.h"
+
+namespace montelux {
+
+template <class F>
+LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
+  if (count() == 0) return {Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
+  if (settings_.selection == LightSelection::uniform) {
+    Uint<F> light = min(to_uint(u * float(count())), Uint<F>(count() - 1));
+    return {light, {F(1.0f / float(count()))}, on};
+  }
+  // Unbounded lights take equal shares from the front of [0, 1), the hierarchy has the rest.
+  auto unbounded = std::uint32_t(unbounded_.size());
+  F front = F(unbounded_mass_ * float(unbounded));
+  Mask<F> among_unbounded = Mask<F>(unbounded > 0) & ((u < front) | Mask<F>(bvh_.empty()));
+  LightChoice<F> r{Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
+  if (!bvh_.empty()) {
+    F share = F(1.0f) - front;
+    F rest = clamp((u - front) / share, F(0.0f), F(one_minus_epsilon));
+    r = bvh_.choose(p, n, rest, Mask<F>(on & !among_unbounded));
+    r.mass.value = r.mass.value * share;
+  }
+  if (any(on & among_unbounded)) {
+    Uint<F> place = min(to_uint(u / unbounded_mass_), Uint<F>(unbounded - 1));
+    Uint<F> light = gather(unbounded_.data(), select(among_unbounded, place, Uint<F>(0u)));
+    r.light = select(among_unbounded, light, r.light);
+    r.mass.value = select(among_unbounded, F(unbounded_mass_), r.mass.value);
+    r.valid = r.valid | (on & among_unbounded);
+  }
+  return r;
+}
+
+template <class F>
+Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
+  if (count() == 0) return {F(0.0f)};
+  light = select(on, light, Uint<F>(0u));
+  if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
+  Mask<F> unbounded = gather(tables_.kinds.data(), light) >= Uint<F>(std::uint32_t(LightKind::distant));
+  F share = F(1.0f) - F(unbounded_mass_ * float(unbounded_.size()));
+  Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));
+  return {select(unbounded, F(unbounded_mass_), bounded.value * share)};
+}
+
+}  // namespace montelux

@@ -1,0 +1,163 @@
+// Sampling of lights and what rays find on them: bodies of LightSet's templates.
+#pragma once
+#include "light/light_set.h"
+
+namespace montelux {
+
+template <class F, class Function>
+void LightSet::for_each_kind(Uint<F> light, Mask<F> on, Function f) const {
+  if (!any(on)) return;
+  Uint<F> kinds = gather(tables_.kinds.data(), select(on, light, Uint<F>(0u)));
+  while (any(on)) {
+    std::uint32_t k = lane(kinds, std::countr_zero(bits(on)));
+    Mask<F> same = on & (kinds == Uint<F>(k));
+    f(LightKind(k), same);
+    on = on & !same;
+  }
+}
+
+template <class F, class Function>
+void LightSet::with_emitter(LightKind kind, const LightRows<F>& rows, Function f) {
+  switch (kind) {
+    case LightKind::triangle:
+      f(TriangleEmitter<F>(rows));
+      break;
+    default:
+      break;
+  }
+}
+
+template <class F>
+Spectrum<F> LightSet::surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const {
+  Spectrum<F> e = rows.emission();
+  if (tables_.images.empty()) return e;
+  Uint<F> image = rows.bits(light_slot::image);
+  for_each_lane(Mask<F>(on & (image != Uint<F>(0u))), [&](int k) {
+    // Images have their origin at the top, surfaces at the bottom.
+    Vec2f at = lane(uv, k);
+    set_lane(e, k, lane(e, k) * tables_.images[lane(image, k) - 1]->bilinear({at.x, 1 - at.y}));
+  });
+  return e;
+}
+
+template <class F>
+LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u,
+                                     Mask<F> on) const {
+  LightSample<F> r{};
+  r.valid = Mask<F>(false), r.delta = Mask<F>(is_delta(kind));
+  if (is_surface(kind)) {
+    with_emitter<F>(kind, rows, [&](const auto& emitter) {
+      EmitterPoint<F> e = emitter.sample(p, u);
+      Vec3<F> d = e.p - p;
+      r.distance = length(d);
+      r.wi = d * (F(1.0f) / max(r.distance, F(1e-37f)));
+      Mask<F> seen = (dot(e.n, r.wi) < F(0.0f)) | rows.flag(light_two_sided);
+      r.radiance = surface_emission(rows, e.uv, Mask<F>(on & seen));
+      r.density = e.density;
+      r.valid = on & seen & (e.density.value > F(0.0f)) & is_finite(e.density.value);
+    });
+    return r;
+  }
+  F beyond = F(2.0f * tables_.scene_radius);
+  auto from_point = [&](const auto& light) {
+    Vec3<F> d = light.p - p;
+    F d2 = max(length_squared(d), F(1e-30f));
+    r.distance = sqrt(d2);
+    r.wi = d * (F(1.0f) / r.distance);
+    r.radiance = light.intensity(-r.wi, on) * (F(1.0f) / d2);
+  };
+  switch (kind) {
+    case LightKind::point:
+      from_point(PointEmitter<F>(rows));
+      break;
+    case LightKind::distant:
+      r.wi = rows.vec3(light_slot::shape), r.distance = beyond, r.radiance = rows.emission();
+      break;
+    case LightKind::uniform_infinite: {
+      auto s = UniformInfinite<F>::sample(n, u);
+      r.wi = s.wi, r.density = s.density, r.distance = beyond, r.radiance = rows.emission();
+      break;
+    }
+    default:
+      return r;
+  }
+  if (is_delta(kind)) r.density = {F(1.0f)};
+  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  return r;
+}
+
+template <class F>
+LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const {
+  LightSample<F> r{};
+  r.wi = {F(0.0f), F(0.0f), F(1.0f)};
+  r.distance = F(1.0f), r.radiance = gray(F(0.0f)), r.density = {F(0.0f)};
+  r.valid = Mask<F>(false), r.delta = Mask<F>(false);
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    LightSample<F> s = sample_kind(kind, rows<F>(light, m), p, n, u, m);
+    Mask<F> good = m & s.valid;
+    r.wi = select(good, s.wi, r.wi), r.distance = select(good, s.distance, r.distance);
+    r.radiance = select(good, s.radiance, r.radiance);
+    r.density.value = select(good, s.density.value, r.density.value);
+    r.valid = r.valid | good, r.delta = r.delta | (good & s.delta);
+  });
+  return r;
+}
+
+template <class F>
+LightSample<F> LightSet::sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on) const {
+  LightChoice<F> choice = choose(p, n, u_choice, on);
+  LightSample<F> r = sample_light(choice.light, p, n, u, choice.valid);
+  F mass = select(r.valid, choice.mass.value, F(1.0f));
+  r.radiance = select(r.delta, r.radiance * (F(1.0f) / mass), r.radiance);
+  r.density.value = select(r.delta, r.density.value, r.density.value * mass);
+  return r;
+}
+
+template <class F>
+Spectrum<F> LightSet::hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const {
+  if (!any(on)) return gray(F(0.0f));
+  LightRows<F> row = rows<F>(light, on);
+  Mask<F> seen = on & ((dot(ng, wi) < F(0.0f)) | row.flag(light_two_sided));
+  return select(seen, surface_emission(row, uv, seen), gray(F(0.0f)));
+}
+
+template <class F>
+LightHit<F> LightSet::hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
+                          Vec3<F> wi, Mask<F> on) const {
+  LightHit<F> r{hit_radiance(light, ng, uv, wi, on), {F(0.0f)}};
+  // Where nothing shines, no density is asked for.
+  on = on & !is_black(r.radiance);
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    with_emitter<F>(kind, rows<F>(light, m), [&](const auto& emitter) {
+      F density = emitter.density(reference_p, p, wi).value;
+      r.density.value = select(m & is_finite(density), density, r.density.value);
+    });
+  });
+  r.density = choice_mass(light, reference_p, reference_n, on) * r.density;
+  return r;
+}
+
+template <class F>
+LightHit<F> LightSet::escaped_kind(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F>) const {
+  LightRows<F> row{tables_.rows.data(), Uint<F>(std::uint32_t(light))};
+  return {row.emission(), UniformInfinite<F>::density(n, wi)};
+}
+
+template <class F>
+LightHit<F> LightSet::escaped(int infinite_index, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> wi,
+                              Mask<F> on) const {
+  LightId light = infinite_light(infinite_index);
+  LightHit<F> r = escaped_kind<F>(light, reference_n, wi, on);
+  r.density = choice_mass(Uint<F>(std::uint32_t(light)), reference_p, reference_n, on) * r.density;
+  return r;
+}
+
+template <class F>
+Spectrum<F> LightSet::escaped_radiance(Vec3<F> wi, Mask<F> on) const {
+  Spectrum<F> sum = gray(F(0.0f));
+  Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+  for (int i = 0; i < infinite_count(); ++i) sum += escaped_kind<F>(infinite_light(i), nowhere, wi, on).radiance;
+  return sum;
+}
+
+}  // namespace montelux
