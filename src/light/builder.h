@@ -10,8 +10,8 @@ namespace montelux {
 
 // What an emitting surface sends from each of its points.
 struct Emission {
-  Rgb radiance{};              // L, W / (m^2 sr) on each component
-  float scale = 1;             // factor of L and of the image
+  Rgb radiance{};                // L, W / (m^2 sr) on each component
+  float scale = 1;               // factor of L and of the image
   std::optional<float> power{};  // of the whole shape, W: scales the light so that L of luminance 1 emits it
   bool two_sided = false;
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv; none: L everywhere

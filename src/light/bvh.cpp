@@ -116,9 +116,11 @@ struct LightBvh::Builder {
     v[leaf] = is_leaf ? 1.0f : 0.0f;
   }
 
-  // Where to part items [begin, end): by the cheapest of twelve slices along each axis, or in the middle.
+  // Where to part items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.
   std::size_t split(std::size_t begin, std::size_t end, int depth) {
-    constexpr int slices = 12;
+    if (end - begin == 2) return begin + 1;
+    constexpr int most_slices = 12;
+    const int slices = int(std::min<std::size_t>(most_slices, end - begin));
     Box middles, box;
     for (std::size_t i = begin; i < end; ++i) {
       middles.add(items[i].middle, items[i].middle);
@@ -127,7 +129,7 @@ struct LightBvh::Builder {
     Vec3f extent = middles.size(), size = box.size();
     auto slice_of = [&](const Item& item, int dim) {
       float t = (component(item.middle, dim) - component(middles.low, dim)) / component(extent, dim);
-      return std::clamp(int(slices * t), 0, slices - 1);
+      return std::clamp(int(float(slices) * t), 0, slices - 1);
     };
     float best = INFINITY;
     int best_dim = -1, best_slice = 0;
@@ -135,7 +137,7 @@ struct LightBvh::Builder {
     bool room = depth + int(std::bit_width(end - begin)) < 31;
     for (int dim = 0; dim < 3 && room; ++dim) {
       if (!(component(extent, dim) > 0)) continue;
-      Cluster slice[slices], above[slices];
+      Cluster slice[most_slices], above[most_slices];
       for (std::size_t i = begin; i < end; ++i)
         slice[slice_of(items[i], dim)].add(*bounds[items[i].light], items[i].axis);
       above[slices - 1] = slice[slices - 1];

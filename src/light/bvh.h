@@ -50,7 +50,7 @@ class LightBvh {
     centre = 0,
     radius_squared = 3,
     axis = 4,
-    intensity,
+    intensity = 7,
     cos_spread = 8,
     sin_spread,
     cos_emission,

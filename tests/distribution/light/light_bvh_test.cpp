@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "light/builder.h"
+#include "light/bvh.h"
+#include "statistics.h"
+
+namespace montelux {
+namespace {
+
+using test::chi_square_test;
+using test::family_level;
+using test::sidak_level;
+using P = NativeFloats;
+
+Vec3f in_box(RandomStream<float>& r, float size) { return Vec3f{r.next(), r.next(), r.next()} * size; }
+Vec3f on_sphere(RandomStream<float>& r) {
+  float z = 2 * r.next() - 1, s = safe_sqrt(1 - z * z);
+  SinCos<float> a = sin_cos_two_pi(r.next());
+  return {s * a.cos, s * a.sin, z};
+}
+
+// Triangles of all sizes and powers, some of them of two sides, with points and lights without a place among them.
+LightSet mixed_lights(int triangles, std::uint32_t seed, LightSelection selection) {
+  RandomStream<float> r(seed, 7);
+  LightSetBuilder builder;
+  for (int i = 0; i < triangles; ++i) {
+    Vec3f p = in_box(r, 10);
+    float size = exp(-6 * r.next());
+    Emission e;
+    e.radiance = gray(exp(4 * r.next()));
+    e.two_sided = r.next() < 0.2f;
+    builder.add_triangle({p, p + on_sphere(r) * size, p + on_sphere(r) * size}, e);
+    if (i % 8 == 3) builder.add_point(in_box(r, 10), gray(r.next()));
+  }
+  builder.add_uniform_infinite(gray(0.5f));
+  builder.add_distant({0, 0, 1}, gray(1.0f));
+  return std::move(builder).build({selection}, {5, 5, 5}, 9);
+}
+
+constexpr LightSelection selections[] = {LightSelection::uniform, LightSelection::bvh};
+
+TEST(LightChoice, masses_over_all_lights_sum_to_one) {
+  for (LightSelection selection : selections) {
+    LightSet lights = mixed_lights(60, 1, selection);
+    RandomStream<float> r(3, 4);
+    for (int i = 0; i < 200; ++i) {
+      Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
+      double sum = 0;
+      for (std::uint32_t k = 0; k < lights.count(); ++k) sum += lights.choice_mass<float>(k, p, n, true).value;
+      // A branch of which neither half can send light keeps its share, so that a little may be lost, never won.
+      EXPECT_LE(sum, 1 + 1e-5) << light_selection_names[std::size_t(selection)];
+      EXPECT_GT(sum, 0.6) << light_selection_names[std::size_t(selection)];
+      if (selection != LightSelection::bvh) {
+        EXPECT_NEAR(sum, 1, 1e-5);
+      }
+    }
+  }
+}
+
+TEST(LightChoice, frequencies_match_masses_and_a_planted_fault_is_found) {
+  const int points = 8, draws = 20000;
+  for (LightSelection selection : selections) {
+    LightSet lights = mixed_lights(40, 2, selection);
+    RandomStream<float> r(5, 6);
+    for (int i = 0; i < points; ++i) {
+      Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
+      std::vector<double> seen(lights.count() + 1), expected(lights.count() + 1);
+      for (int k = 0; k < draws; ++k) {
+        LightChoice<float> c = lights.choose(p, n, r.next(), true);
+        seen[c.valid ? c.light : lights.count()] += 1;
+        if (c.valid) {
+          ASSERT_EQ(c.mass.value, lights.choice_mass<float>(c.light, p, n, true).value);
+        }
+      }
+      double rest = draws;
+      for (std::uint32_t k = 0; k < lights.count(); ++k) {
+        expected[k] = draws * double(lights.choice_mass<float>(k, p, n, true).value);
+        rest -= expected[k];
+      }
+      // Nothing chosen: a branch whose halves both cannot reach the point. Rounding of the sum is no such branch.
+      expected.back() = rest > 1e-4 * draws ? rest : 0;
+      double level = sidak_level(family_level, points * std::size(selections));
+      test::TestResult fit = chi_square_test(seen, expected);
+      EXPECT_GT(fit.p_value, level) << light_selection_names[std::size_t(selection)] << ": " << fit.note << " "
+                                    << fit.statistic << " at " << fit.degrees;
+      // A choice that confuses two neighbours in the order.
+      std::rotate(seen.begin(), seen.begin() + 1, seen.end());
+      if (selection != LightSelection::uniform) {
+        EXPECT_LT(chi_square_test(seen, expected).p_value, level);
+      }
+    }
+  }
+}
+
+TEST(LightChoice, no_light_that_reaches_a_point_has_probability_zero) {
+  RandomStream<float> r(8, 9);
+  int contributing = 0;
+  for (std::uint32_t scene = 0; scene < 30; ++scene) {
+    LightSet lights = mixed_lights(scene < 15 ? 3 : 60, 100 + scene, LightSelection::bvh);
+    for (int i = 0; i < 60; ++i) {
+      Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
+      for (std::uint32_t k = 0; k < lights.count(); ++k)
+        for (int s = 0; s < 4; ++s) {
+          LightSample<float> sample = lights.sample_light<float>(k, p, n, {r.next(), r.next()}, true);
+          if (!sample.valid || is_black(sample.radiance) || (i % 2 && dot(sample.wi, n) <= 0)) continue;
+          ++contributing;
+          ASSERT_GT(lights.choice_mass<float>(k, p, n, true).value, 0.0f)
+              << light_kind_names[std::size_t(lights.kind(LightId(k)))];
+        }
+    }
+  }
+  EXPECT_GT(contributing, 10000);
+}
+
+TEST(LightChoice, lanes_choose_as_one_float_does) {
+  for (LightSelection selection : selections) {
+    LightSet lights = mixed_lights(50, 3, selection);
+    RandomStream<float> r(10, 11);
+    for (int i = 0; i < 200; ++i) {
+      Vec3<P> p, n;
+      P u;
+      Mask<P> on = mask_of_bits<P>(mix_bits(std::uint32_t(i)));
+      for (int k = 0; k < native_lanes; ++k) {
+        set_lane(p, k, in_box(r, 12));
+        set_lane(n, k, k % 3 ? on_sphere(r) : Vec3f{0, 0, 0});
+        set_lane(u, k, r.next());
+      }
+      LightChoice<P> c = lights.choose(p, n, u, on);
+      Mass<P> mass = lights.choice_mass(c.light, p, n, Mask<P>(on & c.valid));
+      for_each_lane(on, [&](int k) {
+        LightChoice<float> one = lights.choose(lane(p, k), lane(n, k), lane(u, k), true);
+        ASSERT_EQ(lane(c.valid, k), one.valid);
+        if (!one.valid) return;
+        EXPECT_EQ(lane(c.light, k), one.light);
+        EXPECT_EQ(lane(c.mass.value, k), one.mass.value);
+        EXPECT_EQ(lane(mass.value, k), one.mass.value);
+      });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace montelux
