@@ -17,7 +17,7 @@ std::optional<PointSetKind> point_set_named(std::string_view name) {
 namespace {
 
 template <class F>
-RandomStream<F> stream_of_pixel(const PointSet& set, Uint<F> x, Uint<F> y) {
+RandomStream<F> stream_of_site(const PointSet& set, Uint<F> x, Uint<F> y) {
   using U = Uint<F>;
   const std::uint32_t low = mix_bits(set.pass + mix_bits(set.seed + 0x2545f491u));
   const std::uint32_t high = mix_bits(set.pass + 0x9e3779b9u * mix_bits(set.seed ^ 0xb5297a4du));
@@ -103,8 +103,7 @@ constexpr std::array<std::uint32_t, 24> digit_permutations = [] {
 }();
 
 // Permutes the digits of the place on the Z curve in base 4, each by a permutation that hangs on the digits above it;
-// an odd lowest bit is flipped alike (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling
-// Error via Hierarchical Ordering of Pixels").
+// an odd lowest bit is flipped alike (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion").
 template <class F>
 Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
   using U = Uint<F>;
@@ -125,11 +124,11 @@ Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
 
 template <class F>
 Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
-    : set_(set), shared_(stream_of_pixel<F>(set, x, y)), index_(index), index_bits_(0) {
+    : set_(set), shared_(stream_of_site<F>(set, x, y)), index_(index), index_bits_(0) {
   using U = Uint<F>;
   own_ = shared_.fork(U(index + U(0x3c6ef372u)));
   if (set.kind != PointSetKind::blue_noise) return;
-  // One sequence for the grid: the bits of the pixel's place on the Z curve above those of the index. Where 32 bits do
+  // One sequence for the grid: the bits of the site's place on the Z curve above those of the index. Where 32 bits do
   // not hold all of them, the grid falls into squares with a randomisation each.
   const int sample_bits = int(std::bit_width(set.samples_per_pass - 1u));
   const std::uint32_t side = std::max(set.width, set.height);
@@ -137,7 +136,7 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
   const int side_bits = set.width == 0 || set.height == 0 ? fit : std::min(fit, int(std::bit_width(side - 1u)));
   const U low_bits = U((1u << side_bits) - 1u);
   const U place = spread_bits(U(x & low_bits)) | (spread_bits(U(y & low_bits)) << 1);
-  shared_ = stream_of_pixel<F>(set, U(x >> side_bits), U(y >> side_bits));
+  shared_ = stream_of_site<F>(set, U(x >> side_bits), U(y >> side_bits));
   index_ = (place << sample_bits) | index;
   index_bits_ = 2 * side_bits + sample_bits;
 }

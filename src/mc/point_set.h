@@ -1,5 +1,5 @@
 // Point sets: where the numbers in [0, 1) of a pass come from. Every number is a pure function of the seed, the pass,
-// the pixel, the index of the point and the dimension. Passes are independent randomisations of the same construction,
+// the site, the index of the point and the dimension. Passes are independent randomisations of the same construction,
 // so their spread is an honest error bar whatever the correlation inside a pass.
 #pragma once
 #include <array>
@@ -26,22 +26,22 @@ inline constexpr std::array<NamedPointSet, 6> point_set_names{{
     {"padded-sobol", PointSetKind::padded_sobol,
      "(0,2)-sequences, Owen-scrambled and shuffled in each pair of dimensions"},
     {"blue-noise", PointSetKind::blue_noise,
-     "one (0,2)-sequence along a shuffled Z curve: the error is blue over the screen"},
+     "one (0,2)-sequence along a shuffled Z curve: the error is blue over the grid"},
 }};
 
 std::string_view name_of(PointSetKind kind);
 std::optional<PointSetKind> point_set_named(std::string_view name);
 
-// The points of one pass over a grid of pixels (an integral without pixels takes pixel (0, 0)).
+// The points of one pass over a grid of sites, of a picture or the only site (0, 0) of a single integral.
 struct PointSet {
   PointSetKind kind = PointSetKind::padded_sobol;
   std::uint32_t seed = 0;
   std::uint32_t pass = 0;
-  std::uint32_t samples_per_pass = 1;   // points that a pixel takes in this pass; >= 1
+  std::uint32_t samples_per_pass = 1;   // points that a site takes in this pass; >= 1
   std::uint32_t width = 0, height = 0;  // of the grid; 0: unknown. Only blue_noise asks, and only to save time.
 };
 
-// The coordinates of one point in every lane. Lanes may differ in pixel, index (below samples_per_pass) and dimension.
+// The coordinates of one point in every lane. Lanes may differ in site, index (below samples_per_pass) and dimension.
 // A two-dimensional request at d takes up d and d + 1; any dimension number is good, and no two give the same numbers.
 template <class F>
 class Sampler {

@@ -1,0 +1,66 @@
+#include "mc/discrete.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace montelux {
+
+namespace {
+
+double checked_total(std::span<const double> weights) {
+  if (weights.empty()) throw std::invalid_argument("a discrete distribution needs at least one weight");
+  double total = 0;
+  for (double w : weights) {
+    if (!(w >= 0) || !std::isfinite(w)) throw std::invalid_argument("a weight must be finite and not negative");
+    total += w;
+  }
+  if (!std::isfinite(total)) throw std::invalid_argument("the sum of the weights must be finite");
+  return total;
+}
+
+}  // namespace
+
+std::vector<float> cumulative_sums(std::span<const double> weights) {
+  const double total = checked_total(weights);
+  std::vector<float> sums{0.0f};
+  double running = 0;
+  for (double w : weights) {
+    running += w;
+    sums.push_back(total > 0 ? float(running / total) : float(double(sums.size()) / double(weights.size())));
+  }
+  return sums;
+}
+
+AliasTable::AliasTable(std::span<const double> weights) {
+  const double total = checked_total(weights);
+  const std::size_t n = weights.size();
+  std::vector<double> scaled(n);
+  std::vector<std::uint32_t> poor, rich;
+  alias_.resize(n), share_.resize(n), mass_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mass = total > 0 ? weights[i] / total : 1 / double(n);
+    mass_[i] = float(mass);
+    scaled[i] = mass * double(n);
+    (scaled[i] < 1 ? poor : rich).push_back(std::uint32_t(i));
+  }
+  // Each poor element's bin is topped up by a rich one, which may become poor by it.
+  while (!poor.empty() && !rich.empty()) {
+    const std::uint32_t low = poor.back(), high = rich.back();
+    poor.pop_back();
+    share_[low] = float(scaled[low]);
+    alias_[low] = high;
+    scaled[high] -= 1 - scaled[low];
+    if (scaled[high] < 1) rich.pop_back(), poor.push_back(high);
+  }
+  // What rounding leaves over fills its own bin; an element of weight zero never does.
+  for (std::uint32_t i : rich) share_[i] = 1, alias_[i] = i;
+  std::uint32_t heaviest = 0;
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (mass_[i] > mass_[heaviest]) heaviest = i;
+  for (std::uint32_t i : poor) {
+    share_[i] = mass_[i] > 0 ? 1.0f : 0.0f;
+    alias_[i] = heaviest;
+  }
+}
+
+}  // namespace montelux

@@ -1,0 +1,93 @@
+// Choice of one element out of many by weight: by the cumulative sums, or in constant time by a table of aliases.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "mc/density.h"
+
+namespace montelux {
+
+template <class F>
+struct DiscreteSample {
+  Uint<F> index;
+  Mass<F> mass;
+  F remapped;  // what is left of the random number, uniform in [0, 1) again
+};
+
+// The last i in [0, n) with ascending[base + i] <= x, in every lane; ascending[base] <= x.
+template <class F>
+MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, std::uint32_t n, F x) {
+  using U = Uint<F>;
+  U low = 0u;
+  for (std::uint32_t step = std::bit_floor(n); step != 0; step /= 2) {
+    U middle = low + U(step);
+    U safe = min(middle, U(n - 1u));
+    Mask<F> go = (middle < U(n)) & (gather(ascending, U(base + safe)) <= x);
+    low = select(go, middle, low);
+  }
+  return low;
+}
+
+// The weights' running sums from 0 to exactly 1, n + 1 numbers. Negative and non-finite weights, or none at all, throw
+// std::invalid_argument; where all are zero the sums are those of equal weights.
+std::vector<float> cumulative_sums(std::span<const double> weights);
+
+// Inversion of the cumulative distribution function, O(log n). An element of weight zero is never chosen; one of less
+// than 2^-24 of the total may be missed.
+class DiscreteCdf {
+ public:
+  explicit DiscreteCdf(std::span<const double> weights) : sums_(cumulative_sums(weights)) {}
+
+  std::uint32_t size() const { return std::uint32_t(sums_.size() - 1); }
+
+  template <class F>
+  DiscreteSample<F> sample(F u) const {
+    Uint<F> i = find_interval<F>(sums_.data(), Uint<F>(0u), size(), u);
+    F low = gather(sums_.data(), i), width = gather(sums_.data() + 1, i) - low;
+    return {i, {width}, min((u - low) / width, F(one_minus_epsilon))};
+  }
+  template <class F>
+  Mass<F> mass(Uint<F> index) const {
+    return {gather(sums_.data() + 1, index) - gather(sums_.data(), index)};
+  }
+  // The u that `sample` maps to this element and this remapped rest.
+  template <class F>
+  F invert(Uint<F> index, F remapped) const {
+    F low = gather(sums_.data(), index);
+    return min(low + remapped * (gather(sums_.data() + 1, index) - low), F(one_minus_epsilon));
+  }
+
+ private:
+  std::vector<float> sums_;
+};
+
+// The same in constant time (Walker 1977; built after Vose 1991). Throws and treats zeros like cumulative_sums.
+class AliasTable {
+ public:
+  explicit AliasTable(std::span<const double> weights);
+
+  std::uint32_t size() const { return std::uint32_t(mass_.size()); }
+
+  template <class F>
+  DiscreteSample<F> sample(F u) const {
+    F scaled = u * float(size());
+    Uint<F> bin = min(to_uint(scaled), Uint<F>(size() - 1u));
+    F rest = scaled - to_float(bin);
+    F share = gather(share_.data(), bin);
+    Mask<F> own = rest < share;
+    Uint<F> index = select(own, bin, gather(alias_.data(), bin));
+    F remapped = select(own, rest / max(share, F(1e-30f)), (rest - share) / max(F(1.0f) - share, F(1e-30f)));
+    return {index, {gather(mass_.data(), index)}, min(remapped, F(one_minus_epsilon))};
+  }
+  template <class F>
+  Mass<F> mass(Uint<F> index) const {
+    return {gather(mass_.data(), index)};
+  }
+
+ private:
+  std::vector<float> mass_;
+  std::vector<float> share_;          // of a bin that its own element has
+  std::vector<std::uint32_t> alias_;  // the element that has the rest of the bin
+};
+
+}  // namespace montelux
