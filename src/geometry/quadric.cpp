@@ -1,0 +1,323 @@
+#include "geometry/quadric.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "geometry/double3.h"
+#include "geometry/quadrature.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr double pi_d = std::numbers::pi;
+
+// A point of a shape in object space: n unit and outward, dpdu not zero.
+struct ObjectPoint {
+  Vec3d p, n, dpdu;
+};
+
+double phi_limit(float phi_max) { return phi_max * (pi_d / 180); }
+
+// Azimuth in [0, 2 pi).
+double azimuth(double x, double y) {
+  double phi = std::atan2(y, x);
+  return phi < 0 ? phi + 2 * pi_d : phi;
+}
+
+template <class S>
+bool flips(const S& s) {
+  return s.reverse_orientation != s.object_to_world.swaps_handedness();
+}
+
+struct ObjectRay {
+  Vec3d o, d;
+  Vec3d at(double t) const { return o + d * t; }
+};
+
+template <class S>
+ObjectRay object_ray(const S& s, const Ray<float>& ray) {
+  const Matrix4& m = s.object_to_world.inverse_matrix();
+  return {transform_point(m, to_double(ray.o)), transform_direction(m, to_double(ray.d))};
+}
+
+struct Roots {
+  double near, far;
+};
+
+// Solutions of |o + t d| = r. The discriminant comes from the point nearest to the centre, which loses nothing for far
+// origins, and the smaller root from the product of both (Haines et al. 2019, "Precision Improvements for Ray/Sphere
+// Intersection").
+std::optional<Roots> solve_round(Vec3d o, Vec3d d, double r) {
+  double dd = dot(d, d);
+  if (!(dd > 0)) return std::nullopt;
+  double middle = -dot(o, d) / dd;
+  double nearest = norm(o + d * middle);
+  double discriminant = (r - nearest) * (r + nearest);
+  if (!(discriminant >= 0)) return std::nullopt;
+  double half = std::sqrt(discriminant / dd);
+  double q = middle + std::copysign(half, middle);
+  if (q == 0) return std::nullopt;
+  double distance = norm(o);
+  double other = (distance - r) * (distance + r) / (dd * q);
+  return Roots{std::min(q, other), std::max(q, other)};
+}
+
+// Whether t lies inside the ray, after rounding to float too.
+bool inside(double t, float t_min, float t_max) { return t > t_min && float(t) > t_min && float(t) < t_max; }
+
+SurfacePoint<float> to_world(const Transform& m, bool flip, const ObjectPoint& q, Vec2f uv) {
+  Vec3d p = transform_point(m.matrix(), q.p);
+  // Rounding to float, and in double the rounding of every term of the transform there and back.
+  const auto& rows = m.matrix().m;
+  double size = norm(q.p);
+  auto error = [&](int i, double x) {
+    double terms = std::abs(rows[i][3]) + size * (std::abs(rows[i][0]) + std::abs(rows[i][1]) + std::abs(rows[i][2]));
+    return float(std::abs(x) * 0x1p-23 + terms * 0x1p-47);
+  };
+  Vec3d n = unit(transform_normal(m.inverse_matrix(), q.n)) * (flip ? -1.0 : 1.0);
+  Vec3f ng = to_float(n);
+  return {to_float(p), {error(0, p.x), error(1, p.y), error(2, p.z)},     ng,
+          ng,          to_float(transform_direction(m.matrix(), q.dpdu)), uv};
+}
+
+// World area over object area on a surface with object normal n.
+double area_stretch(const Transform& m, Vec3d n) {
+  const auto& a = m.matrix().m;
+  Vec3d r0{a[0][0], a[0][1], a[0][2]}, r1{a[1][0], a[1][1], a[1][2]}, r2{a[2][0], a[2][1], a[2][2]};
+  double volume = std::abs(dot(r0, cross(r1, r2)));
+  return volume * norm(transform_normal(m.inverse_matrix(), n));
+}
+
+bool is_similarity(const Transform& m) {
+  double a = area_stretch(m, {1, 0, 0}), b = area_stretch(m, {0, 1, 0}), c = area_stretch(m, {0, 0, 1});
+  const double s = std::sqrt(0.5);
+  double d = area_stretch(m, {s, s, 0}), e = area_stretch(m, {s, 0, s}), f = area_stretch(m, {0, s, s});
+  auto [low, high] = std::minmax({a, b, c, d, e, f});
+  return high - low <= 1e-9 * high;
+}
+
+Density<Area> density_on(const Transform& m, Vec3d n, double object_area) {
+  return {float(1 / (object_area * area_stretch(m, n)))};
+}
+
+// The rows of the matrix give the reach of a circle of radius r around the z axis from z_low to z_high.
+Bounds3 round_bounds(const Transform& m, double r, double z_low, double z_high, bool ball) {
+  const auto& a = m.matrix().m;
+  auto interval = [&](int i) {
+    double across = r * std::hypot(a[i][0], a[i][1]), z0 = a[i][2] * z_low, z1 = a[i][2] * z_high;
+    double low = std::min(z0, z1) - across, high = std::max(z0, z1) + across;
+    double reach = r * std::hypot(std::hypot(a[i][0], a[i][1]), a[i][2]);
+    if (ball) low = std::max(low, -reach), high = std::min(high, reach);
+    return std::array<double, 2>{a[i][3] + low, a[i][3] + high};
+  };
+  auto x = interval(0), y = interval(1), z = interval(2);
+  return padded({x[0], y[0], z[0]}, {x[1], y[1], z[1]});
+}
+
+// ---- sphere ----
+
+struct PolarRange {
+  double low, high;  // polar angles at z_min and z_max: v runs from low to high
+};
+PolarRange polar_range(const Sphere& s) {
+  auto angle = [&](float z) { return std::acos(std::clamp(double(z) / s.radius, -1.0, 1.0)); };
+  return {angle(s.z_min), angle(s.z_max)};
+}
+
+ObjectPoint sphere_at(const Sphere& s, double cos_theta, double sin_theta, double phi) {
+  double c = std::cos(phi), sn = std::sin(phi), r = s.radius;
+  Vec3d n{sin_theta * c, sin_theta * sn, cos_theta};
+  double rho = r * std::max(sin_theta, 1e-5) * phi_limit(s.phi_max);
+  return {n * r, n, {-rho * sn, rho * c, 0}};
+}
+
+ObjectPoint sphere_at(const Sphere& s, Vec2f uv) {
+  PolarRange range = polar_range(s);
+  double theta = mix(uv.y, range.low, range.high);
+  return sphere_at(s, std::cos(theta), std::sin(theta), uv.x * phi_limit(s.phi_max));
+}
+
+Vec2f sphere_uv(const Sphere& s, double cos_theta, double sin_theta, double phi) {
+  PolarRange range = polar_range(s);
+  double theta = std::atan2(sin_theta, cos_theta);
+  double v = range.low == range.high ? 0 : (theta - range.low) / (range.high - range.low);
+  return {float(std::min(phi / phi_limit(s.phi_max), 1.0)), float(std::clamp(v, 0.0, 1.0))};
+}
+
+double object_area(const Sphere& s) { return phi_limit(s.phi_max) * s.radius * (double(s.z_max) - s.z_min); }
+
+// ---- disk ----
+
+ObjectPoint disk_at(const Disk& s, double r, double phi) {
+  double c = std::cos(phi), sn = std::sin(phi);
+  double rho = std::max(r, 1e-5 * s.radius) * phi_limit(s.phi_max);
+  return {{r * c, r * sn, s.height}, {0, 0, 1}, {-rho * sn, rho * c, 0}};
+}
+
+Vec2f disk_uv(const Disk& s, double r, double phi) {
+  double v = (s.radius - r) / (double(s.radius) - s.inner_radius);
+  return {float(std::min(phi / phi_limit(s.phi_max), 1.0)), float(std::clamp(v, 0.0, 1.0))};
+}
+
+double object_area(const Disk& s) {
+  double r = s.radius, inner = s.inner_radius;
+  return phi_limit(s.phi_max) / 2 * (r - inner) * (r + inner);
+}
+
+// ---- cylinder ----
+
+ObjectPoint cylinder_at(const Cylinder& s, double z, double phi) {
+  double c = std::cos(phi), sn = std::sin(phi), r = s.radius, limit = phi_limit(s.phi_max);
+  return {{r * c, r * sn, z}, {c, sn, 0}, {-r * sn * limit, r * c * limit, 0}};
+}
+
+double object_area(const Cylinder& s) { return phi_limit(s.phi_max) * s.radius * (double(s.z_max) - s.z_min); }
+
+}  // namespace
+
+Sphere clamped(Sphere s) {
+  auto [low, high] = std::minmax({s.z_min, s.z_max});
+  float r = s.radius;
+  s.z_min = std::clamp(low, -r, r), s.z_max = std::clamp(high, -r, r);
+  s.phi_max = std::clamp(s.phi_max, 0.0f, 360.0f);
+  return s;
+}
+
+Disk clamped(Disk s) {
+  s.phi_max = std::clamp(s.phi_max, 0.0f, 360.0f);
+  return s;
+}
+
+Cylinder clamped(Cylinder s) {
+  auto [low, high] = std::minmax({s.z_min, s.z_max});
+  s.z_min = low, s.z_max = high;
+  s.phi_max = std::clamp(s.phi_max, 0.0f, 360.0f);
+  return s;
+}
+
+Bounds3 bounds(const Sphere& s) { return round_bounds(s.object_to_world, s.radius, s.z_min, s.z_max, true); }
+Bounds3 bounds(const Disk& s) { return round_bounds(s.object_to_world, s.radius, s.height, s.height, false); }
+Bounds3 bounds(const Cylinder& s) { return round_bounds(s.object_to_world, s.radius, s.z_min, s.z_max, false); }
+
+std::optional<ShapeHit> intersect(const Sphere& s, const Ray<float>& ray, float t_min) {
+  ObjectRay r = object_ray(s, ray);
+  auto roots = solve_round(r.o, r.d, s.radius);
+  if (!roots) return std::nullopt;
+  for (double t : {roots->near, roots->far}) {
+    if (!inside(t, t_min, ray.t_max)) continue;
+    Vec3d n = unit(r.at(t));
+    double phi = azimuth(n.x, n.y), z = n.z * s.radius;
+    bool above = z >= s.z_min || s.z_min <= -s.radius, below = z <= s.z_max || s.z_max >= s.radius;
+    if (above && below && (s.phi_max >= 360 || phi <= phi_limit(s.phi_max)))
+      return ShapeHit{float(t), sphere_uv(s, n.z, std::hypot(n.x, n.y), phi)};
+  }
+  return std::nullopt;
+}
+
+std::optional<ShapeHit> intersect(const Disk& s, const Ray<float>& ray, float t_min) {
+  ObjectRay r = object_ray(s, ray);
+  if (r.d.z == 0) return std::nullopt;
+  double t = (s.height - r.o.z) / r.d.z;
+  if (!inside(t, t_min, ray.t_max)) return std::nullopt;
+  Vec3d p = r.at(t);
+  double rho = std::hypot(p.x, p.y), phi = azimuth(p.x, p.y);
+  if (rho > s.radius || rho < s.inner_radius) return std::nullopt;
+  if (s.phi_max < 360 && phi > phi_limit(s.phi_max)) return std::nullopt;
+  return ShapeHit{float(t), disk_uv(s, rho, phi)};
+}
+
+std::optional<ShapeHit> intersect(const Cylinder& s, const Ray<float>& ray, float t_min) {
+  ObjectRay r = object_ray(s, ray);
+  auto roots = solve_round({r.o.x, r.o.y, 0}, {r.d.x, r.d.y, 0}, s.radius);
+  if (!roots) return std::nullopt;
+  for (double t : {roots->near, roots->far}) {
+    if (!inside(t, t_min, ray.t_max)) continue;
+    Vec3d p = r.at(t);
+    double phi = azimuth(p.x, p.y), limit = phi_limit(s.phi_max);
+    if (p.z < s.z_min || p.z > s.z_max || (s.phi_max < 360 && phi > limit)) continue;
+    double v = (p.z - s.z_min) / (double(s.z_max) - s.z_min);
+    return ShapeHit{float(t), {float(std::min(phi / limit, 1.0)), float(v)}};
+  }
+  return std::nullopt;
+}
+
+SurfacePoint<float> surface_point(const Sphere& s, Vec2f uv) {
+  return to_world(s.object_to_world, flips(s), sphere_at(s, uv), uv);
+}
+
+SurfacePoint<float> surface_point(const Disk& s, Vec2f uv) {
+  double r = mix(uv.y, s.radius, s.inner_radius);
+  return to_world(s.object_to_world, flips(s), disk_at(s, r, uv.x * phi_limit(s.phi_max)), uv);
+}
+
+SurfacePoint<float> surface_point(const Cylinder& s, Vec2f uv) {
+  double z = mix(uv.y, s.z_min, s.z_max);
+  return to_world(s.object_to_world, flips(s), cylinder_at(s, z, uv.x * phi_limit(s.phi_max)), uv);
+}
+
+SurfacePoint<float> surface_point(const Sphere& s, const Ray<float>& ray, const ShapeHit& hit) {
+  Vec3d n = unit(object_ray(s, ray).at(hit.t));
+  ObjectPoint q = sphere_at(s, n.z, std::hypot(n.x, n.y), azimuth(n.x, n.y));
+  return to_world(s.object_to_world, flips(s), q, hit.uv);
+}
+
+SurfacePoint<float> surface_point(const Disk& s, const Ray<float>& ray, const ShapeHit& hit) {
+  Vec3d p = object_ray(s, ray).at(hit.t);
+  ObjectPoint q = disk_at(s, std::hypot(p.x, p.y), azimuth(p.x, p.y));
+  return to_world(s.object_to_world, flips(s), q, hit.uv);
+}
+
+SurfacePoint<float> surface_point(const Cylinder& s, const Ray<float>& ray, const ShapeHit& hit) {
+  Vec3d p = object_ray(s, ray).at(hit.t);
+  return to_world(s.object_to_world, flips(s), cylinder_at(s, p.z, azimuth(p.x, p.y)), hit.uv);
+}
+
+double area(const Sphere& s) {
+  if (is_similarity(s.object_to_world)) return object_area(s) * area_stretch(s.object_to_world, {0, 0, 1});
+  double r = s.radius;
+  return r * integrate_panels(s.z_min, s.z_max, 32, [&](double z) {
+           double cos_theta = std::clamp(z / r, -1.0, 1.0), sin_theta = std::sqrt(1 - cos_theta * cos_theta);
+           return integrate_panels(0, phi_limit(s.phi_max), 32, [&](double phi) {
+             return area_stretch(s.object_to_world, {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
+           });
+         });
+}
+
+double area(const Disk& s) { return object_area(s) * area_stretch(s.object_to_world, {0, 0, 1}); }
+
+double area(const Cylinder& s) {
+  if (is_similarity(s.object_to_world)) return object_area(s) * area_stretch(s.object_to_world, {0, 0, 1});
+  return s.radius * (double(s.z_max) - s.z_min) * integrate_panels(0, phi_limit(s.phi_max), 64, [&](double phi) {
+           return area_stretch(s.object_to_world, {std::cos(phi), std::sin(phi), 0});
+         });
+}
+
+ShapeSample sample_area(const Sphere& s, Vec2f u) {
+  double phi = u.x * phi_limit(s.phi_max), cos_theta = std::clamp(mix(u.y, s.z_min, s.z_max) / s.radius, -1.0, 1.0);
+  double sin_theta = std::sqrt((1 - cos_theta) * (1 + cos_theta));
+  ObjectPoint q = sphere_at(s, cos_theta, sin_theta, phi);
+  return {to_world(s.object_to_world, flips(s), q, sphere_uv(s, cos_theta, sin_theta, phi)),
+          density_on(s.object_to_world, q.n, object_area(s))};
+}
+
+ShapeSample sample_area(const Disk& s, Vec2f u) {
+  double phi = u.x * phi_limit(s.phi_max), outer = s.radius, inner = s.inner_radius;
+  double r = std::sqrt(mix(u.y, outer * outer, inner * inner));
+  ObjectPoint q = disk_at(s, r, phi);
+  return {to_world(s.object_to_world, flips(s), q, disk_uv(s, r, phi)),
+          density_on(s.object_to_world, q.n, object_area(s))};
+}
+
+ShapeSample sample_area(const Cylinder& s, Vec2f u) { return {surface_point(s, u), area_density(s, u)}; }
+
+Density<Area> area_density(const Sphere& s, Vec2f uv) {
+  return density_on(s.object_to_world, sphere_at(s, uv).n, object_area(s));
+}
+Density<Area> area_density(const Disk& s, Vec2f) { return density_on(s.object_to_world, {0, 0, 1}, object_area(s)); }
+Density<Area> area_density(const Cylinder& s, Vec2f uv) {
+  double phi = uv.x * phi_limit(s.phi_max);
+  return density_on(s.object_to_world, {std::cos(phi), std::sin(phi), 0}, object_area(s));
+}
+
+}  // namespace montelux
