@@ -12,9 +12,9 @@ namespace montelux {
 // In world space; corners in the order p00, p10, p01, p11.
 struct BilinearPatch {
   std::array<Vec3f, 4> p;
-  std::array<Vec2f, 4> uv{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};  // texture coordinates
-  std::optional<std::array<Vec3f, 4>> normals;                // shading normals; then ng takes their side
-  bool flip_normal = false;                                   // without normals, ng is against dp/du x dp/dv
+  std::array<Vec2f, 4> uv{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};   // texture coordinates
+  std::optional<std::array<Vec3f, 4>> normals = std::nullopt;  // shading normals; then ng takes their side
+  bool flip_normal = false;                                    // without normals, ng is against dp/du x dp/dv
 };
 
 // The quadrilateral number `quad` of a mesh in world space.
