@@ -22,7 +22,7 @@ struct CurveDesc {
   CurveBasis basis = CurveBasis::bezier;
   int degree = 3;  // 2 or 3
   CurveType type = CurveType::flat;
-  std::vector<Vec3f> normals;  // for ribbons: one at each end of a segment, segments + 1 in all
+  std::vector<Vec3f> normals{};  // for ribbons: one at each end of a segment, segments + 1 in all
   float width0 = 1, width1 = 1;
 };
 

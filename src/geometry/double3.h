@@ -1,5 +1,6 @@
 // Vectors in double precision, for what is computed per shape and per ray rather than per lane.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/bounds.h"

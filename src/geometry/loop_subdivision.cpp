@@ -175,7 +175,7 @@ Mesh loop_subdivide(const Mesh& control, int levels) {
   for (Index v = 0; v < m.positions.size(); ++v) {
     if (m.first[v] == none) continue;
     walk_ring(m, v, ring);
-    limit[v] = ring.boundary ? weigh_ends(m.positions[v], ring, 1.0 / 5)
+    limit[v] = ring.boundary ? weigh_ends(m.positions[v], ring, 1.0 / 6)
                              : weigh(m.positions[v], ring, limit_weight(ring.points.size()));
   }
   m.positions = limit;
