@@ -25,10 +25,14 @@ TEST(Mis, weights_of_all_techniques_sum_to_one_and_vanish_with_the_density) {
       float sum = 0, largest = 0;
       for (std::size_t j = 0; j < 5; ++j) {
         const float w = mis_weight<float>(entry.heuristic, products, j);
-        if (products[j] == 0) EXPECT_EQ(w, 0);
+        if (products[j] == 0) {
+          EXPECT_EQ(w, 0);
+        }
         sum += w, largest = std::max(largest, products[j]);
       }
-      if (largest > 0) EXPECT_NEAR(sum, 1, 1e-6) << entry.name;
+      if (largest > 0) {
+        EXPECT_NEAR(sum, 1, 1e-6) << entry.name;
+      }
     }
   }
 }
