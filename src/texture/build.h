@@ -1,0 +1,82 @@
+// From stated textures and parameters to a TextureSet.
+#pragma once
+#include <functional>
+#include <map>
+#include <string>
+
+#include "parameter/value.h"
+#include "texture/texture_set.h"
+
+namespace montelux {
+
+// Adds textures to a set, by name, and turns the parameters of other things (materials, shapes) into textures.
+// What cannot be done is reported, and stands as a constant.
+class TextureBuilder {
+ public:
+  // What a stated colour is as linear sRGB.
+  using ToRgb = std::function<Rgb(const SpectrumValue&)>;
+
+  // folder: what file names of images are relative to. The set and the diagnostics must outlive the builder.
+  TextureBuilder(TextureSet& textures, std::string folder, ToRgb to_rgb, Diagnostics& diagnostics);
+
+  // A texture under a name, which textures, parameters and find_... after it may use. Numbers and spectra have names of
+  // their own; a name that is stated again means the new texture from here on.
+  void add(const std::string& name, bool is_spectrum, const Entity& entity, const Transform& texture_to_world);
+
+  // The parameter as a texture, whether it was stated as a value or as the name of a texture; the constant `otherwise`
+  // where it is absent.
+  NumberTextureId number(const Entity& entity, std::string_view parameter, float otherwise);
+  SpectrumTextureId spectrum(const Entity& entity, std::string_view parameter, Rgb otherwise);
+  // Nothing where the parameter is absent.
+  std::optional<NumberTextureId> number_if_stated(const Entity& entity, std::string_view parameter);
+  std::optional<SpectrumTextureId> spectrum_if_stated(const Entity& entity, std::string_view parameter);
+
+  NumberTextureId constant(float value);
+  SpectrumTextureId constant(Rgb value);
+
+  // The named texture; nothing where there is none.
+  std::optional<NumberTextureId> find_number(std::string_view name) const;
+  std::optional<SpectrumTextureId> find_spectrum(std::string_view name) const;
+
+  // The image of the file that a string parameter names, relative to the folder; reports where it cannot be read, and
+  // then is null.
+  std::shared_ptr<const TexelImage> image(const Entity& entity, std::string_view parameter,
+                                          std::optional<ColorEncoding> encoding = std::nullopt);
+
+  TextureSet& textures() { return textures_; }
+
+ private:
+  template <class V>
+  using Names = std::map<std::string, TextureId<V>, std::less<>>;
+
+  template <class V>
+  auto build(const Entity& entity, const Transform& texture_to_world);
+  template <class V>
+  TextureId<V> build_combination(const Entity& entity, const Transform& texture_to_world);
+  template <class V>
+  TextureId<V> build_flat(const Entity& entity, const Transform& texture_to_world);
+  NumberTextureId build_noise(const Entity& entity, const Transform& texture_to_world);
+  std::optional<ImageTexture> build_image(const Entity& entity, const Transform& texture_to_world);
+  template <class V>
+  TextureId<V> parameter(const Entity& entity, std::string_view name, float otherwise);
+  template <class V>
+  std::optional<V> value(const Parameter& parameter) const;
+  template <class V>
+  std::optional<TextureId<V>> if_stated(const Entity& entity, std::string_view name);
+  template <class V>
+  TextureId<V> folded(TextureId<V> id, bool all_constant);
+  template <class V>
+  const Names<V>& names() const;
+
+  TextureSet& textures_;
+  std::string folder_;
+  ToRgb to_rgb_;
+  Diagnostics& diagnostics_;
+  Names<float> number_names_;
+  Names<Rgb> spectrum_names_;
+  std::map<std::array<std::uint32_t, spectrum_size>, SpectrumTextureId> spectrum_constants_;  // by the bits
+  std::map<std::uint32_t, NumberTextureId> number_constants_;
+  bool told_of_filter_ = false;
+};
+
+}  // namespace montelux

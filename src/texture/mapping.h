@@ -1,0 +1,51 @@
+// How a point of a surface becomes a place (s, t) of a flat texture.
+#pragma once
+#include <variant>
+
+#include "math/transform.h"
+#include "parameter/value.h"
+#include "texture/texture.h"
+
+namespace montelux {
+
+// Scaled and shifted surface parameters.
+struct UvMapping {
+  Vec2f scale{1, 1}, delta{0, 0};
+  Vec2f operator()(const TexturePoint& point) const {
+    return {scale.x * point.uv.x + delta.x, scale.y * point.uv.y + delta.y};
+  }
+};
+
+// s: the polar angle from +z over pi; t: the azimuth over 2 pi; of the point in texture space.
+struct SphericalMapping {
+  Transform world_to_texture;
+  Vec2f operator()(const TexturePoint& point) const;
+};
+
+// s: the azimuth, half a turn at +x, over 2 pi; t: z.
+struct CylindricalMapping {
+  Transform world_to_texture;
+  Vec2f operator()(const TexturePoint& point) const;
+};
+
+// The point's coordinates along two axes of texture space, shifted.
+struct PlanarMapping {
+  Transform world_to_texture;
+  Vec3f s_axis{1, 0, 0}, t_axis{0, 1, 0};
+  Vec2f delta{0, 0};
+  Vec2f operator()(const TexturePoint& point) const {
+    Vec3f p = world_to_texture.point(point.p);
+    return {delta.x + dot(p, s_axis), delta.y + dot(p, t_axis)};
+  }
+};
+
+using Mapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping>;
+
+inline Vec2f apply(const Mapping& mapping, const TexturePoint& point) {
+  return std::visit([&](const auto& m) { return m(point); }, mapping);
+}
+
+// From the parameters mapping, uscale, vscale, udelta, vdelta, v1, v2. Reports an unknown mapping.
+Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, Diagnostics& diagnostics);
+
+}  // namespace montelux

@@ -1,0 +1,75 @@
+// Images as textures and lights look them up: compact in memory, decoded at the look-up.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "color/spectrum.h"
+#include "color/transfer.h"
+#include "image/image_file.h"
+
+namespace montelux {
+
+// What lies outside of an image. octahedral: the image is an equal-area map of the sphere and goes on across its edges.
+enum class Wrap { repeat, black, clamp, octahedral };
+// "repeat", "black", "clamp" or "octahedralsphere".
+std::optional<Wrap> parse_wrap(std::string_view name);
+
+// One colour channel (gray) or three, and perhaps alpha. Row 0 is the top. Places (s, t) run over [0, 1]^2 from the
+// upper left corner of the image; texel (x, y) covers [x, x + 1) / width by [y, y + 1) / height. Values are linear.
+// Immutable, so that threads share it.
+class TexelImage {
+ public:
+  // 8-bit and half-precision values are kept as such. Of integers `encoding` says what they stand for (sRGB without);
+  // floating-point values are linear. An alpha channel that is 1 throughout is dropped.
+  static Result<TexelImage> read(const std::filesystem::path& path, std::optional<ColorEncoding> encoding);
+  // From linear values.
+  static TexelImage from(const PixelBuffer& pixels);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool is_gray() const { return color_channels_ == 1; }
+  bool has_alpha() const { return has_alpha_; }
+  std::size_t bytes() const;
+
+  // The texel (x, y), which must lie in the image.
+  Rgb texel(int x, int y) const;
+  // 1 where there is no alpha.
+  float alpha_texel(int x, int y) const;
+
+  // The nearest texel, and the interpolation of the four nearest.
+  Rgb nearest(Vec2f st, Wrap wrap) const;
+  Rgb bilinear(Vec2f st, Wrap wrap) const;
+  // The image as numbers: alpha where it has that, else the mean of the colour channels.
+  float nearest_number(Vec2f st, Wrap wrap) const;
+  float bilinear_number(Vec2f st, Wrap wrap) const;
+  float bilinear_alpha(Vec2f st, Wrap wrap) const;
+
+  // The mean of the texels with x in [x0, x1) and y in [y0, y1), a part of the image that is not empty.
+  Rgb average(int x0, int y0, int x1, int y1) const;
+
+ private:
+  float value(int x, int y, int channel) const;
+  float number_texel(int x, int y) const;
+  int channels() const { return color_channels_ + int(has_alpha_); }
+  template <class Texel>
+  auto nearest_of(Vec2f st, Wrap wrap, Texel texel) const;
+  template <class Texel>
+  auto bilinear_of(Vec2f st, Wrap wrap, Texel texel) const;
+
+  int width_ = 0, height_ = 0, color_channels_ = 1;
+  bool has_alpha_ = false;
+  // 8-bit codes, bits of halves, or floats; interleaved.
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> texels_;
+  std::array<float, 256> decoded_{};  // of the 8-bit colour codes
+};
+
+// The float of the same value (IEEE 754 binary16), and the bits of the half nearest to a float (ties to even).
+float half_to_float(std::uint16_t bits);
+std::uint16_t float_to_half(float x);
+
+}  // namespace montelux

@@ -1,0 +1,70 @@
+// All textures of a scene, and their images, each of which is held once.
+#pragma once
+#include <map>
+
+#include "texture/models.h"
+
+namespace montelux {
+
+class TextureSet {
+ public:
+  // A texture may link only to textures that were added before it.
+  NumberTextureId add(NumberTexture texture);
+  SpectrumTextureId add(SpectrumTexture texture);
+
+  // The value at a point. Any number of threads may ask; nothing is allocated.
+  float number(NumberTextureId id, const TexturePoint& point) const;
+  Rgb spectrum(SpectrumTextureId id, const TexturePoint& point) const;
+  float value(NumberTextureId id, const TexturePoint& point) const { return number(id, point); }
+  Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return spectrum(id, point); }
+
+  // The value of a texture that is the same everywhere; nothing for one that may vary.
+  std::optional<float> constant(NumberTextureId id) const;
+  std::optional<Rgb> constant(SpectrumTextureId id) const;
+  bool is_constant(NumberTextureId id) const { return constant(id).has_value(); }
+  bool is_constant(SpectrumTextureId id) const { return constant(id).has_value(); }
+
+  // The image of a file, read when first asked for with this encoding (see TexelImage::read). Not for several threads
+  // at a time.
+  Result<std::shared_ptr<const TexelImage>> image(const std::filesystem::path& path,
+                                                  std::optional<ColorEncoding> encoding = std::nullopt);
+  // Memory of the images' texels.
+  std::size_t image_bytes() const;
+
+  const std::vector<NumberTexture>& numbers() const { return numbers_; }
+  const std::vector<SpectrumTexture>& spectra() const { return spectra_; }
+
+ private:
+  std::vector<NumberTexture> numbers_;
+  std::vector<SpectrumTexture> spectra_;
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const TexelImage>> images_;  // by path and encoding
+};
+
+// Where a texture is looked up, in every lane.
+template <class F>
+struct TexturePoints {
+  Vec2<F> uv;
+  Vec3<F> p, n;
+};
+
+// The textures number ids[k] at the points[k], in the lanes that are on; 0 in the others.
+template <class F>
+F numbers(const TextureSet& textures, Uint<F> ids, const TexturePoints<F>& points, Mask<F> on) {
+  F result(0.0f);
+  for_each_lane(on, [&](int k) {
+    TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
+    set_lane(result, k, textures.number(NumberTextureId(lane(ids, k)), point));
+  });
+  return result;
+}
+template <class F>
+Spectrum<F> spectra(const TextureSet& textures, Uint<F> ids, const TexturePoints<F>& points, Mask<F> on) {
+  Spectrum<F> result = gray(F(0.0f));
+  for_each_lane(on, [&](int k) {
+    TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
+    set_lane(result, k, textures.spectrum(SpectrumTextureId(lane(ids, k)), point));
+  });
+  return result;
+}
+
+}  // namespace montelux

@@ -1,0 +1,327 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "mc/random.h"
+#include "texture/build.h"
+#include "texture/noise.h"
+#include "texture/table.h"
+
+namespace montelux {
+namespace {
+
+using Parameters = std::vector<Parameter>;
+
+Parameter number(const char* name, float x) { return {name, ParameterType::number, std::vector<float>{x}, {}}; }
+Parameter integer(const char* name, int x) { return {name, ParameterType::integer, std::vector<int>{x}, {}}; }
+Parameter text(const char* name, const std::string& x) {
+  return {name, ParameterType::string, std::vector<std::string>{x}, {}};
+}
+Parameter flag(const char* name, bool x) {
+  return {name, ParameterType::boolean, std::vector<std::uint8_t>{std::uint8_t(x)}, {}};
+}
+Parameter link(const char* name, const char* to) { return {name, ParameterType::texture, TextureName{to}, {}}; }
+Parameter vector(const char* name, Vec3f x) { return {name, ParameterType::vector3, std::vector<Vec3f>{x}, {}}; }
+Parameter rgb(const char* name, Rgb x) {
+  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{x, "srgb"}}, {}};
+}
+Entity entity(const char* type, Parameters parameters = {}) {
+  Entity e{type, {}, {}};
+  for (Parameter& p : parameters) e.parameters.add(std::move(p));
+  return e;
+}
+TexturePoint at_uv(float u, float v) { return {{u, v}, {0, 0, 0}, {0, 0, 1}}; }
+TexturePoint at_point(Vec3f p) { return {{0, 0}, p, {0, 0, 1}}; }
+
+// A set under construction.
+struct Bench {
+  TextureSet set;
+  Diagnostics diagnostics;
+  TextureBuilder builder{set, std::filesystem::temp_directory_path().string(),
+                         [](const SpectrumValue& v) { return std::get<RgbValue>(v).rgb; }, diagnostics};
+
+  NumberTextureId number_texture(const Entity& e, const Transform& t = {}) {
+    builder.add("n", false, e, t);
+    return *builder.find_number("n");
+  }
+  SpectrumTextureId spectrum_texture(const Entity& e, const Transform& t = {}) {
+    builder.add("s", true, e, t);
+    return *builder.find_spectrum("s");
+  }
+};
+
+TEST(Bilerp, corners_have_their_values_and_the_middle_their_mean) {
+  Bench b;
+  NumberTextureId id =
+      b.number_texture(entity("bilerp", {number("v00", 1), number("v01", 2), number("v10", 3), number("v11", 6)}));
+  EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0, 0)), 1);
+  EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0, 1)), 2);
+  EXPECT_FLOAT_EQ(b.set.number(id, at_uv(1, 0)), 3);
+  EXPECT_FLOAT_EQ(b.set.number(id, at_uv(1, 1)), 6);
+  EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0.5f, 0.5f)), 3);
+  SpectrumTextureId colors = b.spectrum_texture(entity("bilerp", {rgb("v00", {{1, 0, 0}}), rgb("v11", {{0, 0, 4}})}));
+  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(1, 1))[2], 4);
+  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(0, 0))[0], 1);
+  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(0, 1))[0], 1);
+}
+
+TEST(Checkerboard, cells_alternate_in_the_plane_and_in_space) {
+  Bench b;
+  NumberTextureId flat = b.number_texture(entity("checkerboard", {number("uscale", 4), number("vscale", 2)}));
+  NumberTextureId solid = b.number_texture(entity("checkerboard", {integer("dimension", 3)}), translate(0.5, 0, 0));
+  RandomStream<float> random(1u, 1u);
+  for (int k = 0; k < 1000; ++k) {
+    float u = 4 * random.next() - 2, v = 4 * random.next() - 2, w = 4 * random.next() - 2;
+    int cell = int(std::floor(4 * u)) + int(std::floor(2 * v));
+    EXPECT_EQ(b.set.number(flat, at_uv(u, v)), cell % 2 == 0 ? 1 : 0);
+    int cube = int(std::floor(u - 0.5f)) + int(std::floor(v)) + int(std::floor(w));
+    EXPECT_EQ(b.set.number(solid, at_point({u, v, w})), cube % 2 == 0 ? 1 : 0);
+  }
+}
+
+TEST(Combinations, scale_mix_and_directionmix_follow_their_definitions) {
+  Bench b;
+  b.builder.add("ramp", false, entity("bilerp", {number("v01", 0), number("v10", 1)}), {});  // is u
+  b.builder.add("color", true, entity("constant", {rgb("value", {{0.2f, 0.4f, 0.8f}})}), {});
+  SpectrumTextureId scaled = b.spectrum_texture(entity("scale", {link("tex", "color"), link("scale", "ramp")}));
+  EXPECT_FLOAT_EQ(b.set.spectrum(scaled, at_uv(0.25f, 0.9f))[2], 0.2f);
+  NumberTextureId mixed =
+      b.number_texture(entity("mix", {number("tex1", 10), number("tex2", 20), link("amount", "ramp")}));
+  EXPECT_FLOAT_EQ(b.set.number(mixed, at_uv(0.25f, 0.1f)), 12.5f);
+  NumberTextureId directed = b.number_texture(
+      entity("directionmix", {number("tex1", 10), number("tex2", 20), vector("dir", {3, 0, 0})}), rotate(90, 0, 0, 1));
+  EXPECT_FLOAT_EQ(b.set.number(directed, {{0, 0}, {0, 0, 0}, {0, -1, 0}}), 10);
+  EXPECT_FLOAT_EQ(b.set.number(directed, {{0, 0}, {0, 0, 0}, {1, 0, 0}}), 20);
+}
+
+TEST(Combinations, of_constants_are_constant) {
+  Bench b;
+  NumberTextureId mixed = b.number_texture(entity("mix", {number("tex1", 1), number("tex2", 3)}));
+  ASSERT_TRUE(b.set.is_constant(mixed));
+  EXPECT_FLOAT_EQ(*b.set.constant(mixed), 2);
+  SpectrumTextureId scaled = b.spectrum_texture(entity("scale", {rgb("tex", {{1, 2, 3}}), link("scale", "n")}));
+  ASSERT_TRUE(b.set.is_constant(scaled));
+  EXPECT_FLOAT_EQ((*b.set.constant(scaled))[1], 4);
+  EXPECT_FALSE(b.set.is_constant(b.number_texture(entity("fbm"))));
+}
+
+TEST(Mapping, each_follows_its_definition) {
+  Bench b;
+  // A bilerp that shows s, and one that shows t.
+  auto st = [&](Parameters mapping, const Transform& to_world, const TexturePoint& point) {
+    Parameters s = mapping, t = mapping;
+    for (const char* name : {"v10", "v11"}) s.push_back(number(name, 1));
+    for (const char* name : {"v00", "v01"}) s.push_back(number(name, 0));
+    for (const char* name : {"v01", "v11"}) t.push_back(number(name, 1));
+    for (const char* name : {"v00", "v10"}) t.push_back(number(name, 0));
+    return Vec2f{b.set.number(b.number_texture(entity("bilerp", s), to_world), point),
+                 b.set.number(b.number_texture(entity("bilerp", t), to_world), point)};
+  };
+  auto expect = [](Vec2f a, float s, float t) {
+    EXPECT_NEAR(a.x, s, 1e-6f);
+    EXPECT_NEAR(a.y, t, 1e-6f);
+  };
+  expect(st({number("uscale", 2), number("vscale", -1), number("udelta", 0.5f), number("vdelta", 3)}, {},
+            at_uv(0.25f, 0.5f)),
+         1, 2.5f);
+  expect(st({text("mapping", "spherical")}, translate(1, 2, 3), at_point({1, 2, 9})), 0, 0);
+  expect(st({text("mapping", "spherical")}, {}, at_point({0, 5, 0})), 0.5f, 0.25f);
+  expect(st({text("mapping", "spherical")}, {}, at_point({0, -5, 0})), 0.5f, 0.75f);
+  expect(st({text("mapping", "cylindrical")}, {}, at_point({5, 0, 0.25f})), 0.5f, 0.25f);
+  expect(st({text("mapping", "cylindrical")}, {}, at_point({0, -5, 2})), 0.25f, 2);
+  expect(st({text("mapping", "planar"), vector("v1", {0, 0, 2}), vector("v2", {1, 1, 0}), number("udelta", 10)},
+            scale(2, 2, 2), at_point({2, 4, 6})),
+         16, 3);
+}
+
+TEST(Noise, agrees_with_the_published_value_of_the_reference_implementation) {
+  EXPECT_NEAR(gradient_noise({3.14f, 42.0f, 7.0f}), 0.13691995878400012, 1e-6);
+}
+
+TEST(Noise, is_zero_on_the_lattice_bounded_continuous_and_periodic) {
+  RandomStream<float> random(2u, 2u);
+  for (int k = 0; k < 2000; ++k) {
+    auto coordinate = [&] { return 600 * random.next() - 300; };
+    Vec3f p{coordinate(), coordinate(), coordinate()};
+    EXPECT_EQ(gradient_noise({std::floor(p.x), std::floor(p.y), std::floor(p.z)}), 0);
+    EXPECT_LE(std::abs(gradient_noise(p)), 1.05f);
+    EXPECT_NEAR(gradient_noise({std::floor(p.x) - 1e-4f, p.y, p.z}), gradient_noise({std::floor(p.x), p.y, p.z}),
+                1e-3f);
+    Vec3f q{std::floor(p.x * 64) / 64, std::floor(p.y * 64) / 64, 0.25f};
+    EXPECT_EQ(gradient_noise(q), gradient_noise({q.x + 256, q.y - 512, q.z}));
+  }
+  EXPECT_TRUE(std::isfinite(gradient_noise({1e30f, -1e30f, 3e12f})));
+}
+
+TEST(Noise, textures_of_one_octave_are_the_noise_itself) {
+  Bench b;
+  Transform to_world = translate(1, 2, 3) * scale(2, 2, 2);
+  NumberTextureId fbm = b.number_texture(entity("fbm", {integer("octaves", 1)}), to_world);
+  NumberTextureId wrinkled = b.number_texture(entity("wrinkled", {integer("octaves", 1)}), to_world);
+  NumberTextureId two = b.number_texture(entity("fbm", {integer("octaves", 2), number("roughness", 0.25f)}), to_world);
+  Vec3f p{3.3f, -1.2f, 0.7f}, local{1.15f, -1.6f, -1.15f};
+  EXPECT_NEAR(b.set.number(fbm, at_point(p)), gradient_noise(local), 1e-5f);
+  EXPECT_NEAR(b.set.number(wrinkled, at_point(p)), std::abs(gradient_noise(local)), 1e-5f);
+  EXPECT_NEAR(b.set.number(two, at_point(p)), gradient_noise(local) + 0.25f * gradient_noise(local * 1.99f), 1e-5f);
+}
+
+TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_palette) {
+  Bench b;
+  NumberTextureId windy = b.number_texture(entity("windy"));
+  SpectrumTextureId marble = b.spectrum_texture(entity("marble"));
+  EXPECT_EQ(b.set.number(windy, at_point({0, 0, 0})), 0);
+  RandomStream<float> random(3u, 3u);
+  for (int k = 0; k < 1000; ++k) {
+    Rgb c = b.set.spectrum(marble, at_point({9 * random.next(), 9 * random.next(), 9 * random.next()}));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_GE(c[i], 1.5f * 0.2f);
+      EXPECT_LE(c[i], 1.5f * 0.6001f);
+    }
+  }
+}
+
+TEST(Dots, are_discs_inside_of_their_cells_and_in_two_of_five_of_them) {
+  Bench b;
+  NumberTextureId id = b.number_texture(entity("dots"));
+  int cells_with_dot = 0;
+  double area = 0;
+  const int cells = 40, n = 30;
+  for (int t = 0; t < cells; ++t)
+    for (int s = 0; s < cells; ++s) {
+      int inside = 0;
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          inside += b.set.number(id, at_uv(float(s) - 0.5f + (float(i) + 0.5f) / n,
+                                           float(t) - 0.5f + (float(j) + 0.5f) / n)) == 1;
+      if (inside > 0) ++cells_with_dot, area += double(inside) / (n * n);
+    }
+  // In the middle of a cell eight gradients pull by -1, 0 or 1, that is by sixteen fair halves: the sum is positive
+  // with probability (1 - C(16, 8) / 2^16) / 2.
+  double expected = 0.5 * (1 - 12870.0 / 65536);
+  EXPECT_NEAR(double(cells_with_dot) / (cells * cells), expected, 0.05);
+  EXPECT_NEAR(area / cells_with_dot, std::numbers::pi * 0.35 * 0.35, 2e-3);
+}
+
+// A 2 x 2 PNG: black, red over green, blue.
+struct Picture {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("montelux_texture_" + std::to_string(::getpid()) + ".png");
+  std::string name = path.filename().string();
+  Picture() { EXPECT_TRUE(write_image(path, DisplayImage{2, 2, 3, {0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}})); }
+  ~Picture() { std::filesystem::remove(path); }
+};
+
+TEST(ImageMap, shows_the_picture_upright_with_v_up) {
+  Picture picture;
+  Bench b;
+  SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name)}));
+  ASSERT_FALSE(b.diagnostics.has_errors());
+  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.75f, 0.75f))[0], 1);  // red: upper right
+  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.25f, 0.25f))[1], 1);  // green: lower left
+  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.75f, 0.25f))[2], 1);  // blue: lower right
+  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.5f, 0.5f))[1], 0.25f);
+  NumberTextureId mean = b.number_texture(entity("imagemap", {text("filename", picture.name)}));
+  EXPECT_FLOAT_EQ(b.set.number(mean, at_uv(0.75f, 0.75f)), 1.0f / 3);
+}
+
+TEST(ImageMap, scale_invert_and_point_filter_apply) {
+  Picture picture;
+  Bench b;
+  SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name), number("scale", 0.25f),
+                                                                flag("invert", true), text("filter", "point")}));
+  Rgb c = b.set.spectrum(id, at_uv(0.51f, 0.51f));
+  EXPECT_FLOAT_EQ(c[0], 0.75f);
+  EXPECT_FLOAT_EQ(c[1], 1);
+  SpectrumTextureId dark = b.spectrum_texture(
+      entity("imagemap", {text("filename", picture.name), number("scale", 3), flag("invert", true)}));
+  EXPECT_EQ(b.set.spectrum(dark, at_uv(0.75f, 0.75f))[0], 0);
+}
+
+TEST(ImageMap, one_file_is_held_once_an_encoding_and_prefilters_are_noted_once) {
+  Picture picture;
+  Bench b;
+  for (const char* filter : {"trilinear", "ewa", "bilinear"})
+    b.number_texture(entity("imagemap", {text("filename", picture.name), text("filter", filter)}));
+  EXPECT_EQ(b.set.image_bytes(), 12u);
+  ASSERT_EQ(b.diagnostics.all().size(), 1u);
+  EXPECT_EQ(b.diagnostics.all()[0].severity, Severity::note);
+  b.number_texture(entity("imagemap", {text("filename", picture.name), text("encoding", "linear")}));
+  EXPECT_EQ(b.set.image_bytes(), 24u);
+}
+
+TEST(TextureBuilder, parameters_are_values_or_names_and_the_default_where_absent) {
+  Bench b;
+  b.builder.add("wavy", false, entity("windy"), {});
+  Entity user = entity("diffuse", {number("a", 0.5f), link("b", "wavy"), rgb("c", {{1, 2, 3}}), number("d", 7)});
+  EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "a", 0)), 0.5f);
+  EXPECT_EQ(b.builder.number(user, "b", 0), *b.builder.find_number("wavy"));
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "c", gray(0.0f))))[2], 3);
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "d", gray(0.0f))))[0], 7);
+  EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "z", 0.125f)), 0.125f);
+  EXPECT_FALSE(b.builder.number_if_stated(user, "z"));
+  EXPECT_EQ(b.builder.constant(0.5f), b.builder.number(user, "a", 0));
+  EXPECT_FALSE(b.diagnostics.has_errors());
+}
+
+TEST(TextureBuilder, what_cannot_be_built_is_reported_with_the_nearest_name) {
+  auto errors = [](bool is_spectrum, const Entity& e) {
+    Bench b;
+    b.builder.add("granite", false, entity("fbm"), {});
+    b.builder.add("x", is_spectrum, e, {});
+    return b.diagnostics;
+  };
+  EXPECT_EQ(errors(false, entity("wrinkel")).all()[0].hint, "wrinkled");
+  EXPECT_EQ(errors(false, entity("scale", {link("tex", "granit")})).all()[0].hint, "granite");
+  EXPECT_TRUE(errors(true, entity("scale", {link("tex", "granite")})).has_errors());
+  EXPECT_TRUE(errors(true, entity("fbm")).has_errors());
+  EXPECT_TRUE(errors(false, entity("marble")).has_errors());
+  EXPECT_TRUE(errors(false, entity("imagemap")).has_errors());
+  EXPECT_TRUE(errors(false, entity("imagemap", {text("filename", "no_such.png")})).has_errors());
+  EXPECT_TRUE(errors(false, entity("dots", {text("mapping", "conical")})).has_errors());
+  EXPECT_TRUE(errors(false, entity("mix", {text("amount", "much")})).has_errors());
+}
+
+TEST(TextureBuilder, builds_every_texture_of_the_table) {
+  Picture picture;
+  for (const EntitySpec& spec : texture_table())
+    for (bool is_spectrum : {false, true}) {
+      bool noise = spec.name == "fbm" || spec.name == "wrinkled" || spec.name == "windy";
+      if ((noise && is_spectrum) || (spec.name == "marble" && !is_spectrum)) continue;
+      Bench b;
+      b.builder.add("x", is_spectrum, entity(std::string(spec.name).c_str(), {text("filename", picture.name)}), {});
+      EXPECT_FALSE(b.diagnostics.has_errors()) << spec.name;
+    }
+}
+
+TEST(TextureSet, packs_and_threads_find_the_values_of_single_points) {
+  using F = NativeFloats;
+  Bench b;
+  NumberTextureId fbm = b.number_texture(entity("fbm"));
+  NumberTextureId board = b.number_texture(entity("checkerboard", {number("uscale", 8)}));
+  auto check = [&](std::uint32_t seed) {
+    RandomStream<float> random(seed, 7u);
+    for (int round = 0; round < 100; ++round) {
+      TexturePoints<F> points{};
+      Uint<F> ids;
+      for (int k = 0; k < native_lanes; ++k) {
+        set_lane(ids, k, std::uint32_t(k % 2 == 0 ? fbm : board));
+        set_lane(points.uv, k, random.next2());
+        set_lane(points.p, k, Vec3f{random.next(), random.next(), random.next()});
+      }
+      F values = numbers(b.set, ids, points, mask_of_bits<F>(0x7u));
+      for (int k = 0; k < native_lanes; ++k) {
+        TexturePoint point{lane(points.uv, k), lane(points.p, k), {0, 0, 0}};
+        EXPECT_EQ(lane(values, k), k < 3 ? b.set.number(NumberTextureId(lane(ids, k)), point) : 0);
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::uint32_t t = 0; t < 4; ++t) threads.emplace_back(check, t);
+  for (std::thread& t : threads) t.join();
+}
+
+}  // namespace
+}  // namespace montelux
