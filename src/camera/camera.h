@@ -6,6 +6,7 @@
 #include "geometry/ray.h"
 #include "math/square_maps.h"
 #include "math/transform.h"
+#include "mc/disk.h"
 #include "parameter/value.h"
 
 namespace montelux {
@@ -38,7 +39,7 @@ struct ThinLens {
   template <class F>
   MONTELUX_INLINE CameraRay<F> through(Vec3<F> o, Vec3<F> d, Vec2<F> u) const {
     if (open) {
-      Vec2<F> disk = disk_from_square(u);
+      Vec2<F> disk = sample_disk_concentric(u);
       Vec3<F> offset = splat<F>(x) * disk.x + splat<F>(y) * disk.y;
       o = o + offset;
       // d reaches the plane z = 1: all rays of the lens meet on it where it is scaled to the plane in focus.
@@ -84,7 +85,7 @@ struct SphericalCamera {
     Vec2<F> uv{raster.x * to_unit.x, raster.y * to_unit.y};
     Vec3<F> w;
     if (mapping == Mapping::equal_area) {
-      w = sphere_from_square(wrap_sphere_square(uv));
+      w = sphere_from_square(wrap_square_maps(uv));
     } else {
       SinCos<F> polar = sin_cos(uv.y * pi), azimuth = sin_cos_two_pi(uv.x - floor(uv.x));
       w = {polar.sin * azimuth.cos, polar.sin * azimuth.sin, polar.cos};

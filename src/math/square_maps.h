@@ -1,20 +1,8 @@
-// Maps of the unit square that keep areas up to a constant.
+// The map between the unit square and the sphere that keeps areas up to a constant.
 #pragma once
 #include "math/functions.h"
 
 namespace montelux {
-
-// The unit disk from (u, v) in [0, 1]^2: squares about the centre become circles (Shirley and Chiu 1997). Jacobian pi.
-template <class F>
-MONTELUX_INLINE Vec2<F> disk_from_square(Vec2<F> uv) {
-  F x = uv.x * 2.0f - 1.0f, y = uv.y * 2.0f - 1.0f;
-  Mask<F> wide = abs(x) > abs(y);
-  F radius = select(wide, x, y), other = select(wide, y, x);
-  // An eighth of a turn at most, from the axis that the point is nearer to.
-  F eighth = other / select(radius == F(0.0f), F(1.0f), radius);
-  SinCos<F> turn = sin_cos(eighth * (0.25f * pi));
-  return {radius * select(wide, turn.cos, turn.sin), radius * select(wide, turn.sin, turn.cos)};
-}
 
 // The unit sphere from (u, v) in [0, 1]^2: the centre is +z, the corners -z, the octahedron's diagonals the equator
 // (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"). Jacobian 4 pi.

@@ -46,7 +46,7 @@ struct DirectionMixTexture {
   Vec3f direction;  // unit, in world space
 };
 
-// scale * image, or 1 less that; never below 0. t runs up the image.
+// scale * image, or 1 less that and then not below 0; spectra are never below 0. t runs up the image.
 struct ImageTexture {
   Mapping mapping;
   std::shared_ptr<const TexelImage> image;

@@ -47,7 +47,7 @@ struct Cell {
 };
 
 Cell cell_of(float x) {
-  float bounded = std::fmod(x, 0x1p30f);
+  float bounded = is_finite(x) ? std::fmod(x, 0x1p30f) : 0.0f;
   float low = std::floor(bounded), t = bounded - low;
   return {std::uint32_t(std::int32_t(low)) & 255u, t, t * t * t * (t * (t * 6 - 15) + 10)};
 }

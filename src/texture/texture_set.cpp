@@ -34,7 +34,8 @@ Rgb marble_color(float t) {
                                        {{0.58f, 0.58f, 0.6f}}}};
   constexpr int segments = int(colors.size()) - 3;
   // A cubic Bezier segment by de Casteljau's scheme.
-  int first = std::clamp(int(t * segments), 0, segments - 1);
+  t = clamp(t, 0.0f, 1.0f);
+  int first = std::min(int(t * segments), segments - 1);
   float u = t * segments - float(first);
   std::array<Rgb, 4> p{colors[first], colors[first + 1], colors[first + 2], colors[first + 3]};
   for (int n = 3; n > 0; --n)
@@ -75,11 +76,13 @@ struct LookUp {
   V operator()(const ImageTexture& t) const {
     Vec2f st = apply(t.mapping, point);
     st.y = 1 - st.y;
-    auto shown = [&](float x) { return max(t.invert ? 1 - t.scale * x : t.scale * x, 0.0f); };
-    if constexpr (std::is_same_v<V, float>)
-      return shown(t.nearest ? t.image->nearest_number(st, t.wrap) : t.image->bilinear_number(st, t.wrap));
-    else
-      return per_component(shown, t.nearest ? t.image->nearest(st, t.wrap) : t.image->bilinear(st, t.wrap));
+    if constexpr (std::is_same_v<V, float>) {
+      float x = t.scale * (t.nearest ? t.image->nearest_number(st, t.wrap) : t.image->bilinear_number(st, t.wrap));
+      return t.invert ? max(1 - x, 0.0f) : x;
+    } else {
+      Rgb x = (t.nearest ? t.image->nearest(st, t.wrap) : t.image->bilinear(st, t.wrap)) * t.scale;
+      return per_component([&](float c) { return max(t.invert ? 1 - c : c, 0.0f); }, x);
+    }
   }
   V operator()(const FbmTexture& t) const {
     return fractional_brownian_motion(t.world_to_texture.point(point.p), t.roughness, t.octaves);

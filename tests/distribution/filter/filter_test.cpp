@@ -7,13 +7,13 @@
 #include <functional>
 #include <numbers>
 
-#include "math/special.h"
 #include "mc/random.h"
+#include "statistics.h"
 
 namespace montelux {
 namespace {
 
-constexpr double family_level = 1e-3;
+using test::family_level;
 constexpr int samples = 400000;
 
 struct Case {
@@ -68,19 +68,10 @@ double offsets_match(const Filter& filter, const Case& expected, int cells) {
     int j = std::min(cells - 1, int((p.y + expected.radius) / step));
     counts[j * cells + i] += 1;
   }
-  double chi_square = 0, pooled = 0, pooled_count = 0;
-  int degrees = -1;
+  std::vector<double> expectations;
   for (int j = 0; j < cells; ++j)
-    for (int i = 0; i < cells; ++i) {
-      double e = mass[i] * mass[j] * samples, n = counts[j * cells + i];
-      if (e < 5) {
-        pooled += e, pooled_count += n;
-        continue;
-      }
-      chi_square += (n - e) * (n - e) / e, ++degrees;
-    }
-  if (pooled > 5) chi_square += (pooled_count - pooled) * (pooled_count - pooled) / pooled, ++degrees;
-  return chi_square_tail(chi_square, degrees);
+    for (int i = 0; i < cells; ++i) expectations.push_back(mass[i] * mass[j] * samples);
+  return test::chi_square_test(counts, expectations).p_value;
 }
 
 // The least two-sided p-value, times their number, over 40 strips across x: does the mean weight that falls into a
@@ -100,7 +91,7 @@ double strips_match(const std::function<FilterSample<float>(Vec2f)>& sample, con
   for (int i = 0; i < strips; ++i) {
     double truth = integral(expected.profile, a + i * step, a + (i + 1) * step) / whole, mean = sum[i] / samples;
     double error = std::sqrt((squares[i] / samples - mean * mean) / samples);
-    least = std::min(least, 2 * normal_tail(std::abs(mean - truth) / error));
+    least = std::min(least, test::z_test(mean, error, truth).p_value);
   }
   return least * strips;
 }
@@ -121,7 +112,7 @@ double filtered_value_matches(const std::function<FilterSample<float>(Vec2f)>& s
     m2 += delta * (value - mean);
   }
   double error = std::sqrt(m2 / samples / (samples - 1));
-  return 2 * normal_tail(std::abs(mean - cos_part * y_part) / error);
+  return test::z_test(mean, error, cos_part * y_part).p_value;
 }
 
 TEST(Filter, offsets_are_distributed_as_the_magnitude_of_the_filter) {

@@ -154,6 +154,7 @@ TEST(Noise, is_zero_on_the_lattice_bounded_continuous_and_periodic) {
     EXPECT_EQ(gradient_noise(q), gradient_noise({q.x + 256, q.y - 512, q.z}));
   }
   EXPECT_TRUE(std::isfinite(gradient_noise({1e30f, -1e30f, 3e12f})));
+  EXPECT_EQ(gradient_noise({INFINITY, -INFINITY, std::nanf("")}), 0);
 }
 
 TEST(Noise, textures_of_one_octave_are_the_noise_itself) {
