@@ -85,7 +85,7 @@ struct SphericalCamera {
     Vec2<F> uv{raster.x * to_unit.x, raster.y * to_unit.y};
     Vec3<F> w;
     if (mapping == Mapping::equal_area) {
-      w = sphere_from_square(wrap_square_maps(uv));
+      w = sphere_from_square(wrap_sphere_square(uv));
     } else {
       SinCos<F> polar = sin_cos(uv.y * pi), azimuth = sin_cos_two_pi(uv.x - floor(uv.x));
       w = {polar.sin * azimuth.cos, polar.sin * azimuth.sin, polar.cos};

@@ -157,7 +157,7 @@ TEST(SphereSquare, the_sphere_map_goes_on_across_its_edges) {
   for (float t : {0.1f, 0.37f, 0.5f, 0.8f}) {
     for (Vec2f out : {Vec2f{-e, t}, Vec2f{1 + e, t}, Vec2f{t, -e}, Vec2f{t, 1 + e}}) {
       Vec2f edge{std::clamp(out.x, 0.0f, 1.0f), std::clamp(out.y, 0.0f, 1.0f)};
-      EXPECT_GT(dot(sphere_from_square(wrap_square_maps(out)), sphere_from_square(edge)), 1 - 1e-5f);
+      EXPECT_GT(dot(sphere_from_square(wrap_sphere_square(out)), sphere_from_square(edge)), 1 - 1e-5f);
     }
   }
 }
