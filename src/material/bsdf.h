@@ -16,15 +16,16 @@ struct alignas(32) BsdfRow {
   float v[bsdf_row_size] = {};
 };
 
-// The rows of all lanes, one behind the other.
+// The rows of all lanes, one behind the other. A model that holds another gives it the slots from `first` on.
 template <class F>
 struct BsdfRows {
   const BsdfRow* rows;
+  int first = 0;
   MONTELUX_INLINE F number(int slot) const {
     if constexpr (lanes_of<F> == 1)
-      return rows[0].v[slot];
+      return rows[0].v[first + slot];
     else
-      return gather(rows[0].v + slot, Uint<F>(lane_index<F>() * std::uint32_t(bsdf_row_size)));
+      return gather(rows[0].v + first + slot, Uint<F>(lane_index<F>() * std::uint32_t(bsdf_row_size)));
   }
   MONTELUX_INLINE Spectrum<F> spectrum(int slot) const {
     Spectrum<F> s;
@@ -38,10 +39,13 @@ struct BsdfRows {
 enum class TransportMode { radiance, importance };
 
 // What a model may need beside directions: random numbers of its own (for models that walk), independent of all others.
+// The models read the stream by place and never advance it, so that a lane's numbers do not depend on its neighbours:
+// who calls the same operation twice at one vertex forks the stream in between. `on` are the lanes that matter.
 template <class F>
 struct BsdfContext {
   TransportMode mode = TransportMode::radiance;
   RandomStream<F> random;
+  Mask<F> on = Mask<F>(true);
 };
 
 // f(wo, wi) |cos wi| and the density with which sample() draws wi; both zero where the model has only deltas there.
@@ -64,10 +68,17 @@ struct BsdfSample {
 
 // Models state, beside these two functions:
 //   static constexpr std::string_view name;
-//   static constexpr bool has_reflection, has_transmission, is_delta_only (may be false where roughness decides);
+//   static constexpr bool has_reflection, has_transmission;
 //   explicit Model(const BsdfRows<F>&);
+//   Mask<F> is_delta(): where the model is made of deltas alone, so that connecting it to a light is useless.
 template <class Model, class F>
-concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, BsdfContext<F>& context) {
+concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, const BsdfContext<F>& context) {
+  requires std::constructible_from < Model, const BsdfRows<F>
+  & > ;
+  { Model::name } -> std::convertible_to<std::string_view>;
+  { Model::has_reflection } -> std::convertible_to<bool>;
+  { Model::has_transmission } -> std::convertible_to<bool>;
+  { model.is_delta() } -> std::same_as<Mask<F>>;
   { model.evaluate(w, w, context) } -> std::same_as<BsdfValue<F>>;
   { model.sample(w, u, u2, context) } -> std::same_as<BsdfSample<F>>;
 };

@@ -1,0 +1,53 @@
+// Metals: GGX microfacets of a complex index.
+#pragma once
+#include "material/bsdf.h"
+#include "material/fresnel.h"
+#include "material/ggx.h"
+#include "material/lobe.h"
+
+namespace montelux {
+
+struct ConductorSlots {
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, k = 5;
+};
+
+// f = D G F / (4 cos cos) (Cook and Torrance 1982, Walter et al. 2007), on both sides; a mirror where both roughnesses
+// are below 1e-3. Draws visible normals (Heitz 2018).
+template <class F>
+class Conductor {
+ public:
+  static constexpr std::string_view name = "conductor";
+  static constexpr bool has_reflection = true, has_transmission = false;
+
+  MONTELUX_INLINE explicit Conductor(const BsdfRows<F>& rows)
+      : Conductor({rows.number(ConductorSlots::alpha_x), rows.number(ConductorSlots::alpha_y)},
+                  rows.spectrum(ConductorSlots::eta), rows.spectrum(ConductorSlots::k)) {}
+  MONTELUX_INLINE Conductor(GgxFacets<F> facets, const Spectrum<F>& eta, const Spectrum<F>& k)
+      : facets_(facets), eta_(eta), k_(k) {}
+
+  MONTELUX_INLINE Mask<F> is_delta() const { return facets_.is_smooth(); }
+
+  MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
+    Vec3<F> sum = wo + wi, up{F(0.0f), F(0.0f), F(1.0f)};
+    Mask<F> smooth = facets_.is_smooth(), same = same_side(wo, wi), on = same & !smooth;
+    Vec3<F> m = face_forward(normalize(select(on, sum, up)), up);
+    F o_m = abs_dot(wo, m);
+    F density = select(on, facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f)), F(0.0f));
+    return {fresnel_conductor(o_m, eta_, k_) * (density * facets_.unshadowed(wo, wi)), {density}};
+  }
+  MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F, Vec2<F> u2, const BsdfContext<F>&) const {
+    Mask<F> smooth = facets_.is_smooth();
+    Vec3<F> m = select(smooth, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, facets_.sample(wo, u2));
+    Vec3<F> wi = reflect(wo, m);
+    F o_m = abs_dot(wo, m);
+    F density = facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f));
+    F unshadowed = select(smooth, F(1.0f), facets_.unshadowed(wo, wi));
+    return {wi, fresnel_conductor(o_m, eta_, k_) * unshadowed, {density}, F(1.0f), same_side(wo, wi), smooth};
+  }
+
+ private:
+  GgxFacets<F> facets_;
+  Spectrum<F> eta_, k_;
+};
+
+}  // namespace montelux

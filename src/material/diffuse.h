@@ -1,0 +1,37 @@
+// Lambert's law.
+#pragma once
+#include "material/bsdf.h"
+#include "material/lobe.h"
+
+namespace montelux {
+
+struct DiffuseSlots {
+  static constexpr int reflectance = 0;
+};
+
+// Reflects alike into all directions, on both sides: f = reflectance / pi.
+template <class F>
+class Diffuse {
+ public:
+  static constexpr std::string_view name = "diffuse";
+  static constexpr bool has_reflection = true, has_transmission = false;
+
+  MONTELUX_INLINE explicit Diffuse(const BsdfRows<F>& rows) : reflectance_(rows.spectrum(DiffuseSlots::reflectance)) {}
+  MONTELUX_INLINE explicit Diffuse(const Spectrum<F>& reflectance) : reflectance_(reflectance) {}
+
+  MONTELUX_INLINE Mask<F> is_delta() const { return Mask<F>(false); }
+
+  MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
+    F density = select(same_side(wo, wi), cosine_density(wi), F(0.0f));
+    return {reflectance_ * density, {density}};
+  }
+  MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F, Vec2<F> u2, const BsdfContext<F>&) const {
+    Vec3<F> wi = sample_cosine_side(wo, u2);
+    return {wi, reflectance_, {cosine_density(wi)}, F(1.0f), wi.z != F(0.0f), Mask<F>(false)};
+  }
+
+ private:
+  Spectrum<F> reflectance_;
+};
+
+}  // namespace montelux

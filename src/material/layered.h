@@ -1,0 +1,256 @@
+// A surface under a clear coat with a medium between: a random walk from face to face (Guo, Hasan and Zhao 2018;
+// Pharr, Jakob and Humphreys 2023, sec. 14.3).
+#pragma once
+#include "material/dielectric.h"
+#include "material/layer_walk.h"
+
+namespace montelux {
+
+// The slots of every coated model; those of its base follow from `base` on. Indices of a metallic base are relative to
+// that of the coat.
+struct LayeredSlots {
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, thickness = 3, g = 4, albedo = 5, max_depth = 8, samples = 9,
+                       base = 10;
+};
+
+// Light enters through the coat, is reflected between base and coat and scattered in the medium, and leaves through the
+// coat; both sides of the surface are alike. A walk makes up to max_depth events between entry and exit.
+//
+// evaluate() is an unbiased estimate of f |cos| by `samples` walks from wo that are connected to wi. Its density, and
+// that of sample(), is an estimate too, by one and the same function of (wo, wi) and random numbers of its own. It so
+// has the same law in both, and is independent of the value and of the weight: given wi, the expected weights of the
+// two techniques of multiple importance sampling add up to one, which is all that an unbiased combination needs. The
+// estimate's mean follows the walks of one reflection off the base, over a floor of a cosine lobe, and integrates to
+// at most one.
+template <class F, class Base>
+class Layered {
+ public:
+  static constexpr bool has_reflection = true, has_transmission = false;
+
+  explicit Layered(const BsdfRows<F>& rows)
+      : coat_({rows.number(LayeredSlots::alpha_x), rows.number(LayeredSlots::alpha_y)}, rows.number(LayeredSlots::eta)),
+        base_(BsdfRows<F>{rows.rows, rows.first + LayeredSlots::base}),
+        medium_{rows.number(LayeredSlots::thickness), rows.number(LayeredSlots::g),
+                rows.spectrum(LayeredSlots::albedo)},
+        max_depth_(rows.number(LayeredSlots::max_depth)),
+        samples_(rows.number(LayeredSlots::samples)) {}
+
+  Mask<F> is_delta() const {
+    Mask<F> coat = coat_.is_delta(), base = base_.is_delta(), medium = medium_.has_scatterers();
+    return coat & base & !medium;
+  }
+  BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
+  BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+
+ private:
+  using CoatSample = typename Dielectric<F>::LobeSample;
+  using CoatValue = typename Dielectric<F>::LobeValue;
+
+  // The last leg of a walk: from the layers through the coat to wi.
+  struct Exit {
+    Vec3<F> wi;
+    Vec3<F> up;         // a direction of flight in the layers that the coat refracts to wi
+    F weight, density;  // what arrives along it, for f |cos|, over its density; zero weight: none was found
+    const BsdfContext<F>& context;
+  };
+  Exit draw_exit(Vec3<F> wi, const WalkDraws<F>& draws, const BsdfContext<F>& context) const;
+  Spectrum<F> connected_walk(Vec3<F> wo, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
+  Spectrum<F> meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
+  Spectrum<F> meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
+  Spectrum<F> leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density, Mask<F> on) const;
+  F density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const;
+
+  Dielectric<F> coat_;
+  Base base_;
+  LayerMedium<F> medium_;
+  F max_depth_, samples_;
+};
+
+// Independent random numbers for the parts of a call.
+enum LayerPurpose : std::uint32_t {
+  evaluation_walk = 11,
+  sampling_walk = 12,
+  evaluated_density = 13,
+  sampled_density = 14
+};
+
+MONTELUX_INLINE TransportMode adjoint(TransportMode mode) {
+  return mode == TransportMode::radiance ? TransportMode::importance : TransportMode::radiance;
+}
+
+template <class F, class Base>
+BsdfValue<F> Layered<F, Base>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+  F side = copysign(F(1.0f), wo.z);
+  Vec3<F> o = wo * side, i = wi * side;
+  Mask<F> delta = is_delta(), same = same_side(o, i), on = context.on & same & !delta;
+  if (!any(on)) return {gray(F(0.0f)), {F(0.0f)}};
+
+  Spectrum<F> sum = gray(F(0.0f));
+  RandomStream<F> stream = context.random.fork(Uint<F>(evaluation_walk));
+  for (int s = 0;; ++s) {
+    Mask<F> more = on & (F(float(s)) < samples_);
+    if (!any(more)) break;
+    WalkDraws<F> draws{stream, std::uint32_t(s) << 16};
+    sum += select(more, connected_walk(o, draw_exit(i, draws, context), draws, more), gray(F(0.0f)));
+  }
+  F coat = coat_.template evaluate_lobes<Lobes::reflection>(o, i, context.mode).f_cos;
+  Spectrum<F> value = gray(coat) + sum / max(samples_, F(1.0f));
+  F density = density_estimate(o, i, {context.random.fork(Uint<F>(evaluated_density))});
+  return {select(on, value, gray(F(0.0f))), {select(on, density, F(0.0f))}};
+}
+
+template <class F, class Base>
+auto Layered<F, Base>::draw_exit(Vec3<F> wi, const WalkDraws<F>& draws, const BsdfContext<F>& context) const -> Exit {
+  CoatSample s = coat_.template sample_lobes<Lobes::transmission>(wi, F(0.0f), draws.pair(2), adjoint(context.mode));
+  F weight = s.weight * abs(wi.z) / max(abs(s.wi.z), F(1e-10f));
+  return {wi, -s.wi, select(s.valid, weight, F(0.0f)), s.density, context};
+}
+
+template <class F, class Base>
+Spectrum<F> Layered<F, Base>::connected_walk(Vec3<F> wo, const Exit& exit, const WalkDraws<F>& draws,
+                                             Mask<F> on) const {
+  const TransportMode mode = exit.context.mode;
+  CoatSample entry = coat_.template sample_lobes<Lobes::transmission>(wo, F(0.0f), draws.pair(0), mode);
+  LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(on & entry.valid)};
+  Spectrum<F> sum = gray(F(0.0f));
+  for (int depth = 0;; ++depth) {
+    walk.live = walk.live & (F(float(depth)) < max_depth_);
+    if (!any(walk.live)) return sum;
+    WalkDraws<F> event_draws = draws.event(depth);
+    layer_roulette(walk, depth, event_draws.number(0));
+    LayerEvent<F> event = medium_.fly(walk, event_draws.number(1));
+    if (any(event.scatters)) sum += meet_medium(walk, exit, event_draws, event.scatters);
+    if (any(event.at_base)) sum += meet_base(walk, exit, event_draws, event.at_base);
+    if (any(event.at_top)) {
+      CoatSample s = coat_.template sample_lobes<Lobes::reflection>(-walk.w, F(0.0f), event_draws.pair(3), mode);
+      walk.w = select(event.at_top, s.wi, walk.w);
+      walk.beta = select(event.at_top, walk.beta * s.weight, walk.beta);
+      walk.live = walk.live & (s.valid | !event.at_top);
+    }
+  }
+}
+
+// At the base: what reaches wi by the exit drawn before and, through a rough coat, by the direction that the base
+// draws; both weighted by the power heuristic.
+template <class F, class Base>
+Spectrum<F> Layered<F, Base>::meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
+                                        Mask<F> on) const {
+  BsdfValue<F> value = base_.evaluate(-walk.w, exit.up, exit.context);
+  Mask<F> rough = !coat_.is_delta();
+  F share = select(rough, power_heuristic(exit.density, value.density.value), F(1.0f));
+  F arrives = exit.weight * share * medium_.transmittance(medium_.thickness, exit.up);
+  Spectrum<F> sum = select(on & (exit.weight > F(0.0f)), walk.beta * value.f_cos * arrives, gray(F(0.0f)));
+
+  BsdfSample<F> s = base_.sample(-walk.w, draws.number(2), draws.pair(3), exit.context);
+  walk.w = select(on, s.wi, walk.w);
+  walk.beta = select(on, walk.beta * s.weight, walk.beta);
+  walk.live = walk.live & (s.valid | !on);
+  Mask<F> leaves = on & s.valid & rough;
+  if (any(leaves)) sum += leave_by_chance(walk, exit, select(s.delta, F(1e30f), s.density.value), leaves);
+  return sum;
+}
+
+// The same where the medium scatters.
+template <class F, class Base>
+Spectrum<F> Layered<F, Base>::meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
+                                          Mask<F> on) const {
+  F phase = henyey_greenstein(dot(walk.w, exit.up), medium_.g);
+  Mask<F> rough = !coat_.is_delta();
+  F share = select(rough, power_heuristic(exit.density, phase), F(1.0f));
+  F arrives = exit.weight * share * phase * medium_.transmittance(medium_.thickness - walk.z, exit.up);
+  Spectrum<F> sum = select(on & (exit.weight > F(0.0f)), walk.beta * medium_.albedo * arrives, gray(F(0.0f)));
+
+  Vec3<F> before = walk.w;
+  medium_.scatter(walk, on, draws.pair(3));
+  Mask<F> leaves = on & rough & (walk.w.z > F(0.0f));
+  F density = henyey_greenstein(dot(before, walk.w), medium_.g);
+  if (any(leaves)) sum += leave_by_chance(walk, exit, density, leaves);
+  return sum;
+}
+
+// What a walk that turned to walk.w with `density` sends through the rough coat to wi.
+template <class F, class Base>
+Spectrum<F> Layered<F, Base>::leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density, Mask<F> on) const {
+  const TransportMode mode = exit.context.mode;
+  CoatValue out = coat_.template evaluate_lobes<Lobes::transmission>(-walk.w, exit.wi, mode);
+  CoatValue back = coat_.template evaluate_lobes<Lobes::transmission>(exit.wi, -walk.w, adjoint(mode));
+  F share = power_heuristic(density, back.density);
+  F arrives = out.f_cos * share * medium_.transmittance(medium_.thickness - walk.z, walk.w);
+  return select(on, walk.beta * arrives, gray(F(0.0f)));
+}
+
+template <class F, class Base>
+BsdfSample<F> Layered<F, Base>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+  F side = copysign(F(1.0f), wo.z);
+  Vec3<F> o = wo * side;
+  CoatSample entry = coat_.template sample_lobes<Lobes::both>(o, u, u2, context.mode);
+  Mask<F> left = context.on & entry.valid & (entry.wi.z > F(0.0f));
+  LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(context.on & entry.valid & !left)};
+  Mask<F> delta = coat_.is_delta();
+  WalkDraws<F> draws{context.random.fork(Uint<F>(sampling_walk))};
+  // One event more than max_depth, for only the way out through the coat.
+  for (int depth = 0;; ++depth) {
+    walk.live = walk.live & (F(float(depth)) <= max_depth_);
+    if (!any(walk.live)) break;
+    WalkDraws<F> event_draws = draws.event(depth);
+    layer_roulette(walk, depth, event_draws.number(0));
+    LayerEvent<F> event = medium_.fly(walk, event_draws.number(1));
+    delta = delta & !event.scatters;
+    if (any(event.scatters)) medium_.scatter(walk, event.scatters, event_draws.pair(3));
+    if (any(event.at_base)) {
+      BsdfSample<F> s = base_.sample(-walk.w, event_draws.number(2), event_draws.pair(3), context);
+      walk.w = select(event.at_base, s.wi, walk.w);
+      walk.beta = select(event.at_base, walk.beta * s.weight, walk.beta);
+      walk.live = walk.live & (s.valid | !event.at_base);
+      delta = delta & (s.delta | !event.at_base);
+    }
+    if (any(event.at_top)) {
+      CoatSample s =
+          coat_.template sample_lobes<Lobes::both>(-walk.w, event_draws.number(2), event_draws.pair(3), context.mode);
+      walk.w = select(event.at_top, s.wi, walk.w);
+      walk.beta = select(event.at_top, walk.beta * s.weight, walk.beta);
+      Mask<F> leaves = event.at_top & s.valid & (s.wi.z > F(0.0f));
+      left = left | leaves;
+      walk.live = walk.live & (s.valid | !event.at_top) & !leaves;
+    }
+  }
+  F density = F(0.0f);
+  Mask<F> smooth = left & !delta;
+  if (any(smooth)) density = density_estimate(o, walk.w, {context.random.fork(Uint<F>(sampled_density))});
+  return {walk.w * side, walk.beta, {density}, F(1.0f), left, delta};
+}
+
+// Reflection at the coat, plus one reflection off the base between entry and exit, plus a floor. The middle part is
+// an integral over the direction between base and coat, p(base draws w) p(coat takes w to wi): estimated by w drawn
+// from the base and by w drawn backward from wi, under the balance heuristic; where the coat is smooth, w is known.
+template <class F, class Base>
+F Layered<F, Base>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const {
+  constexpr TransportMode mode = TransportMode::importance;
+  const BsdfContext<F> context{mode, draws.stream};
+  F coat = coat_.template evaluate_lobes<Lobes::both>(wo, wi, mode).density;
+  CoatSample entry = coat_.template sample_lobes<Lobes::transmission>(wo, F(0.0f), draws.pair(0), mode);
+  CoatSample exit = coat_.template sample_lobes<Lobes::transmission>(wi, F(0.0f), draws.pair(2), mode);
+  F base = base_.evaluate(-entry.wi, -exit.wi, context).density.value;
+
+  // Snell's law squeezes solid angles: d w / d wi = |cos wi| / (eta^2 |cos w|).
+  F squeeze = wi.z / max(square(coat_.eta()) * abs(exit.wi.z), F(1e-10f));
+  F middle = base * exit.weight * squeeze;
+  Mask<F> rough = !coat_.is_delta();
+  if (any(rough)) {
+    F out = coat_.template evaluate_lobes<Lobes::both>(exit.wi, wi, mode).density;
+    F backward = out * base / max(base + exit.density, F(1e-30f));
+    backward = select(exit.valid, backward, F(0.0f));
+
+    BsdfSample<F> s = base_.sample(-entry.wi, draws.number(4), draws.pair(5), context);
+    F onward_out = coat_.template evaluate_lobes<Lobes::both>(-s.wi, wi, mode).density;
+    F adjoint_density = coat_.template evaluate_lobes<Lobes::transmission>(wi, -s.wi, mode).density;
+    F share = s.density.value / max(s.density.value + adjoint_density, F(1e-30f));
+    F onward = select(s.valid, onward_out * select(s.delta, F(1.0f), share), F(0.0f));
+    middle = select(rough, backward + onward, middle);
+  }
+  middle = select(entry.valid & (rough | exit.valid), middle * entry.weight, F(0.0f));
+  constexpr float floor_share = 0.1f;
+  return lerp(F(floor_share), coat + middle, cosine_density(wi));
+}
+
+}  // namespace montelux

@@ -1,0 +1,111 @@
+// The closed list of scattering models, and the operations of the path loop over packs of mixed models: each model
+// that is present among the lanes runs once, masked.
+#pragma once
+#include <tuple>
+#include <utility>
+
+#include "material/coated_conductor.h"
+#include "material/coated_diffuse.h"
+#include "material/conductor.h"
+#include "material/dielectric.h"
+#include "material/diffuse.h"
+#include "material/diffuse_transmission.h"
+#include "material/phong.h"
+#include "material/thin_dielectric.h"
+
+namespace montelux {
+
+// In the order of BsdfModels.
+enum class BsdfKind : std::uint32_t {
+  diffuse,
+  conductor,
+  dielectric,
+  coated_diffuse,
+  coated_conductor,
+  diffuse_transmission,
+  thin_dielectric,
+  phong
+};
+
+template <class F>
+using BsdfModels = std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>,
+                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>>;
+inline constexpr std::size_t bsdf_kind_count = std::tuple_size_v<BsdfModels<float>>;
+static_assert(bsdf_kind_count == std::size_t(BsdfKind::phong) + 1);
+
+template <BsdfKind kind, class F>
+using BsdfOf = std::tuple_element_t<std::size_t(kind), BsdfModels<F>>;
+
+template <class F>
+inline constexpr bool all_are_bsdf_models = []<std::size_t... I>(std::index_sequence<I...>) {
+  return (BsdfModel<std::tuple_element_t<I, BsdfModels<F>>, F> && ...);
+}
+(std::make_index_sequence<bsdf_kind_count>());
+static_assert(all_are_bsdf_models<float> && all_are_bsdf_models<NativeFloats>);
+
+// Calls visitor.template operator()<Model>(mask) for each model that is present among the lanes `on`; `kind` is a
+// BsdfKind in each lane.
+template <class F, class Visitor>
+MONTELUX_INLINE void for_each_present_model(Uint<F> kind, Mask<F> on, Visitor&& visitor) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto visit = [&]<std::size_t i>() {
+      Mask<F> mask = on & (kind == Uint<F>(std::uint32_t(i)));
+      if (any(mask)) visitor.template operator()<std::tuple_element_t<i, BsdfModels<F>>>(mask);
+    };
+    (visit.template operator()<I>(), ...);
+  }
+  (std::make_index_sequence<bsdf_kind_count>());
+}
+
+// What the points of all lanes are made of.
+template <class F>
+struct BsdfLanes {
+  Uint<F> kind;         // a BsdfKind in each lane
+  const BsdfRow* rows;  // one per lane, in idle lanes too (their content does not matter)
+  Mask<F> on;           // the lanes to serve; results are zero and invalid in the others
+};
+
+// The questions of one vertex: how much comes from wi_light, where `light_wanted`, and where does the path go on?
+template <class F>
+struct ScatterQuery {
+  Vec3<F> wo, wi_light;
+  Mask<F> light_wanted;
+  F u;
+  Vec2<F> u2;
+};
+template <class F>
+struct Scattering {
+  BsdfValue<F> toward_light;
+  BsdfSample<F> next;
+};
+
+// All take local directions (see bsdf.h). They never advance context.random: give each vertex a stream of its own.
+template <class F>
+Scattering<F> scatter(const BsdfLanes<F>& lanes, const ScatterQuery<F>& query, const BsdfContext<F>& context);
+template <class F>
+BsdfValue<F> evaluate(const BsdfLanes<F>& lanes, Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context);
+template <class F>
+BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, const BsdfContext<F>& context);
+// Where a connection to a light is useless: the model is made of deltas alone.
+template <class F>
+Mask<F> is_delta(const BsdfLanes<F>& lanes);
+
+// The name of the model, as scene files have it.
+std::string_view name(BsdfKind kind);
+// Whether light can pass from one side of the surface to the other.
+bool transmits(BsdfKind kind);
+
+extern template Scattering<float> scatter(const BsdfLanes<float>&, const ScatterQuery<float>&,
+                                          const BsdfContext<float>&);
+extern template BsdfValue<float> evaluate(const BsdfLanes<float>&, Vec3f, Vec3f, const BsdfContext<float>&);
+extern template BsdfSample<float> sample(const BsdfLanes<float>&, Vec3f, const Vec3f&, const BsdfContext<float>&);
+extern template Mask<float> is_delta(const BsdfLanes<float>&);
+extern template Scattering<NativeFloats> scatter(const BsdfLanes<NativeFloats>&, const ScatterQuery<NativeFloats>&,
+                                                 const BsdfContext<NativeFloats>&);
+extern template BsdfValue<NativeFloats> evaluate(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>, Vec3<NativeFloats>,
+                                                 const BsdfContext<NativeFloats>&);
+extern template BsdfSample<NativeFloats> sample(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>,
+                                                const Vec3<NativeFloats>&, const BsdfContext<NativeFloats>&);
+extern template Mask<NativeFloats> is_delta(const BsdfLanes<NativeFloats>&);
+
+}  // namespace montelux

@@ -1,0 +1,58 @@
+// Phong's lobe, in the form that keeps energy and is reciprocal (Lafortune and Willems 1994).
+#pragma once
+#include "material/bsdf.h"
+#include "material/lobe.h"
+#include "mc/phong_lobe.h"
+
+namespace montelux {
+
+struct PhongSlots {
+  static constexpr int diffuse = 0, specular = 3, exponent = 6;
+};
+
+// f = kd / pi + ks (n + 2) / (2 pi) cos^n alpha, alpha the angle between wi and the mirror direction of wo; on both
+// sides. Needs kd + ks <= 1. What the lobe draws below the surface is absorbed.
+template <class F>
+class Phong {
+ public:
+  static constexpr std::string_view name = "phong";
+  static constexpr bool has_reflection = true, has_transmission = false;
+
+  MONTELUX_INLINE explicit Phong(const BsdfRows<F>& rows)
+      : kd_(rows.spectrum(PhongSlots::diffuse)),
+        ks_(rows.spectrum(PhongSlots::specular)),
+        exponent_(rows.number(PhongSlots::exponent)) {
+    F d = luminance(kd_), s = luminance(ks_);
+    diffuse_ = d / max(d + s, F(1e-30f));
+    black_ = d + s <= F(0.0f);
+  }
+
+  MONTELUX_INLINE Mask<F> is_delta() const { return Mask<F>(false); }
+
+  MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
+    Mask<F> reflects = same_side(wo, wi) & !black_;
+    F lobe = phong_lobe_density(exponent_, dot(wi, mirrored(wo))).value;
+    F cosine = cosine_density(wi);
+    F density = diffuse_ * cosine + (F(1.0f) - diffuse_) * lobe;
+    F scale = (exponent_ + 2.0f) / (exponent_ + 1.0f) * abs(wi.z);
+    Spectrum<F> value = kd_ * cosine + ks_ * (lobe * scale);
+    return {select(reflects, value, gray(F(0.0f))), {select(reflects, density, F(0.0f))}};
+  }
+  MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+    Vec3<F> lobe = Frame<F>::from_normal(mirrored(wo)).to_world(sample_phong_lobe(exponent_, u2));
+    Vec3<F> wi = select(u < diffuse_, sample_cosine_side(wo, u2), lobe);
+    BsdfValue<F> value = evaluate(wo, wi, context);
+    Mask<F> valid = value.density.value > F(0.0f);
+    return {wi, value.f_cos / max(value.density.value, F(1e-30f)), value.density, F(1.0f), valid, Mask<F>(false)};
+  }
+
+ private:
+  static MONTELUX_INLINE Vec3<F> mirrored(Vec3<F> wo) { return {-wo.x, -wo.y, wo.z}; }
+
+  Spectrum<F> kd_, ks_;
+  F exponent_;
+  F diffuse_;  // chance of the diffuse part
+  Mask<F> black_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,172 @@
+// Parameter rows for every model of the closed list: a model without cases does not compile.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "material/material.h"
+
+namespace montelux::test {
+
+struct BsdfCase {
+  std::string label;
+  BsdfRow row;
+  bool lossless = false;  // all light comes back, in importance mode
+};
+
+inline void put(BsdfRow& row, int slot, std::initializer_list<float> values) {
+  for (float v : values) row.v[slot++] = v;
+}
+
+template <BsdfKind kind>
+struct CasesOf;
+
+template <>
+struct CasesOf<BsdfKind::diffuse> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase grey{"coloured", {}}, white{"white", {}, true};
+    put(grey.row, DiffuseSlots::reflectance, {0.8f, 0.5f, 0.1f});
+    put(white.row, DiffuseSlots::reflectance, {1, 1, 1});
+    return {grey, white};
+  }
+};
+
+template <>
+struct CasesOf<BsdfKind::phong> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase broad{"broad", {}}, sharp{"sharp", {}}, pure{"without a diffuse part", {}};
+    put(broad.row, PhongSlots::diffuse, {0.3f, 0.2f, 0.1f, 0.4f, 0.5f, 0.6f, 5});
+    put(sharp.row, PhongSlots::diffuse, {0.5f, 0.5f, 0.5f, 0.4f, 0.4f, 0.4f, 80});
+    put(pure.row, PhongSlots::diffuse, {0, 0, 0, 0.9f, 0.9f, 0.9f, 20});
+    return {broad, sharp, pure};
+  }
+};
+
+inline BsdfCase conductor_case(std::string label, float alpha_x, float alpha_y, int first = 0) {
+  BsdfCase c{std::move(label), {}};
+  put(c.row, first + ConductorSlots::alpha_x, {alpha_x, alpha_y, 0.2f, 0.92f, 1.1f, 3.9f, 2.45f, 2.14f});
+  return c;
+}
+template <>
+struct CasesOf<BsdfKind::conductor> {
+  static std::vector<BsdfCase> all() {
+    return {conductor_case("rough", 0.5f, 0.5f), conductor_case("glossy", 0.15f, 0.15f),
+            conductor_case("anisotropic", 0.1f, 0.5f), conductor_case("smooth", 0, 0)};
+  }
+};
+
+inline BsdfCase dielectric_case(std::string label, float alpha_x, float alpha_y, float eta) {
+  BsdfCase c{std::move(label), {}, alpha_x < 1e-3f && alpha_y < 1e-3f};
+  put(c.row, DielectricSlots::alpha_x, {alpha_x, alpha_y, eta});
+  return c;
+}
+template <>
+struct CasesOf<BsdfKind::dielectric> {
+  static std::vector<BsdfCase> all() {
+    return {dielectric_case("rough", 0.5f, 0.5f, 1.5f), dielectric_case("glossy", 0.15f, 0.15f, 1.5f),
+            dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f), dielectric_case("rarer below", 0.3f, 0.3f, 0.75f),
+            dielectric_case("smooth", 0, 0, 1.5f)};
+  }
+};
+
+template <>
+struct CasesOf<BsdfKind::thin_dielectric> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase c{"pane", {}, true};
+    put(c.row, ThinDielectricSlots::eta, {1.5f});
+    return {c};
+  }
+};
+
+template <>
+struct CasesOf<BsdfKind::diffuse_transmission> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase leaf{"leaf", {}}, lossless{"lossless", {}, true};
+    put(leaf.row, DiffuseTransmissionSlots::reflectance, {0.3f, 0.2f, 0.1f, 0.1f, 0.6f, 0.2f});
+    put(lossless.row, DiffuseTransmissionSlots::reflectance, {0.3f, 0.3f, 0.3f, 0.7f, 0.7f, 0.7f});
+    return {leaf, lossless};
+  }
+};
+
+struct CoatCase {
+  float alpha_x = 0, alpha_y = 0, eta = 1.5f, thickness = 0.01f, g = 0, albedo = 0, max_depth = 10, samples = 1;
+};
+inline void put(BsdfRow& row, const CoatCase& c) {
+  put(row, LayeredSlots::alpha_x,
+      {c.alpha_x, c.alpha_y, c.eta, c.thickness, c.g, c.albedo, c.albedo, c.albedo, c.max_depth, c.samples});
+}
+inline BsdfCase coated_diffuse_case(std::string label, const CoatCase& coat, float reflectance) {
+  BsdfCase c{std::move(label), {}};
+  put(c.row, coat);
+  put(c.row, CoatedDiffuseSlots::reflectance, {reflectance, 0.5f * reflectance, 0.25f * reflectance});
+  return c;
+}
+inline BsdfCase coated_conductor_case(std::string label, const CoatCase& coat, float alpha_x, float alpha_y) {
+  BsdfCase c = conductor_case(std::move(label), alpha_x, alpha_y, LayeredSlots::base);
+  put(c.row, coat);
+  return c;
+}
+
+template <>
+struct CasesOf<BsdfKind::coated_diffuse> {
+  static std::vector<BsdfCase> all() {
+    return {coated_diffuse_case("smooth coat", {}, 0.8f),
+            coated_diffuse_case("rough coat", {.alpha_x = 0.4f, .alpha_y = 0.4f}, 0.8f),
+            coated_diffuse_case("anisotropic coat", {.alpha_x = 0.1f, .alpha_y = 0.5f, .samples = 2}, 0.8f),
+            coated_diffuse_case("scattering medium",
+                                {.alpha_x = 0.3f, .alpha_y = 0.3f, .thickness = 0.5f, .g = 0.5f, .albedo = 0.8f}, 0.6f),
+            coated_diffuse_case("smooth coat, scattering medium, odd depth",
+                                {.thickness = 0.5f, .g = -0.3f, .albedo = 0.9f, .max_depth = 5}, 0.6f),
+            coated_diffuse_case("odd depth", {.alpha_x = 0.2f, .alpha_y = 0.2f, .max_depth = 3}, 0.9f)};
+  }
+};
+
+template <>
+struct CasesOf<BsdfKind::coated_conductor> {
+  static std::vector<BsdfCase> all() {
+    return {coated_conductor_case("smooth coat", {}, 0.4f, 0.4f),
+            coated_conductor_case("rough coat, smooth base", {.alpha_x = 0.4f, .alpha_y = 0.4f}, 0, 0),
+            coated_conductor_case("rough coat, anisotropic base", {.alpha_x = 0.3f, .alpha_y = 0.3f}, 0.2f, 0.5f),
+            coated_conductor_case("smooth coat, scattering medium, smooth base",
+                                  {.thickness = 0.4f, .g = 0.3f, .albedo = 0.7f}, 0, 0),
+            coated_conductor_case("smooth coat, smooth base", {}, 0, 0)};
+  }
+};
+
+// Calls f.template operator()<kind>() for each kind of the closed list.
+template <class Function>
+void for_each_kind(Function&& f) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (f.template operator()<BsdfKind(I)>(), ...); }
+  (std::make_index_sequence<bsdf_kind_count>());
+}
+
+// Calls f(model, case) with the model of each case in one lane.
+template <class Function>
+void for_each_case(Function&& f) {
+  for_each_kind([&]<BsdfKind kind>() {
+    for (const BsdfCase& c : CasesOf<kind>::all()) f(BsdfOf<kind, float>(BsdfRows<float>{&c.row}), c);
+  });
+}
+
+template <class Model>
+inline constexpr bool is_layered = false;
+template <>
+inline constexpr bool is_layered<CoatedDiffuse<float>> = true;
+template <>
+inline constexpr bool is_layered<CoatedConductor<float>> = true;
+
+inline Vec3f direction(float cos, float turns) {
+  const SinCos<float> azimuth = sin_cos_two_pi(turns);
+  const float sine = std::sqrt(1 - cos * cos);
+  return {sine * azimuth.cos, sine * azimuth.sin, cos};
+}
+// Straight on, oblique, grazing, and from below.
+inline std::vector<Vec3f> outgoing_directions() {
+  return {direction(0.999f, 0.1f), direction(0.6f, 0.3f), direction(0.1f, 0.85f), direction(-0.5f, 0.6f)};
+}
+
+inline BsdfContext<float> context_of(RandomStream<float>& stream, TransportMode mode = TransportMode::radiance) {
+  const std::uint32_t key = std::uint32_t(stream.next() * 0x1p24f);
+  return {mode, RandomStream<float>(key, 0x6d2b79f5u)};
+}
+
+}  // namespace montelux::test

@@ -1,0 +1,163 @@
+// Energy, reciprocity, and the same result in one lane and in many.
+#include <gtest/gtest.h>
+
+#include "cases.h"
+#include "statistics.h"
+
+namespace montelux {
+namespace {
+
+using namespace test;
+
+// The mean weight of samples, which is the part of the light that is not absorbed; `fault` is planted.
+template <class Model>
+SampleSummary albedo(const Model& model, Vec3f wo, int component, double fault = 1) {
+  RandomStream<float> stream(21, 22);
+  std::vector<double> x;
+  for (int i = 0; i < 20000; ++i) {
+    const BsdfContext<float> context = context_of(stream, TransportMode::importance);
+    const float u = stream.next();
+    const BsdfSample<float> s = model.sample(wo, u, stream.next2(), context);
+    x.push_back(s.valid ? fault * double(s.weight[component]) : 0);
+  }
+  return summarize(x);
+}
+
+TEST(BsdfEnergy, no_model_gains_energy) {
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    for (const Vec3f wo : outgoing_directions()) {
+      const SampleSummary s = albedo(model, wo, 0);
+      // Importance that enters glass keeps its amount; what radiance gains by the index is undone on leaving.
+      EXPECT_LT(s.mean, 1 + 5 * s.standard_error() + 1e-5) << Model::name << ", " << c.label << ", wo.z = " << wo.z;
+    }
+  });
+}
+
+TEST(BsdfEnergy, lossless_models_return_all_light) {
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if (!c.lossless) return;
+    for (const Vec3f wo : outgoing_directions())
+      for (int k = 0; k < spectrum_size; ++k) {
+        const SampleSummary s = albedo(model, wo, k), faulty = albedo(model, wo, k, 0.99);
+        EXPECT_GT(z_test(s.mean, s.standard_error() + 1e-6, 1).p_value, sidak_level(family_level, 100))
+            << Model::name << ", " << c.label << " " << s.mean;
+        EXPECT_LT(z_test(faulty.mean, faulty.standard_error() + 1e-6, 1).p_value, sidak_level(family_level, 100));
+      }
+  });
+}
+
+// White Lambert under a coat without absorption, walked to the end; and a perfect mirror under the same coat.
+TEST(BsdfEnergy, coats_over_white_return_all_light) {
+  const CoatCase coat{.thickness = 1e-30f, .max_depth = 2000};
+  BsdfCase diffuse{"", {}}, mirror{"", {}};
+  put(diffuse.row, coat), put(mirror.row, coat);
+  put(diffuse.row, CoatedDiffuseSlots::reflectance, {1, 1, 1});
+  put(mirror.row, CoatedConductorSlots::conductor_alpha_x, {0, 0, 1, 1, 1, 1e9f, 1e9f, 1e9f});
+  for (const Vec3f wo : outgoing_directions()) {
+    const SampleSummary d = albedo(CoatedDiffuse<float>(BsdfRows<float>{&diffuse.row}), wo, 0);
+    const SampleSummary m = albedo(CoatedConductor<float>(BsdfRows<float>{&mirror.row}), wo, 0);
+    EXPECT_GT(z_test(d.mean, d.standard_error() + 1e-5, 1).p_value, sidak_level(family_level, 8)) << d.mean;
+    EXPECT_GT(z_test(m.mean, m.standard_error() + 1e-5, 1).p_value, sidak_level(family_level, 8)) << m.mean;
+    const SampleSummary f = albedo(CoatedDiffuse<float>(BsdfRows<float>{&diffuse.row}), wo, 0, 0.98);
+    EXPECT_LT(z_test(f.mean, f.standard_error() + 1e-5, 1).p_value, sidak_level(family_level, 8)) << f.mean;
+  }
+}
+
+TEST(BsdfReciprocity, value_is_symmetric_up_to_the_squared_index) {
+  RandomStream<float> stream(31, 32);
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if (is_layered<Model> || model.is_delta() || Model::name == "diffusetransmission") return;
+    float eta = 1;
+    if constexpr (std::is_same_v<Model, Dielectric<float>>) eta = model.eta();
+    const BsdfContext<float> radiance = context_of(stream), importance{TransportMode::importance, radiance.random};
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3f wo = direction(2 * stream.next() - 1, stream.next());
+      const Vec3f wi = direction(2 * stream.next() - 1, stream.next());
+      if (std::abs(wo.z) < 0.02f || std::abs(wi.z) < 0.02f || length(wo + wi) < 0.2f) continue;
+      const float there = model.evaluate(wo, wi, radiance).f_cos[0] / std::abs(wi.z);
+      const float back = model.evaluate(wi, wo, radiance).f_cos[0] / std::abs(wo.z);
+      const auto squared_index = [eta](Vec3f w) { return w.z < 0 ? eta * eta : 1.0f; };
+      ASSERT_NEAR(there * squared_index(wi), back * squared_index(wo), 2e-3 * there + 1e-5) << Model::name << c.label;
+      // Importance scatters as radiance does the other way.
+      const float adjoint = model.evaluate(wi, wo, importance).f_cos[0] / std::abs(wo.z);
+      ASSERT_NEAR(there, adjoint, 2e-3 * there + 1e-5) << Model::name << ", " << c.label;
+    }
+  });
+}
+
+// ---- lanes ----------------------------------------------------------------------------------------------------------
+
+template <class F>
+BsdfContext<F> keyed_context(Uint<F> key, TransportMode mode) {
+  return {mode, RandomStream<F>(key, Uint<F>(99u))};
+}
+
+// Every lane of a mixed pack gives the bits of the same call in one lane.
+TEST(BsdfLanes, pack_equals_single_lanes) {
+  using F = NativeFloats;
+  struct Entry {
+    std::uint32_t kind;
+    BsdfRow row;
+  };
+  std::vector<Entry> entries;
+  for_each_kind([&]<BsdfKind kind>() {
+    for (const BsdfCase& c : CasesOf<kind>::all()) entries.push_back({std::uint32_t(kind), c.row});
+  });
+  RandomStream<float> stream(41, 42);
+  for (int round = 0; round < 400; ++round) {
+    const TransportMode mode = round % 2 ? TransportMode::radiance : TransportMode::importance;
+    std::vector<BsdfRow> rows(native_lanes);
+    std::vector<ScatterQuery<float>> queries(native_lanes);
+    Uint<F> kind(0u), key(0u);
+    ScatterQuery<F> query;
+    std::uint32_t wanted = 0;
+    for (int k = 0; k < native_lanes; ++k) {
+      const Entry& e = entries[std::size_t(stream.next() * float(entries.size()))];
+      rows[std::size_t(k)] = e.row;
+      const Vec3f wo = direction(2 * stream.next() - 1, stream.next());
+      const Vec3f wi = direction(2 * stream.next() - 1, stream.next());
+      const bool want = stream.next() < 0.7f;
+      const float u = stream.next();
+      queries[std::size_t(k)] = {wo, wi, want, u, stream.next2()};
+      set_lane(kind, k, e.kind), set_lane(key, k, std::uint32_t(round * 64 + k));
+      set_lane(query.wo, k, wo), set_lane(query.wi_light, k, wi), set_lane(query.u, k, u);
+      set_lane(query.u2, k, queries[std::size_t(k)].u2);
+      wanted |= std::uint32_t(want) << k;
+    }
+    query.light_wanted = mask_of_bits<F>(wanted);
+    const Scattering<F> pack = scatter<F>({kind, rows.data(), Mask<F>(true)}, query, keyed_context<F>(key, mode));
+    for (int k = 0; k < native_lanes; ++k) {
+      const Scattering<float> one = scatter<float>({lane(kind, k), &rows[std::size_t(k)], true},
+                                                   queries[std::size_t(k)], keyed_context<float>(lane(key, k), mode));
+      const std::string where = std::string(name(BsdfKind(lane(kind, k)))) + " in round " + std::to_string(round);
+      ASSERT_EQ(lane(pack.next.valid, k), one.next.valid) << where;
+      ASSERT_EQ(lane(pack.toward_light.density.value, k), one.toward_light.density.value) << where;
+      ASSERT_EQ(lane(pack.toward_light.f_cos[1], k), one.toward_light.f_cos[1]) << where;
+      if (!one.next.valid) continue;
+      ASSERT_EQ(lane(pack.next.delta, k), one.next.delta) << where;
+      ASSERT_EQ(lane(pack.next.wi.x, k), one.next.wi.x) << where;
+      ASSERT_EQ(lane(pack.next.wi.z, k), one.next.wi.z) << where;
+      ASSERT_EQ(lane(pack.next.weight[2], k), one.next.weight[2]) << where;
+      ASSERT_EQ(lane(pack.next.eta_scale, k), one.next.eta_scale) << where;
+      if (!one.next.delta) ASSERT_EQ(lane(pack.next.density.value, k), one.next.density.value) << where;
+    }
+  }
+}
+
+TEST(BsdfLanes, idle_lanes_are_zero_and_invalid) {
+  using F = NativeFloats;
+  std::vector<BsdfRow> rows(native_lanes);
+  for (BsdfRow& row : rows)
+    for (float& v : row.v) v = 1e30f;
+  const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)};
+  const ScatterQuery<F> query{up, up, Mask<F>(true), F(0.5f), {F(0.5f), F(0.5f)}};
+  const auto context = keyed_context<F>(lane_index<F>(), TransportMode::radiance);
+  for (std::uint32_t kind = 0; kind < bsdf_kind_count; ++kind) {
+    const Scattering<F> s = scatter<F>({Uint<F>(kind), rows.data(), Mask<F>(false)}, query, context);
+    EXPECT_FALSE(any(s.next.valid));
+    for (int k = 0; k < native_lanes; ++k) EXPECT_EQ(lane(s.toward_light.f_cos[0], k), 0);
+  }
+}
+
+}  // namespace
+}  // namespace montelux

@@ -1,0 +1,214 @@
+// Coated models, whose values are estimates, against themselves and against closed forms and quadrature.
+#include <gtest/gtest.h>
+
+#include "cases.h"
+#include "statistics.h"
+
+namespace montelux {
+namespace {
+
+using namespace test;
+
+// The mean of a model's f |cos| for one pair of directions, by component.
+template <class Model>
+SampleSummary mean_value(const Model& model, Vec3f wo, Vec3f wi, int count, std::uint32_t seed, int component = 0) {
+  RandomStream<float> stream(seed, 3u);
+  std::vector<double> x;
+  for (int i = 0; i < count; ++i) x.push_back(model.evaluate(wo, wi, context_of(stream)).f_cos[component]);
+  return summarize(x);
+}
+
+CoatedDiffuse<float> coated_diffuse(const CoatCase& coat, float reflectance) {
+  const BsdfCase c = coated_diffuse_case("", coat, reflectance);
+  return CoatedDiffuse<float>(BsdfRows<float>{&c.row});
+}
+
+// ---- against itself: drawn directions and uniform ones see the same light
+// --------------------------------------------
+
+constexpr int cells_z = 3, cells_azimuth = 4, cells = cells_z * cells_azimuth;
+int cell_of(Vec3f w) {
+  const double turns = std::atan2(double(w.y), double(w.x)) / (2 * std::numbers::pi) + 0.5;
+  const int row = std::min(cells_z - 1, int(std::abs(w.z) * cells_z));
+  return row * cells_azimuth + std::min(cells_azimuth - 1, int(turns * cells_azimuth));
+}
+struct Sums {
+  std::vector<double> first = std::vector<double>(cells), second = std::vector<double>(cells);
+  void add(int cell, double x) {
+    const auto k = std::size_t(cell);
+    first[k] += x, second[k] += x * x;
+  }
+  SampleSummary of(std::size_t k, double n) const {
+    const double mean = first[k] / n;
+    return {mean, std::max(0.0, second[k] / n - mean * mean), n};
+  }
+};
+
+// The least p-value over the cells that the light reflected into a cell is the same by sample() and by evaluate().
+template <class Model>
+double sample_against_value(const Model& model, Vec3f wo, double fault, std::uint32_t seed) {
+  constexpr int count = 100000;
+  Sums drawn, uniform;
+  RandomStream<float> stream(seed, 9u);
+  for (int i = 0; i < count; ++i) {
+    const BsdfContext<float> context = context_of(stream);
+    const float u = stream.next();
+    const BsdfSample<float> s = model.sample(wo, u, stream.next2(), context);
+    if (s.valid && !s.delta) drawn.add(cell_of(s.wi), s.weight[0] * fault);
+    // Cosine-distributed directions for the integral of the value.
+    const Vec2f u2 = stream.next2();
+    const Vec3f wi = sample_cosine_side(wo, u2);
+    const BsdfContext<float> other = context_of(stream);
+    uniform.add(cell_of(wi), model.evaluate(wo, wi, other).f_cos[0] / double(cosine_density(wi)));
+  }
+  double least = 1;
+  for (std::size_t k = 0; k < cells; ++k)
+    least = std::min(least, welch_test(drawn.of(k, count), uniform.of(k, count)).p_value);
+  return std::min(1.0, least * cells);
+}
+
+TEST(LayeredBsdf, sampled_weights_integrate_the_value) {
+  std::uint32_t seed = 100;
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if constexpr (is_layered<Model>) {
+      if (model.is_delta()) return;
+      for (const Vec3f wo : outgoing_directions())
+        EXPECT_GT(sample_against_value(model, wo, 1.0, seed++), sidak_level(family_level, 80))
+            << Model::name << ", " << c.label << ", wo.z = " << wo.z;
+    }
+  });
+}
+
+TEST(LayeredBsdf, sampled_weights_with_a_planted_loss_are_rejected) {
+  EXPECT_LT(sample_against_value(coated_diffuse({}, 0.8f), outgoing_directions()[1], 0.97, 5), family_level);
+}
+
+// ---- against closed forms
+// --------------------------------------------------------------------------------------------
+
+// A smooth coat over Lambert's law, all internal reflections summed: f = T(wo) T(wi) r / (pi eta^2 (1 - r F)), F the
+// internal reflectance of diffuse light; both dimmed by the absorption of the layer.
+double smooth_coat_over_diffuse(double cos_o, double cos_i, double r, double eta, double thickness, int bounces) {
+  const auto inside = [&](double c) { return std::sqrt(1 - (1 - c * c) / (eta * eta)); };
+  const auto pass = [&](double c) {
+    return (1 - double(fresnel_dielectric(float(c), float(eta)))) * std::exp(-thickness / inside(c));
+  };
+  const double internal = integrate(
+      [&](double mu) {
+        return 2 * mu * double(fresnel_dielectric(float(-mu), float(eta))) * std::exp(-2 * thickness / mu);
+      },
+      0, 1, 2000);
+  double series = 0, term = 1;
+  for (int b = 0; b < bounces; ++b, term *= r * internal) series += term;
+  return pass(cos_o) * pass(cos_i) * r / (std::numbers::pi * eta * eta) * series * cos_i;
+}
+
+TEST(LayeredBsdf, smooth_coat_over_diffuse_matches_the_series) {
+  const Vec3f wo = direction(0.7f, 0.2f), wi = direction(0.4f, 0.9f);
+  std::uint32_t seed = 200;
+  for (const float thickness : {1e-30f, 0.2f})
+    for (const int depth : {2, 3, 10, 200}) {
+      const auto model = coated_diffuse({.thickness = thickness, .max_depth = float(depth)}, 0.9f);
+      const double truth =
+          smooth_coat_over_diffuse(double(wo.z), double(wi.z), 0.9f, 1.5, double(thickness), (depth + 1) / 2);
+      const SampleSummary s = mean_value(model, wo, wi, 100000, ++seed);
+      EXPECT_GT(z_test(s.mean, s.standard_error() + 1e-6 * truth, truth).p_value, sidak_level(family_level, 20))
+          << "thickness " << thickness << ", depth " << depth << ": " << s.mean << " for " << truth;
+      EXPECT_LT(z_test(s.mean, s.standard_error() + 1e-6 * truth, 1.02 * truth).p_value, sidak_level(family_level, 20));
+    }
+}
+
+TEST(LayeredBsdf, coat_of_the_index_of_air_shows_the_base) {
+  const auto model = coated_diffuse({.eta = 1, .thickness = 1e-30f}, 0.6f);
+  const Vec3f wo = direction(0.5f, 0.2f), wi = direction(0.3f, 0.9f);
+  const SampleSummary s = mean_value(model, wo, wi, 100, 1);
+  EXPECT_NEAR(s.mean, 0.6 / std::numbers::pi * 0.3, 1e-6);
+}
+
+// Single scattering in a layer over black (Chandrasekhar 1960, sec. 7).
+TEST(LayeredBsdf, single_scattering_matches_chandrasekhar) {
+  const float g = 0.4f, albedo = 0.7f, thickness = 0.8f;
+  const auto model = coated_diffuse({.eta = 1, .thickness = thickness, .g = g, .albedo = albedo, .max_depth = 1}, 0.0f);
+  std::uint32_t seed = 300;
+  for (const Vec3f wo : {direction(0.9f, 0.2f), direction(0.3f, 0.6f)}) {
+    const Vec3f wi = direction(0.5f, 0.9f);
+    const double o = double(wo.z), i = double(wi.z);
+    const double truth = albedo * double(henyey_greenstein(-dot(wo, wi), g)) * i / (o + i) *
+                         (1 - std::exp(-thickness * (1 / o + 1 / i)));
+    const SampleSummary s = mean_value(model, wo, wi, 100000, ++seed);
+    EXPECT_GT(z_test(s.mean, s.standard_error(), truth).p_value, sidak_level(family_level, 4)) << s.mean << truth;
+    EXPECT_LT(z_test(s.mean, s.standard_error(), 1.03 * truth).p_value, sidak_level(family_level, 4));
+  }
+}
+
+// Through a rough coat down to Lambert's law and out: the two passages are two integrals, done here by quadrature.
+TEST(LayeredBsdf, rough_coat_matches_quadrature_of_one_bounce) {
+  const float alpha = 0.4f, eta = 1.5f, reflectance = 0.8f;
+  const auto model =
+      coated_diffuse({.alpha_x = alpha, .alpha_y = alpha, .thickness = 1e-30f, .max_depth = 1}, reflectance);
+  const Dielectric<float> coat({alpha, alpha}, eta);
+  const Vec3f wo = direction(0.7f, 0.2f), wi = direction(0.35f, 0.5f);
+  const auto radiance = TransportMode::radiance;
+  const Frame<float> up = Frame<float>::from_normal({0, 0, 1});
+  const double enters = integrate_sphere(
+      [&](Vec3f w) { return coat.evaluate_lobes<Lobes::transmission>(wo, w, radiance).f_cos; }, up, 48, -1, 0);
+  const double leaves = integrate_sphere(
+      [&](Vec3f w) { return -w.z * coat.evaluate_lobes<Lobes::transmission>(w, wi, radiance).f_cos; }, up, 48, -1, 0);
+  const double truth = enters * double(reflectance) / std::numbers::pi * leaves +
+                       double(coat.evaluate_lobes<Lobes::reflection>(wo, wi, radiance).f_cos);
+  const SampleSummary s = mean_value(model, wo, wi, 200000, 400);
+  EXPECT_GT(z_test(s.mean, s.standard_error(), truth).p_value, family_level) << s.mean << " for " << truth;
+  EXPECT_LT(z_test(s.mean, s.standard_error(), 1.03 * truth).p_value, family_level);
+}
+
+TEST(LayeredBsdf, value_is_reciprocal) {
+  std::uint32_t seed = 500;
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if constexpr (is_layered<Model>) {
+      if (model.is_delta()) return;
+      const Vec3f wo = direction(0.8f, 0.2f), wi = direction(0.35f, 0.55f);
+      SampleSummary there = mean_value(model, wo, wi, 50000, ++seed), back = mean_value(model, wi, wo, 50000, ++seed);
+      const double scale = double(wi.z) / double(wo.z);
+      back.mean *= scale, back.variance *= scale * scale;
+      EXPECT_GT(welch_test(there, back).p_value, sidak_level(family_level, 20))
+          << Model::name << ", " << c.label << ": " << there.mean << " and " << back.mean;
+      back.mean *= 1.1;
+      EXPECT_LT(welch_test(there, back).p_value, sidak_level(family_level, 20)) << Model::name << ", " << c.label;
+    }
+  });
+}
+
+// ---- the density ----------------------------------------------------------------------------------------------------
+
+// The law of the density is the same from sample() and from evaluate(), and the density integrates to at most one.
+TEST(LayeredBsdf, density_of_a_sample_has_the_law_of_the_evaluated_density) {
+  std::uint32_t seed = 600;
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if constexpr (is_layered<Model>) {
+      if (model.is_delta()) return;
+      const Vec3f wo = direction(0.6f, 0.2f);
+      RandomStream<float> stream(++seed, 3u);
+      std::vector<double> difference, total;
+      for (int i = 0; i < 50000; ++i) {
+        const BsdfContext<float> context = context_of(stream), other = context_of(stream);
+        const float u = stream.next();
+        const BsdfSample<float> s = model.sample(wo, u, stream.next2(), context);
+        if (s.valid && !s.delta) {
+          // A bounded function of the density, as weights of multiple importance sampling are.
+          const auto share = [](float p) { return double(p / (1 + p)); };
+          difference.push_back(share(s.density.value) - share(model.evaluate(wo, s.wi, other).density.value));
+        }
+        const Vec3f wi = sample_cosine_side(wo, stream.next2());
+        total.push_back(double(model.evaluate(wo, wi, other).density.value / cosine_density(wi)));
+      }
+      const SampleSummary d = summarize(difference), t = summarize(total);
+      EXPECT_GT(z_test(d.mean, d.standard_error() + 1e-9, 0).p_value, sidak_level(family_level, 20))
+          << Model::name << ", " << c.label << " " << d.mean;
+      EXPECT_LT(t.mean, 1 + 5 * t.standard_error()) << Model::name << ", " << c.label;
+      EXPECT_GT(t.mean, 0.05) << Model::name << ", " << c.label;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace montelux
