@@ -1,0 +1,240 @@
+#include "material/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace montelux {
+
+namespace {
+
+float encoded(float x, const RowBinding& binding) {
+  switch (binding.encoding) {
+    case RowEncoding::plain:
+      break;
+    case RowEncoding::unit:
+      x = clamp(x, 0.0f, 1.0f);
+      break;
+    case RowEncoding::roughness:
+      x = std::sqrt(std::max(x, 0.0f));
+      break;
+    case RowEncoding::reflectance_to_k: {
+      float r = clamp(x, 0.0f, 0.9999f);
+      x = 2 * std::sqrt(r / (1 - r));
+    }
+  }
+  return x * binding.scale;
+}
+
+// Fills the row of one material, slot by slot.
+class RowBuilder {
+ public:
+  RowBuilder(const Entity& entity, const MaterialInputs& inputs) : entity_(entity), inputs_(inputs) {}
+
+  Material take() && { return std::move(material_); }
+  Material& material() { return material_; }
+
+  void put(int slot, float value) { material_.row.v[slot] = value; }
+  void put(int slot, const Rgb& value) {
+    for (int i = 0; i < spectrum_size; ++i) put(slot + i, value.c[i]);
+  }
+  void number(int slot, std::string_view name, float otherwise, RowEncoding encoding = RowEncoding::plain) {
+    bind({std::uint8_t(slot), encoding, false, std::uint32_t(inputs_.textures.number(entity_, name, otherwise)), 1});
+  }
+  void spectrum(int slot, std::string_view name, Rgb otherwise, float scale = 1) {
+    bind({std::uint8_t(slot), RowEncoding::unit, true,
+          std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), scale});
+  }
+
+  // Both slots from "u" + name and "v" + name, or name for both; `prefix` as in "interface.".
+  void roughness(int slot, const std::string& prefix) {
+    RowEncoding encoding =
+        entity_.parameters.boolean("remaproughness", true) ? RowEncoding::roughness : RowEncoding::plain;
+    const char* axes[2] = {"uroughness", "vroughness"};
+    for (int axis = 0; axis < 2; ++axis) {
+      std::string own = prefix + axes[axis];
+      number(slot + axis, entity_.parameters.find(own) ? own : prefix + "roughness", 0, encoding);
+    }
+  }
+
+  // An index of refraction: a number, or a spectrum of which one number is taken.
+  float index(std::string_view name, float otherwise) const {
+    if (auto spectrum = entity_.parameters.spectrum(name)) return inputs_.index(*spectrum);
+    return entity_.parameters.number(name, otherwise);
+  }
+
+  // eta and k, or a reflectance instead, relative to an outer index.
+  void metal(int eta_slot, int k_slot, const std::string& prefix, float outer_index) {
+    const float scale = 1 / outer_index;
+    if (entity_.parameters.find("reflectance")) {
+      put(eta_slot, gray(scale));
+      bind({std::uint8_t(k_slot), RowEncoding::reflectance_to_k, true,
+            std::uint32_t(inputs_.textures.spectrum(entity_, "reflectance", gray(0.5f))), scale});
+      return;
+    }
+    const std::string eta_name = prefix + "eta", k_name = prefix + "k";
+    SpectrumValue eta = entity_.parameters.spectrum(eta_name).value_or(NamedSpectrum{"metal-Cu-eta"});
+    SpectrumValue k = entity_.parameters.spectrum(k_name).value_or(NamedSpectrum{"metal-Cu-k"});
+    ConductorRgb rgb = inputs_.conductor(eta, k);
+    put(eta_slot, rgb.eta * scale);
+    put(k_slot, rgb.k * scale);
+    texture_instead(eta_slot, eta_name, scale);
+    texture_instead(k_slot, k_name, scale);
+  }
+
+ private:
+  // A texture in place of a spectrum that is not a reflectance.
+  void texture_instead(int slot, const std::string& name, float scale) {
+    if (!entity_.parameters.texture(name)) return;
+    bind({std::uint8_t(slot), RowEncoding::plain, true,
+          std::uint32_t(inputs_.textures.spectrum(entity_, name, gray(1.0f))), scale});
+  }
+  // Settles a constant, else leaves it to the points.
+  void bind(const RowBinding& binding) {
+    const TextureSet& set = inputs_.textures.textures();
+    if (binding.is_spectrum) {
+      if (auto constant = set.constant(SpectrumTextureId(binding.texture))) {
+        for (int i = 0; i < spectrum_size; ++i) put(binding.slot + i, encoded(constant->c[i], binding));
+        return;
+      }
+    } else if (auto constant = set.constant(NumberTextureId(binding.texture))) {
+      put(binding.slot, encoded(*constant, binding));
+      return;
+    }
+    material_.bindings.push_back(binding);
+  }
+
+  const Entity& entity_;
+  const MaterialInputs& inputs_;
+  Material material_;
+};
+
+void layers(RowBuilder& b, const Entity& entity, const std::string& prefix) {
+  using Slots = LayeredSlots;
+  b.put(Slots::eta, b.index(prefix + "eta", 1.5f));
+  b.roughness(Slots::alpha_x, prefix);
+  b.number(Slots::thickness, "thickness", 0.01f);
+  b.number(Slots::g, "g", 0);
+  b.spectrum(Slots::albedo, "albedo", gray(0.0f));
+  b.put(Slots::max_depth, float(entity.parameters.integer("maxdepth", 10)));
+  b.put(Slots::samples, float(entity.parameters.integer("nsamples", 1)));
+}
+
+void fill_mixture(RowBuilder& b, const Entity& entity, const MaterialInputs& inputs) {
+  const auto& names = entity.parameters.array<std::string>("materials");
+  if (names.size() != 2) {
+    inputs.diagnostics.error(entity.where,
+                             fmt::format("a mix takes the names of two materials in \"string materials\"; "
+                                         "found {}",
+                                         names.size()));
+    return;
+  }
+  Mixture mixture{{0, 0}, inputs.textures.number(entity, "amount", 0.5f)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto child = inputs.material(names[i]);
+    if (!child)
+      inputs.diagnostics.error(entity.where,
+                               fmt::format("the mix names material \"{}\", which is not defined", names[i]));
+    mixture.children[i] = child.value_or(0);
+  }
+  b.material().mixture = mixture;
+}
+
+using Fill = void (*)(RowBuilder&, const Entity&);
+
+// How each model's row follows from its parameters.
+struct MaterialRow {
+  std::string_view name;
+  BsdfKind kind;
+  Fill fill;
+};
+
+const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
+  static const std::array<MaterialRow, bsdf_kind_count> rows{{
+      {"diffuse", BsdfKind::diffuse,
+       [](RowBuilder& b, const Entity&) { b.spectrum(DiffuseSlots::reflectance, "reflectance", gray(0.5f)); }},
+      {"conductor", BsdfKind::conductor,
+       [](RowBuilder& b, const Entity&) {
+         b.roughness(ConductorSlots::alpha_x, "");
+         b.metal(ConductorSlots::eta, ConductorSlots::k, "", 1);
+       }},
+      {"dielectric", BsdfKind::dielectric,
+       [](RowBuilder& b, const Entity&) {
+         b.roughness(DielectricSlots::alpha_x, "");
+         b.put(DielectricSlots::eta, b.index("eta", 1.5f));
+       }},
+      {"coateddiffuse", BsdfKind::coated_diffuse,
+       [](RowBuilder& b, const Entity& entity) {
+         layers(b, entity, "");
+         b.spectrum(CoatedDiffuseSlots::reflectance, "reflectance", gray(0.5f));
+       }},
+      {"coatedconductor", BsdfKind::coated_conductor,
+       [](RowBuilder& b, const Entity& entity) {
+         layers(b, entity, "interface.");
+         b.roughness(CoatedConductorSlots::conductor_alpha_x, "conductor.");
+         b.metal(CoatedConductorSlots::conductor_eta, CoatedConductorSlots::conductor_k, "conductor.",
+                 b.index("interface.eta", 1.5f));
+       }},
+      {"diffusetransmission", BsdfKind::diffuse_transmission,
+       [](RowBuilder& b, const Entity& entity) {
+         const float scale = entity.parameters.number("scale", 1);
+         b.spectrum(DiffuseTransmissionSlots::reflectance, "reflectance", gray(0.25f), scale);
+         b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray(0.25f), scale);
+       }},
+      {"thindielectric", BsdfKind::thin_dielectric,
+       [](RowBuilder& b, const Entity&) { b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f)); }},
+      {"phong", BsdfKind::phong,
+       [](RowBuilder& b, const Entity&) {
+         b.spectrum(PhongSlots::diffuse, "kd", gray(0.5f));
+         b.spectrum(PhongSlots::specular, "ks", gray(0.3f));
+         b.number(PhongSlots::exponent, "exponent", 32);
+       }},
+  }};
+  return rows;
+}
+
+}  // namespace
+
+Material build_material(const Entity& entity, const MaterialInputs& inputs) {
+  RowBuilder b(entity, inputs);
+  if (entity.type == "mix") {
+    fill_mixture(b, entity, inputs);
+    return std::move(b).take();
+  }
+  if (entity.type == "interface" || entity.type.empty() || entity.type == "none") {
+    b.material().is_interface = true;
+    return std::move(b).take();
+  }
+  const auto& rows = material_rows();
+  auto row = std::find_if(rows.begin(), rows.end(), [&](const MaterialRow& r) { return r.name == entity.type; });
+  if (row == rows.end()) row = rows.begin();  // one that Montelux lacks, which the reader has reported
+  b.material().kind = row->kind;
+  row->fill(b, entity);
+  if (entity.parameters.find("normalmap"))
+    b.material().normal_map = inputs.textures.image(entity, "normalmap", ColorEncoding{});
+  if (const Parameter* p = entity.parameters.find("displacement"))
+    inputs.diagnostics.warning(p->where, "displacement of materials is not applied: the surface stays smooth",
+                               "a normalmap is applied");
+  return std::move(b).take();
+}
+
+BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {
+  BsdfRow row = material.row;
+  for (const RowBinding& binding : material.bindings) {
+    if (!binding.is_spectrum) {
+      row.v[binding.slot] = encoded(textures.number(NumberTextureId(binding.texture), point), binding);
+      continue;
+    }
+    Rgb value = textures.spectrum(SpectrumTextureId(binding.texture), point);
+    for (int i = 0; i < spectrum_size; ++i) row.v[binding.slot + i] = encoded(value.c[i], binding);
+  }
+  return row;
+}
+
+Vec3f mapped_normal(const Material& material, Vec2f uv) {
+  Rgb c = material.normal_map->bilinear({uv.x, 1 - uv.y}, Wrap::repeat);
+  return {2 * c.c[0] - 1, 2 * c.c[1] - 1, 2 * c.c[2] - 1};
+}
+
+}  // namespace montelux

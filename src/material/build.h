@@ -1,0 +1,68 @@
+// From stated materials to models with their parameters: what is constant is settled, the rest bound to textures.
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "color/sampled_spectrum.h"
+#include "material/material.h"
+#include "texture/build.h"
+
+namespace montelux {
+
+// How the value of a texture becomes a number of a row.
+enum class RowEncoding : std::uint8_t {
+  plain,
+  unit,             // clamped to [0, 1]
+  roughness,        // alpha = sqrt(roughness)
+  reflectance_to_k  // of a metal with eta = 1: k = 2 sqrt(r / (1 - r))
+};
+
+// A slot of the row that a texture fills at each point; a spectrum fills spectrum_size slots.
+struct RowBinding {
+  std::uint8_t slot;
+  RowEncoding encoding;
+  bool is_spectrum;
+  std::uint32_t texture;  // NumberTextureId or SpectrumTextureId
+  float scale;            // of the encoded value
+};
+
+// A choice between two materials.
+struct Mixture {
+  std::array<std::uint32_t, 2> children;  // numbers of materials
+  NumberTextureId amount;                 // probability of the second
+};
+
+struct Material {
+  BsdfKind kind = BsdfKind::diffuse;
+  BsdfRow row;
+  std::vector<RowBinding> bindings;
+  std::optional<Mixture> mixture;
+  std::shared_ptr<const TexelImage> normal_map;
+  bool is_interface = false;
+
+  // Nothing has to be looked up at a point.
+  bool is_plain() const { return bindings.empty() && !mixture && !normal_map && !is_interface; }
+};
+
+// What the builder asks the scene for.
+struct MaterialInputs {
+  TextureBuilder& textures;
+  std::function<ConductorRgb(const SpectrumValue& eta, const SpectrumValue& k)> conductor;
+  std::function<Rgb(const SpectrumValue&)> unbounded;  // of an index or absorption by itself
+  std::function<float(const SpectrumValue&)> index;    // one index of refraction for all wavelengths
+  std::function<std::optional<std::uint32_t>(const std::string&)> material;  // number of a named material
+  Diagnostics& diagnostics;
+};
+
+// By the names and parameters of material_table(). What cannot be done is reported, and the default stands.
+Material build_material(const Entity& entity, const MaterialInputs& inputs);
+
+// The parameters at a point.
+BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point);
+// The normal of the map at uv in the tangent frame, not unit. Only where there is a map.
+Vec3f mapped_normal(const Material& material, Vec2f uv);
+
+}  // namespace montelux
