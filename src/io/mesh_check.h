@@ -1,0 +1,17 @@
+// What every reader of meshes makes sure of.
+#pragma once
+#include <cstddef>
+
+#include "geometry/mesh.h"
+
+namespace montelux {
+
+struct DroppedFaces {
+  std::size_t triangles = 0, quads = 0;
+  std::size_t total() const { return triangles + quads; }
+};
+
+// Removes the triangles without area and the quadrilaterals of which both halves have none. Indices must be in range.
+DroppedFaces drop_degenerate_faces(Mesh& mesh);
+
+}  // namespace montelux

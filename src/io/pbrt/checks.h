@@ -1,0 +1,52 @@
+// What a file states, held against the tables.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "io/reporter.h"
+#include "parameter/spec.h"
+#include "parameter/value.h"
+
+namespace montelux::pbrt {
+
+enum class Family {
+  material,
+  texture,
+  light,
+  area_light,
+  shape,
+  camera,
+  filter,
+  film,
+  sampler,
+  integrator,
+  accelerator,
+  option
+};
+
+std::string_view name_of(Family family);
+// The table of a family; that of the options has one entity.
+std::span<const EntitySpec> table_of(Family family);
+
+enum class TextureKind { number, spectrum };
+
+struct CheckContext {
+  Reporter& report;
+  const std::string& folder;          // of the scene: files are looked for there
+  std::optional<TextureKind> kind{};  // of the texture whose parameters are checked
+};
+
+// The parameters that the entity takes and that are right in type, number and range; the others are reported.
+ParameterList checked_parameters(Family family, const EntitySpec& spec, const ParameterList& stated,
+                                 const CheckContext& context);
+
+// Whether a parameter fits its row in all but range; what is valid for it otherwise.
+bool type_fits(const ParameterSpec& spec, ParameterType type, std::optional<TextureKind> kind);
+
+// What no table can say: parameters that must agree with each other, files that must be there, total sizes.
+void check_entity(Family family, const Entity& entity, const CheckContext& context);
+
+// Reports a name that the table lacks, with the nearest one that it has.
+void report_unknown_name(Family family, const std::string& name, const SourceLocation& where, Reporter& report);
+
+}  // namespace montelux::pbrt

@@ -1,0 +1,104 @@
+#include "io/pbrt/meshes.h"
+
+#include <numeric>
+
+#include "io/mesh_check.h"
+
+namespace montelux::pbrt {
+
+namespace {
+
+SourceLocation place_of(const Entity& shape, std::string_view parameter) {
+  const Parameter* p = shape.parameters.find(parameter);
+  return p ? p->where : shape.where;
+}
+
+// An attribute has one value a vertex or none at all.
+bool fits_vertices(const Entity& shape, std::string_view name, std::size_t count, std::size_t vertices,
+                   Reporter& report) {
+  if (count == 0 || count == vertices) return true;
+  report.error(place_of(shape, name), "'" + std::string(name) + "' has " + std::to_string(count) + " values for " +
+                                          std::to_string(vertices) + " vertices");
+  return false;
+}
+
+// The indices of the faces, checked; no value after an error.
+std::optional<std::vector<std::uint32_t>> face_indices(const Entity& shape, std::size_t corners, std::size_t vertices,
+                                                       Reporter& report) {
+  const std::vector<int>& stated = shape.parameters.array<int>("indices");
+  std::vector<std::uint32_t> indices(stated.begin(), stated.end());
+  if (stated.empty()) {
+    bool has_default = shape.type != "loopsubdiv" && vertices == corners;
+    if (!has_default) {
+      report.error(shape.where, "shape '" + shape.type + "' needs 'indices'");
+      return std::nullopt;
+    }
+    indices.resize(corners);
+    std::iota(indices.begin(), indices.end(), 0u);
+    return indices;
+  }
+  SourceLocation where = place_of(shape, "indices");
+  if (indices.size() % corners != 0) {
+    report.error(where,
+                 "'indices' takes " + std::to_string(corners) + " a face; there are " + std::to_string(indices.size()));
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] < vertices) continue;
+    report.error(where, "index " + std::to_string(stated[i]) + " (number " + std::to_string(i + 1) +
+                            " of 'indices') has no vertex: there are " + std::to_string(vertices));
+    return std::nullopt;
+  }
+  return indices;
+}
+
+void remove_arrays(Entity& shape) {
+  ParameterList rest;
+  for (const Parameter& p : shape.parameters.all()) {
+    bool taken = p.name == "P" || p.name == "N" || p.name == "S" || p.name == "uv" || p.name == "indices";
+    if (!taken) rest.add(p);
+  }
+  shape.parameters = std::move(rest);
+}
+
+bool subdivision_is_sensible(const Entity& shape, std::size_t triangles, Reporter& report) {
+  constexpr std::size_t most = std::size_t{1} << 28;
+  auto levels = static_cast<std::size_t>(shape.parameters.integer("levels", 3));
+  if ((triangles << (2 * levels)) <= most) return true;
+  report.error(place_of(shape, "levels"),
+               std::to_string(levels) + " levels make more than 2^28 triangles of " + std::to_string(triangles));
+  return false;
+}
+
+}  // namespace
+
+std::optional<Mesh> take_mesh(Entity& shape, Reporter& report) {
+  const ParameterList& p = shape.parameters;
+  Mesh mesh;
+  mesh.positions = p.array<Vec3f>("P");
+  if (mesh.positions.empty()) {
+    report.error(shape.where, "shape '" + shape.type + "' needs 'P', its vertices");
+    return std::nullopt;
+  }
+  mesh.normals = p.array<Vec3f>("N");
+  mesh.tangents = p.array<Vec3f>("S");
+  mesh.uvs = p.array<Vec2f>("uv");
+  std::size_t vertices = mesh.positions.size();
+  bool good = fits_vertices(shape, "N", mesh.normals.size(), vertices, report);
+  good &= fits_vertices(shape, "S", mesh.tangents.size(), vertices, report);
+  good &= fits_vertices(shape, "uv", mesh.uvs.size(), vertices, report);
+  bool is_bilinear = shape.type == "bilinearmesh";
+  auto indices = face_indices(shape, is_bilinear ? 4 : 3, vertices, report);
+  if (!indices || !good) return std::nullopt;
+  (is_bilinear ? mesh.quads : mesh.triangles) = std::move(*indices);
+  if (shape.type == "loopsubdiv") {
+    // Even a flat face of a control mesh takes part in subdivision.
+    if (!subdivision_is_sensible(shape, mesh.triangles.size() / 3, report)) return std::nullopt;
+  } else if (std::size_t dropped = drop_degenerate_faces(mesh).total()) {
+    report.warning(shape.where, std::to_string(dropped) + " faces have no area and were dropped");
+  }
+  remove_arrays(shape);
+  return mesh;
+}
+
+}  // namespace montelux::pbrt

@@ -1,0 +1,145 @@
+// Textures, materials, lights; media by name.
+#include "io/pbrt/parser.h"
+#include "io/text_file.h"
+
+namespace montelux::pbrt {
+
+void Parser::directive_texture() {
+  auto name = quoted_argument("a name");
+  if (!name) return;
+  Token kind_token = lexer_->peek();
+  auto kind_name = quoted_argument("\"float\" or \"spectrum\"");
+  if (!kind_name) return;
+  Token type = lexer_->peek();
+  auto type_name = quoted_argument("the name of a texture's type");
+  if (!type_name) return;
+  ParameterList stated = parameters();
+  if (!is_in_world(true)) return;
+  if (*kind_name != "float" && *kind_name != "spectrum")
+    return report_.error(lexer_->where(kind_token),
+                         "a texture is of \"float\" or \"spectrum\"; found '" + printable(*kind_name) + "'");
+  TextureKind kind = *kind_name == "float" ? TextureKind::number : TextureKind::spectrum;
+  SourceLocation where = here();
+  auto& names = kind == TextureKind::number ? number_textures_ : spectrum_textures_;
+  auto texture = stated_entity(Family::texture, *type_name, lexer_->where(type), stated, kind);
+  if (texture) check_texture_of_texture(*texture, kind);
+  // The name counts as known even if the texture is faulty, so that its uses are not reported as well.
+  auto [first, is_new] = names.emplace(*name, where);
+  if (!is_new)
+    return report_.error(where, "texture '" + printable(*name) + "' is defined twice",
+                         "first in line " + std::to_string(first->second.line));
+  if (!texture) return;
+  scene_.textures.push_back(
+      {*name, kind == TextureKind::spectrum, std::move(texture->entity), still_transform("texture")});
+}
+
+// Textures build on textures that stand before them, so that none can contain itself.
+void Parser::check_texture_of_texture(const Stated& stated, TextureKind kind) {
+  if (stated.entity.type == "marble" && kind == TextureKind::number)
+    report_.error(here(), "texture 'marble' is of \"spectrum\" only");
+  bool is_noise = stated.entity.type == "fbm" || stated.entity.type == "wrinkled" || stated.entity.type == "windy";
+  if (is_noise && kind == TextureKind::spectrum)
+    report_.error(here(), "texture '" + stated.entity.type + "' is of \"float\" only");
+  for (const Parameter& parameter : stated.entity.parameters.all()) {
+    const auto* use = std::get_if<TextureName>(&parameter.values);
+    const ParameterSpec* row = find_parameter(*stated.spec, parameter.name);
+    if (!use || !row) continue;
+    bool of_spectra = type_fits(*row, ParameterType::spectrum, kind);
+    const auto& names = of_spectra ? spectrum_textures_ : number_textures_;
+    if (names.contains(use->name)) continue;
+    std::vector<std::string_view> known;
+    for (const auto& [name, where] : names) known.push_back(name);
+    std::string_view near = nearest_name(use->name, known);
+    report_.error(parameter.where,
+                  std::string("there is no texture of ") + (of_spectra ? "spectra" : "numbers") + " '" +
+                      printable(use->name) + "' before this one",
+                  near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+  }
+}
+
+void Parser::directive_material() {
+  Token type = lexer_->peek();
+  if (type.kind == TokenKind::quoted && (type.text.empty() || type.text == "none")) {
+    // Older files name the absence of a material so.
+    lexer_->next();
+    parameters();
+    if (!is_in_world(true)) return;
+    report_.warning(here(), "a material '" + std::string(type.text) + "' is 'interface' in pbrt-v4");
+    state_.material = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back({"", Entity{"interface", {}, here()}});
+    return;
+  }
+  auto material = stated_entity(Family::material);
+  if (!is_in_world(true) || !material) return;
+  note_texture_uses(*material);
+  state_.material = static_cast<std::uint32_t>(scene_.materials.size());
+  scene_.materials.push_back({"", std::move(material->entity)});
+}
+
+void Parser::directive_make_named_material() {
+  auto name = quoted_argument("a name");
+  if (!name) return;
+  ParameterList stated = parameters();
+  if (!is_in_world(true)) return;
+  const Parameter* type = stated.find("type");
+  std::string type_name = stated.string("type", "");
+  if (type_name.empty()) {
+    named_materials_.try_emplace(*name, MaterialDescId{0});
+    return report_.error(type ? type->where : here(), "MakeNamedMaterial needs \"string type\"");
+  }
+  ParameterList others;
+  for (const Parameter& parameter : stated.all())
+    if (parameter.name != "type") others.add(parameter);
+  auto material = stated_entity(Family::material, type_name, type->where, others, std::nullopt);
+  auto id = static_cast<MaterialDescId>(material ? scene_.materials.size() : 0);
+  if (!named_materials_.try_emplace(*name, id).second)
+    return report_.error(here(), "material '" + printable(*name) + "' is defined twice");
+  if (!material) return;
+  note_texture_uses(*material);
+  scene_.materials.push_back({*name, std::move(material->entity)});
+}
+
+void Parser::directive_named_material() {
+  SourceLocation where = lexer_->where(lexer_->peek());
+  auto name = quoted_argument("the name of a material");
+  if (!name || !is_in_world(true)) return;
+  state_.material = named_material | static_cast<std::uint32_t>(material_uses_.size());
+  material_uses_.push_back({std::move(*name), where});
+}
+
+void Parser::directive_light_source() {
+  auto light = stated_entity(Family::light);
+  if (!is_in_world(true) || !light) return;
+  scene_.lights.push_back({std::move(light->entity), still_transform("light")});
+}
+
+void Parser::directive_area_light_source() {
+  auto light = stated_entity(Family::area_light);
+  if (!is_in_world(true) || !light) return;
+  state_.area_light = std::move(light->entity);
+}
+
+void Parser::directive_make_named_medium() {
+  auto name = quoted_argument("a name");
+  if (!name) return;
+  parameters();
+  if (!media_.emplace(*name, here()).second)
+    return report_.error(here(), "medium '" + printable(*name) + "' is defined twice");
+  report_.tolerable(here(), "medium '" + printable(*name) + "': participating media come later",
+                    report_.lenient() ? "it is left out" : "lenient reading leaves it out");
+}
+
+void Parser::directive_medium_interface() {
+  SourceLocation where = lexer_->where(lexer_->peek());
+  auto inside = quoted_argument("one or two names of media");
+  if (!inside) return;
+  std::vector<std::string> names{*inside};
+  if (lexer_->peek().kind == TokenKind::quoted) names.push_back(unescape(lexer_->next().text));
+  for (const std::string& name : names) {
+    // A known medium has been reported where it is defined.
+    if (name.empty() || media_.contains(name)) continue;
+    report_.error(where, "there is no medium '" + printable(name) + "'");
+  }
+}
+
+}  // namespace montelux::pbrt

@@ -1,0 +1,17 @@
+// Meshes in Stanford's PLY format: text, binary of either byte order, also compressed by gzip.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "geometry/mesh.h"
+#include "parameter/diagnostic.h"
+
+namespace montelux {
+
+// The mesh of a file. Vertices: x y z, with nx ny nz and one of (u v, s t, texture_u texture_v, texture_s texture_t)
+// where given. Faces: vertex_indices or vertex_index; three make a triangle, four a bilinear patch, more a fan (with a
+// note). Other elements and properties are stepped over. Faces without area are dropped with a warning. No value where
+// the file is missing or damaged: an error then stands at `used_at`, the place that names the file.
+std::optional<Mesh> read_ply(const std::string& path, const SourceLocation& used_at, Diagnostics& diagnostics);
+
+}  // namespace montelux

@@ -1,0 +1,38 @@
+// Diagnostics of one reading, held to a number that a person can read.
+#pragma once
+#include <map>
+
+#include "parameter/diagnostic.h"
+
+namespace montelux {
+
+// Adds to a list of diagnostics, at most `most_per_file` of a severity for a file; finish() says how many were left
+// out.
+class Reporter {
+ public:
+  static constexpr int most_per_file = 50;
+
+  Reporter(Diagnostics& out, bool lenient) : out_(&out), lenient_(lenient) {}
+
+  void error(const SourceLocation& where, std::string message, std::string hint = {});
+  void warning(const SourceLocation& where, std::string message, std::string hint = {});
+  void note(const SourceLocation& where, std::string message, std::string hint = {});
+  // An error that a lenient reading lets pass as a warning.
+  void tolerable(const SourceLocation& where, std::string message, std::string hint = {});
+  void add(Diagnostic diagnostic);
+  void finish();
+
+  bool lenient() const { return lenient_; }
+  int errors() const { return out_->errors(); }
+
+ private:
+  struct Count {
+    SourceLocation first;
+    int reported = 0, left_out = 0;
+  };
+  Diagnostics* out_;
+  bool lenient_;
+  std::map<std::pair<std::string, Severity>, Count> counts_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,22 @@
+// Files read whole, compressed or not.
+#pragma once
+#include <string>
+
+#include "math/result.h"
+
+namespace montelux {
+
+// The bytes of a regular file; one that gzip has compressed (whatever its name) is unpacked. Fails where the file is
+// missing, is no regular file, is damaged or unpacks to more than 8 GiB.
+Result<std::string> read_whole_file(const std::string& path);
+
+// `name` as it is to be opened: an absolute path stays, another one starts at `folder`.
+std::string resolve_path(const std::string& folder, const std::string& name);
+
+// Whether a regular file of this path can be seen.
+bool is_regular_file(const std::string& path);
+
+// Text from a user's file made fit to be printed in a message: unprintable bytes become '?', long text is cut.
+std::string printable(std::string_view text);
+
+}  // namespace montelux
