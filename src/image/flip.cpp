@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "color/colorspace.h"
 #include "image/display.h"
 
 namespace montelux {
@@ -18,41 +17,46 @@ struct Triple {
   double v[3];
 };
 
-// The steps between colour spaces, with the white of D65.
-class Observer {
- public:
-  Observer() : to_xyz_(to_xyz(*color_space("srgb"))), from_xyz_(inverse(to_xyz_)), white_(to_xyz_ * Xyz{1, 1, 1}) {}
+// Linear sRGB to XYZ as the paper's own code has it, white of D65.
+constexpr double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
+                                 {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
+                                 {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
+constexpr double from_xyz[3][3] = {{3.241003275, -1.537398934, -0.498615861},
+                                   {-0.969224334, 1.875930071, 0.041554224},
+                                   {0.055639423, -0.204011202, 1.057148933}};
+constexpr Triple white = {
+    {(10135552.0 + 8788810 + 4435075) / 24577794, 1.0, (1425312.0 + 8788810 + 70074185) / 73733382}};
 
-  // The opponent space YCxCz in which the eye's blur is applied.
-  Triple to_opponent(const Triple& rgb) const {
-    Xyz a = relative_xyz(rgb);
-    return {{116.0 * a.y - 16.0, 500.0 * (a.x - a.y), 200.0 * (a.y - a.z)}};
-  }
-  Triple from_opponent(const Triple& a) const {
-    double y = (a.v[0] + 16.0) / 116.0, x = a.v[1] / 500.0 + y, z = y - a.v[2] / 200.0;
-    Xyz rgb = from_xyz_ * Xyz{x * white_.x, y * white_.y, z * white_.z};
-    return {{rgb.x, rgb.y, rgb.z}};
-  }
-  // CIELAB with the chroma scaled by lightness (Hunt effect).
-  Triple to_hunt_lab(const Triple& rgb) const {
-    Xyz a = relative_xyz(rgb);
-    double x = response(a.x), y = response(a.y), z = response(a.z), lightness = 116.0 * y - 16.0;
-    return {{lightness, 0.01 * lightness * 500.0 * (x - y), 0.01 * lightness * 200.0 * (y - z)}};
-  }
+Triple transform(const double (&m)[3][3], const Triple& a) {
+  Triple r;
+  for (int i = 0; i < 3; ++i) r.v[i] = m[i][0] * a.v[0] + m[i][1] * a.v[1] + m[i][2] * a.v[2];
+  return r;
+}
 
- private:
-  Xyz relative_xyz(const Triple& rgb) const {
-    Xyz a = to_xyz_ * Xyz{rgb.v[0], rgb.v[1], rgb.v[2]};
-    return {a.x / white_.x, a.y / white_.y, a.z / white_.z};
-  }
-  static double response(double t) {
+// The opponent space YCxCz in which the eye's blur is applied.
+Triple to_opponent(const Triple& rgb) {
+  Triple xyz = transform(to_xyz, rgb);
+  double x = xyz.v[0] / white.v[0], y = xyz.v[1] / white.v[1], z = xyz.v[2] / white.v[2];
+  return {{116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)}};
+}
+
+Triple from_opponent(const Triple& a) {
+  double y = (a.v[0] + 16.0) / 116.0, x = a.v[1] / 500.0 + y, z = y - a.v[2] / 200.0;
+  return transform(from_xyz, {{x * white.v[0], y * white.v[1], z * white.v[2]}});
+}
+
+// CIELAB with the chroma scaled by lightness (Hunt effect).
+Triple to_hunt_lab(const Triple& rgb) {
+  Triple xyz = transform(to_xyz, rgb);
+  double f[3];
+  for (int i = 0; i < 3; ++i) {
     constexpr double delta = 6.0 / 29.0;
-    return t > delta * delta * delta ? std::cbrt(t) : t / (3.0 * delta * delta) + 4.0 / 29.0;
+    double t = xyz.v[i] / white.v[i];
+    f[i] = t > delta * delta * delta ? std::cbrt(t) : t / (3.0 * delta * delta) + 4.0 / 29.0;
   }
-
-  Matrix3 to_xyz_, from_xyz_;
-  Xyz white_;
-};
+  double lightness = 116.0 * f[1] - 16.0;
+  return {{lightness, 0.01 * lightness * 500.0 * (f[0] - f[1]), 0.01 * lightness * 200.0 * (f[1] - f[2])}};
+}
 
 double hyab(const Triple& a, const Triple& b) {
   return std::fabs(a.v[0] - b.v[0]) + std::hypot(a.v[1] - b.v[1], a.v[2] - b.v[2]);
@@ -161,7 +165,7 @@ struct Percept {
   std::vector<double> edges, points;
 };
 
-Percept perceive(const PixelBuffer& image, const Observer& observer, double pixels_per_degree) {
+Percept perceive(const PixelBuffer& image, double pixels_per_degree) {
   std::array<int, 3> channels = rgb_channels(image);
   Plane planes[3];
   for (Plane& plane : planes) plane = {image.width, image.height, {}};
@@ -170,7 +174,7 @@ Percept perceive(const PixelBuffer& image, const Observer& observer, double pixe
       Rgb color = rgb_at(image, channels, x, y);
       Triple rgb;
       for (int c = 0; c < 3; ++c) rgb.v[c] = double(apply_curve(ToneCurve::clip, color.c[c]));
-      Triple opponent = observer.to_opponent(rgb);
+      Triple opponent = to_opponent(rgb);
       for (int c = 0; c < 3; ++c) planes[c].values.push_back(opponent.v[c]);
     }
 
@@ -185,19 +189,17 @@ Percept perceive(const PixelBuffer& image, const Observer& observer, double pixe
   planes[1] = filter_channel(planes[1], {{1.0, 0.0053}}, pixels_per_degree);
   planes[2] = filter_channel(planes[2], {{34.1, 0.04}, {13.5, 0.025}}, pixels_per_degree);
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-    Triple rgb = observer.from_opponent({{planes[0].values[i], planes[1].values[i], planes[2].values[i]}});
+    Triple rgb = from_opponent({{planes[0].values[i], planes[1].values[i], planes[2].values[i]}});
     for (double& v : rgb.v) v = std::clamp(v, 0.0, 1.0);
-    percept.colors.push_back(observer.to_hunt_lab(rgb));
+    percept.colors.push_back(to_hunt_lab(rgb));
   }
   return percept;
 }
 
-// A power of the colour difference, which is largest between green and blue.
-double raised_difference(const Triple& a, const Triple& b) { return std::pow(hyab(a, b), qc); }
-
 // The colour difference in [0, 1], compressed so that the largest ones differ little.
-double color_difference(const Triple& a, const Triple& b, double largest) {
-  double d = raised_difference(a, b), knee = pc * largest;
+double color_difference(const Triple& a, const Triple& b) {
+  static const double largest = std::pow(hyab(to_hunt_lab({{0, 1, 0}}), to_hunt_lab({{0, 0, 1}})), qc);
+  double d = std::pow(hyab(a, b), qc), knee = pc * largest;
   return d < knee ? d * pt / knee : pt + (d - knee) / (largest - knee) * (1.0 - pt);
 }
 
@@ -256,13 +258,10 @@ double mean_of(const std::vector<float>& values) {
 
 FlipResult ldr_flip(const PixelBuffer& test, const PixelBuffer& reference, const ViewingConditions& viewing) {
   assert(test.width == reference.width && test.height == reference.height);
-  Observer observer;
-  Percept a = perceive(test, observer, viewing.pixels_per_degree);
-  Percept b = perceive(reference, observer, viewing.pixels_per_degree);
-  double largest = raised_difference(observer.to_hunt_lab({{0, 1, 0}}), observer.to_hunt_lab({{0, 0, 1}}));
+  Percept a = perceive(test, viewing.pixels_per_degree), b = perceive(reference, viewing.pixels_per_degree);
   FlipResult result{0.0, make_pixel_buffer(test.width, test.height, {"flip"})};
   for (std::size_t i = 0; i < test.pixel_count(); ++i) {
-    double color = color_difference(a.colors[i], b.colors[i], largest);
+    double color = color_difference(a.colors[i], b.colors[i]);
     double feature = std::max(std::fabs(a.edges[i] - b.edges[i]), std::fabs(a.points[i] - b.points[i]));
     feature = std::clamp(std::pow(feature * 0.70710678118654752, qf), 0.0, 1.0);
     result.map.values[i] = float(std::pow(color, 1.0 - feature));

@@ -10,47 +10,99 @@ namespace montelux {
 
 // What an emitting surface sends from each of its points.
 struct Emission {
-  Rgb radiance{};                // L, W / (m^2 sr) on each component
-  float scale = 1;               // factor of L and of the image
-  std::optional<float> power{};  // of the whole shape, W: scales the light so that L of luminance 1 emits it
-  bool two_sided = false;
-  std::shared_ptr<const LightImage> image{};  // instead of L, by uv; none: L everywhere
+  Rgb radiance{};                             // L, W / (m^2 sr) on each component
+  float scale = 1;                            // factor of L or of the image
+  std::optional<float> power{};               // of the whole shape, W: scales it so that L of luminance 1 emits that
+  bool two_sided = false;                     // else on the side of the normal
+  std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
 };
 
-// In world space. The normal is that of (p1 - p0) x (p2 - p0), or its opposite where `flip`.
+// Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.
+
+// In world space; the normal is that of (p1 - p0) x (p2 - p0).
 struct TriangleShape {
   Vec3f p0, p1, p2;
   Vec2f uv0{0, 0}, uv1{1, 0}, uv2{1, 1};
+  bool flip = false;
+};
+// In world space; the normal is that of (p10 - p00) x (p01 - p00) at that corner.
+struct PatchShape {
+  Vec3f p00, p10, p01, p11;
+  Vec2f uv00{0, 0}, uv10{1, 0}, uv01{0, 1}, uv11{1, 1};
+  bool flip = false;
+};
+// At the height z, around the z axis from x toward y; the normal is that of +z. Angles in degrees.
+struct DiskShape {
+  Transform to_world;
+  float radius = 1, inner_radius = 0, height = 0, phi_max = 360;
+  bool flip = false;
+};
+// The part of a sphere about the origin between two heights; the normal points outward.
+struct SphereShape {
+  Transform to_world;
+  float radius = 1, z_min = -1e30f, z_max = 1e30f, phi_max = 360;
+  bool flip = false;
+};
+// About the z axis; the normal points outward.
+struct CylinderShape {
+  Transform to_world;
+  float radius = 1, z_min = -1, z_max = 1, phi_max = 360;
   bool flip = false;
 };
 
 // What the builder asks the scene for. A callback that cannot answer reports that itself and returns what is sensible.
 struct LightInputs {
   std::function<Rgb(const SpectrumValue&)> emission;  // of L, I, ...: a spectrum that is not an RGB has luminance 1
-  std::function<std::shared_ptr<const LightImage>(const std::string&)> image;  // null: cannot be read
+  std::function<std::shared_ptr<const LightImage>(const std::string& filename, const SourceLocation&)>
+      image;  // or null
 };
+
+// The emission that an area light states ("diffuse").
+Emission emission_of(const Entity& area_light, const LightInputs& inputs);
 
 class LightSetBuilder {
  public:
-  LightId add_triangle(const TriangleShape& shape, const Emission& emission);
+  // The light's number. Shapes without area are taken too; they are never sampled.
+  LightId add(const TriangleShape& shape, const Emission& emission);
+  LightId add(const PatchShape& shape, const Emission& emission);
+  LightId add(const DiskShape& shape, const Emission& emission);
+  LightId add(const SphereShape& shape, const Emission& emission);
+  LightId add(const CylinderShape& shape, const Emission& emission);
 
-  // The same from all directions; the radiance includes every scale.
-  LightId add_uniform_infinite(Rgb radiance);
+  // A light that is not a shape, by the names and parameters of light_table(). No value where something is wrong, and
+  // then an error is reported.
+  std::optional<LightId> add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
+                             Diagnostics& diagnostics);
+
+  // The same one by one. All scales are included.
   LightId add_point(Vec3f p, Rgb intensity);
-  // From the direction `toward` the light (need not be unit): irradiance at normal incidence.
+  // Half angles in degrees: where it ends, and where it begins to fall off.
+  LightId add_spot(Vec3f p, Vec3f axis, float end_angle, float edge_angle, Rgb intensity);
+  // The image is square and equal-area; null: constant.
+  LightId add_goniometric(const Transform& to_world, Rgb intensity, std::shared_ptr<const LightImage> image);
+  LightId add_projection(const Transform& to_world, float fov, Rgb factor, std::shared_ptr<const LightImage> image);
+  // `toward` leads to the light; irradiance at normal incidence.
   LightId add_distant(Vec3f toward, Rgb irradiance);
+  LightId add_uniform_infinite(Rgb radiance);
+  // The image is square and equal-area.
+  LightId add_image_infinite(const Transform& to_world, Rgb factor, std::shared_ptr<const LightImage> image);
 
   // The bounding sphere of the scene is where infinite lights are taken to be.
   LightSet build(LightSettings settings, Vec3f scene_centre, float scene_radius) &&;
 
  private:
-  LightId add(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
-  // The row of a surface of this area, and the mean of what it emits (average over components and image).
-  struct SurfaceRow {
+  LightId add_row(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
+  // What a surface of this area stores, and what the choice of lights needs of it.
+  struct Surface {
     LightRow row;
-    float mean_radiance;
+    LightBounds bounds;
+    float power;
   };
-  SurfaceRow surface_row(const Emission& emission, float area, bool flip);
+  Surface surface(const Emission& emission, float area, bool flip);
+  LightId add_quadric(LightKind kind, const Transform& to_world, LightRow own, float own_area, bool flip,
+                      const Emission& emission);
+  std::uint32_t number_of(std::shared_ptr<const LightImage> image);
+  std::uint32_t number_of(const Transform& to_world);
 
   LightTables tables_;
 };

@@ -1,27 +1,60 @@
 // Light from beyond the scene, the same at every point.
 #pragma once
+#include "light/image.h"
 #include "light/row.h"
+#include "math/square_maps.h"
+#include "mc/hemisphere.h"
+#include "mc/piecewise.h"
 
 namespace montelux {
 
-// The same radiance from everywhere. Where only one side matters, directions follow the cosine, else all are alike.
+template <class F>
+struct InfiniteSample {
+  Vec3<F> wi;
+  Spectrum<F> factor;  // of the light's emission
+  Density<SolidAngle, F> density;
+};
+
+// The same radiance from everywhere. Where only the side of n matters, directions follow the cosine, else all are
+// alike.
 template <class F>
 struct UniformInfinite {
-  struct Direction {
-    Vec3<F> wi;
-    Density<SolidAngle, F> density;
-  };
   static MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> n, Vec3<F> wi) {
-    return {select(length_squared(n) > F(0.5f), max(dot(n, wi), F(0.0f)) * inv_pi, F(inv_four_pi))};
+    Mask<F> one_side = length_squared(n) > F(0.5f);
+    return {select(one_side, cosine_hemisphere_density(dot(n, wi)).value, sphere_density<F>().value)};
   }
-  static MONTELUX_INLINE Direction sample(Vec3<F> n, Vec2<F> u) {
+  static MONTELUX_INLINE InfiniteSample<F> sample(Vec3<F> n, Vec2<F> u) {
     Mask<F> one_side = length_squared(n) > F(0.5f);
     Vec3<F> axis = select(one_side, n, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)});
-    F z = select(one_side, safe_sqrt(F(1.0f) - u.x), F(1.0f) - 2.0f * u.x);
-    F r = safe_sqrt(F(1.0f) - z * z);
-    SinCos<F> phi = sin_cos_two_pi(u.y);
-    Vec3<F> wi = Frame<F>::from_normal(axis).to_world({r * phi.cos, r * phi.sin, z});
-    return {wi, density(n, wi)};
+    Vec3<F> wi = select(one_side, Frame<F>::from_normal(axis).to_world(sample_cosine_hemisphere(u)), sample_sphere(u));
+    return {wi, gray(F(1.0f)), density(n, wi)};
+  }
+};
+
+// A square equal-area image of the sphere (Clarberg 2008) that turns with the light's transform. Radiance is constant
+// on a texel, and directions are drawn in proportion to its components' mean.
+template <class F>
+struct ImageInfinite {
+  const LightImage& image;
+  const PiecewiseConstant2& distribution;
+  LightTransforms<F> transform;
+
+  MONTELUX_INLINE InfiniteSample<F> sample(Vec2<F> u, Mask<F> on) const {
+    PointSample2<F> s = distribution.sample(u);
+    Vec3<F> wi = normalize(transform.direction_to_world(sphere_from_square(s.p)));
+    return {wi, texels(s.p, on), {s.density.value * inv_four_pi}};
+  }
+  MONTELUX_INLINE InfiniteSample<F> at(Vec3<F> wi, Mask<F> on) const {
+    Vec2<F> uv = square_from_sphere(normalize(transform.direction_to_light(wi)));
+    uv = {min(uv.x, F(one_minus_epsilon)), min(uv.y, F(one_minus_epsilon))};
+    return {wi, texels(uv, on), {distribution.density(uv).value * inv_four_pi}};
+  }
+
+ private:
+  MONTELUX_INLINE Spectrum<F> texels(Vec2<F> uv, Mask<F> on) const {
+    Spectrum<F> r = gray(F(0.0f));
+    for_each_lane(on, [&](int k) { set_lane(r, k, image.nearest(lane(uv, k))); });
+    return r;
   }
 };
 

@@ -7,8 +7,11 @@
 #include "light/bvh.h"
 #include "light/image.h"
 #include "light/infinite.h"
+#include "light/patch.h"
 #include "light/point.h"
+#include "light/quadric.h"
 #include "light/triangle.h"
+#include "mc/discrete.h"
 
 namespace montelux {
 
@@ -16,9 +19,11 @@ namespace montelux {
 struct LightTables {
   std::vector<LightRow> rows;
   std::vector<std::uint32_t> kinds;
-  std::vector<std::optional<LightBounds>> bounds;         // none: the light has no place
-  std::vector<float> powers;                              // emitted, W, averaged over the components
-  std::vector<std::shared_ptr<const LightImage>> images;  // by the number in a row
+  std::vector<std::optional<LightBounds>> bounds;                        // none: the light has no place
+  std::vector<float> powers;                                             // emitted, W, averaged over the components
+  std::vector<LightTransform> transforms;                                // by the number in a row; at least one
+  std::vector<std::shared_ptr<const LightImage>> images;                 // by the number in a row
+  std::vector<std::shared_ptr<const PiecewiseConstant2>> distributions;  // of each image; null: not needed
   Vec3f scene_centre{};
   float scene_radius = 1;
 };
@@ -70,7 +75,7 @@ class LightSet {
  private:
   template <class F>
   MONTELUX_INLINE LightRows<F> rows(Uint<F> light, Mask<F> on) const {
-    return {tables_.rows.data(), select(on, light, Uint<F>(0u))};
+    return {tables_.rows.data(), tables_.transforms.data(), select(on, light, Uint<F>(0u))};
   }
   // Calls f(kind, lanes) once for each kind of light among the lanes.
   template <class F, class Function>
@@ -84,12 +89,19 @@ class LightSet {
                              Mask<F> on) const;
   template <class F>
   Spectrum<F> surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const;
+  // Of a light whose kind is is_delta; `distance` to the light, no density.
   template <class F>
-  LightHit<F> escaped_kind(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
+  LightSample<F> sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const;
+  template <class F>
+  ImageInfinite<F> image_infinite(LightId light) const;
+  // Radiance, and density without the choice.
+  template <class F>
+  LightHit<F> escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
 
   LightTables tables_;
   LightSettings settings_;
-  LightBvh bvh_;
+  LightBvh bvh_;                          // where lights are chosen so
+  std::optional<AliasTable> by_power_;    // likewise
   std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   float unbounded_mass_ = 0;  // of each unbounded light, by the hierarchy's choice

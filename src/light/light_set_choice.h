@@ -11,6 +11,10 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     Uint<F> light = min(to_uint(u * float(count())), Uint<F>(count() - 1));
     return {light, {F(1.0f / float(count()))}, on};
   }
+  if (by_power_) {
+    DiscreteSample<F> s = by_power_->sample(u);
+    return {s.index, s.mass, on};
+  }
   // Unbounded lights take equal shares from the front of [0, 1), the hierarchy has the rest.
   auto unbounded = std::uint32_t(unbounded_.size());
   F front = F(unbounded_mass_ * float(unbounded));
@@ -37,6 +41,7 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   if (count() == 0) return {F(0.0f)};
   light = select(on, light, Uint<F>(0u));
   if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
+  if (by_power_) return by_power_->mass<F>(light);
   Mask<F> unbounded = gather(tables_.kinds.data(), light) >= Uint<F>(std::uint32_t(LightKind::distant));
   F share = F(1.0f) - F(unbounded_mass_ * float(unbounded_.size()));
   Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));

@@ -20,10 +20,19 @@ template <class F, class Function>
 void LightSet::with_emitter(LightKind kind, const LightRows<F>& rows, Function f) {
   switch (kind) {
     case LightKind::triangle:
-      f(TriangleEmitter<F>(rows));
-      break;
+      return f(TriangleEmitter<F>(rows));
+    case LightKind::parallelogram:
+      return f(ParallelogramEmitter<F>(rows));
+    case LightKind::bilinear_patch:
+      return f(BilinearPatchEmitter<F>(rows));
+    case LightKind::disk:
+      return f(DiskEmitter<F>(rows));
+    case LightKind::sphere:
+      return f(SphereEmitter<F>(rows));
+    case LightKind::cylinder:
+      return f(CylinderEmitter<F>(rows));
     default:
-      break;
+      return;
   }
 }
 
@@ -51,14 +60,39 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
       Vec3<F> d = e.p - p;
       r.distance = length(d);
       r.wi = d * (F(1.0f) / max(r.distance, F(1e-37f)));
-      Mask<F> seen = (dot(e.n, r.wi) < F(0.0f)) | rows.flag(light_two_sided);
+      Mask<F> seen = meets_lit_side(rows, e.n, r.wi);
       r.radiance = surface_emission(rows, e.uv, Mask<F>(on & seen));
       r.density = e.density;
       r.valid = on & seen & (e.density.value > F(0.0f)) & is_finite(e.density.value);
     });
     return r;
   }
-  F beyond = F(2.0f * tables_.scene_radius);
+  if (is_delta(kind)) return sample_delta(kind, rows, p, on);
+  InfiniteSample<F> s;
+  if (kind == LightKind::uniform_infinite) {
+    s = UniformInfinite<F>::sample(n, u);
+  } else {
+    // Each image has its own table, so the lanes of one light go together.
+    s.wi = {F(0.0f), F(0.0f), F(1.0f)}, s.factor = gray(F(0.0f)), s.density = {F(0.0f)};
+    for (Mask<F> rest = on; any(rest);) {
+      std::uint32_t light = lane(rows.light, std::countr_zero(bits(rest)));
+      Mask<F> same = rest & (rows.light == Uint<F>(light));
+      InfiniteSample<F> one = image_infinite<F>(LightId(light)).sample(u, same);
+      s = {select(same, one.wi, s.wi),
+           select(same, one.factor, s.factor),
+           {select(same, one.density.value, s.density.value)}};
+      rest = rest & !same;
+    }
+  }
+  r.wi = s.wi, r.distance = F(2.0f * tables_.scene_radius);
+  r.radiance = rows.emission() * s.factor, r.density = s.density;
+  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  return r;
+}
+
+template <class F>
+LightSample<F> LightSet::sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const {
+  LightSample<F> r{};
   auto from_point = [&](const auto& light) {
     Vec3<F> d = light.p - p;
     F d2 = max(length_squared(d), F(1e-30f));
@@ -70,19 +104,21 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
     case LightKind::point:
       from_point(PointEmitter<F>(rows));
       break;
-    case LightKind::distant:
-      r.wi = rows.vec3(light_slot::shape), r.distance = beyond, r.radiance = rows.emission();
+    case LightKind::spot:
+      from_point(SpotEmitter<F>(rows));
       break;
-    case LightKind::uniform_infinite: {
-      auto s = UniformInfinite<F>::sample(n, u);
-      r.wi = s.wi, r.density = s.density, r.distance = beyond, r.radiance = rows.emission();
+    case LightKind::goniometric:
+      from_point(GoniometricEmitter<F>(rows, tables_.images.data()));
       break;
-    }
-    default:
-      return r;
+    case LightKind::projection:
+      from_point(ProjectionEmitter<F>(rows, tables_.images.data()));
+      break;
+    default:  // distant
+      r.wi = rows.vec3(light_slot::shape), r.distance = F(2.0f * tables_.scene_radius), r.radiance = rows.emission();
   }
-  if (is_delta(kind)) r.density = {F(1.0f)};
-  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  r.density = {F(1.0f)};
+  r.delta = Mask<F>(true);
+  r.valid = on & !is_black(r.radiance);
   return r;
 }
 
@@ -117,7 +153,7 @@ template <class F>
 Spectrum<F> LightSet::hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const {
   if (!any(on)) return gray(F(0.0f));
   LightRows<F> row = rows<F>(light, on);
-  Mask<F> seen = on & ((dot(ng, wi) < F(0.0f)) | row.flag(light_two_sided));
+  Mask<F> seen = on & meets_lit_side(row, ng, wi);
   return select(seen, surface_emission(row, uv, seen), gray(F(0.0f)));
 }
 
@@ -138,16 +174,25 @@ LightHit<F> LightSet::hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_
 }
 
 template <class F>
-LightHit<F> LightSet::escaped_kind(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F>) const {
-  LightRows<F> row{tables_.rows.data(), Uint<F>(std::uint32_t(light))};
-  return {row.emission(), UniformInfinite<F>::density(n, wi)};
+ImageInfinite<F> LightSet::image_infinite(LightId light) const {
+  LightRows<F> row = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true));
+  std::size_t image = lane(row.bits(light_slot::image), 0) - 1;
+  return {*tables_.images[image], *tables_.distributions[image], row.transform()};
+}
+
+template <class F>
+LightHit<F> LightSet::escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const {
+  Spectrum<F> emission = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true)).emission();
+  if (kind(light) == LightKind::uniform_infinite) return {emission, UniformInfinite<F>::density(n, wi)};
+  InfiniteSample<F> s = image_infinite<F>(light).at(wi, on);
+  return {emission * s.factor, s.density};
 }
 
 template <class F>
 LightHit<F> LightSet::escaped(int infinite_index, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> wi,
                               Mask<F> on) const {
   LightId light = infinite_light(infinite_index);
-  LightHit<F> r = escaped_kind<F>(light, reference_n, wi, on);
+  LightHit<F> r = escaped_light<F>(light, reference_n, wi, on);
   r.density = choice_mass(Uint<F>(std::uint32_t(light)), reference_p, reference_n, on) * r.density;
   return r;
 }
@@ -156,7 +201,7 @@ template <class F>
 Spectrum<F> LightSet::escaped_radiance(Vec3<F> wi, Mask<F> on) const {
   Spectrum<F> sum = gray(F(0.0f));
   Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
-  for (int i = 0; i < infinite_count(); ++i) sum += escaped_kind<F>(infinite_light(i), nowhere, wi, on).radiance;
+  for (int i = 0; i < infinite_count(); ++i) sum += escaped_light<F>(infinite_light(i), nowhere, wi, on).radiance;
   return sum;
 }
 

@@ -1,9 +1,11 @@
 // How one light is stored: a row of numbers that packs gather from. The slots after the common ones are the kind's own.
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <concepts>
 
 #include "light/light.h"
+#include "math/transform.h"
 
 namespace montelux {
 
@@ -33,10 +35,44 @@ inline constexpr std::uint32_t light_two_sided = 1;  // emits on both sides
 inline constexpr std::uint32_t light_flipped = 2;    // the normal is the negative of the shape's own
 inline constexpr std::uint32_t light_special = 4;    // the kind says what: a right-angled or a whole one
 
+// A map from a light's own space to the world: twelve numbers forth, twelve back, each the rows of a 3 x 4 matrix.
+inline constexpr int light_transform_size = 32;
+struct alignas(64) LightTransform {
+  float v[light_transform_size] = {};
+};
+inline LightTransform light_transform(const Transform& to_world) {
+  LightTransform t;
+  std::copy(to_world.rows().begin(), to_world.rows().end(), t.v);
+  std::copy(to_world.inverse_rows().begin(), to_world.inverse_rows().end(), t.v + 12);
+  return t;
+}
+
+// The transforms of all lanes.
+template <class F>
+struct LightTransforms {
+  const float* base;
+  Uint<F> offset;
+
+  MONTELUX_INLINE F at(int i) const { return gather(base + i, offset); }
+  MONTELUX_INLINE Vec3<F> row(int i) const { return {at(i), at(i + 1), at(i + 2)}; }
+  MONTELUX_INLINE Vec3<F> point_to_world(Vec3<F> p) const { return rotate(0, p) + Vec3<F>{at(3), at(7), at(11)}; }
+  MONTELUX_INLINE Vec3<F> point_to_light(Vec3<F> p) const { return rotate(12, p) + Vec3<F>{at(15), at(19), at(23)}; }
+  MONTELUX_INLINE Vec3<F> direction_to_world(Vec3<F> d) const { return rotate(0, d); }
+  MONTELUX_INLINE Vec3<F> direction_to_light(Vec3<F> d) const { return rotate(12, d); }
+  // By the inverse transpose; not normalised.
+  MONTELUX_INLINE Vec3<F> normal_to_world(Vec3<F> n) const { return row(12) * n.x + row(16) * n.y + row(20) * n.z; }
+
+ private:
+  MONTELUX_INLINE Vec3<F> rotate(int first, Vec3<F> d) const {
+    return {dot(row(first), d), dot(row(first + 4), d), dot(row(first + 8), d)};
+  }
+};
+
 // The rows of the lights of all lanes.
 template <class F>
 struct LightRows {
   const LightRow* rows;
+  const LightTransform* transforms;  // of all lights that have one
   Uint<F> light;
 
   MONTELUX_INLINE F number(int slot) const {
@@ -50,6 +86,11 @@ struct LightRows {
     for (int i = 0; i < spectrum_size; ++i) s.c[i] = number(light_slot::emission + i);
     return s;
   }
+  // Of lights of a kind that has one.
+  MONTELUX_INLINE LightTransforms<F> transform() const {
+    return {transforms->v, Uint<F>(bits(light_slot::transform) * std::uint32_t(light_transform_size))};
+  }
+  MONTELUX_INLINE Mask<F> has_image() const { return bits(light_slot::image) != Uint<F>(0u); }
   MONTELUX_INLINE Mask<F> flag(std::uint32_t bit) const {
     return (bits(light_slot::flags) & Uint<F>(bit)) != Uint<F>(0u);
   }

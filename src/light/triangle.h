@@ -1,26 +1,14 @@
 // A triangle that emits.
 #pragma once
-#include "light/row.h"
+#include "light/surface.h"
+#include "mc/spherical_triangle.h"
+#include "mc/triangle.h"
 
 namespace montelux {
 
-// The density at `from` of a point p, seen along wi, that is uniform over a plane area with unit normal n.
-template <class F>
-MONTELUX_INLINE Density<SolidAngle, F> area_density(F area, Vec3<F> n, Vec3<F> from, Vec3<F> p, Vec3<F> wi) {
-  return to_solid_angle(Density<Area, F>{F(1.0f) / area}, length_squared(p - from), dot(n, wi));
-}
-
-// The density at `from` of the drawn point p, and the rest that a sample needs.
-template <class F, class Emitter>
-MONTELUX_INLINE EmitterPoint<F> emitter_point(const Emitter& emitter, Vec3<F> from, Vec3<F> p, Vec3<F> n, Vec2<F> uv) {
-  Vec3<F> d = p - from;
-  Vec3<F> wi = d * (F(1.0f) / sqrt(max(length_squared(d), F(1e-37f))));
-  return {p, n, uv, emitter.density(from, p, wi)};
-}
-
+// Sampled uniformly in solid angle (Arvo 1995), or in area where it looks very small or very large.
 template <class F>
 struct TriangleEmitter {
-  // Slots from light_slot::shape on.
   enum Slot {
     corner = light_slot::shape,
     edge1 = corner + 3,
@@ -31,25 +19,42 @@ struct TriangleEmitter {
     uv1 = uv0 + 2,
     uv2 = uv1 + 2
   };
-  Vec3<F> p0, e1, e2, n;
-  F surface;
   LightRows<F> rows;
+  Vec3<F> p0, e1, e2, n;
 
   explicit MONTELUX_INLINE TriangleEmitter(const LightRows<F>& r)
-      : p0(r.vec3(corner)), e1(r.vec3(edge1)), e2(r.vec3(edge2)), n(r.vec3(normal)), surface(r.number(area)), rows(r) {}
+      : rows(r), p0(r.vec3(corner)), e1(r.vec3(edge1)), e2(r.vec3(edge2)), n(r.vec3(normal)) {}
 
   MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const {
-    // Uniform barycentrics by folding, which keeps strata together (Heitz 2019, "A Low-Distortion Map Between Triangle
-    // and Square").
-    Mask<F> upper = u.x < u.y;
-    F half = select(upper, u.x, u.y) * 0.5f;
-    F b0 = select(upper, half, u.x - half), b1 = select(upper, u.y - half, half);
-    F b2 = F(1.0f) - b0 - b1;
-    Vec2<F> uv = rows.vec2(uv0) * b0 + rows.vec2(uv1) * b1 + rows.vec2(uv2) * b2;
-    return emitter_point(*this, from, p0 + e1 * b1 + e2 * b2, n, uv);
+    SphericalTriangle<F> seen = spherical(from);
+    Mask<F> by_angle = is_spherical(seen.solid_angle);
+    Vec2<F> b = sample_triangle(u);
+    if (any(by_angle)) {
+      Vec2<F> met = meet_plane(from, sample_spherical_triangle(seen, u), p0, e1, e2);
+      // Rounding may lead just past an edge.
+      met.x = clamp(met.x, 0.0f, 1.0f);
+      met.y = clamp(met.y, 0.0f, F(1.0f) - met.x);
+      b = select(by_angle, met, b);
+    }
+    Vec2<F> uv{F(0.0f), F(0.0f)};
+    if (any(rows.has_image()))
+      uv = rows.vec2(uv0) * (F(1.0f) - b.x - b.y) + rows.vec2(uv1) * b.x + rows.vec2(uv2) * b.y;
+    Vec3<F> p = p0 + e1 * b.x + e2 * b.y;
+    return {p, n, uv, density_of(seen, from, p, direction_to(from, p))};
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
-    return area_density(surface, n, from, p, wi);
+    return density_of(spherical(from), from, p, wi);
+  }
+
+ private:
+  MONTELUX_INLINE SphericalTriangle<F> spherical(Vec3<F> from) const {
+    Vec3<F> a = p0 - from;
+    return SphericalTriangle<F>::from_corners(a, a + e1, a + e2);
+  }
+  MONTELUX_INLINE Density<SolidAngle, F> density_of(const SphericalTriangle<F>& seen, Vec3<F> from, Vec3<F> p,
+                                                    Vec3<F> wi) const {
+    return {select(is_spherical(seen.solid_angle), spherical_triangle_density(seen).value,
+                   area_density(rows.number(area), n, from, p, wi).value)};
   }
 };
 

@@ -31,7 +31,7 @@ LightSet mixed_lights(int triangles, std::uint32_t seed, LightSelection selectio
     Emission e;
     e.radiance = gray(exp(4 * r.next()));
     e.two_sided = r.next() < 0.2f;
-    builder.add_triangle({p, p + on_sphere(r) * size, p + on_sphere(r) * size}, e);
+    builder.add(TriangleShape{p, p + on_sphere(r) * size, p + on_sphere(r) * size}, e);
     if (i % 8 == 3) builder.add_point(in_box(r, 10), gray(r.next()));
   }
   builder.add_uniform_infinite(gray(0.5f));
@@ -39,7 +39,7 @@ LightSet mixed_lights(int triangles, std::uint32_t seed, LightSelection selectio
   return std::move(builder).build({selection}, {5, 5, 5}, 9);
 }
 
-constexpr LightSelection selections[] = {LightSelection::uniform, LightSelection::bvh};
+constexpr LightSelection selections[] = {LightSelection::uniform, LightSelection::power, LightSelection::bvh};
 
 TEST(LightChoice, masses_over_all_lights_sum_to_one) {
   for (LightSelection selection : selections) {

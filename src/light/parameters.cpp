@@ -1,0 +1,154 @@
+// Lights as a scene file states them.
+#include <cmath>
+
+#include "light/builder.h"
+
+namespace montelux {
+
+namespace {
+
+// What a light's parameters are read with.
+struct Reader {
+  const Entity& light;
+  const Transform& to_world;
+  const LightInputs& inputs;
+  Diagnostics& diagnostics;
+
+  Rgb spectrum(std::string_view name) const {
+    auto value = light.parameters.spectrum(name);
+    return value ? inputs.emission(*value) : gray(1.0f);
+  }
+  float scale() const { return light.parameters.number("scale", 1); }
+  Vec3f from() const { return light.parameters.vec3("from", {0, 0, 0}); }
+  Vec3f to() const { return light.parameters.vec3("to", {0, 0, 1}); }
+  // What turns emission into the power (or illuminance) that the parameter asks for, where it emits `present` now.
+  float factor_for(std::string_view parameter, float present) const {
+    float wanted = light.parameters.number(parameter, -1);
+    return wanted > 0 && present > 0 ? wanted / present : 1.0f;
+  }
+  // Null: not stated, or reported.
+  std::shared_ptr<const LightImage> image(bool must_be_square) const {
+    std::string name = light.parameters.string("filename", "");
+    if (name.empty()) return nullptr;
+    auto image = inputs.image(name, light.where);
+    if (!image) {
+      diagnostics.error(light.where, "the image \"" + name + "\" of the " + light.type + " light cannot be read");
+    } else if (image->width < 1 || image->height < 1 ||
+               image->texels.size() != std::size_t(image->width) * std::size_t(image->height)) {
+      diagnostics.error(light.where, "the image \"" + name + "\" is empty");
+    } else if (must_be_square && image->width != image->height) {
+      diagnostics.error(light.where,
+                        "the image \"" + name + "\" has " + std::to_string(image->width) + " x " +
+                            std::to_string(image->height) + " pixels, but an equal-area image of directions is square",
+                        "convert a longitude-latitude map to the equal-area octahedral form first");
+    } else {
+      for (const Rgb& t : image->texels)
+        if (!is_finite(t[0] + t[1] + t[2])) {
+          diagnostics.error(light.where, "the image \"" + name + "\" has pixels that are not finite");
+          return nullptr;
+        }
+      return image;
+    }
+    return nullptr;
+  }
+};
+
+// The luminous part of what a slide sends: over its pixels, luminance times the solid angle.
+float projected_luminance(const LightImage& image, float fov) {
+  float aspect = float(image.width) / float(image.height), tangent = std::tan(fov * (pi / 360));
+  float width = std::max(aspect, 1.0f) * tangent, height = std::max(1 / aspect, 1.0f) * tangent;
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      float u = width * (2 * (float(x) + 0.5f) / float(image.width) - 1);
+      float v = height * (2 * (float(y) + 0.5f) / float(image.height) - 1);
+      sum += double(luminance(image.at(x, y))) * std::pow(1 + double(u * u + v * v), -1.5);
+    }
+  return float(4 * double(width * height) * sum / double(image.texels.size()));
+}
+
+// Of the plane whose normal is the image's pole.
+float illuminance(const LightImage& image) {
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      Vec3f w =
+          sphere_from_square(Vec2f{(float(x) + 0.5f) / float(image.width), (float(y) + 0.5f) / float(image.height)});
+      sum += double(luminance(image.at(x, y)) * max(w.z, 0.0f));
+    }
+  return float(4 * double(pi) * sum / double(image.texels.size()));
+}
+
+std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read) {
+  if (read.light.parameters.string("filename", "").empty())
+    return builder.add_uniform_infinite(read.spectrum("L") * (read.scale() * read.factor_for("illuminance", pi)));
+  auto image = read.image(true);
+  if (!image) return std::nullopt;
+  float factor = read.scale() * read.factor_for("illuminance", illuminance(*image));
+  return builder.add_image_infinite(read.to_world, gray(factor), image);
+}
+
+std::optional<LightId> add_spot(LightSetBuilder& builder, const Reader& read) {
+  float end = read.light.parameters.number("coneangle", 30);
+  float edge = std::max(end - read.light.parameters.number("conedeltaangle", 5), 0.0f);
+  float mean_cos = 0.5f * (std::cos(end * (pi / 180)) + std::cos(edge * (pi / 180)));
+  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", two_pi * (1 - mean_cos)));
+  return builder.add_spot(read.to_world.point(read.from()), read.to_world.direction(read.to() - read.from()), end, edge,
+                          intensity);
+}
+
+std::optional<LightId> add_goniometric(LightSetBuilder& builder, const Reader& read) {
+  bool stated = !read.light.parameters.string("filename", "").empty();
+  auto image = read.image(true);
+  if (stated && !image) return std::nullopt;
+  float mean = image ? average(image->mean()) : 1.0f;
+  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", 4 * pi * mean));
+  return builder.add_goniometric(read.to_world, intensity, image);
+}
+
+std::optional<LightId> add_projection(LightSetBuilder& builder, const Reader& read) {
+  if (read.light.parameters.string("filename", "").empty()) {
+    read.diagnostics.error(read.light.where, "a projection light needs an image", "state \"string filename\"");
+    return std::nullopt;
+  }
+  auto image = read.image(false);
+  if (!image) return std::nullopt;
+  float fov = read.light.parameters.number("fov", 90);
+  Rgb factor = read.spectrum("I") * (read.scale() * read.factor_for("power", projected_luminance(*image, fov)));
+  return builder.add_projection(read.to_world, fov, factor, image);
+}
+
+}  // namespace
+
+Emission emission_of(const Entity& area_light, const LightInputs& inputs) {
+  const ParameterList& list = area_light.parameters;
+  Emission e;
+  auto stated = list.spectrum("L");
+  e.radiance = stated ? inputs.emission(*stated) : gray(1.0f);
+  e.scale = list.number("scale", 1);
+  if (float power = list.number("power", -1); power > 0) e.power = power;
+  e.two_sided = list.boolean("twosided", false);
+  if (std::string name = list.string("filename", ""); !name.empty()) e.image = inputs.image(name, area_light.where);
+  return e;
+}
+
+std::optional<LightId> LightSetBuilder::add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
+                                            Diagnostics& diagnostics) {
+  Reader read{light, to_world, inputs, diagnostics};
+  if (light.type == "point") {
+    Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", 4 * pi));
+    return add_point(to_world.point(read.from()), intensity);
+  }
+  if (light.type == "distant") {
+    Rgb irradiance = read.spectrum("L") * (read.scale() * read.factor_for("illuminance", 1));
+    return add_distant(to_world.direction(read.from() - read.to()), irradiance);
+  }
+  if (light.type == "spot") return montelux::add_spot(*this, read);
+  if (light.type == "goniometric") return montelux::add_goniometric(*this, read);
+  if (light.type == "projection") return montelux::add_projection(*this, read);
+  if (light.type == "infinite") return montelux::add_infinite(*this, read);
+  diagnostics.error(light.where, "there is no light \"" + light.type + "\"");
+  return std::nullopt;
+}
+
+}  // namespace montelux
