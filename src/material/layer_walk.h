@@ -11,9 +11,12 @@ template <class F>
 struct WalkDraws {
   RandomStream<F> stream;
   std::uint32_t place = 0;
+  int depth = 0;  // of the event
   MONTELUX_INLINE F number(std::uint32_t i) const { return stream.at(Uint<F>(place + i)); }
   MONTELUX_INLINE Vec2<F> pair(std::uint32_t i) const { return {number(i), number(i + 1)}; }
-  MONTELUX_INLINE WalkDraws event(int depth) const { return {stream, place + 8u * std::uint32_t(depth + 1)}; }
+  MONTELUX_INLINE WalkDraws event(int number_of_event) const {
+    return {stream, place + 8u * std::uint32_t(number_of_event + 1), number_of_event};
+  }
 };
 
 // Where a walk is: in flight toward w from the height z above the base, with the weight beta.
@@ -48,7 +51,7 @@ struct LayerMedium {
     Mask<F> scatters = walk.live & medium & (next > F(0.0f)) & (next < thickness);
     Mask<F> up = walk.w.z > F(0.0f);
     // Where there are no scatterers, all light that is not absorbed arrives.
-    walk.beta = walk.beta * select(medium, F(1.0f), transmittance(thickness, walk.w));
+    walk.beta = walk.beta * select(walk.live & !medium, transmittance(thickness, walk.w), F(1.0f));
     walk.z = select(scatters, next, select(up, thickness, F(0.0f)));
     Mask<F> arrives = walk.live & !scatters;
     return {scatters, Mask<F>(arrives & up), Mask<F>(arrives & !up)};
@@ -64,7 +67,7 @@ template <class F>
 MONTELUX_INLINE void layer_roulette(LayerWalk<F>& walk, int depth, F u) {
   if (depth <= 3) return;
   F most = max_component(walk.beta);
-  Mask<F> doubtful = most < F(0.25f);
+  Mask<F> doubtful = walk.live & (most < F(0.25f));
   walk.live = walk.live & !Mask<F>(doubtful & (u >= most));
   walk.beta = walk.beta / select(doubtful, max(most, F(1e-30f)), F(1.0f));
 }

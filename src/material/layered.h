@@ -57,6 +57,7 @@ class Layered {
   Spectrum<F> connected_walk(Vec3<F> wo, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
   Spectrum<F> meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
   Spectrum<F> meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
+  Spectrum<F> leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth, Mask<F> on) const;
   Spectrum<F> leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density, Mask<F> on) const;
   F density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const;
 
@@ -160,12 +161,41 @@ Spectrum<F> Layered<F, Base>::meet_medium(LayerWalk<F>& walk, const Exit& exit, 
   F arrives = exit.weight * share * phase * medium_.transmittance(medium_.thickness - walk.z, exit.up);
   Spectrum<F> sum = select(on & (exit.weight > F(0.0f)), walk.beta * medium_.albedo * arrives, gray(F(0.0f)));
 
+  Mask<F> mirrors = on & base_.is_delta() & !rough;
+  if (any(mirrors)) sum += leave_between_mirrors(walk, exit, draws.depth, mirrors);
+
   Vec3<F> before = walk.w;
   medium_.scatter(walk, on, draws.pair(3));
   Mask<F> leaves = on & rough & (walk.w.z > F(0.0f));
   F density = henyey_greenstein(dot(before, walk.w), medium_.g);
   if (any(leaves)) sum += leave_by_chance(walk, exit, density, leaves);
   return sum;
+}
+
+// Where base and coat are both smooth, no event on them can be connected to wi: the walk is followed from where the
+// medium scatters through all reflections, first down or first up, that end in the exit's direction.
+template <class F, class Base>
+Spectrum<F> Layered<F, Base>::leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth,
+                                                    Mask<F> on) const {
+  const F zero = F(0.0f);
+  const Vec3<F> up = exit.up, down{up.x, up.y, -up.z};
+  const Spectrum<F> base = base_.sample(-down, zero, {zero, zero}, exit.context).weight;
+  const CoatSample coat = coat_.template sample_lobes<Lobes::reflection>(-up, zero, {zero, zero}, exit.context.mode);
+  const Spectrum<F> round = base * (coat.weight * medium_.transmittance(2.0f * medium_.thickness, up));
+
+  const Spectrum<F> scattered = walk.beta * medium_.albedo * exit.weight;
+  const F way_up = medium_.transmittance(medium_.thickness - walk.z, up);
+  const F way_down = medium_.transmittance(medium_.thickness + walk.z, up);
+  Spectrum<F> first_up = scattered * (henyey_greenstein(dot(walk.w, up), medium_.g) * way_up);
+  Spectrum<F> first_down = scattered * base * (henyey_greenstein(dot(walk.w, down), medium_.g) * way_down);
+  Spectrum<F> sum = gray(zero);
+  for (int events = depth + 2;; events += 2) {
+    Mask<F> more = on & (exit.weight > zero) & (F(float(events)) <= max_depth_);
+    if (!any(more)) return sum;
+    sum += select(more, first_down, gray(zero));
+    first_down *= round, first_up *= round;
+    sum += select(more & (F(float(events + 1)) <= max_depth_), first_up, gray(zero));
+  }
 }
 
 // What a walk that turned to walk.w with `density` sends through the rough coat to wi.

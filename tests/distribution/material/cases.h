@@ -11,6 +11,7 @@ struct BsdfCase {
   std::string label;
   BsdfRow row;
   bool lossless = false;  // all light comes back, in importance mode
+  int panels = 1;         // for the quadrature of the density: more for sharp lobes
 };
 
 inline void put(BsdfRow& row, int slot, std::initializer_list<float> values) {
@@ -54,15 +55,15 @@ struct CasesOf<BsdfKind::conductor> {
   }
 };
 
-inline BsdfCase dielectric_case(std::string label, float alpha_x, float alpha_y, float eta) {
-  BsdfCase c{std::move(label), {}, alpha_x < 1e-3f && alpha_y < 1e-3f};
+inline BsdfCase dielectric_case(std::string label, float alpha_x, float alpha_y, float eta, int panels = 1) {
+  BsdfCase c{std::move(label), {}, alpha_x < 1e-3f && alpha_y < 1e-3f, panels};
   put(c.row, DielectricSlots::alpha_x, {alpha_x, alpha_y, eta});
   return c;
 }
 template <>
 struct CasesOf<BsdfKind::dielectric> {
   static std::vector<BsdfCase> all() {
-    return {dielectric_case("rough", 0.5f, 0.5f, 1.5f), dielectric_case("glossy", 0.15f, 0.15f, 1.5f),
+    return {dielectric_case("rough", 0.5f, 0.5f, 1.5f), dielectric_case("glossy", 0.15f, 0.15f, 1.5f, 3),
             dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f), dielectric_case("rarer below", 0.3f, 0.3f, 0.75f),
             dielectric_case("smooth", 0, 0, 1.5f)};
   }
@@ -161,7 +162,7 @@ inline Vec3f direction(float cos, float turns) {
 }
 // Straight on, oblique, grazing, and from below.
 inline std::vector<Vec3f> outgoing_directions() {
-  return {direction(0.999f, 0.1f), direction(0.6f, 0.3f), direction(0.1f, 0.85f), direction(-0.5f, 0.6f)};
+  return {direction(0.95f, 0.1f), direction(0.6f, 0.3f), direction(0.1f, 0.85f), direction(-0.5f, 0.6f)};
 }
 
 inline BsdfContext<float> context_of(RandomStream<float>& stream, TransportMode mode = TransportMode::radiance) {

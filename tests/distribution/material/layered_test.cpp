@@ -33,10 +33,10 @@ int cell_of(Vec3f w) {
   return row * cells_azimuth + std::min(cells_azimuth - 1, int(turns * cells_azimuth));
 }
 struct Sums {
-  std::vector<double> first = std::vector<double>(cells), second = std::vector<double>(cells);
+  std::vector<double> first = std::vector<double>(cells + 1), second = std::vector<double>(cells + 1);
   void add(int cell, double x) {
-    const auto k = std::size_t(cell);
-    first[k] += x, second[k] += x * x;
+    // The last cell is the whole hemisphere.
+    for (const int k : {cell, cells}) first[std::size_t(k)] += x, second[std::size_t(k)] += x * x;
   }
   SampleSummary of(std::size_t k, double n) const {
     const double mean = first[k] / n;
@@ -47,7 +47,7 @@ struct Sums {
 // The least p-value over the cells that the light reflected into a cell is the same by sample() and by evaluate().
 template <class Model>
 double sample_against_value(const Model& model, Vec3f wo, double fault, std::uint32_t seed) {
-  constexpr int count = 100000;
+  constexpr int count = 50000;
   Sums drawn, uniform;
   RandomStream<float> stream(seed, 9u);
   for (int i = 0; i < count; ++i) {
@@ -62,9 +62,9 @@ double sample_against_value(const Model& model, Vec3f wo, double fault, std::uin
     uniform.add(cell_of(wi), model.evaluate(wo, wi, other).f_cos[0] / double(cosine_density(wi)));
   }
   double least = 1;
-  for (std::size_t k = 0; k < cells; ++k)
+  for (std::size_t k = 0; k <= cells; ++k)
     least = std::min(least, welch_test(drawn.of(k, count), uniform.of(k, count)).p_value);
-  return std::min(1.0, least * cells);
+  return std::min(1.0, least * (cells + 1));
 }
 
 TEST(LayeredBsdf, sampled_weights_integrate_the_value) {
@@ -172,7 +172,7 @@ TEST(LayeredBsdf, value_is_reciprocal) {
       back.mean *= scale, back.variance *= scale * scale;
       EXPECT_GT(welch_test(there, back).p_value, sidak_level(family_level, 20))
           << Model::name << ", " << c.label << ": " << there.mean << " and " << back.mean;
-      back.mean *= 1.1;
+      back.mean *= 1.3;
       EXPECT_LT(welch_test(there, back).p_value, sidak_level(family_level, 20)) << Model::name << ", " << c.label;
     }
   });
