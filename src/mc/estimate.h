@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "mc/density.h"
 #include "mc/moments.h"
 #include "mc/point_set.h"
 
@@ -22,6 +23,19 @@ struct UniformInterval {
     return {low + (high - low) * double(stream.next()), 1 / (high - low)};
   }
 };
+
+// A distribution from a map of the unit square and the density of its points: any `sample_...` and `..._density` pair.
+template <class Map, class DensityFunction>
+struct MappedSquare {
+  Map map;                  // Vec2f -> X
+  DensityFunction density;  // X -> Density<Measure>
+  auto sample(RandomStream<float>& stream) const {
+    const auto x = map(stream.next2());
+    return Draw<decltype(map(Vec2f{}))>{x, double(density(x).value)};
+  }
+};
+template <class Map, class DensityFunction>
+MappedSquare(Map, DensityFunction) -> MappedSquare<Map, DensityFunction>;
 
 // One realisation of f(X) / p(X), whose expectation is the integral of f where p is not zero.
 template <class Function, class Distribution>

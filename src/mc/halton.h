@@ -25,25 +25,31 @@ inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] 
 }();
 
 // The digits of the index mirrored at the point, each permuted by a random permutation that hangs on the digits before
-// it (Owen 1995). Goes on below the digits of the index, down to 2^-32, where the digits are random.
-inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, std::uint32_t key) {
-  const double inverse_base = 1.0 / double(base);
-  double value = 0;
-  for (double scale = inverse_base; scale > 0x1p-32; scale *= inverse_base) {
+// it (Owen 1995). The digits that tell apart the indices below `count` are worked out; those after them differ from
+// point to point anyway and are random.
+inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, std::uint32_t count,
+                                       std::uint32_t key) {
+  double value = 0, scale = 1;
+  for (std::uint64_t told_apart = 1; told_apart < count; told_apart *= base) {
     const std::uint32_t digit = index % base;
-    value += scale * permute(digit, base, key);
+    scale /= base;
+    const std::uint64_t factor = 1u + (std::uint64_t(mix_bits(key)) * (base - 1u) >> 32);
+    const std::uint64_t offset = std::uint64_t(mix_bits(key ^ 0x85ebca6bu)) * base >> 32;
+    value += scale * double((factor * digit + offset) % base);
     key = mix_bits(key + (digit + 1u) * 0x9e3779b9u);
     index /= base;
   }
+  value += scale * double(unit_float<float>(mix_bits(key ^ (index * 0x85ebca6bu))));
   return std::min(float(value), one_minus_epsilon);
 }
 
 // The scrambled radical inverse in every lane; the base is that of the dimension (below halton_dimensions).
 template <class F>
-F halton(Uint<F> index, Uint<F> dimension, Uint<F> key) {
+F halton(Uint<F> index, Uint<F> dimension, std::uint32_t count, Uint<F> key) {
   F result = 0.0f;
   for (int k = 0; k < lanes_of<F>; ++k)
-    set_lane(result, k, scrambled_radical_inverse(lane(index, k), halton_bases[lane(dimension, k)], lane(key, k)));
+    set_lane(result, k,
+             scrambled_radical_inverse(lane(index, k), halton_bases[lane(dimension, k)], count, lane(key, k)));
   return result;
 }
 

@@ -155,7 +155,7 @@ F Sampler<F>::get1(Uint<F> dimension) const {
       return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), own_.at(d));
     case PointSetKind::halton: {
       Mask<F> inside = d < U(halton_dimensions);
-      F tabulated = halton<F>(index_, select(inside, d, U(0u)), shared_.bits_at(d));
+      F tabulated = halton<F>(index_, select(inside, d, U(0u)), set_.samples_per_pass, shared_.bits_at(d));
       return all(inside) ? tabulated : select(inside, tabulated, padded());
     }
     case PointSetKind::sobol: {

@@ -10,6 +10,7 @@
 
 #include "math/vec.h"
 #include "mc/confidence.h"
+#include "mc/moments.h"
 #include "mc/random.h"
 
 namespace montelux::test {
@@ -110,6 +111,10 @@ inline TestResult t_test(const SampleSummary& s, double truth) {
   return {t, s.count - 1, 2 * student_t_cdf(-std::abs(t), s.count - 1), {}};
 }
 inline TestResult t_test(const std::vector<double>& x, double truth) { return t_test(summarize(x), truth); }
+inline TestResult t_test(const Estimate& e, double truth) {
+  const double n = double(e.count);
+  return t_test(SampleSummary{e.mean, n * e.standard_error * e.standard_error, n}, truth);
+}
 
 // Two-sided: do two sets with unequal variances have one mean (Welch 1947)?
 inline TestResult welch_test(const SampleSummary& a, const SampleSummary& b) {

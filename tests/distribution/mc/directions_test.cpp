@@ -158,6 +158,31 @@ TEST(GgxVisibleNormals, samples_match_density_for_every_view) {
     }
 }
 
+TEST(GgxVisibleNormals, smooth_surfaces_match_density_in_the_stretched_space) {
+  // h = M^-1 m, m = M h with M = diag(ax, ay, 1): dm = ax ay / |M h|^3 dh.
+  for (Roughness<float> a : {Roughness<float>{0.01f, 0.04f}, {0.001f, 0.001f}})
+    for (Vec3f view : {Vec3f{0, 0, 1}, {0.6f, -0.3f, 0.5f}}) {
+      const Vec3f wo = normalize(view);
+      const auto sample = [&](RandomStream<float>& s, bool faulty) {
+        const Vec2f u = s.next2();
+        const Vec3f m = sample_visible_normal(wo, a, faulty ? bent(u) : u);
+        return normalize(Vec3f{m.x / a.x, m.y / a.y, m.z});
+      };
+      const auto density = [&](Vec3f h) {
+        if (h.z <= 0) return 0.0f;
+        const Vec3f m{a.x * h.x, a.y * h.y, h.z};
+        const float l = length(m);
+        return visible_normal_density(wo, m / l, a).value * a.x * a.y / (l * l * l);
+      };
+      const auto p_value = [&](bool faulty) {
+        return chi_square_sample_density([&](auto& s) { return sample(s, faulty); }, density, samples, 1, pole, 4)
+            .p_value;
+      };
+      EXPECT_GT(p_value(false), level);
+      EXPECT_LT(p_value(true), level);
+    }
+}
+
 TEST(GgxVisibleNormals, masking_is_the_seen_part_of_the_projected_area) {
   // The defining equation: the integral of D(m) max(wo.m, 0) G1 is the projected area wo.z (Heitz 2014, eq. 14).
   const Roughness<float> a{0.3f, 0.7f};
