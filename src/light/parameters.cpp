@@ -67,16 +67,16 @@ float projected_luminance(const LightImage& image, float fov) {
   return float(4 * double(width * height) * sum / double(image.texels.size()));
 }
 
-// Of the plane whose normal is the image's pole.
+// Of the plane whose normal is the image's pole, by midpoints; coarse texels are parted, as the horizon crosses them.
 float illuminance(const LightImage& image) {
+  int parts = std::max(1, 512 / image.width), width = parts * image.width, height = parts * image.height;
   double sum = 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      Vec3f w =
-          sphere_from_square(Vec2f{(float(x) + 0.5f) / float(image.width), (float(y) + 0.5f) / float(image.height)});
-      sum += double(luminance(image.at(x, y)) * max(w.z, 0.0f));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Vec3f w = sphere_from_square(Vec2f{(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)});
+      sum += double(luminance(image.at(x / parts, y / parts)) * max(w.z, 0.0f));
     }
-  return float(4 * double(pi) * sum / double(image.texels.size()));
+  return float(4 * double(pi) * sum / (double(width) * height));
 }
 
 std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read) {
