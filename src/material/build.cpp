@@ -14,8 +14,7 @@ float encoded(float x, const RowBinding& binding) {
     case RowEncoding::plain:
       break;
     case RowEncoding::unit:
-      x = clamp(x, 0.0f, 1.0f);
-      break;
+      return clamp(x * binding.scale, 0.0f, 1.0f);
     case RowEncoding::roughness:
       x = std::sqrt(std::max(x, 0.0f));
       break;

@@ -15,7 +15,7 @@ namespace montelux {
 // How the value of a texture becomes a number of a row.
 enum class RowEncoding : std::uint8_t {
   plain,
-  unit,             // clamped to [0, 1]
+  unit,             // scaled, then clamped to [0, 1]
   roughness,        // alpha = sqrt(roughness)
   reflectance_to_k  // of a metal with eta = 1: k = 2 sqrt(r / (1 - r))
 };
@@ -26,7 +26,7 @@ struct RowBinding {
   RowEncoding encoding;
   bool is_spectrum;
   std::uint32_t texture;  // NumberTextureId or SpectrumTextureId
-  float scale;            // of the encoded value
+  float scale;            // of the encoded value; for unit, of the texture's
 };
 
 // A choice between two materials.
