@@ -1,0 +1,60 @@
+#include "accel/accel.h"
+
+#include "accel/kernel.h"
+#include "accel/packet.h"
+
+namespace montelux {
+
+Accel::Accel(const GeometryStore& store, AlphaTest alpha, int threads)
+    : kernel_(std::make_unique<Kernel>(store, std::move(alpha), threads)) {}
+Accel::~Accel() = default;
+Accel::Accel(Accel&&) noexcept = default;
+
+std::size_t Accel::memory() const { return std::size_t(kernel_->bytes.load()); }
+std::string Accel::kernel_version() { return RTC_VERSION_STRING; }
+
+template <class F>
+Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
+  constexpr int n = lanes_of<F>;
+  using U = Uint<F>;
+  alignas(64) RTCRayHitNt<n> r;
+  alignas(64) int valid[n];
+  put_ray_hit<F>(r, ray);
+  store_lanes(valid, valid_lanes<F>(on));
+  Arguments arguments(coherence);
+  if (n > 1 || any(on)) kernel_intersect<n>(valid, kernel_->world.get(), &r, arguments);
+
+  U id = load_lanes<U>(r.hit.geomID), instance = load_lanes<U>(r.hit.instID[0]);
+  Mask<F> found = on & (id != U(missed)), instanced = found & (instance != U(missed));
+  U geometry = id;
+  U placed = select(instanced, instance - U(kernel_->first_instance) + U(1u), U(0u));
+  if (any(instanced)) {
+    for_each_lane(instanced, [&](int k) {
+      const PlacedObject& object = kernel_->store.instances[lane(placed, k) - 1];
+      set_lane(geometry, k, kernel_->store.objects[object.object].first + lane(id, k));
+    });
+  }
+  geometry = select(found, geometry, U(0u));
+  return {found,
+          {load_lanes<F>(r.ray.tfar), load_lanes<F>(r.hit.u), load_lanes<F>(r.hit.v), geometry,
+           select(found, load_lanes<U>(r.hit.primID), U(0u)), placed}};
+}
+
+template <class F>
+Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> on) const {
+  constexpr int n = lanes_of<F>;
+  alignas(64) RTCRayNt<n> r;
+  alignas(64) int valid[n];
+  put_ray<F>(r, ray);
+  store_lanes(valid, valid_lanes<F>(on));
+  Arguments arguments(Coherence::none);
+  if (n > 1 || any(on)) kernel_occluded<n>(valid, kernel_->world.get(), &r, arguments);
+  return on & (load_lanes<F>(r.tfar) < F(0.0f));
+}
+
+template Accel::Trace<float> Accel::trace(const Ray<float>&, bool, Coherence) const;
+template bool Accel::occluded(const Ray<float>&, bool) const;
+template Accel::Trace<NativeFloats> Accel::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Mask<NativeFloats> Accel::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
+
+}  // namespace montelux

@@ -1,0 +1,46 @@
+// Rays against the scene: the only folder that knows the ray-tracing kernel (Embree 3 or 4).
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "geometry/ray.h"
+#include "scene/geometry_store.h"
+
+namespace montelux {
+
+// Whether the lanes' rays run side by side, as camera rays do. It is a hint for speed alone.
+enum class Coherence { none, coherent };
+
+// True where the surface is there: an alpha mask decides at (geometry row, primitive, u, v) for a ray.
+using AlphaTest = std::function<bool(const Hit<float>&, const Ray<float>&)>;
+
+class Accel {
+ public:
+  // `store` must outlive it and not change. `threads`: for building; 0: all of the machine.
+  Accel(const GeometryStore& store, AlphaTest alpha, int threads = 0);
+  ~Accel();
+  Accel(Accel&&) noexcept;
+
+  template <class F>
+  struct Trace {
+    Mask<F> found;
+    Hit<F> hit;  // valid numbers in every lane, meaningful where found
+  };
+  // The nearest surface in (0, t_max) for lanes that are on.
+  template <class F>
+  Trace<F> trace(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
+  // Whether anything lies in (0, t_max): yes only in lanes that are on.
+  template <class F>
+  Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;
+
+  // Memory that the kernel holds, in bytes.
+  std::size_t memory() const;
+  static std::string kernel_version();
+
+ private:
+  friend class RayRecorder;
+  struct Kernel;
+  std::unique_ptr<Kernel> kernel_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,134 @@
+#include "accel/callbacks.h"
+
+namespace montelux {
+
+namespace {
+
+Ray<float> ray_of(RTCRayN* rays, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+          RTCRayN_tfar(rays, n, i)};
+}
+
+const GeometryContext& context_of(void* user) { return *static_cast<const GeometryContext*>(user); }
+
+// The kernel's filter: rejects the hits that the alpha mask cuts out.
+void reject_masked(const RTCFilterFunctionNArguments* a) {
+  const GeometryContext& context = context_of(a->geometryUserPtr);
+  for (unsigned i = 0; i < a->N; ++i) {
+    if (a->valid[i] == 0) continue;
+    Hit<float> hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
+                   RTCHitN_v(a->hit, a->N, i),      context.row,
+                   RTCHitN_primID(a->hit, a->N, i), 0};
+    if (!(*context.alpha)(hit, ray_of(a->ray, a->N, i))) a->valid[i] = 0;
+  }
+}
+
+// Surfaces that only eye and scattered rays see.
+void reject_all(const RTCFilterFunctionNArguments* a) {
+  for (unsigned i = 0; i < a->N; ++i) a->valid[i] = 0;
+}
+
+void shape_bounds(const RTCBoundsFunctionArguments* a) {
+  const GeometryContext& context = context_of(a->geometryUserPtr);
+  Bounds3 b = bounds(context.store->shapes[context.store->rows[context.row].first]);
+  a->bounds_o->lower_x = b.low.x, a->bounds_o->lower_y = b.low.y, a->bounds_o->lower_z = b.low.z;
+  a->bounds_o->upper_x = b.high.x, a->bounds_o->upper_y = b.high.y, a->bounds_o->upper_z = b.high.z;
+}
+
+void intersect_shape(const RTCIntersectFunctionNArguments* a) {
+  const GeometryContext& context = context_of(a->geometryUserPtr);
+  const GeometryRow& row = context.store->rows[context.row];
+  RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
+  RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
+  for (unsigned i = 0; i < a->N; ++i) {
+    if (a->valid[i] == 0) continue;
+    Ray<float> ray = ray_of(rays, a->N, i);
+    auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
+    if (!found) continue;
+    if (row.alpha != 0 && !(*context.alpha)({found->t, found->uv.x, found->uv.y, context.row, 0, 0}, ray)) continue;
+    RTCRayN_tfar(rays, a->N, i) = found->t;
+    RTCHitN_u(hits, a->N, i) = found->uv.x;
+    RTCHitN_v(hits, a->N, i) = found->uv.y;
+    RTCHitN_geomID(hits, a->N, i) = a->geomID;
+    RTCHitN_primID(hits, a->N, i) = a->primID;
+    RTCHitN_instID(hits, a->N, i, 0) = a->context->instID[0];
+  }
+}
+
+void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
+  const GeometryContext& context = context_of(a->geometryUserPtr);
+  const GeometryRow& row = context.store->rows[context.row];
+  if (row.flags & GeometryRow::invisible_to_shadow_rays) return;
+  for (unsigned i = 0; i < a->N; ++i) {
+    if (a->valid[i] == 0) continue;
+    Ray<float> ray = ray_of(a->ray, a->N, i);
+    auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
+    if (!found) continue;
+    if (row.alpha != 0 && !(*context.alpha)({found->t, found->uv.x, found->uv.y, context.row, 0, 0}, ray)) continue;
+    RTCRayN_tfar(a->ray, a->N, i) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+RTCGeometry make_triangles(RTCDevice device, const GeometryStore& store, const GeometryRow& row) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, store.positions.data(), 0,
+                             sizeof(Vec3f), store.positions.size() - 1);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, store.triangles.data(),
+                             std::size_t(row.first) * sizeof(store.triangles[0]), sizeof(store.triangles[0]),
+                             row.count);
+  return geometry;
+}
+
+RTCGeometry make_curves(RTCDevice device, const CurveSet& curves) {
+  const bool ribbon = curves.type == CurveType::ribbon;
+  RTCGeometry geometry = rtcNewGeometry(
+      device, ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BEZIER_CURVE : RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.controls.data(), 0,
+                             sizeof(CurveControl), curves.controls.size());
+  if (ribbon)
+    // The kernel reads normals four floats at a time: it keeps a copy with room at the end.
+    std::memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
+                                        curves.normals.size()),
+                curves.normals.data(), curves.normals.size() * sizeof(Vec3f));
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.first.data(), 0,
+                             sizeof(std::uint32_t), curves.first.size());
+  return geometry;
+}
+
+RTCGeometry make_shape(RTCDevice device) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryBoundsFunction(geometry, shape_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_shape);
+  rtcSetGeometryOccludedFunction(geometry, occlude_by_shape);
+  return geometry;
+}
+
+}  // namespace
+
+RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const GeometryRow& row,
+                          GeometryContext* context) {
+  RTCGeometry geometry = nullptr;
+  switch (row.kind) {
+    case GeometryKind::triangles:
+      geometry = make_triangles(device, store, row);
+      break;
+    case GeometryKind::shape:
+      geometry = make_shape(device);
+      break;
+    case GeometryKind::curves:
+      geometry = make_curves(device, store.curves[row.first]);
+      break;
+  }
+  rtcSetGeometryUserData(geometry, context);
+  if (row.kind == GeometryKind::shape) return geometry;  // their own functions ask for alpha
+  if (row.alpha != 0) {
+    rtcSetGeometryIntersectFilterFunction(geometry, reject_masked);
+    rtcSetGeometryOccludedFilterFunction(geometry, reject_masked);
+  }
+  if (row.flags & GeometryRow::invisible_to_shadow_rays) rtcSetGeometryOccludedFilterFunction(geometry, reject_all);
+  return geometry;
+}
+
+}  // namespace montelux

@@ -1,0 +1,24 @@
+// Geometries of the kernel, and the functions that it calls back: alpha masks, and shapes that it does not know.
+#pragma once
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include "accel/accel.h"
+
+namespace montelux {
+
+// What a callback needs to know of its geometry. Lives as long as the kernel's scene.
+struct GeometryContext {
+  const GeometryStore* store;
+  std::uint32_t row;
+  const AlphaTest* alpha;
+};
+
+// A kernel geometry for one row, with its buffers shared with the store; not committed.
+RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const GeometryRow& row,
+                          GeometryContext* context);
+
+}  // namespace montelux

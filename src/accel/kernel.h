@@ -1,0 +1,76 @@
+// What an Accel holds of the kernel: its device, and a scene of it for the world and for each object.
+#pragma once
+#include <fmt/format.h>
+
+#include <atomic>
+#include <stdexcept>
+
+#include "accel/callbacks.h"
+
+namespace montelux {
+
+// Owners of kernel handles.
+struct ReleaseScene {
+  void operator()(RTCScene s) const { rtcReleaseScene(s); }
+};
+struct ReleaseDevice {
+  void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
+};
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+
+inline bool count_memory(void* counter, ssize_t bytes, bool) {
+  static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes, std::memory_order_relaxed);
+  return true;
+}
+
+struct Accel::Kernel {
+  const GeometryStore& store;
+  AlphaTest alpha;
+  std::atomic<std::int64_t> bytes{0};
+  DeviceHandle device;
+  std::vector<SceneHandle> objects;
+  SceneHandle world;
+  std::vector<std::unique_ptr<GeometryContext>> contexts;
+  std::uint32_t first_instance = 0;  // kernel number of instance 0
+
+  Kernel(const GeometryStore& s, AlphaTest a, int threads) : store(s), alpha(std::move(a)) {
+    std::string config = threads > 0 ? fmt::format("threads={}", threads) : "";
+    device.reset(rtcNewDevice(config.c_str()));
+    if (!device) throw std::runtime_error("the ray-tracing kernel cannot start on this machine");
+    rtcSetDeviceMemoryMonitorFunction(device.get(), count_memory, &bytes);
+    for (const ObjectRange& object : store.objects) objects.push_back(build(object, {}));
+    world = build({0, store.world_rows}, store.instances);
+    if (RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
+      throw std::runtime_error(fmt::format("the ray-tracing kernel failed to build the scene (error {})", int(error)));
+  }
+
+  SceneHandle build(ObjectRange range, const std::vector<PlacedObject>& instances) {
+    SceneHandle scene(rtcNewScene(device.get()));
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+    for (std::uint32_t i = 0; i < range.count; ++i) attach(scene.get(), range.first + i, i);
+    if (&instances == &store.instances) first_instance = range.count;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, objects[instances[i].object].get());
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instances[i].object_to_world.rows().data());
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometryByID(scene.get(), geometry, range.count + std::uint32_t(i));
+      rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene.get());
+    return scene;
+  }
+
+  void attach(RTCScene scene, std::uint32_t row_number, std::uint32_t id) {
+    const GeometryRow& row = store.rows[row_number];
+    contexts.push_back(std::make_unique<GeometryContext>(GeometryContext{&store, row_number, &alpha}));
+    RTCGeometry geometry = make_geometry(device.get(), store, row, contexts.back().get());
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+}  // namespace montelux

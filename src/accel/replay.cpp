@@ -1,0 +1,85 @@
+#include "accel/replay.h"
+
+#include <ctime>
+#include <vector>
+
+#include "accel/kernel.h"
+#include "accel/packet.h"
+
+namespace montelux {
+
+namespace {
+
+// A call of the kernel as it was made.
+template <int N>
+struct alignas(64) Recorded {
+  RTCRayHitNt<N> packet;
+  alignas(64) int valid[N];
+  bool shadow;
+  Coherence coherence;
+};
+
+template <int N>
+double replay_all(RTCScene scene, const std::vector<Recorded<N>>& calls) {
+  timespec before, after;
+  // The copies are taken before the clock starts: the kernel writes into its packets.
+  std::vector<Recorded<N>> work(calls);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &before);
+  for (Recorded<N>& call : work) {
+    Arguments arguments(call.coherence);
+    if (call.shadow)
+      kernel_occluded<N>(call.valid, scene, &call.packet.ray, arguments);
+    else
+      kernel_intersect<N>(call.valid, scene, &call.packet, arguments);
+  }
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &after);
+  return double(after.tv_sec - before.tv_sec) + 1e-9 * double(after.tv_nsec - before.tv_nsec);
+}
+
+}  // namespace
+
+struct RayRecorder::Packets {
+  std::vector<Recorded<1>> single;
+  std::vector<Recorded<native_lanes>> packs;
+  std::size_t rays = 0;
+
+  template <class F>
+  void add(const Ray<F>& ray, Mask<F> on, bool shadow, Coherence coherence) {
+    Recorded<lanes_of<F>> call{};
+    put_ray_hit<F>(call.packet, ray);
+    store_lanes(call.valid, valid_lanes<F>(on));
+    call.shadow = shadow, call.coherence = coherence;
+    rays += std::size_t(count(on));
+    if constexpr (lanes_of<F> == 1)
+      single.push_back(call);
+    else
+      packs.push_back(call);
+  }
+};
+
+RayRecorder::RayRecorder(const Accel& accel) : accel_(accel), packets_(std::make_unique<Packets>()) {}
+RayRecorder::~RayRecorder() = default;
+
+template <class F>
+Accel::Trace<F> RayRecorder::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
+  if (any(on)) packets_->add<F>(ray, on, false, coherence);
+  return accel_.trace<F>(ray, on, coherence);
+}
+
+template <class F>
+Mask<F> RayRecorder::occluded(const Ray<F>& ray, Mask<F> on) const {
+  if (any(on)) packets_->add<F>(ray, on, true, Coherence::none);
+  return accel_.occluded<F>(ray, on);
+}
+
+RayRecorder::Replay RayRecorder::replay() const {
+  RTCScene scene = accel_.kernel_->world.get();
+  return {packets_->rays, replay_all<1>(scene, packets_->single) + replay_all<native_lanes>(scene, packets_->packs)};
+}
+
+template Accel::Trace<float> RayRecorder::trace(const Ray<float>&, bool, Coherence) const;
+template bool RayRecorder::occluded(const Ray<float>&, bool) const;
+template Accel::Trace<NativeFloats> RayRecorder::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Mask<NativeFloats> RayRecorder::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
+
+}  // namespace montelux

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include "api/render.h"
+
+namespace montelux {
+
+namespace {
+
+// Channels of the multi-layer picture, in their order.
+enum Channel {
+  r,
+  g,
+  b,
+  a,
+  stderr_r,
+  stderr_g,
+  stderr_b,
+  albedo_r,
+  albedo_g,
+  albedo_b,
+  n_x,
+  n_y,
+  n_z,
+  p_x,
+  p_y,
+  p_z,
+  z,
+  samples,
+  id
+};
+
+const std::vector<std::string>& channel_names() {
+  static const std::vector<std::string> names{
+      "R",   "G",   "B",   "A",   "stderr.R", "stderr.G", "stderr.B", "albedo.R", "albedo.G", "albedo.B",
+      "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
+  return names;
+}
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return e;
+}
+
+}  // namespace
+
+PixelBuffer layers_of(const Rendering& rendering) {
+  const Film& film = rendering.result.film;
+  const PixelBounds& bounds = film.bounds();
+  PixelBuffer image = make_pixel_buffer(bounds.width(), bounds.height(), channel_names());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const PixelEstimate& pixel = film.pixel(bounds.x0 + x, bounds.y0 + y);
+      const PixelFeatures& feature = film.features(bounds.x0 + x, bounds.y0 + y);
+      auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
+      for (int c = 0; c < spectrum_size; ++c) {
+        set(Channel::r + c, pixel.mean[c]);
+        set(Channel::stderr_r + c, std::sqrt(pixel.variance_of_mean(c)));
+      }
+      set(Channel::a, feature.samples > 0 ? feature.hits / feature.samples : 0);
+      set(Channel::samples, feature.samples);
+      set(Channel::id, feature.object);
+      if (feature.hits == 0) continue;
+      for (int c = 0; c < 3; ++c) {
+        set(Channel::albedo_r + c, feature.albedo[c] / feature.hits);
+        set(Channel::n_x + c, feature.normal[c] / feature.hits);
+        set(Channel::p_x + c, feature.position[c] / feature.hits);
+      }
+      set(Channel::z, feature.depth / feature.hits);
+    }
+  return image;
+}
+
+Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display) {
+  PixelBuffer image = layers_of(rendering);
+  const std::string extension = extension_of(file);
+  if (extension == ".exr") {
+    ExrOptions options;
+    options.attributes = rendering.header;
+    return write_image(file, image, options);
+  }
+  PixelBuffer color = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) color.at(x, y, c) = image.at(x, y, c);
+  if (extension == ".hdr" || extension == ".pfm") return write_image(file, color);
+  return write_image(file, to_display(color, display));
+}
+
+}  // namespace montelux

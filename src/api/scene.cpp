@@ -1,0 +1,129 @@
+#include "api/scene.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "api/parts.h"
+#include "io/pbrt.h"
+#include "io/report.h"
+#include "scene/prepare.h"
+
+namespace montelux {
+
+namespace {
+
+class Stopwatch {
+ public:
+  // Seconds since it was made or last asked.
+  double lap() {
+    auto now = std::chrono::steady_clock::now();
+    double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+std::size_t geometry_bytes(const GeometryStore& g) {
+  return bytes_of(g.positions) + bytes_of(g.normals) + bytes_of(g.uvs) + bytes_of(g.triangles) + bytes_of(g.shapes) +
+         bytes_of(g.rows) + bytes_of(g.instances) + bytes_of(g.instance_rows);
+}
+
+// Counts triangles as they are in memory and, through the instances, as rays see them.
+void count_geometry(const GeometryStore& g, SceneInfo& info) {
+  std::vector<std::size_t> object_triangles;
+  auto triangles_in = [&](std::size_t first, std::size_t count) {
+    std::size_t n = 0;
+    for (std::size_t i = first; i < first + count; ++i)
+      if (g.rows[i].kind == GeometryKind::triangles) n += g.rows[i].count;
+    return n;
+  };
+  for (const ObjectRange& object : g.objects) object_triangles.push_back(triangles_in(object.first, object.count));
+  info.triangles = triangles_in(0, g.rows.size());
+  info.instanced_triangles = triangles_in(0, g.world_rows);
+  for (const PlacedObject& instance : g.instances) info.instanced_triangles += object_triangles[instance.object];
+  for (const Shape& shape : g.shapes) ++(std::holds_alternative<BilinearPatch>(shape) ? info.patches : info.quadrics);
+  for (const CurveSet& curves : g.curves) info.curve_segments += curves.first.size();
+  info.instances = g.instances.size();
+  info.objects = g.objects.size();
+}
+
+SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
+  const PictureSettings& picture = parts.picture;
+  SceneInfo info;
+  info.file = desc.file;
+  info.width = picture.width, info.height = picture.height, info.crop = picture.crop;
+  info.camera = desc.camera.type, info.film = desc.film.type, info.filter = desc.filter.type;
+  info.sampler = name_of(picture.sampler), info.integrator = picture.integrator;
+  info.samples = picture.samples, info.max_depth = picture.max_depth;
+  count_geometry(parts.scene.geometry, info);
+  info.materials = desc.materials.size(), info.textures = desc.textures.size();
+  std::map<std::string, std::size_t> lights;
+  for (std::uint32_t i = 0; i < parts.scene.lights.count(); ++i)
+    ++lights[std::string(light_kind_names[std::size_t(parts.scene.lights.kind(LightId(i)))])];
+  info.lights.assign(lights.begin(), lights.end());
+  const Bounds3& b = parts.scene.bounds;
+  const float low[3] = {b.low.x, b.low.y, b.low.z}, high[3] = {b.high.x, b.high.y, b.high.z};
+  std::copy(low, low + 3, info.low), std::copy(high, high + 3, info.high);
+  info.geometry_bytes = geometry_bytes(parts.scene.geometry);
+  info.accel_bytes = parts.accel->memory();
+  info.texture_bytes = parts.scene.textures->image_bytes();
+  return info;
+}
+
+}  // namespace
+
+LoadedScene::LoadedScene(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+LoadedScene::~LoadedScene() = default;
+LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
+const SceneInfo& LoadedScene::info() const { return parts_->info; }
+
+LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+  Stopwatch watch;
+  LoadResult result;
+  try {
+    ReadResult read = read_pbrt(file, {options.lenient});
+    result.diagnostics = std::move(read.diagnostics);
+    if (!read.scene) return result;
+    const double read_seconds = watch.lap();
+    std::optional<PreparedScene> prepared = prepare(*read.scene, {options.resolution}, result.diagnostics);
+    if (!prepared || result.diagnostics.has_errors()) return result;
+    // The description's meshes are copied: their memory goes before the kernel takes its own.
+    SceneDesc desc = std::move(*read.scene);
+    for (ShapeDesc& shape : desc.shapes) shape.mesh.reset();
+    for (ObjectDesc& object : desc.objects)
+      for (ShapeDesc& shape : object.shapes) shape.mesh.reset();
+    const double prepare_seconds = watch.lap();
+    auto parts = std::make_unique<LoadedScene::Parts>(
+        LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}});
+    const Scene& scene = parts->scene;
+    parts->accel = std::make_unique<Accel>(
+        scene.geometry, [&scene](const Hit<float>& hit, const Ray<float>& ray) { return scene.is_opaque(hit, ray); },
+        options.threads);
+    const double build_seconds = watch.lap();
+    parts->info = info_of(desc, *parts);
+    parts->info.read_seconds = read_seconds;
+    parts->info.prepare_seconds = prepare_seconds;
+    parts->info.build_seconds = build_seconds;
+    result.scene.emplace(std::move(parts));
+  } catch (const std::bad_alloc&) {
+    result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0}, "the scene does not fit in memory");
+  } catch (const std::exception& e) {
+    result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0},
+                             fmt::format("the scene could not be loaded: {}", e.what()));
+  }
+  return result;
+}
+
+std::string to_text(const Diagnostic& diagnostic, bool color) { return render(diagnostic, ReportStyle{color, true}); }
+
+}  // namespace montelux

@@ -1,0 +1,20 @@
+// Which coordinate of a sample point decides what, so that two decisions never share one.
+#pragma once
+#include <cstdint>
+
+namespace montelux::path_dimension {
+
+inline constexpr std::uint32_t film = 0;  // 2
+inline constexpr std::uint32_t lens = 2;  // 2
+inline constexpr std::uint32_t first_vertex = 4;
+
+// Offsets within the numbers of one vertex.
+inline constexpr std::uint32_t light_point = 0;   // 2
+inline constexpr std::uint32_t direction = 2;     // 2
+inline constexpr std::uint32_t light_choice = 4;  // 1
+inline constexpr std::uint32_t lobe = 5;          // 1
+inline constexpr std::uint32_t roulette = 6;      // 1
+inline constexpr std::uint32_t own = 7;           // a stream, for mixtures and models that walk
+inline constexpr std::uint32_t per_vertex = 8;
+
+}  // namespace montelux::path_dimension

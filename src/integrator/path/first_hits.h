@@ -1,0 +1,105 @@
+// Camera rays of a tile, traced as coherent packets, and the store of their hits from which the path loop fills its
+// lanes.
+#pragma once
+#include <vector>
+
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/path/dimensions.h"
+#include "integrator/path/path_state.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// The paths of a tile that met a surface, in a fixed order: that of the packets.
+template <class F>
+class FirstHits {
+ public:
+  // `rays` answers trace as Accel does.
+  template <class Rays>
+  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out);
+
+  // Fills lanes that are off, as long as there are paths left; gives the lanes that are on now.
+  Mask<F> refill(PathState<F>& state, Mask<F> on);
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  std::vector<PathState<float>> paths_;
+  std::size_t next_ = 0;
+  std::uint64_t rays_ = 0;
+};
+
+// Camera packets cover blocks of pixels as square as the lanes allow.
+template <class F>
+constexpr int block_width() {
+  return lanes_of<F> == 16 ? 4 : lanes_of<F> >= 4 ? lanes_of<F> / 2 : 1;
+}
+
+template <class F>
+PathState<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, Uint<F> y, Uint<F> index) {
+  Sampler<F> sampler(pass.points, x, y, index);
+  FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
+  Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
+  CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)));
+  PathState<F> state{};
+  state.o = camera.ray.o, state.d = camera.ray.d;
+  state.weight = camera.weight * filtered.weight * scene.imaging_ratio;
+  state.throughput = gray(F(1.0f));
+  state.radiance = gray(F(0.0f));
+  state.p = camera.ray.o, state.n = {F(0.0f), F(0.0f), F(0.0f)};
+  state.density = F(0.0f);
+  state.eta_scale = F(1.0f);
+  state.depth = Uint<F>(0u);
+  state.x = x, state.y = y, state.index = index;
+  return state;
+}
+
+template <class F>
+template <class Rays>
+FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out) {
+  using U = Uint<F>;
+  constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
+  const PixelBounds& tile = pass.tile;
+  const auto samples = pass.points.samples_per_pass;
+  paths_.reserve(std::size_t(tile.area()) * samples);
+  const U lane_number = lane_index<F>();
+  const U lane_x = lane_number & U(std::uint32_t(block_x - 1));
+  U lane_y = U(0u);
+  for (int k = 0; k < lanes_of<F>; ++k) set_lane(lane_y, k, std::uint32_t(k / block_x));
+
+  for (std::uint32_t sample = 0; sample < samples; ++sample)
+    for (int y0 = tile.y0; y0 < tile.y1; y0 += block_y)
+      for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
+        U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
+        Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
+        PathState<F> state = start_of_path<F>(scene, pass, x, y, U(sample));
+        state.slot =
+            ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
+                U(samples) +
+            U(sample);
+        auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity)}, on, Coherence::coherent);
+        state.hit = hit;
+        rays_ += std::uint64_t(count(on));
+        for_each_lane(found, [&](int k) { paths_.push_back(lane(state, k)); });
+
+        Mask<F> left = on & !found;
+        if (any(left)) {
+          Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
+          for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = lane(sky, k); });
+        }
+      }
+}
+
+template <class F>
+Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
+  if (next_ == paths_.size()) return on;
+  std::uint32_t running = bits(on);
+  for (int k = 0; k < lanes_of<F> && next_ < paths_.size(); ++k) {
+    if ((running >> k) & 1u) continue;
+    set_lane(state, k, paths_[next_++]);
+    running |= 1u << k;
+  }
+  return mask_of_bits<F>(running);
+}
+
+}  // namespace montelux

@@ -1,0 +1,132 @@
+// The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
+#pragma once
+#include "integrator/path/dimensions.h"
+#include "integrator/path/first_hits.h"
+#include "mc/mis.h"
+#include "mc/roulette.h"
+
+namespace montelux {
+
+// Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
+inline constexpr float shadow_shortening = 1e-4f;
+// Roulette lets no path live on with certainty, or one between white walls would never end.
+inline constexpr float most_survival = 0.97f;
+
+// What the first vertex of a path shows goes to the feature layers.
+template <class F>
+void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const Spectrum<F>& albedo, Uint<F> object,
+                     Mask<F> first, std::span<PixelSample> out) {
+  Vec3<F> normal = face_forward(at.ns, -path.d);
+  F depth = length(at.p - path.p);
+  for_each_lane(first, [&](int k) {
+    out[lane(path.slot, k)].features = {lane(albedo, k), lane(normal, k), lane(at.p, k), lane(depth, k), 1.0f,
+                                        lane(object, k)};
+  });
+}
+
+// A tile's paths, one a lane. A lane whose path ends takes the next of the first hits. `rays` answers trace and
+// occluded as Accel does; benchmarks and tests give others.
+template <class F, class Rays>
+RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& settings, const TilePass& pass,
+                      std::span<PixelSample> out) {
+  using U = Uint<F>;
+  using M = Mask<F>;
+  FirstHits<F> first_hits(scene, rays, pass, out);
+  RayCounts counts{first_hits.rays(), 0, 0};
+  const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
+  PathState<F> path{};
+  M on(false);
+  for (;;) {
+    on = first_hits.refill(path, on);
+    if (!any(on)) return counts;
+
+    // The vertex, and the light that it sends back by itself.
+    const SurfaceHit<F> x = surface<F>(scene.geometry, path.o, path.d, path.hit, on);
+    const M emits = on & (x.light != U(0u));
+    if (any(emits)) {
+      LightHit<F> light = scene.lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
+                                                       x.point.ng, x.point.uv, path.d, emits);
+      F weight = select(path.density > F(0.0f), power_weight(path.density, light.density.value), F(1.0f));
+      path.radiance += select(emits, path.throughput * light.radiance * weight, gray(F(0.0f)));
+    }
+    M scatters = on & (path.depth < max_depth);
+
+    // How the surface scatters: parameters, frame, and the numbers of this vertex.
+    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
+    BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + U(path_dimension::own))};
+    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
+    const M passes = scatters & bsdf.is_interface;
+    scatters = scatters & !bsdf.is_interface;
+    const Vec3<F> wo = bsdf.frame.to_local(-path.d);
+
+    // A direction toward a light, and one by the BSDF.
+    const M wants_light = scatters & !bsdf.is_delta;
+    LightSample<F> light = scene.lights.template sample<F>(
+        x.point.p, bsdf.light_normal, sampler.get1(dimension + U(path_dimension::light_choice)),
+        sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
+    const M asks = wants_light & light.valid;
+    const Scattering<F> scattered =
+        scatter<F>(bsdf.lanes(scatters),
+                   {wo, bsdf.frame.to_local(light.wi), asks, sampler.get1(dimension + U(path_dimension::lobe)),
+                    sampler.get2(dimension + U(path_dimension::direction))},
+                   context);
+    if (M first = on & (path.depth == U(0u)) & !passes; any(first))
+      record_features(path, x.point, select(scattered.next.valid & scatters, scattered.next.weight, gray(F(0.0f))),
+                      x.object, first, out);
+
+    // Next-event estimation.
+    F light_weight =
+        select(light.delta, F(1.0f), power_weight(light.density.value, scattered.toward_light.density.value));
+    Spectrum<F> direct =
+        path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
+    M shadow = asks & (max_component(direct) > F(0.0f));
+    if (any(shadow)) {
+      counts.shadow += std::uint64_t(count(shadow));
+      Vec3<F> o = offset_origin(x.point.p, x.point.p_error, x.point.ng, light.wi);
+      M blocked = rays.template occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening)}, shadow);
+      path.radiance += select(shadow & !blocked, direct, gray(F(0.0f)));
+    }
+
+    // Scatter; roulette by the throughput, without the squared indices of refraction that cancel on the way out.
+    const BsdfSample<F>& next = scattered.next;
+    M goes_on = scatters & next.valid;
+    // A weight that is not a number ends the path and shows in the count of such samples.
+    const M broken = goes_on & !is_finite(max_component(next.weight));
+    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
+    goes_on = goes_on & !broken;
+    path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(goes_on, U(1u), U(0u));
+    const F throughput = max_component(path.throughput) * path.eta_scale;
+    const M plays = goes_on & (path.depth > U(std::uint32_t(settings.roulette_depth)));
+    const Roulette<F> survival = roulette(select(plays, min(throughput, F(most_survival)), F(1.0f)),
+                                          sampler.get1(dimension + U(path_dimension::roulette)));
+    goes_on = goes_on & survival.survives;
+    path.throughput = select(goes_on, path.throughput * survival.weight, path.throughput);
+    Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
+    path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
+    path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
+
+    // The next vertex, or the sky.
+    const M moves = goes_on | passes;
+    path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
+    counts.scattered += std::uint64_t(count(moves));
+    auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity)}, moves);
+    path.hit = hit;
+    const M left = moves & !found;
+    for (int i = 0; i < scene.lights.infinite_count() && any(left); ++i) {
+      LightHit<F> sky = scene.lights.template escaped<F>(i, path.p, path.n, path.d, left);
+      F weight = select(path.density > F(0.0f), power_weight(path.density, sky.density.value), F(1.0f));
+      path.radiance += select(left, path.throughput * sky.radiance * weight, gray(F(0.0f)));
+    }
+    const M ended = on & !found;
+    if (any(ended)) {
+      const Spectrum<F> radiance = path.radiance * path.weight;
+      for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    }
+    on = on & found;
+  }
+}
+
+}  // namespace montelux

@@ -1,0 +1,25 @@
+// Path tracing with next-event estimation: at each vertex one direction toward a light and one by the BSDF, combined by
+// multiple importance sampling; Russian roulette ends the path (Kajiya 1986; Veach 1997, ch. 9 and 10).
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/path/settings.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+class PathTracer final : public PixelIntegrator {
+ public:
+  // Scene and accel must outlive the tracer.
+  PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings)
+      : scene_(scene), accel_(accel), settings_(settings) {}
+
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  PathSettings settings_;
+};
+
+}  // namespace montelux

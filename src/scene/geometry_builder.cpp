@@ -1,0 +1,241 @@
+#include "scene/geometry_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/tessellate.h"
+
+namespace montelux {
+
+namespace {
+
+bool is_mesh(const std::string& type) {
+  return type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv";
+}
+
+Bounds3 bounds_of(const std::vector<Vec3f>& points) {
+  Bounds3 box;
+  for (const Vec3f& p : points) box = join(box, p);
+  return box;
+}
+
+// Whether the oriented normal of triangle `i` is against (p1 - p0) x (p2 - p0): vertex normals decide where there are
+// any.
+bool faces_backward(const Mesh& world, std::size_t i, bool flip) {
+  const std::uint32_t* v = world.triangles.data() + 3 * i;
+  if (world.normals.empty()) return flip;
+  Vec3f n = cross(world.positions[v[1]] - world.positions[v[0]], world.positions[v[2]] - world.positions[v[0]]);
+  return dot(n, world.normals[v[0]] + world.normals[v[1]] + world.normals[v[2]]) < 0;
+}
+
+// The quadric that the parameters state; no value for other types.
+std::optional<Shape> quadric_of(const ShapeDesc& shape) {
+  const ParameterList& p = shape.entity.parameters;
+  float radius = p.number("radius", 1), phi_max = p.number("phimax", 360);
+  if (shape.entity.type == "sphere")
+    return clamped(Sphere{shape.object_to_world, shape.reverse_orientation, radius, p.number("zmin", -radius),
+                          p.number("zmax", radius), phi_max});
+  if (shape.entity.type == "disk")
+    return Disk{shape.object_to_world,      shape.reverse_orientation,
+                p.number("height", 0),      radius,
+                p.number("innerradius", 0), phi_max};
+  if (shape.entity.type == "cylinder")
+    return clamped(Cylinder{shape.object_to_world, shape.reverse_orientation, radius, p.number("zmin", -1),
+                            p.number("zmax", 1), phi_max});
+  return std::nullopt;
+}
+
+// The shapes as the lights know them.
+template <class S>
+bool turned_round(const S& s) {
+  return s.reverse_orientation != s.object_to_world.swaps_handedness();
+}
+SphereShape light_shape(const Sphere& s) {
+  return {s.object_to_world, s.radius, s.z_min, s.z_max, s.phi_max, turned_round(s)};
+}
+DiskShape light_shape(const Disk& s) {
+  return {s.object_to_world, s.radius, s.inner_radius, s.height, s.phi_max, turned_round(s)};
+}
+CylinderShape light_shape(const Cylinder& s) {
+  return {s.object_to_world, s.radius, s.z_min, s.z_max, s.phi_max, turned_round(s)};
+}
+PatchShape light_shape(const BilinearPatch& s) {
+  bool flip = s.flip_normal;
+  if (s.normals) flip = dot(cross(s.p[1] - s.p[0], s.p[2] - s.p[0]), (*s.normals)[0]) < 0;
+  return {s.p[0], s.p[1], s.p[2], s.p[3], s.uv[0], s.uv[1], s.uv[2], s.uv[3], flip};
+}
+
+CurveDesc curve_of(const ShapeDesc& shape) {
+  const ParameterList& p = shape.entity.parameters;
+  CurveDesc curve;
+  curve.points = p.array<Vec3f>("P");
+  curve.normals = p.array<Vec3f>("N");
+  curve.basis = p.string("basis", "bezier") == "bspline" ? CurveBasis::bspline : CurveBasis::bezier;
+  curve.degree = p.integer("degree", 3);
+  const std::string type = p.string("type", "flat");
+  curve.type = type == "cylinder" ? CurveType::cylinder : type == "ribbon" ? CurveType::ribbon : CurveType::flat;
+  const float width = p.number("width", 1);
+  curve.width0 = p.number("width0", width), curve.width1 = p.number("width1", width);
+  return curve;
+}
+
+}  // namespace
+
+void GeometryBuilder::add_object(const ObjectDesc& object) {
+  if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());
+  in_object_ = true;
+  object_bounds_.emplace_back();
+  auto first = std::uint32_t(store_.rows.size());
+  for (const ShapeDesc& shape : object.shapes) add_shape(shape, false);
+  store_.objects.push_back({first, std::uint32_t(store_.rows.size()) - first});
+}
+
+void GeometryBuilder::add_instance(const InstanceDesc& instance) {
+  auto object = std::uint32_t(instance.object);
+  const Transform& t = instance.object_to_world;
+  store_.instances.push_back({object, t});
+  std::array<float, 24> row;
+  std::copy(t.rows().begin(), t.rows().end(), row.begin());
+  std::copy(t.inverse_rows().begin(), t.inverse_rows().end(), row.begin() + 12);
+  store_.instance_rows.push_back(row);
+  const Bounds3& box = object_bounds_[object];
+  if (box.is_empty()) return;
+  for (int corner = 0; corner < 8; ++corner)
+    bounds_ = join(bounds_, t.point(Vec3f{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                                          corner & 4 ? box.high.z : box.low.z}));
+}
+
+GeometryStore GeometryBuilder::take() && {
+  if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());
+  store_.positions.push_back({0, 0, 0});  // so that the last vertex can be read as four floats
+  // Idle lanes gather element 0 of every array.
+  if (store_.normals.empty()) store_.normals.push_back({0, 0, 1});
+  if (store_.uvs.empty()) store_.uvs.push_back({0, 0});
+  if (store_.triangles.empty()) store_.triangles.push_back({0, 0, 0});
+  if (store_.rows.empty()) store_.rows.emplace_back();
+  return std::move(store_);
+}
+
+void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
+  std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
+  if (!alpha) return;
+  const bool interface = inputs_.is_interface(shape.material);
+  if (interface && !shape.area_light) return;  // nothing there that light could meet
+  if (shape.area_light && !in_world)
+    diagnostics_.warning(shape.area_light->where, "area lights on shapes of an object that is instanced do not shine",
+                         "place the shape outside ObjectBegin and ObjectEnd");
+  std::optional<Emission> emission;
+  if (shape.area_light && in_world) emission = inputs_.emission(*shape.area_light);
+
+  GeometryRow row;
+  row.alpha = *alpha;
+  row.material = std::uint32_t(shape.material);
+  row.object = next_object_number_++;
+  if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
+  const std::string& type = shape.entity.type;
+  if (is_mesh(type) && shape.mesh) {
+    if (type == "loopsubdiv")
+      add_mesh(loop_subdivide(*shape.mesh, shape.entity.parameters.integer("levels", 3)), shape, row, emission);
+    else
+      add_mesh(*shape.mesh, shape, row, emission);
+  } else if (type == "curve") {
+    add_curves(shape, row);
+  } else if (std::optional<Shape> quadric = quadric_of(shape)) {
+    add_single(std::move(*quadric), row, emission);
+  }
+}
+
+void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const GeometryRow& row,
+                               const std::optional<Emission>& emission) {
+  WorldMesh world = to_world(mesh, shape.object_to_world, shape.reverse_orientation);
+  if (world.mesh.quads.empty()) {
+    add_triangles(world.mesh, world.flip_normal, row, emission);
+    return;
+  }
+  SplitMesh split = split_affine_quads(world.mesh);
+  if (!split.triangles.triangles.empty()) add_triangles(split.triangles, world.flip_normal, row, emission);
+  if (!split.patches.quads.empty()) add_patches(split.patches, world.flip_normal, row, emission);
+}
+
+void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow row,
+                                    const std::optional<Emission>& emission) {
+  const auto vertex_base = std::uint32_t(store_.positions.size());
+  const auto count = std::uint32_t(world.triangles.size() / 3);
+  row.kind = GeometryKind::triangles;
+  row.first = std::uint32_t(store_.triangles.size());
+  row.count = count;
+  if (flip) row.flags |= GeometryRow::flip_normal;
+  if (!world.normals.empty()) {
+    row.flags |= GeometryRow::has_normals;
+    row.normal_shift = std::uint32_t(store_.normals.size()) - vertex_base;
+    store_.normals.insert(store_.normals.end(), world.normals.begin(), world.normals.end());
+  }
+  if (!world.uvs.empty()) {
+    row.flags |= GeometryRow::has_uvs;
+    row.uv_shift = std::uint32_t(store_.uvs.size()) - vertex_base;
+    store_.uvs.insert(store_.uvs.end(), world.uvs.begin(), world.uvs.end());
+  }
+  store_.positions.insert(store_.positions.end(), world.positions.begin(), world.positions.end());
+  store_.triangles.reserve(store_.triangles.size() + count);
+  for (std::size_t i = 0; i < world.triangles.size(); i += 3)
+    store_.triangles.push_back(
+        {world.triangles[i] + vertex_base, world.triangles[i + 1] + vertex_base, world.triangles[i + 2] + vertex_base});
+  grow(bounds_of(world.positions));
+  if (emission)
+    for (std::uint32_t i = 0; i < count; ++i) {
+      TriangleShape triangle;
+      Vec3f* p[3] = {&triangle.p0, &triangle.p1, &triangle.p2};
+      Vec2f* uv[3] = {&triangle.uv0, &triangle.uv1, &triangle.uv2};
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::uint32_t vertex = world.triangles[3 * i + c];
+        *p[c] = world.positions[vertex];
+        if (!world.uvs.empty()) *uv[c] = world.uvs[vertex];
+      }
+      triangle.flip = faces_backward(world, i, flip);
+      LightId light = lights_.add(triangle, *emission);
+      if (i == 0) row.first_light = std::uint32_t(light) + 1;
+    }
+  store_.rows.push_back(row);
+}
+
+void GeometryBuilder::add_patches(const Mesh& world, bool flip, GeometryRow row,
+                                  const std::optional<Emission>& emission) {
+  for (std::size_t quad = 0; quad < world.quads.size() / 4; ++quad)
+    add_single(patch_of(world, quad, flip), row, emission);
+}
+
+void GeometryBuilder::add_single(Shape shape, GeometryRow row, const std::optional<Emission>& emission) {
+  row.kind = GeometryKind::shape;
+  row.first = std::uint32_t(store_.shapes.size());
+  row.count = 1;
+  grow(montelux::bounds(shape));
+  if (emission)
+    row.first_light =
+        std::uint32_t(std::visit([&](const auto& s) { return lights_.add(light_shape(s), *emission); }, shape)) + 1;
+  store_.shapes.push_back(std::move(shape));
+  store_.rows.push_back(row);
+}
+
+void GeometryBuilder::add_curves(const ShapeDesc& shape, GeometryRow row) {
+  Result<CurveSet> made = make_curves(curve_of(shape));
+  if (!made) {
+    diagnostics_.error(shape.entity.where, made.error());
+    return;
+  }
+  CurveSet curves = to_world(*made, shape.object_to_world, shape.reverse_orientation);
+  if (shape.area_light)
+    diagnostics_.warning(shape.area_light->where, "area lights on curves do not shine",
+                         "put the light on a mesh or a quadric");
+  row.kind = GeometryKind::curves;
+  row.first = std::uint32_t(store_.curves.size());
+  row.count = std::uint32_t(curves.first.size());
+  Bounds3 box;
+  for (const CurveControl& c : curves.controls)
+    box = join(join(box, Vec3f{c.x - c.radius, c.y - c.radius, c.z - c.radius}),
+               Vec3f{c.x + c.radius, c.y + c.radius, c.z + c.radius});
+  grow(box);
+  store_.curves.push_back(std::move(curves));
+  store_.rows.push_back(row);
+}
+
+}  // namespace montelux

@@ -1,0 +1,66 @@
+// All geometry of a scene in a few flat arrays, so that packs can gather from them and the ray-tracing kernel can share
+// them: each vertex is in memory once.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/curve.h"
+#include "geometry/shape.h"
+#include "geometry/triangle.h"
+#include "math/transform.h"
+
+namespace montelux {
+
+enum class GeometryKind : std::uint32_t { triangles, shape, curves };
+
+// One surface with one material: a mesh, a quadric or patch, or a bundle of curves. Read lane by lane as sixteen words.
+struct alignas(64) GeometryRow {
+  GeometryKind kind = GeometryKind::triangles;
+  std::uint32_t first = 0;         // triangles: number of the first; shape: its index; curves: index of the curve set
+  std::uint32_t count = 0;         // triangles or segments
+  std::uint32_t normal_shift = 0;  // vertex number + shift is the number of its normal (wrapping)
+  std::uint32_t uv_shift = 0;      // the same for uv
+  std::uint32_t flags = 0;
+  std::uint32_t material = 0;
+  std::uint32_t first_light = 0;  // 1 + the light of primitive 0, the others following; 0: emits nothing
+  std::uint32_t alpha = 0;        // 1 + number of a number texture; 0: opaque
+  std::uint32_t object = 0;       // number of the object from 1, for the id layer
+  std::uint32_t unused[6] = {};
+
+  static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8;
+};
+static_assert(sizeof(GeometryRow) == 64);
+
+// Geometries that instances place; numbers of GeometryStore::rows.
+struct ObjectRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+struct PlacedObject {
+  std::uint32_t object = 0;
+  Transform object_to_world;
+};
+
+struct GeometryStore {
+  std::vector<Vec3f> positions;  // one more than there are vertices, so that the last can be read as four floats
+  std::vector<Vec3f> normals;
+  std::vector<Vec2f> uvs;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // numbers of positions
+  std::vector<Shape> shapes;
+  std::vector<CurveSet> curves;
+  std::vector<GeometryRow> rows;  // first those of the world, then those of the objects
+  std::uint32_t world_rows = 0;
+  std::vector<ObjectRange> objects;
+  std::vector<PlacedObject> instances;
+  std::vector<std::array<float, 24>> instance_rows;  // object to world, then world to object, three rows of four each
+};
+
+// Where a ray met the scene. `geometry` is a row number; `instance` is 1 + an instance's number, or 0.
+template <class F>
+struct Hit {
+  F t, u, v;  // distance in units of the direction; the primitive's own parameters
+  Uint<F> geometry, primitive, instance;
+};
+
+}  // namespace montelux

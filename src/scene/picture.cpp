@@ -1,0 +1,67 @@
+#include "scene/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/ray.h"
+#include "scene/table.h"
+
+namespace montelux {
+
+namespace {
+
+// Pixels [ceil(size * low), ceil(size * high)), as pbrt cuts a window.
+int cut(int size, float fraction) { return std::clamp(int(std::ceil(float(size) * fraction)), 0, size); }
+
+PixelBounds crop_of(const Entity& film, int width, int height, bool resized, Diagnostics& diagnostics) {
+  PixelBounds all{0, 0, width, height};
+  const auto& window = film.parameters.array<float>("cropwindow");
+  const auto& pixels = film.parameters.array<int>("pixelbounds");
+  PixelBounds crop = all;
+  if (pixels.size() == 4 && !resized)
+    crop = {std::clamp(pixels[0], 0, width), std::clamp(pixels[2], 0, height), std::clamp(pixels[1], 0, width),
+            std::clamp(pixels[3], 0, height)};
+  else if (window.size() == 4)
+    crop = {cut(width, window[0]), cut(height, window[2]), cut(width, window[1]), cut(height, window[3])};
+  if (crop.x0 < crop.x1 && crop.y0 < crop.y1) return crop;
+  diagnostics.error(film.where, "the film's window holds no pixel");
+  return all;
+}
+
+// The name of ours that serves a name of the file's.
+std::string served_by(const EntitySpec* spec, const std::string& name) {
+  return spec && !spec->instead.empty() ? std::string(spec->instead) : name;
+}
+
+}  // namespace
+
+PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair<int, int>> resolution,
+                                 Diagnostics& diagnostics) {
+  PictureSettings s;
+  const ParameterList& film = scene.film.parameters;
+  s.width = resolution ? resolution->first : film.integer("xresolution", s.width);
+  s.height = resolution ? resolution->second : film.integer("yresolution", s.height);
+  s.crop = crop_of(scene.film, s.width, s.height, resolution.has_value(), diagnostics);
+  if (float clamp = film.number("maxcomponentvalue", ray_infinity); clamp < ray_infinity) s.max_component = clamp;
+  float exposure_time =
+      scene.camera.parameters.number("shutterclose", 1) - scene.camera.parameters.number("shutteropen", 0);
+  s.imaging_ratio = exposure_time * film.number("iso", 100) / 100;
+
+  const ParameterList& sampler = scene.sampler.parameters;
+  s.samples = scene.sampler.type == "stratified" ? sampler.integer("xsamples", 4) * sampler.integer("ysamples", 4)
+                                                 : sampler.integer("pixelsamples", s.samples);
+  s.seed = std::uint32_t(sampler.integer("seed", scene.options.integer("seed", 0)));
+  std::string point_set = served_by(find_entity(sampler_table(), scene.sampler.type), scene.sampler.type);
+  s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
+
+  const ParameterList& integrator = scene.integrator.parameters;
+  s.integrator = served_by(find_entity(integrator_table(), scene.integrator.type), scene.integrator.type);
+  if (integrator.find("maxdepth")) s.max_depth = integrator.integer("maxdepth", 5);
+  std::string selection = integrator.string("lightsampler", "bvh");
+  s.light_selection = selection == "uniform" ? LightSelection::uniform
+                      : selection == "power" ? LightSelection::power
+                                             : LightSelection::bvh;
+  return s;
+}
+
+}  // namespace montelux

@@ -1,0 +1,31 @@
+// What a scene file asks of the picture: its size, its samples, its integrator.
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "image/pixel_sample.h"
+#include "light/light.h"
+#include "mc/point_set.h"
+#include "scene/description.h"
+
+namespace montelux {
+
+struct PictureSettings {
+  int width = 1280, height = 720;
+  PixelBounds crop;  // the part to render, within the picture
+  int samples = 16;  // a pixel
+  std::uint32_t seed = 0;
+  PointSetKind sampler = PointSetKind::blue_noise;
+  std::string integrator;              // ours, that serves what the file names
+  std::optional<int> max_depth;        // where the file sets it
+  std::optional<float> max_component;  // clamp of a sample's components, where the file sets it: biased
+  LightSelection light_selection = LightSelection::bvh;
+  float imaging_ratio = 1;  // of the film's reading to radiance: exposure time x ISO / 100
+};
+
+// `resolution` takes the place of the film's. Notes say what serves a name that Montelux lacks.
+PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair<int, int>> resolution,
+                                 Diagnostics& diagnostics);
+
+}  // namespace montelux

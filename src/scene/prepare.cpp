@@ -1,0 +1,162 @@
+#include "scene/prepare.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "scene/geometry_builder.h"
+#include "scene/spectra.h"
+#include "texture/build.h"
+
+namespace montelux {
+
+namespace {
+
+// Prepares one scene, a family at a time. Each family reports what is wrong with it and stands in something harmless,
+// so that all errors of a scene come out in one run.
+class Preparation {
+ public:
+  Preparation(const SceneDesc& desc, const PrepareOptions& options, Diagnostics& diagnostics)
+      : desc_(desc),
+        diagnostics_(diagnostics),
+        picture_(picture_settings(desc, options.resolution, diagnostics)),
+        textures_(std::make_unique<TextureSet>()),
+        texture_builder_(*textures_, desc.folder, reflectance_rgb, diagnostics) {}
+
+  PreparedScene run() {
+    for (const TextureDesc& t : desc_.textures)
+      texture_builder_.add(t.name, t.is_spectrum, t.entity, t.texture_to_world);
+    std::vector<Material> materials = make_materials();
+    LightSetBuilder lights;
+    GeometryStore geometry = make_geometry(materials, lights);
+    for (const LightDesc& light : desc_.lights) add_light(light, lights);
+    Vec3f centre = (bounds_.low + bounds_.high) * 0.5f;
+    float radius = length(bounds_.high - centre);
+    if (bounds_.is_empty()) centre = {0, 0, 0}, radius = 1;
+
+    Scene scene{std::move(geometry),
+                std::move(textures_),
+                {},
+                std::move(lights).build({picture_.light_selection}, centre, radius),
+                build_camera(desc_.camera, desc_.world_to_camera, picture_.width, picture_.height, diagnostics_),
+                Filter::build(desc_.filter),
+                picture_.imaging_ratio,
+                bounds_,
+                {}};
+    scene.materials = MaterialSet(std::move(materials), scene.textures.get());
+    return {std::move(scene), picture_};
+  }
+
+ private:
+  std::vector<Material> make_materials();
+  void break_mixture_cycles(std::vector<Material>& materials);
+  GeometryStore make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights);
+  void add_light(const LightDesc& light, LightSetBuilder& lights);
+  LightInputs light_inputs();
+  std::shared_ptr<const LightImage> light_image(const std::string& file, const SourceLocation& where);
+  std::optional<std::uint32_t> alpha_of(const Entity& shape);
+
+  const SceneDesc& desc_;
+  Diagnostics& diagnostics_;
+  PictureSettings picture_;
+  std::unique_ptr<TextureSet> textures_;
+  TextureBuilder texture_builder_;
+  Bounds3 bounds_;
+};
+
+std::vector<Material> Preparation::make_materials() {
+  std::map<std::string, std::uint32_t> numbers;
+  for (std::size_t i = 0; i < desc_.materials.size(); ++i)
+    if (!desc_.materials[i].name.empty()) numbers[desc_.materials[i].name] = std::uint32_t(i);
+  MaterialInputs inputs{texture_builder_,
+                        metal_rgb,
+                        unbounded_rgb,
+                        index_of_refraction,
+                        [&](const std::string& name) -> std::optional<std::uint32_t> {
+                          auto found = numbers.find(name);
+                          if (found == numbers.end()) return std::nullopt;
+                          return found->second;
+                        },
+                        diagnostics_};
+  std::vector<Material> materials;
+  for (const MaterialDesc& material : desc_.materials) materials.push_back(build_material(material.entity, inputs));
+  if (materials.empty()) materials.push_back(build_material({"diffuse", {}, {}}, inputs));
+  break_mixture_cycles(materials);
+  return materials;
+}
+
+// A mixture that leads to itself has no value: it is reported, and stands as a diffuse surface.
+void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
+  enum class Visit { none, open, done };
+  std::vector<Visit> visits(materials.size(), Visit::none);
+  std::function<bool(std::uint32_t)> has_cycle = [&](std::uint32_t i) {
+    if (visits[i] == Visit::open) return true;
+    if (visits[i] == Visit::done || !materials[i].mixture) return false;
+    visits[i] = Visit::open;
+    bool found = false;
+    for (std::uint32_t child : materials[i].mixture->children) found = has_cycle(child) || found;
+    visits[i] = Visit::done;
+    if (!found) return false;
+    diagnostics_.error(desc_.materials[i].entity.where, "the mix contains itself");
+    materials[i].mixture.reset();
+    return false;
+  };
+  for (std::uint32_t i = 0; i < materials.size(); ++i) has_cycle(i);
+}
+
+GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
+  ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs()); },
+                     [this](const Entity& shape) { return alpha_of(shape); },
+                     [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; }};
+  GeometryBuilder builder(inputs, lights, diagnostics_);
+  for (const ShapeDesc& shape : desc_.shapes) builder.add_world_shape(shape);
+  for (const ObjectDesc& object : desc_.objects) builder.add_object(object);
+  for (const InstanceDesc& instance : desc_.instances) builder.add_instance(instance);
+  bounds_ = builder.bounds();
+  return std::move(builder).take();
+}
+
+std::optional<std::uint32_t> Preparation::alpha_of(const Entity& shape) {
+  std::optional<NumberTextureId> texture = texture_builder_.number_if_stated(shape, "alpha");
+  if (!texture) return 0;
+  if (std::optional<float> constant = textures_->constant(*texture)) {
+    if (*constant >= 1) return 0;
+    if (*constant <= 0) return std::nullopt;
+  }
+  return std::uint32_t(*texture) + 1;
+}
+
+LightInputs Preparation::light_inputs() {
+  return {emission_rgb,
+          [this](const std::string& file, const SourceLocation& where) { return light_image(file, where); }};
+}
+
+void Preparation::add_light(const LightDesc& light, LightSetBuilder& lights) {
+  lights.add(light.entity, light.light_to_world, light_inputs(), diagnostics_);
+}
+
+std::shared_ptr<const LightImage> Preparation::light_image(const std::string& file, const SourceLocation& where) {
+  auto image = textures_->image(std::filesystem::path(desc_.folder) / file);
+  if (!image) {
+    diagnostics_.error(where, image.error());
+    return nullptr;
+  }
+  const TexelImage& texels = **image;
+  auto light_image = std::make_shared<LightImage>();
+  light_image->width = texels.width(), light_image->height = texels.height();
+  light_image->texels.reserve(std::size_t(texels.width()) * std::size_t(texels.height()));
+  for (int y = 0; y < texels.height(); ++y)
+    for (int x = 0; x < texels.width(); ++x) light_image->texels.push_back(texels.texel(x, y));
+  return light_image;
+}
+
+}  // namespace
+
+std::optional<PreparedScene> prepare(const SceneDesc& desc, const PrepareOptions& options, Diagnostics& diagnostics) {
+  const int before = diagnostics.errors();
+  PreparedScene scene = Preparation(desc, options, diagnostics).run();
+  if (diagnostics.errors() > before) return std::nullopt;
+  return scene;
+}
+
+}  // namespace montelux

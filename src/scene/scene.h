@@ -1,0 +1,33 @@
+// A scene prepared for rendering: immutable, complete, and nothing in it refers to a file.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "camera/camera.h"
+#include "filter/filter.h"
+#include "geometry/bounds.h"
+#include "light/light_set.h"
+#include "scene/geometry_store.h"
+#include "scene/materials.h"
+#include "scene/surface.h"
+#include "texture/texture_set.h"
+
+namespace montelux {
+
+struct Scene {
+  GeometryStore geometry;
+  std::unique_ptr<TextureSet> textures;  // by pointer: the materials refer to it
+  MaterialSet materials;
+  LightSet lights;
+  Camera camera;
+  Filter filter;
+  float imaging_ratio = 1;                // of the film's reading to radiance
+  Bounds3 bounds;                         // of all surfaces, world space
+  std::vector<std::string> object_names;  // of object number i + 1
+
+  // Whether a surface with an alpha mask is there for this ray.
+  bool is_opaque(const Hit<float>& hit, const Ray<float>& ray) const;
+};
+
+}  // namespace montelux
