@@ -107,6 +107,17 @@ Bounds3 bounds(const BilinearPatch& s) {
   return padded(to_double(b.low), to_double(b.high));
 }
 
+namespace {
+
+// The largest coordinate that goes into an intersection.
+double magnitude(const Patch& q, const Vec3d& o) {
+  double m = 0;
+  for (const Vec3d& p : {q.p00, q.p10, q.p01, q.p11, o}) m = std::max({m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return m;
+}
+
+}  // namespace
+
 std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray, float t_min) {
   Patch q = in_double(s);
   Vec3d o = to_double(ray.o), d = to_double(ray.d);
@@ -120,10 +131,13 @@ std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray,
   // A patch that is flat along u has c = 0 up to rounding; then h / c is far outside, and a / h is the hit.
   double u1 = c != 0 ? h / c : -1, u2 = h != 0 ? a / h : -1;
   const double slack = 1e-10;
+  // Hits nearer than the rounding of their own distance are those of a ray that leaves the patch: an origin that lies
+  // exactly in the plane of a flat patch needs this, as no offset moves it out of there.
+  const double nearest = std::max(double(t_min), 1e-12 * magnitude(q, o) / std::sqrt(dot(d, d)));
   std::optional<PatchHit> best;
   for (double u : {u1, u2}) {
     auto hit = hit_on_line(q, o, d, u, slack);
-    if (!hit || !(hit->t > t_min) || !(float(hit->t) > t_min) || !(float(hit->t) < ray.t_max)) continue;
+    if (!hit || !(hit->t > nearest) || !(float(hit->t) > t_min) || !(float(hit->t) < ray.t_max)) continue;
     if (!best || hit->t < best->t) best = hit;
   }
   if (!best) return std::nullopt;

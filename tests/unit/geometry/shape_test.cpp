@@ -186,6 +186,32 @@ TEST(Shape, rays_that_leave_do_not_meet_the_surface_again) {
   }
 }
 
+TEST(BilinearPatch, rays_that_leave_do_not_meet_the_patch_again) {
+  // Flat patches that no parallelogram covers, one in a coordinate plane, and a curved one.
+  const std::array<Vec3f, 4> flat{Vec3f{552.8f, 0, 0}, Vec3f{0, 0, 0}, Vec3f{549.6f, 0, 559.2f}, Vec3f{0, 0, 559.2f}};
+  const std::array<Vec3f, 4> tilted{Vec3f{552.8f, 3, 0}, Vec3f{0, 1, 0}, Vec3f{549.6f, 8, 559.2f}, Vec3f{0, 6, 559.2f}};
+  for (const auto& corners : {flat, tilted}) {
+    BilinearPatch patch;
+    patch.p = corners;
+    std::uint32_t again = 0, hits = 0;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      RandomStream<float> random(i, 7u);
+      Vec3f o{200 + 200 * random.next(), 273, 200 + 200 * random.next()};
+      Vec3f target{548 * random.next(), 4, 558 * random.next()};
+      Ray<float> ray{o, normalize(target - o), 1e30f};
+      auto hit = intersect(patch, ray, 0);
+      if (!hit) continue;
+      ++hits;
+      SurfacePoint<float> s = surface_point(patch, ray, *hit);
+      Vec3f up = face_forward(s.ng, -ray.d);
+      Vec3f w = normalize(up * (0.01f + random.next()) + Frame<float>::from_normal(up).s * (random.next() - 0.5f));
+      if (intersect(patch, {offset_origin(s.p, s.p_error, s.ng, w), w, 1e30f}, 0)) ++again;
+    }
+    EXPECT_GT(hits, 15000u);
+    EXPECT_EQ(again, 0u);
+  }
+}
+
 TEST(Shape, rays_that_leave_a_far_point_of_a_huge_sphere_keep_off_it) {
   Stream r(13, 14);
   Sphere ground{translate(0, -1e6, 0) * rotate(90, 1, 0, 0), false, 1e6f, -1e6f, 1e6f, 360};
