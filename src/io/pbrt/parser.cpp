@@ -1,5 +1,7 @@
 #include "io/pbrt/parser.h"
 
+#include <utility>
+
 #include "io/pbrt/numbers.h"
 #include "io/text_file.h"
 
@@ -222,10 +224,13 @@ bool Parser::numbers(std::span<double> values) {
   return false;
 }
 
-// Reports a directive on the wrong side of WorldBegin.
+// Whether the directive stands on its side of WorldBegin. The first one that does not is reported: the others follow
+// from it.
 bool Parser::is_in_world(bool wanted) {
   if (in_world_ == wanted) return true;
-  report_.error(here(), std::string(directive_.text) + " must stand " + (wanted ? "after" : "before") + " WorldBegin");
+  if (!std::exchange(told_of_world_, true))
+    report_.error(here(), std::string(directive_.text) + " must stand " + (wanted ? "after" : "before") + " WorldBegin",
+                  "others that are out of place are not reported again");
   return false;
 }
 

@@ -164,6 +164,7 @@ class Parser {
   Lexer* lexer_ = nullptr;
   Token directive_;  // the one in work
   bool in_world_ = false;
+  bool told_of_world_ = false;
   std::vector<std::filesystem::path> open_files_;
   int files_read_ = 0;
   std::set<Family> options_stated_;

@@ -1,0 +1,223 @@
+#include "io/write_pbrt.h"
+
+#include <fstream>
+#include <set>
+
+#include "io/pbrt/numbers.h"
+#include "io/pbrt/parameters.h"
+
+namespace montelux {
+
+namespace {
+
+using pbrt::shortest;
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+// A value as it stands between brackets.
+std::string value_text(float v) { return shortest(v); }
+std::string value_text(int v) { return std::to_string(v); }
+std::string value_text(std::uint32_t v) { return std::to_string(v); }
+std::string value_text(std::uint8_t v) { return v ? "true" : "false"; }
+std::string value_text(const std::string& v) { return quoted(v); }
+std::string value_text(Vec2f v) { return shortest(v.x) + " " + shortest(v.y); }
+std::string value_text(Vec3f v) { return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z); }
+std::string value_text(const SpectrumValue& v) {
+  if (const auto* rgb = std::get_if<RgbValue>(&v))
+    return value_text(Vec3f{rgb->rgb.c[0], rgb->rgb.c[1], rgb->rgb.c[2]});
+  if (const auto* name = std::get_if<NamedSpectrum>(&v)) return quoted(name->name);
+  if (const auto* blackbody = std::get_if<Blackbody>(&v)) return shortest(blackbody->kelvin);
+  std::string text;
+  const auto& sampled = std::get<SampledValue>(v);
+  for (std::size_t i = 0; i < sampled.values.size(); ++i)
+    text += (i ? " " : "") + shortest(sampled.wavelengths[i]) + " " + shortest(sampled.values[i]);
+  return text;
+}
+
+template <class T>
+std::string array_text(std::string_view type_and_name, const std::vector<T>& values) {
+  std::string text = " " + quoted(type_and_name) + " [";
+  for (const T& value : values) text += " " + value_text(value);
+  return text + " ]";
+}
+
+std::string_view type_word(const Parameter& parameter) {
+  if (parameter.type != ParameterType::spectrum) return pbrt::spelling(parameter.type);
+  const auto* values = std::get_if<std::vector<SpectrumValue>>(&parameter.values);
+  if (!values || values->empty() || std::holds_alternative<RgbValue>(values->front())) return "rgb";
+  return std::holds_alternative<Blackbody>(values->front()) ? "blackbody" : "spectrum";
+}
+
+std::string parameter_text(const Parameter& parameter) {
+  std::string header = std::string(type_word(parameter)) + " " + parameter.name;
+  if (const auto* name = std::get_if<TextureName>(&parameter.values))
+    return " " + quoted(header) + " [ " + quoted(name->name) + " ]";
+  return std::visit(
+      [&](const auto& values) -> std::string {
+        if constexpr (std::is_same_v<std::decay_t<decltype(values)>, TextureName>)
+          return {};
+        else
+          return array_text(header, values);
+      },
+      parameter.values);
+}
+
+std::string parameters_text(const ParameterList& list) {
+  std::string text;
+  for (const Parameter& parameter : list.all()) text += parameter_text(parameter);
+  return text;
+}
+
+std::string transform_text(const Transform& transform) {
+  if (transform.is_identity()) return {};
+  std::string text = "Transform [";
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) text += " " + shortest(transform.matrix().m[row][column]);
+  return text + " ]\n";
+}
+
+class Writer {
+ public:
+  explicit Writer(const SceneDesc& scene) : scene_(scene) { name_materials(); }
+
+  std::string write() {
+    write_options();
+    text_ += "WorldBegin\n";
+    for (const TextureDesc& texture : scene_.textures) write_texture(texture);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);
+    for (const LightDesc& light : scene_.lights) {
+      state_color_space(light.entity);
+      write_block(light.light_to_world, "LightSource " + entity_text(light.entity));
+    }
+    for (const ObjectDesc& object : scene_.objects) {
+      text_ += "ObjectBegin " + quoted(object.name) + "\n";
+      for (const ShapeDesc& shape : object.shapes) write_shape(shape);
+      text_ += "ObjectEnd\n";
+    }
+    for (const ShapeDesc& shape : scene_.shapes) write_shape(shape);
+    for (const InstanceDesc& instance : scene_.instances)
+      write_block(instance.object_to_world,
+                  "ObjectInstance " + quoted(scene_.objects[static_cast<std::size_t>(instance.object)].name));
+    return std::move(text_);
+  }
+
+ private:
+  static std::string entity_text(const Entity& entity) {
+    return quoted(entity.type) + parameters_text(entity.parameters);
+  }
+
+  // The default material goes without a name as long as nobody has changed it.
+  bool is_default(std::size_t i) const {
+    const MaterialDesc& m = scene_.materials[i];
+    return i == 0 && m.name.empty() && m.entity.type == "diffuse" && m.entity.parameters.all().empty();
+  }
+
+  void name_materials() {
+    std::set<std::string> taken;
+    for (const MaterialDesc& material : scene_.materials) taken.insert(material.name);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      std::string name = scene_.materials[i].name;
+      if (name.empty() && !is_default(i)) {
+        name = "unnamed-" + std::to_string(i);
+        while (taken.contains(name)) name += "'";
+        taken.insert(name);
+      }
+      material_names_.push_back(name);
+    }
+  }
+
+  // The colour space in which the entity's rgb values are stated.
+  void state_color_space(const Entity& entity) {
+    for (const Parameter& parameter : entity.parameters.all())
+      if (const auto* values = std::get_if<std::vector<SpectrumValue>>(&parameter.values))
+        for (const SpectrumValue& value : *values)
+          if (const auto* rgb = std::get_if<RgbValue>(&value)) {
+            if (rgb->color_space != color_space_) text_ += "ColorSpace " + quoted(rgb->color_space) + "\n";
+            color_space_ = rgb->color_space;
+            return;
+          }
+  }
+
+  void write_block(const Transform& transform, const std::string& content) {
+    text_ += "AttributeBegin\n" + transform_text(transform) + content + "\nAttributeEnd\n";
+  }
+
+  void write_options() {
+    for (const Parameter& option : scene_.options.all()) text_ += "Option" + parameter_text(option) + "\n";
+    text_ += "Film " + entity_text(scene_.film) + "\n";
+    text_ += "PixelFilter " + entity_text(scene_.filter) + "\n";
+    text_ += "Sampler " + entity_text(scene_.sampler) + "\n";
+    text_ += "Integrator " + entity_text(scene_.integrator) + "\n";
+    text_ += "Accelerator " + entity_text(scene_.accelerator) + "\n";
+    text_ += transform_text(scene_.world_to_camera);
+    text_ += "Camera " + entity_text(scene_.camera) + "\n";
+  }
+
+  void write_texture(const TextureDesc& texture) {
+    state_color_space(texture.entity);
+    std::string text = "Texture " + quoted(texture.name) + (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") +
+                       entity_text(texture.entity);
+    if (texture.texture_to_world.is_identity())
+      text_ += text + "\n";
+    else
+      write_block(texture.texture_to_world, text);
+  }
+
+  void write_material(std::size_t i) {
+    if (is_default(i)) return;
+    const Entity& entity = scene_.materials[i].entity;
+    state_color_space(entity);
+    text_ += "MakeNamedMaterial " + quoted(material_names_[i]) + " \"string type\" [ " + quoted(entity.type) + " ]" +
+             parameters_text(entity.parameters) + "\n";
+  }
+
+  static std::string mesh_text(const Mesh& mesh) {
+    std::string text = array_text("point3 P", mesh.positions);
+    if (!mesh.normals.empty()) text += array_text("normal N", mesh.normals);
+    if (!mesh.tangents.empty()) text += array_text("vector3 S", mesh.tangents);
+    if (!mesh.uvs.empty()) text += array_text("point2 uv", mesh.uvs);
+    return text + array_text("integer indices", mesh.quads.empty() ? mesh.triangles : mesh.quads);
+  }
+
+  void write_shape(const ShapeDesc& shape) {
+    if (shape.area_light) state_color_space(*shape.area_light);
+    std::string text;
+    const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];
+    if (!material.empty()) text += "NamedMaterial " + quoted(material) + "\n";
+    if (shape.reverse_orientation) text += "ReverseOrientation\n";
+    if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
+    text += "Shape " + entity_text(shape.entity);
+    // The mesh of a file stays there.
+    if (shape.mesh && shape.entity.type != "plymesh") text += mesh_text(*shape.mesh);
+    write_block(shape.object_to_world, text);
+  }
+
+  const SceneDesc& scene_;
+  std::vector<std::string> material_names_;
+  std::string color_space_ = "srgb";
+  std::string text_;
+};
+
+}  // namespace
+
+std::string write_pbrt(const SceneDesc& scene) { return Writer(scene).write(); }
+
+Status write_pbrt_file(const SceneDesc& scene, const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  file << write_pbrt(scene);
+  file.close();
+  if (!file) return Failure{"cannot write '" + path + "'"};
+  return Done{};
+}
+
+}  // namespace montelux
