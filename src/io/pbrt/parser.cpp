@@ -1,5 +1,6 @@
 #include "io/pbrt/parser.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "io/pbrt/numbers.h"
@@ -130,11 +131,15 @@ void Parser::parse_directive() {
   resynchronise();
 }
 
-// Goes on at the next directive; a word that is none has had its message.
+// Steps to the next directive, or to a word at the start of a line that looks as if it should be one.
 void Parser::resynchronise() {
+  int line = std::max(directive_.line, lexer_->peek().line);
   while (true) {
     const Token& token = lexer_->peek();
     if (token.kind == TokenKind::end || (token.kind == TokenKind::word && is_directive(token.text))) return;
+    bool capital = token.kind == TokenKind::word && token.text.front() >= 'A' && token.text.front() <= 'Z';
+    if (capital && token.line > line) return;
+    line = token.line;
     lexer_->next();
   }
 }

@@ -1,0 +1,159 @@
+// Whole scenes: all files of a scene folder parse, and writing and reading again changes nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "io/pbrt.h"
+#include "io/report.h"
+#include "io/write_pbrt.h"
+
+namespace montelux {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder of development scenes: MONTELUX_SCENES, or one beside the source tree. Empty where there is none.
+fs::path scene_folder() {
+  if (const char* folder = std::getenv("MONTELUX_SCENES")) return folder;
+  for (const char* beside : {"/../shared/scenes", "/../../shared/scenes"})
+    if (fs::exists(MONTELUX_SOURCE_DIR + std::string(beside))) return MONTELUX_SOURCE_DIR + std::string(beside);
+  return {};
+}
+
+// Parts that other files include.
+bool is_part(const fs::path& path) {
+  std::string name = path.stem().string();
+  return name == "geometry" || name == "geometry-gray" || name == "herd";
+}
+// What comes later, by the words that its error must hold.
+std::string expected_error(const std::string& name) {
+  if (name.starts_with("bottles-dof")) return "motion comes later";
+  if (name == "furball") return "'hair' comes later";
+  if (name == "testball-subsurface") return "'subsurface' comes later";
+  if (name == "colored-smoke" || name.starts_with("plume") || name == "volumetric-caustic" ||
+      name.starts_with("staircase2"))
+    return "media come later";
+  return {};
+}
+
+std::vector<fs::path> scene_files() {
+  std::vector<fs::path> files;
+  if (scene_folder().empty()) return files;
+  for (const auto& folder : fs::directory_iterator(scene_folder())) {
+    if (!folder.is_directory()) continue;
+    for (const auto& file : fs::directory_iterator(folder))
+      if (file.path().extension() == ".pbrt" && !is_part(file.path())) files.push_back(file.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool same_matrix(const Transform& a, const Transform& b) { return a.matrix() == b.matrix(); }
+bool same_mesh(const Mesh& a, const Mesh& b) {
+  auto same = [](const auto& x, const auto& y) {
+    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+  };
+  return same(a.positions, b.positions) && same(a.normals, b.normals) && same(a.tangents, b.tangents) &&
+         same(a.uvs, b.uvs) && a.triangles == b.triangles && a.quads == b.quads;
+}
+void expect_same_shapes(const std::vector<ShapeDesc>& a, const std::vector<ShapeDesc>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].entity.type, b[i].entity.type);
+    EXPECT_TRUE(same_matrix(a[i].object_to_world, b[i].object_to_world));
+    EXPECT_EQ(a[i].material, b[i].material);
+    EXPECT_EQ(a[i].reverse_orientation, b[i].reverse_orientation);
+    EXPECT_EQ(a[i].area_light.has_value(), b[i].area_light.has_value());
+    ASSERT_EQ(a[i].mesh == nullptr, b[i].mesh == nullptr);
+    EXPECT_TRUE(!a[i].mesh || same_mesh(*a[i].mesh, *b[i].mesh));
+  }
+}
+void expect_same(const SceneDesc& a, const SceneDesc& b) {
+  EXPECT_TRUE(same_matrix(a.world_to_camera, b.world_to_camera));
+  expect_same_shapes(a.shapes, b.shapes);
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) expect_same_shapes(a.objects[i].shapes, b.objects[i].shapes);
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_EQ(a.instances[i].object, b.instances[i].object);
+    EXPECT_TRUE(same_matrix(a.instances[i].object_to_world, b.instances[i].object_to_world));
+  }
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t i = 0; i < a.materials.size(); ++i)
+    EXPECT_EQ(a.materials[i].entity.type, b.materials[i].entity.type);
+  ASSERT_EQ(a.lights.size(), b.lights.size());
+  for (std::size_t i = 0; i < a.lights.size(); ++i)
+    EXPECT_TRUE(same_matrix(a.lights[i].light_to_world, b.lights[i].light_to_world));
+  ASSERT_EQ(a.textures.size(), b.textures.size());
+  // The text holds all that is left: every parameter of every entity.
+  EXPECT_EQ(write_pbrt(a), write_pbrt(b));
+}
+
+TEST(SceneFolder, every_scene_reads_or_names_what_comes_later) {
+  std::vector<fs::path> files = scene_files();
+  if (files.empty()) GTEST_SKIP() << "no scenes: set MONTELUX_SCENES to their folder";
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file.string());
+    std::string expected = expected_error(file.stem().string());
+    ReadResult result = read_pbrt(file.string());
+    EXPECT_EQ(result.scene.has_value(), expected.empty()) << render(result.diagnostics);
+    for (const Diagnostic& d : result.diagnostics.all())
+      EXPECT_TRUE(d.severity != Severity::error || d.message.find(expected) != std::string::npos) << d.message;
+    EXPECT_TRUE(read_pbrt(file.string(), {true}).scene) << render(result.diagnostics);
+  }
+}
+
+TEST(SceneFolder, every_scene_stays_the_same_when_written_and_read_again) {
+  std::vector<fs::path> files = scene_files();
+  if (files.empty()) GTEST_SKIP() << "no scenes: set MONTELUX_SCENES to their folder";
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file.string());
+    ReadResult first = read_pbrt(file.string(), {true});
+    ASSERT_TRUE(first.scene);
+    ReadResult second = read_pbrt_text(write_pbrt(*first.scene), first.scene->folder);
+    ASSERT_TRUE(second.scene) << render(second.diagnostics);
+    // Materials without a name have one from here on.
+    for (std::size_t i = 0; i < first.scene->materials.size(); ++i)
+      first.scene->materials[i].name = second.scene->materials.at(i).name;
+    expect_same(*first.scene, *second.scene);
+  }
+}
+
+TEST(Writing, keeps_every_kind_of_value) {
+  ReadResult first = read_pbrt_text(
+      R"(Option "integer seed" 7
+Film "rgb" "integer xresolution" 64 "integer yresolution" 32 "string filename" "a \"b\" \\ c.exr"
+LookAt 1 2 3 0 0 0 0 1 0
+Camera "perspective" "float fov" 33.3 "float screenwindow" [ -1 1 -0.5 0.5 ]
+WorldBegin
+ColorSpace "rec2020"
+Texture "t" "spectrum" "constant" "rgb value" [ 0.1 0.2 0.3 ]
+Translate 1 2 3
+Texture "w" "float" "wrinkled" "integer octaves" 4
+Material "diffuse" "texture reflectance" "t"
+AttributeBegin
+  ColorSpace "srgb"
+  AreaLightSource "diffuse" "spectrum L" [ 400 1 700 2.5 ] "bool twosided" true
+  Shape "sphere" "float radius" 0.1
+  AreaLightSource "diffuse" "blackbody L" 3000
+  Rotate 33 1 2 3
+  Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 1e-7 ] "point2 uv" [ 0 0 1 0 0 1 ] "texture alpha" "w"
+AttributeEnd
+LightSource "distant" "rgb L" [ 1 2 3 ] "point3 from" [ 1 1 1 ]
+LightSource "point" "spectrum I" "stdillum-D65"
+)",
+      ".");
+  ASSERT_TRUE(first.scene) << render(first.diagnostics);
+  ReadResult second = read_pbrt_text(write_pbrt(*first.scene), ".");
+  ASSERT_TRUE(second.scene) << render(second.diagnostics) << write_pbrt(*first.scene);
+  EXPECT_EQ(second.scene->film.parameters.string("filename", ""), "a \"b\" \\ c.exr");
+  for (std::size_t i = 0; i < first.scene->materials.size(); ++i)
+    first.scene->materials[i].name = second.scene->materials.at(i).name;
+  expect_same(*first.scene, *second.scene);
+}
+
+}  // namespace
+}  // namespace montelux
