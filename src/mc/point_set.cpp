@@ -6,10 +6,16 @@
 
 namespace montelux {
 
-std::string_view name_of(PointSetKind kind) { return point_set_names[std::size_t(kind)].name; }
+std::string_view name_of(PointSetKind kind) {
+  for (const NamedPointSet& entry : fixed_point_set_names)
+    if (entry.kind == kind) return entry.name;
+  return point_set_names[std::size_t(kind)].name;
+}
 
 std::optional<PointSetKind> point_set_named(std::string_view name) {
   for (const NamedPointSet& entry : point_set_names)
+    if (entry.name == name) return entry.kind;
+  for (const NamedPointSet& entry : fixed_point_set_names)
     if (entry.name == name) return entry.kind;
   return std::nullopt;
 }
@@ -127,6 +133,8 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
     : set_(set), shared_(stream_of_site<F>(set, x, y)), index_(index), index_bits_(0) {
   using U = Uint<F>;
   own_ = shared_.fork(U(index + U(0x3c6ef372u)));
+  // A fixed pattern takes its order of strata from no site and no pass.
+  if (set.kind == PointSetKind::uniform_grid) shared_ = RandomStream<F>(U(0x452821e6u), U(0x38d01377u));
   if (set.kind != PointSetKind::blue_noise) return;
   // One sequence for the grid: the bits of the site's place on the Z curve above those of the index. Where 32 bits do
   // not hold all of them, the grid falls into squares with a randomisation each.
@@ -153,6 +161,8 @@ F Sampler<F>::get1(Uint<F> dimension) const {
       break;
     case PointSetKind::stratified:
       return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), own_.at(d));
+    case PointSetKind::uniform_grid:
+      return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), F(0.5f));
     case PointSetKind::halton: {
       Mask<F> inside = d < U(halton_dimensions);
       F tabulated = halton<F>(index_, select(inside, d, U(0u)), set_.samples_per_pass, shared_.bits_at(d));
@@ -181,6 +191,8 @@ Vec2<F> Sampler<F>::get2(Uint<F> dimension) const {
   switch (set_.kind) {
     case PointSetKind::stratified:
       return stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {own_.at(d), own_.at(next)});
+    case PointSetKind::uniform_grid:
+      return stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {F(0.5f), F(0.5f)});
     case PointSetKind::halton:
     case PointSetKind::sobol: {
       const U size = set_.kind == PointSetKind::sobol ? sobol_dimensions : halton_dimensions;

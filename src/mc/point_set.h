@@ -10,7 +10,15 @@
 
 namespace montelux {
 
-enum class PointSetKind : std::uint8_t { independent, stratified, halton, sobol, padded_sobol, blue_noise };
+enum class PointSetKind : std::uint8_t {
+  independent,
+  stratified,
+  halton,
+  sobol,
+  padded_sobol,
+  blue_noise,
+  uniform_grid
+};
 
 struct NamedPointSet {
   std::string_view name;
@@ -27,6 +35,12 @@ inline constexpr std::array<NamedPointSet, 6> point_set_names{{
      "(0,2)-sequences, Owen-scrambled and shuffled in each pair of dimensions"},
     {"blue-noise", PointSetKind::blue_noise,
      "one (0,2)-sequence along a shuffled Z curve: the error is blue over the grid"},
+}};
+
+// Patterns for comparison alone: the same points in every pass, so they are biased and their spread is no error bar.
+inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
+    {"uniform-grid", PointSetKind::uniform_grid,
+     "the centres of the strata; a single point is the centre of the square"},
 }};
 
 std::string_view name_of(PointSetKind kind);

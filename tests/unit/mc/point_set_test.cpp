@@ -139,6 +139,22 @@ TEST(PointSet, stratified_fills_every_stratum_once_for_any_number_of_points) {
   }
 }
 
+TEST(PointSet, uniform_grid_is_the_centres_of_the_cells_in_every_pass_and_site) {
+  EXPECT_EQ(point_set_named("uniform-grid"), PointSetKind::uniform_grid);
+  EXPECT_EQ(name_of(PointSetKind::uniform_grid), "uniform-grid");
+  const auto one = points({PointSetKind::uniform_grid, 5, 3, 1}, 7, 8, 2);
+  EXPECT_EQ(one[0].x, 0.5f);
+  EXPECT_EQ(one[0].y, 0.5f);
+  const auto p = points({PointSetKind::uniform_grid, 5, 0, 16}, 1, 2, 6);
+  const auto q = points({PointSetKind::uniform_grid, 6, 9, 16}, 3, 4, 6);
+  EXPECT_TRUE(one_in_each_cell(p, 4, 4));
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(p[i].x, q[i].x);
+    EXPECT_EQ(p[i].y, q[i].y);
+    EXPECT_EQ(p[i].x * 8, std::round(p[i].x * 8));
+  }
+}
+
 TEST(PointSet, permute_is_a_bijection) {
   for (std::uint32_t n : {1u, 2u, 3u, 5u, 64u, 100u, 1000u}) {
     std::set<std::uint32_t> seen;
