@@ -37,7 +37,8 @@ class Conductor {
   }
   MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F, Vec2<F> u2, const BsdfContext<F>&) const {
     Mask<F> smooth = facets_.is_smooth();
-    Vec3<F> m = select(smooth, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, facets_.sample(wo, u2));
+    Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
+    if (!all(smooth)) m = select(smooth, m, facets_.sample(wo, u2));
     Vec3<F> wi = reflect(wo, m);
     F o_m = abs_dot(wo, m);
     F density = facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f));

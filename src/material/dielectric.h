@@ -71,6 +71,7 @@ MONTELUX_INLINE F half_vector_jacobian(F o_m, F i_m, F relative_eta, Mask<F> ref
 template <class F>
 template <Lobes lobes>
 MONTELUX_INLINE auto Dielectric<F>::evaluate_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const -> LobeValue {
+  if (all(smooth_)) return {F(0.0f), F(0.0f)};
   Mask<F> reflects = same_side(wo, wi);
   F relative = select(reflects, F(1.0f), select(wo.z < F(0.0f), F(1.0f) / eta_, eta_));
 
@@ -96,7 +97,9 @@ MONTELUX_INLINE auto Dielectric<F>::evaluate_lobes(Vec3<F> wo, Vec3<F> wi, Trans
 template <class F>
 template <Lobes lobes>
 MONTELUX_INLINE auto Dielectric<F>::sample_lobes(Vec3<F> wo, F u, Vec2<F> u2, TransportMode mode) const -> LobeSample {
-  Vec3<F> m = select(smooth_, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, facets_.sample(wo, u2));
+  const bool rough = !all(smooth_);
+  Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
+  if (rough) m = select(smooth_, m, facets_.sample(wo, u2));
   F reflected = fresnel_dielectric(dot(wo, m), eta_);
   Mask<F> reflects = u < reflected;
   if constexpr (lobes != Lobes::both) reflects = Mask<F>(lobes == Lobes::reflection);
@@ -108,9 +111,12 @@ MONTELUX_INLINE auto Dielectric<F>::sample_lobes(Vec3<F> wo, F u, Vec2<F> u2, Tr
   Mask<F> right_side = !Mask<F>(same_side(wo, wi) ^ reflects);
   Mask<F> valid = right_side & (reflects | refraction.valid) & (wo.z * wi.z != F(0.0f)) & (part > F(0.0f));
 
-  F density = facets_.seen(wo, m) * half_vector_jacobian(dot(wo, m), dot(wi, m), relative, reflects);
-  F scale = mode == TransportMode::radiance ? F(1.0f) / (relative * relative) : F(1.0f);
-  F weight = scale * select(smooth_, F(1.0f), facets_.unshadowed(wo, wi));
+  F density = F(0.0f);
+  F weight = mode == TransportMode::radiance ? F(1.0f) / (relative * relative) : F(1.0f);
+  if (rough) {
+    density = facets_.seen(wo, m) * half_vector_jacobian(dot(wo, m), dot(wi, m), relative, reflects);
+    weight = weight * select(smooth_, F(1.0f), facets_.unshadowed(wo, wi));
+  }
   if constexpr (lobes == Lobes::both)
     density = density * part;
   else

@@ -65,6 +65,34 @@ TEST(BsdfEnergy, coats_over_white_return_all_light) {
   }
 }
 
+// Along the surface and straight up, with the first and the last of all random numbers.
+TEST(BsdfEnergy, results_are_finite_at_the_edges) {
+  const Vec3f edges[] = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, direction(1e-6f, 0.3f), direction(-1e-6f, 0.3f)};
+  const float numbers[] = {0, 0.5f, one_minus_epsilon};
+  RandomStream<float> stream(51, 52);
+  const auto finite = [](const Spectrum<float>& x, float p) {
+    return is_finite(x[0]) && is_finite(x[1]) && is_finite(x[2]) && is_finite(p) && p >= 0;
+  };
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    for (const Vec3f wo : edges)
+      for (const Vec3f wi : edges) {
+        const BsdfValue<float> v = model.evaluate(wo, wi, context_of(stream));
+        EXPECT_TRUE(finite(v.f_cos, v.density.value)) << Model::name << ", " << c.label << wo.z << " " << wi.z;
+      }
+    for (const Vec3f wo : edges)
+      for (const float u : numbers)
+        for (const float x : numbers)
+          for (const float y : numbers) {
+            const BsdfSample<float> s = model.sample(wo, u, {x, y}, context_of(stream));
+            if (!s.valid) continue;
+            EXPECT_TRUE(finite(s.weight, s.density.value)) << Model::name << ", " << c.label << " " << wo.z;
+            EXPECT_NEAR(length(s.wi), 1, 1e-4) << Model::name << ", " << c.label << " " << wo.z;
+            EXPECT_TRUE(s.delta || s.density.value > 0)
+                << Model::name << ", " << c.label << " " << wo.z << " " << s.wi.z;
+          }
+  });
+}
+
 TEST(BsdfReciprocity, value_is_symmetric_up_to_the_squared_index) {
   RandomStream<float> stream(31, 32);
   for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {

@@ -1,0 +1,71 @@
+// Time of one vertex (a value toward a light and a sample) for each model, in one lane and in a full pack. The rate is
+// in vertices per second.
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+#include "material/material.h"
+
+namespace montelux {
+namespace {
+
+// Rough where the model can be; a middling grey.
+BsdfRow bench_row(BsdfKind kind) {
+  BsdfRow row;
+  const auto put = [&](int slot, std::initializer_list<float> values) {
+    for (float v : values) row.v[slot++] = v;
+  };
+  switch (kind) {
+    case BsdfKind::diffuse:
+      put(DiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
+      break;
+    case BsdfKind::conductor:
+      put(ConductorSlots::alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
+      break;
+    case BsdfKind::dielectric:
+      put(DielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
+      break;
+    case BsdfKind::coated_diffuse:
+    case BsdfKind::coated_conductor:
+      put(LayeredSlots::alpha_x, {0.3f, 0.3f, 1.5f, 0.01f, 0, 0, 0, 0, 10, 1});
+      if (kind == BsdfKind::coated_diffuse)
+        put(CoatedDiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
+      else
+        put(CoatedConductorSlots::conductor_alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
+      break;
+    case BsdfKind::diffuse_transmission:
+      put(DiffuseTransmissionSlots::reflectance, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f});
+      break;
+    case BsdfKind::thin_dielectric:
+      put(ThinDielectricSlots::eta, {1.5f});
+      break;
+    case BsdfKind::phong:
+      put(PhongSlots::diffuse, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f, 30});
+      break;
+  }
+  return row;
+}
+
+template <class F>
+void vertex(benchmark::State& state) {
+  const auto kind = BsdfKind(state.range(0));
+  const std::vector<BsdfRow> rows(std::size_t(lanes_of<F>), bench_row(kind));
+  const BsdfLanes<F> lanes{Uint<F>(std::uint32_t(kind)), rows.data(), Mask<F>(true)};
+  RandomStream<F> stream(lane_index<F>(), Uint<F>(7u));
+  for (auto _ : state) {
+    const Vec3<F> wo = direction_at(F(0.1f) + 0.9f * stream.next(), stream.next());
+    const Vec3<F> wi = sample_cosine_hemisphere(stream.next2());
+    const F u = stream.next();
+    const ScatterQuery<F> query{wo, wi, Mask<F>(true), u, stream.next2()};
+    const BsdfContext<F> context{TransportMode::radiance, stream.fork(to_uint(F(stream.next() * 1e6f)))};
+    benchmark::DoNotOptimize(scatter<F>(lanes, query, context));
+  }
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * lanes_of<F>);
+  state.SetLabel(std::string(name(kind)));
+}
+
+BENCHMARK(vertex<float>)->DenseRange(0, int(bsdf_kind_count) - 1);
+BENCHMARK(vertex<NativeFloats>)->DenseRange(0, int(bsdf_kind_count) - 1);
+
+}  // namespace
+}  // namespace montelux
