@@ -108,12 +108,9 @@ struct LightBvh::Builder {
     v[centre] = middle.x, v[centre + 1] = middle.y, v[centre + 2] = middle.z;
     v[radius_squared] = dot(half, half) * 1.00001f;
     v[axis] = b.axis.x, v[axis + 1] = b.axis.y, v[axis + 2] = b.axis.z;
-    v[intensity] = b.intensity;
-    v[cos_spread] = b.cos_spread, v[sin_spread] = safe_sqrt(1 - b.cos_spread * b.cos_spread);
-    v[cos_emission] = b.cos_emission;
-    v[two_sided] = b.two_sided ? 1.0f : 0.0f;
-    v[link] = std::bit_cast<float>(link_bits);
-    v[leaf] = is_leaf ? 1.0f : 0.0f;
+    v[intensity] = b.two_sided ? -b.intensity : b.intensity;
+    v[cos_spread] = b.cos_spread, v[cos_emission] = b.cos_emission;
+    v[link] = std::bit_cast<float>(is_leaf ? link_bits | leaf_bit : link_bits);
   }
 
   // Where to part items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.

@@ -45,19 +45,10 @@ class LightBvh {
   struct alignas(64) Node {
     float v[node_size] = {};
   };
-  // Slots of a node. `link` is the first of two children that follow each other, or the light of a leaf.
-  enum Slot {
-    centre = 0,
-    radius_squared = 3,
-    axis = 4,
-    intensity = 7,
-    cos_spread = 8,
-    sin_spread,
-    cos_emission,
-    two_sided,
-    link,
-    leaf
-  };
+  // Slots of a node. The intensity is negative where the lights send both ways. The link (bits) is the first of two
+  // children that follow each other, or the light of a leaf, which the top bit tells.
+  enum Slot { centre = 0, radius_squared = 3, axis = 4, intensity = 7, cos_spread, cos_emission, link };
+  static constexpr std::uint32_t leaf_bit = 0x80000000u;
 
   struct Item {
     std::uint32_t light;
@@ -68,6 +59,14 @@ class LightBvh {
   template <class F>
   MONTELUX_INLINE F number(Uint<F> node, int slot) const {
     return gather(nodes_.data()->v + slot, Uint<F>(node * std::uint32_t(node_size)));
+  }
+  template <class F>
+  MONTELUX_INLINE Uint<F> link_of(Uint<F> node) const {
+    return float_bits(number<F>(node, link));
+  }
+  template <class F>
+  static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
+    return (link_bits & Uint<F>(leaf_bit)) == Uint<F>(0u);
   }
   template <class F>
   F importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const;
@@ -121,12 +120,13 @@ F LightBvh::importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const {
   // The least angle between a normal of the cluster and a direction to p.
   Vec3<F> a{number<F>(node, axis), number<F>(node, axis + 1), number<F>(node, axis + 2)};
   F cos_w = clamp(dot(a, w), F(-1.0f), F(1.0f));
-  cos_w = select(number<F>(node, two_sided) > F(0.0f), abs(cos_w), cos_w);
+  F strength = number<F>(node, intensity);
+  cos_w = select(strength < F(0.0f), abs(cos_w), cos_w);
   F sin_w = safe_sqrt(F(1.0f) - cos_w * cos_w);
-  F cos_o = number<F>(node, cos_spread), sin_o = number<F>(node, sin_spread);
+  F cos_o = number<F>(node, cos_spread), sin_o = safe_sqrt(F(1.0f) - cos_o * cos_o);
   F cos_x = cos_of_difference(sin_w, cos_w, sin_o, cos_o), sin_x = sin_of_difference(sin_w, cos_w, sin_o, cos_o);
   F cos_p = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-  F result = number<F>(node, intensity) * max(cos_p, F(slack)) / max(max(d2, r2), F(1e-18f));
+  F result = abs(strength) * max(cos_p, F(slack)) / max(max(d2, r2), F(1e-18f));
   result = select(cos_p > number<F>(node, cos_emission) - slack, result, F(0.0f));
 
   // The least angle between n and a direction to the cluster.
@@ -143,9 +143,10 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   Mask<F> valid = on & Mask<F>(!nodes_.empty());
   Mask<F> inner = valid;
   while (any(inner)) {
-    inner = inner & (number<F>(node, leaf) <= F(0.0f));
+    Uint<F> below = link_of<F>(node);
+    inner = inner & is_inner<F>(below);
     if (!any(inner)) break;
-    Uint<F> child = select(inner, float_bits(number<F>(node, link)), Uint<F>(0u));
+    Uint<F> child = select(inner, below, Uint<F>(0u));
     Fork<F> f = fork<F>(child, p, n);
     // The rest of u, stretched, decides further down.
     Mask<F> first = u < f.first;
@@ -158,7 +159,7 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     inner = inner & f.any_light;
   }
   Uint<F> light(0u);
-  if (any(valid)) light = select(valid, float_bits(number<F>(node, link)), Uint<F>(0u));
+  if (any(valid)) light = select(valid, Uint<F>(link_of<F>(node) & Uint<F>(~leaf_bit)), Uint<F>(0u));
   return {light, {select(valid, mass, F(0.0f))}, valid};
 }
 
@@ -169,9 +170,10 @@ Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
   F mass(1.0f);
   Mask<F> inner = on;
   while (any(inner)) {
-    inner = inner & (number<F>(node, leaf) <= F(0.0f));
+    Uint<F> below = link_of<F>(node);
+    inner = inner & is_inner<F>(below);
     if (!any(inner)) break;
-    Uint<F> child = select(inner, float_bits(number<F>(node, link)), Uint<F>(0u));
+    Uint<F> child = select(inner, below, Uint<F>(0u));
     Fork<F> f = fork<F>(child, p, n);
     Uint<F> turn = turns & Uint<F>(1u);
     F share = select(turn == Uint<F>(0u), f.first, F(1.0f) - f.first);
