@@ -19,21 +19,21 @@ Filter::Filter() : filter_(GaussianFilter(GaussianProfile{}, GaussianProfile{}))
 
 Filter Filter::build(const Entity& entity) {
   const ParameterList& p = entity.parameters;
-  if (entity.type == "box") return Variant(BoxFilter{radii(p, 0.5f)});
-  if (entity.type == "triangle") return Variant(TriangleFilter{radii(p, 2.0f)});
+  if (entity.type == "box") return Filter(BoxFilter{radii(p, 0.5f)});
+  if (entity.type == "triangle") return Filter(TriangleFilter{radii(p, 2.0f)});
   if (entity.type == "mitchell") {
     Vec2f radius = radii(p, 2.0f);
     float b = p.number("B", 1.0f / 3.0f), c = p.number("C", 1.0f / 3.0f);
-    return Variant(MitchellFilter(MitchellProfile{radius.x, b, c}, MitchellProfile{radius.y, b, c}));
+    return Filter(MitchellFilter(MitchellProfile{radius.x, b, c}, MitchellProfile{radius.y, b, c}));
   }
   if (entity.type == "sinc") {
     Vec2f radius = radii(p, 4.0f);
     float tau = p.number("tau", 3.0f);
-    return Variant(SincFilter(SincProfile{radius.x, tau}, SincProfile{radius.y, tau}));
+    return Filter(SincFilter(SincProfile{radius.x, tau}, SincProfile{radius.y, tau}));
   }
   Vec2f radius = radii(p, 1.5f);
   float sigma = p.number("sigma", 0.5f);
-  return Variant(GaussianFilter(GaussianProfile{radius.x, sigma}, GaussianProfile{radius.y, sigma}));
+  return Filter(GaussianFilter(GaussianProfile{radius.x, sigma}, GaussianProfile{radius.y, sigma}));
 }
 
 }  // namespace montelux

@@ -101,7 +101,11 @@ class Filter {
 
   // The Gaussian of radius 1.5 and standard deviation 0.5.
   Filter();
-  Filter(Variant filter) : filter_(std::move(filter)) {}
+  // One of the alternatives.
+  template <class Alternative>
+  requires(!std::is_same_v<Alternative, Filter> &&
+           std::is_constructible_v<Variant, Alternative>) explicit Filter(const Alternative& filter)
+      : filter_(filter) {}
   // From the parameters xradius, yradius; sigma; B, C; tau. An unknown name, which the reader has reported, gives the
   // default filter.
   static Filter build(const Entity& entity);

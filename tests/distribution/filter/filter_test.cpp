@@ -121,7 +121,7 @@ TEST(Filter, offsets_are_distributed_as_the_magnitude_of_the_filter) {
 }
 
 TEST(Filter, offsets_of_a_slightly_wider_gaussian_are_rejected) {
-  Filter wrong{Filter::Variant(GaussianFilter({1.5f, 0.505f}, {1.5f, 0.505f}))};
+  Filter wrong(GaussianFilter({1.5f, 0.505f}, {1.5f, 0.505f}));
   EXPECT_LT(offsets_match(wrong, cases()[1], 10), 1e-4);
 }
 
