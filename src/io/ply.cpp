@@ -308,18 +308,20 @@ std::string index_problem(const Mesh& mesh) {
 }  // namespace
 
 std::optional<Mesh> read_ply(const std::string& path, const SourceLocation& used_at, Diagnostics& diagnostics) {
-  std::string name = printable(path);
   auto bytes = read_whole_file(path);
-  if (!bytes) {
-    diagnostics.error(used_at, bytes.error());
-    return std::nullopt;
-  }
-  auto header = read_header(*bytes);
+  if (bytes) return read_ply_bytes(*bytes, printable(path), used_at, diagnostics);
+  diagnostics.error(used_at, bytes.error());
+  return std::nullopt;
+}
+
+std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& name, const SourceLocation& used_at,
+                                   Diagnostics& diagnostics) {
+  auto header = read_header(bytes);
   if (!header) {
     diagnostics.error(used_at, "'" + name + "' is no valid PLY file: " + header.error());
     return std::nullopt;
   }
-  Body body = read_body(std::string_view(*bytes).substr(header->size), *header);
+  Body body = read_body(bytes.substr(header->size), *header);
   if (body.problem.empty()) body.problem = index_problem(body.mesh);
   if (!body.problem.empty()) {
     diagnostics.error(used_at, "'" + name + "' is damaged: " + body.problem);

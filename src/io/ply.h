@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "geometry/mesh.h"
 #include "parameter/diagnostic.h"
@@ -13,5 +14,9 @@ namespace montelux {
 // note). Other elements and properties are stepped over. Faces without area are dropped with a warning. No value where
 // the file is missing or damaged: an error then stands at `used_at`, the place that names the file.
 std::optional<Mesh> read_ply(const std::string& path, const SourceLocation& used_at, Diagnostics& diagnostics);
+
+// The same for bytes in memory (not compressed); `name` stands for the file in messages.
+std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& name, const SourceLocation& used_at,
+                                   Diagnostics& diagnostics);
 
 }  // namespace montelux

@@ -11,16 +11,13 @@
 namespace montelux {
 namespace {
 
-using testing_io::TemporaryFolder;
-
 struct Outcome {
   std::optional<Mesh> mesh;
   Diagnostics diagnostics;
 };
 Outcome read(const std::string& bytes) {
-  TemporaryFolder folder;
   Outcome outcome;
-  outcome.mesh = read_ply(folder.write("mesh.ply", bytes), {}, outcome.diagnostics);
+  outcome.mesh = read_ply_bytes(bytes, "mesh.ply", {}, outcome.diagnostics);
   return outcome;
 }
 
@@ -87,6 +84,13 @@ TEST(Ply, faces_without_area_are_dropped_with_their_number) {
   EXPECT_EQ(outcome.mesh->triangles.size(), 3u);
   ASSERT_EQ(outcome.diagnostics.all().size(), 1u);
   EXPECT_EQ(outcome.diagnostics.all().front().message.substr(0, 8), "2 faces ");
+}
+TEST(Ply, reads_from_a_file) {
+  testing_io::TemporaryFolder folder;
+  Outcome outcome;
+  outcome.mesh = read_ply(folder.write("mesh.ply", binary_mesh(false)), {}, outcome.diagnostics);
+  expect_mesh(outcome);
+  EXPECT_FALSE(read_ply(folder.path() + "/none.ply", {}, outcome.diagnostics));
 }
 TEST(Ply, every_truncation_is_an_error) {
   for (bool big_endian : {false, true}) {
