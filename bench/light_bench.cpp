@@ -48,5 +48,3 @@ BENCHMARK(build_hierarchy)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace montelux
-
-BENCHMARK_MAIN();

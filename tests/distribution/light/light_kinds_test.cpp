@@ -26,12 +26,12 @@ TEST(LightKinds, samples_follow_the_density_and_a_planted_fault_is_found) {
     for (Grid grid : {coarse_grid, fine_grid}) {
       auto sample = [&](RandomStream<float>& r) { return drawn(c, r); };
       TestResult fit = chi_square_square(
-          sample, [&](double x, double y) { return chart_density(c, x, y); }, grid, 200000, 11);
+          sample, [&](double x, double y) { return chart_density(c, x, y); }, grid, 80000, 11);
       EXPECT_GT(fit.p_value, level) << fit.note;
     }
     auto tilted = [&](double x, double y) { return chart_density(c, x, y) * (1.08 - 0.16 * (y < 0.5 ? 1 : 0)); };
     auto sample = [&](RandomStream<float>& r) { return drawn(c, r); };
-    EXPECT_LT(chi_square_square(sample, tilted, coarse_grid, 200000, 11).p_value, level);
+    EXPECT_LT(chi_square_square(sample, tilted, coarse_grid, 80000, 11).p_value, level);
   }
 }
 
