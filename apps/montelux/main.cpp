@@ -1,0 +1,110 @@
+// The program: reads the command line and does what its verb says.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "api/render.h"
+#include "status.h"
+#include "verbs.h"
+
+namespace montelux::cli {
+
+namespace {
+
+constexpr const char* description = "Monte Carlo renderer that says how wrong its answer is.";
+
+constexpr const char* notes = R"(Examples:
+  montelux render scene.pbrt -o room.exr --spp 256
+  montelux tonemap room.exr -o room.png
+  montelux diff a.exr b.exr
+  montelux render --help
+
+Exit status: 0 done; 1 diff found a difference; 2 options, scene or pictures cannot be used;
+3 unexpected failure; 130 and 143 interrupted (SIGINT, SIGTERM), what was done is written.)";
+
+std::vector<std::string_view> verb_names(const CLI::App& app) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+// All names of a verb's options, as they are typed.
+std::vector<std::string> option_names(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates) {
+  std::string_view near = nearest_name(name, candidates);
+  return near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near);
+}
+
+// What is wrong with the command line, in one sentence. An argument that means nothing explains more than what is
+// missing because of it.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = const_cast<CLI::App&>(app).get_subcommands();
+  if (chosen.empty()) {
+    const std::vector<std::string> extra = app.remaining();
+    const std::vector<std::string_view> verbs = verb_names(app);
+    if (extra.empty()) return fmt::format("a verb is missing; valid: {}", fmt::join(verbs, ", "));
+    const bool option = extra.front().starts_with('-');
+    return fmt::format("unknown {} \"{}\"; verbs: {}{}", option ? "option" : "verb", extra.front(),
+                       fmt::join(verbs, ", "), did_you_mean(extra.front(), verbs));
+  }
+  const CLI::App& verb = *chosen.front();
+  const std::vector<std::string> extra = verb.remaining();
+  const std::string help = fmt::format("; see montelux {} --help", verb.get_name());
+  for (const std::string& argument : extra)
+    if (argument.starts_with('-')) {
+      const std::vector<std::string> names = option_names(verb);
+      return fmt::format("unknown option \"{}\" of {}; valid: {}{}", argument, verb.get_name(), fmt::join(names, ", "),
+                         did_you_mean(argument.substr(0, argument.find('=')), {names.begin(), names.end()}));
+    }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())
+    return fmt::format("unexpected argument \"{}\"{}", extra.front(), help);
+  if (dynamic_cast<const CLI::ValidationError*>(&error)) return error.what();
+  return error.what() + help;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(description, "montelux");
+  app.set_version_flag("--version", "montelux " + version(), "print the version");
+  app.set_help_flag("-h,--help", "print this help");
+  app.get_formatter()->column_width(32);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.get_formatter()->label("SUBCOMMANDS", "VERBS");
+  app.get_formatter()->label("Subcommands", "Verbs");
+  app.footer(notes);
+  app.require_subcommand(1);
+  Action chosen;
+  add_render(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return complain(explain(app, error));
+  }
+  return chosen();
+}
+
+}  // namespace
+
+}  // namespace montelux::cli
+
+int main(int argc, char** argv) {
+  using namespace montelux::cli;
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory");
+  } catch (const std::exception& e) {
+    complain(e.what());
+  }
+  return failed;
+}

@@ -1,0 +1,59 @@
+// Options of the command line: reading their values, and stating them to the parser.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "api/render.h"
+
+namespace CLI {
+class App;
+}
+
+namespace montelux::cli {
+
+// Readers of option values. A failure says what is valid.
+Result<int> parse_whole(const std::string& text, int low, int high);
+Result<double> parse_number(const std::string& text, double low, double high);
+// Seconds, from a number with ms, s, m or h behind it; without a unit: seconds.
+Result<double> parse_time(const std::string& text);
+// "WxH".
+Result<std::pair<int, int>> parse_resolution(const std::string& text);
+// "x0,y0,x1,y1": pixels x0 <= x < x1, y0 <= y < y1.
+Result<PixelBounds> parse_crop(const std::string& text);
+// One of the names; a failure names them all and the nearest.
+Result<std::string> parse_choice(const std::string& text, const std::vector<std::string>& names);
+// "key=value".
+Result<std::pair<std::string, std::string>> parse_setting(const std::string& text);
+
+// The first elements: names that an option takes.
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, std::string>>& described);
+// "a|b|c": how help and completion state a choice.
+std::string alternatives(const std::vector<std::string>& names);
+
+using Setter = std::function<Status(const std::string&)>;
+
+// A setter that reads a value with `parse` into `target`, which must outlive it.
+template <class T, class Parse>
+Setter into(T& target, Parse parse) {
+  return [&target, parse](const std::string& text) -> Status {
+    auto value = parse(text);
+    if (!value) return value.failure();
+    target = *value;
+    return Done{};
+  };
+}
+
+// Adds an option that takes one value. `type` stands for the value in help: FILE completes to file names, "a|b" to
+// these words. A repeatable option calls the setter once for each value.
+struct OptionText {
+  std::string names, type, help;
+  bool repeatable = false;
+};
+void add_option(CLI::App& verb, const OptionText& text, Setter set);
+
+// Options that more than one verb has.
+void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options);
+void add_display_options(CLI::App& verb, DisplayTransform& display);
+
+}  // namespace montelux::cli

@@ -1,0 +1,87 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "status.h"
+
+namespace montelux::cli {
+
+namespace {
+
+int terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// What is known, without the bar.
+std::string numbers(const Progress& p) {
+  const double speed = p.elapsed > 0 ? double(p.samples) / p.elapsed : 0;
+  return fmt::format("{}  left {}  {}  error {}", time_text(p.elapsed), p.fraction > 0 ? time_text(p.remaining) : "-",
+                     count_text(speed, "samples/s"), error_text(p.error));
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool visible, const StopSignals& signals)
+    : signals_(signals), visible_(visible), in_place_(terminal_on_stderr()) {}
+
+bool ProgressLine::stop_requested() { return signals_.received() != 0; }
+
+void ProgressLine::progress(const Progress& p) {
+  if (!visible_) return;
+  const int percent = int(100 * p.fraction);
+  if (!in_place_) {
+    if (p.elapsed - last_ < 10 || p.finished) return;
+    last_ = p.elapsed;
+    fmt::print(stderr, "{:3} %  {}\n", percent, numbers(p));
+    return;
+  }
+  // The line goes at the end: the results say the same for good.
+  if (p.finished) {
+    fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+    return;
+  }
+  if (last_ > 0 && p.elapsed - last_ < 0.1) return;
+  last_ = p.elapsed;
+  std::string text = numbers(p);
+  const int columns = terminal_columns();
+  const int width = std::clamp(columns - int(text.size()) - 12, 0, 40);
+  std::string line = fmt::format("{:3} % ", percent);
+  if (width >= 8) {
+    const int full = int(std::lround(p.fraction * width));
+    line += fmt::format("[{}{}] ", std::string(std::size_t(full), '='), std::string(std::size_t(width - full), ' '));
+  }
+  line = (line + text).substr(0, std::size_t(std::max(columns - 1, 1)));
+  fmt::print(stderr, "\r{}\x1b[K", line);
+  std::fflush(stderr);
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1e3);
+  if (seconds < 99.95) return fmt::format("{:.1f} s", seconds);
+  const auto whole = (long long)(std::min(seconds, 1e15));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string count_text(double count, std::string_view unit) {
+  const char* prefixes[] = {"", "k", "M", "G", "T", "P"};
+  std::size_t prefix = 0;
+  while (count >= 999.5 && prefix + 1 < std::size(prefixes)) count /= 1000, ++prefix;
+  std::string text = fmt::format("{:.3g} {}{}", count, prefixes[prefix], unit);
+  if (text.back() == ' ') text.pop_back();
+  return text;
+}
+
+std::string error_text(const ErrorEstimate& error) {
+  if (error.pixels == 0 || !std::isfinite(error.relative_mse)) return "-";
+  return fmt::format("{:.3g} %", 100 * std::sqrt(error.relative_mse));
+}
+
+}  // namespace montelux::cli

@@ -1,0 +1,32 @@
+// Showing how a render gets on, on standard error.
+#pragma once
+#include <string>
+
+#include "api/render.h"
+#include "signals.h"
+
+namespace montelux::cli {
+
+// A line that is redrawn in place on a terminal, elsewhere a line every ten seconds; and it passes on the request of a
+// signal to stop.
+class ProgressLine final : public RenderObserver {
+ public:
+  ProgressLine(bool visible, const StopSignals& signals);
+
+  void progress(const Progress& progress) override;
+  bool stop_requested() override;
+
+ private:
+  const StopSignals& signals_;
+  bool visible_, in_place_;
+  double last_ = 0;  // seconds at which a line was drawn
+};
+
+// "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".
+std::string time_text(double seconds);
+// "1.23 k", "45.6 Mrays/s": three digits, a decimal prefix and the unit.
+std::string count_text(double count, std::string_view unit = "");
+// The root of a relative mean squared error as "1.23 %"; "-" where it is not known yet.
+std::string error_text(const ErrorEstimate& error);
+
+}  // namespace montelux::cli

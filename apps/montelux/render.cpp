@@ -1,0 +1,220 @@
+// montelux render: a scene becomes pictures.
+#include "api/render.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "api/images.h"
+#include "options.h"
+#include "progress.h"
+#include "signals.h"
+#include "status.h"
+#include "verbs.h"
+
+namespace montelux::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RenderArguments {
+  std::string scene;
+  std::vector<std::string> files;
+  LoadOptions load;
+  RenderOptions render;
+  DisplayTransform display;
+  bool json = false, quiet = false, no_progress = false;
+};
+
+constexpr const char* examples = R"(Examples:
+  montelux render room.pbrt                                 writes room.exr
+  montelux render room.pbrt -o room.exr -o room.png --tone aces --spp 256
+  montelux render room.pbrt --time 10m --resolution 1920x1080
+  montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
+
+Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.)";
+
+// The values of one channel each; what is not finite (an error that is not known) is null.
+template <std::size_t n>
+Json to_json(const double (&values)[n]) {
+  Json list = Json::array();
+  for (double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
+  return list;
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string header_text(const Rendering& rendering, std::string_view name) {
+  for (const Attribute& attribute : rendering.header)
+    if (attribute.name == name)
+      if (auto* text = std::get_if<std::string>(&attribute.value)) return *text;
+  return {};
+}
+
+// What a render came to, in numbers.
+struct Outcome {
+  ImageEstimate image;
+  ErrorEstimate error;
+  double samples = 0;  // in all pixels
+  std::uint64_t rays = 0, non_finite = 0;
+};
+
+Outcome outcome_of(const Rendering& rendering) {
+  const RenderResult& result = rendering.result;
+  const PixelBounds& b = result.film.bounds();
+  Outcome outcome{result.film.image(), result.film.error(b), 0, result.rays.all(), result.film.non_finite()};
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) outcome.samples += result.film.samples(x, y);
+  return outcome;
+}
+
+void print_json(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
+  const double seconds = rendering.result.seconds;
+  const bool known = outcome.error.pixels > 0;
+  Json json;
+  json["version"] = version();
+  json["scene"] = arguments.scene;
+  json["files"] = arguments.files;
+  json["interrupted"] = rendering.result.interrupted;
+  json["seed"] = arguments.render.seed;
+  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json();
+  json["standard_error"] = to_json(outcome.image.standard_error);
+  json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
+  json["relative_mse"] = known ? number_or_null(outcome.error.relative_mse) : Json();
+  json["passes"] = outcome.image.passes;
+  json["samples_per_pass"] = rendering.plan.samples_per_pass;
+  json["samples"] = outcome.samples;
+  json["seconds"] = seconds;
+  json["rays"] = outcome.rays;
+  json["rays_per_second"] = number_or_null(double(outcome.rays) / seconds);
+  json["non_finite"] = outcome.non_finite;
+  json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
+  const double seconds = std::max(rendering.result.seconds, 1e-9);
+  const int k = rendering.plan.samples_per_pass, passes = outcome.image.passes;
+  for (const std::string& file : arguments.files) fmt::print("picture  {}\n", file);
+  fmt::print("mean    ");
+  for (int c = 0; c < spectrum_size && passes > 0; ++c) {
+    fmt::print(" {} {:.6g}", "RGB"[c], outcome.image.mean[c]);
+    if (std::isfinite(outcome.image.standard_error[c])) fmt::print(" ± {:.2g}", outcome.image.standard_error[c]);
+  }
+  if (passes == 0) fmt::print(" -");
+  fmt::print("\nerror    {} of a pixel, root of the mean relative square\n", error_text(outcome.error));
+  fmt::print("samples  {} a pixel ({} passes of {}), {} in all\n", passes * k, passes, k, count_text(outcome.samples));
+  fmt::print("time     {}, {}, {}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),
+             count_text(double(outcome.rays) / seconds, "rays/s"));
+}
+
+// Writes every file, also when one of them fails.
+int write_files(const RenderArguments& arguments, const Rendering& rendering) {
+  int status = done;
+  for (const std::string& file : arguments.files)
+    if (Status written = write_rendering(file, rendering, arguments.display); !written) {
+      complain(written.error());
+      status = failed;
+    }
+  return status;
+}
+
+int run_render(RenderArguments& arguments) {
+  if (arguments.files.empty()) arguments.files = {std::filesystem::path(arguments.scene).stem().string() + ".exr"};
+  for (const std::string& file : arguments.files)
+    if (Status good = check_picture_file(file); !good) return complain(good.error());
+
+  arguments.load.threads = arguments.render.threads;
+  LoadResult loaded = load_scene(arguments.scene, arguments.load);
+  print_diagnostics(loaded.diagnostics, arguments.quiet);
+  if (!loaded.scene) return bad_input;
+
+  StopSignals signals;
+  ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
+  Result<Rendering> rendering = render_scene(*loaded.scene, arguments.render, observer);
+  if (!rendering) return complain(rendering.error());
+
+  const int signal = signals.received();
+  const Outcome outcome = outcome_of(*rendering);
+  if (rendering->result.interrupted && outcome.samples == 0) {
+    complain("interrupted before any sample was taken; nothing is written");
+    return 128 + signal;
+  }
+  const int status = write_files(arguments, *rendering);
+  if (rendering->result.interrupted && !arguments.quiet)
+    warn(outcome.image.passes > 0
+             ? fmt::format("interrupted after {} passes; the picture is of what was done", outcome.image.passes)
+             : "interrupted in the first pass; parts of the picture are missing");
+  if (!arguments.quiet)
+    for (const std::string& note : rendering->notes) warn(note);
+  if (outcome.non_finite > 0)
+    warn(fmt::format("{} samples were not finite; they are not in the mean", outcome.non_finite));
+  if (status != done) return status;
+  if (arguments.json)
+    print_json(arguments, *rendering, outcome);
+  else
+    print_text(arguments, *rendering, outcome);
+  return rendering->result.interrupted ? 128 + signal : done;
+}
+
+// How many samples, and which.
+void add_sampling_options(CLI::App& verb, RenderOptions& render) {
+  add_option(verb, {"--spp", "N", "samples a pixel; default: what the scene asks for"},
+             into(render.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 24); }));
+  add_option(verb, {"--time", "TIME", "render for that long instead (500ms, 30s, 10m, 2h)"},
+             into(render.seconds, parse_time));
+  verb.get_option("--time")->excludes("--spp");
+  add_option(verb, {"--seed", "S", "number of the realisation; the same seed gives the same bits (default 0)"},
+             into(render.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
+  add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
+             into(render.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
+  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
+             into(render.crop, parse_crop));
+}
+
+// By what algorithm.
+void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
+  auto choice = [](const std::vector<std::string>& names) {
+    return [names](const std::string& text) { return parse_choice(text, names); };
+  };
+  const auto integrators = names_of(integrator_names()), samplers = names_of(sampler_names());
+  add_option(verb, {"--integrator", alternatives(integrators), "algorithm; default: the scene's"},
+             into(render.integrator, choice(integrators)));
+  add_option(verb, {"--sampler", alternatives(samplers), "point set; default: the scene's"},
+             into(render.sampler, choice(samplers)));
+  add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},
+             [&render](const std::string& text) -> Status {
+               auto setting = parse_setting(text);
+               if (!setting) return setting.failure();
+               render.settings.push_back(*setting);
+               return Done{};
+             });
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& chosen) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App& verb = *app.add_subcommand("render", "Render a scene, with error bars");
+  verb.footer(examples);
+  add_option(verb,
+             {"-o,--output", "FILE", "picture (.exr .hdr .pfm .png .jpg); may be repeated; default: SCENE.exr", true},
+             [arguments](const std::string& file) -> Status {
+               arguments->files.push_back(file);
+               return Done{};
+             });
+  add_scene_options(verb, arguments->scene, arguments->load);
+  add_sampling_options(verb, arguments->render);
+  add_algorithm_options(verb, arguments->render);
+  add_display_options(verb, arguments->display);
+  verb.add_flag("--json", arguments->json, "results as one JSON object");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, no warnings");
+  verb.add_flag("--no-progress", arguments->no_progress, "no progress");
+  verb.callback([arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });
+}
+
+}  // namespace montelux::cli

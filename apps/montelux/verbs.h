@@ -1,0 +1,21 @@
+// The verbs. Each adds itself to the parser: its options, its help, and what it does when it was chosen.
+#pragma once
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace montelux::cli {
+
+// What the chosen verb does once all options are read; returns the exit status.
+using Action = std::function<int()>;
+
+void add_render(CLI::App& app, Action& chosen);
+void add_info(CLI::App& app, Action& chosen);
+void add_diff(CLI::App& app, Action& chosen);
+void add_tonemap(CLI::App& app, Action& chosen);
+void add_list(CLI::App& app, Action& chosen);
+void add_completion(CLI::App& app, Action& chosen);
+
+}  // namespace montelux::cli

@@ -1,0 +1,74 @@
+#include "api/images.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace montelux {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> linear_extensions{".exr", ".hdr", ".pfm"};
+constexpr std::array<std::string_view, 3> display_extensions{".png", ".jpg", ".jpeg"};
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return e;
+}
+
+template <class List>
+bool contains(const List& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+struct NamedCurve {
+  std::string_view name;
+  ToneCurve curve;
+  std::string_view meaning;
+};
+constexpr std::array<NamedCurve, 3> curves{{
+    {"clip", ToneCurve::clip, "values above one are cut off"},
+    {"hable", ToneCurve::hable, "filmic curve of Hable (2010)"},
+    {"aces", ToneCurve::aces, "fit of Narkowicz (2015) to the ACES reference transform"},
+}};
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> tone_curves() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const NamedCurve& c : curves) names.emplace_back(c.name, c.meaning);
+  return names;
+}
+
+std::optional<ToneCurve> tone_curve_named(std::string_view name) {
+  for (const NamedCurve& c : curves)
+    if (c.name == name) return c.curve;
+  return std::nullopt;
+}
+
+Status check_picture_file(const std::filesystem::path& file) {
+  auto cannot = [&](std::string_view why) { return Failure{fmt::format("cannot write '{}': {}", file.string(), why)}; };
+  const std::string extension = extension_of(file);
+  if (!contains(linear_extensions, extension) && !contains(display_extensions, extension))
+    return cannot(fmt::format("its extension must be one of {}, {}", fmt::join(linear_extensions, ", "),
+                              fmt::join(display_extensions, ", ")));
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return cannot(fmt::format("no folder '{}'", folder.string()));
+  if (!std::filesystem::is_directory(folder, error)) return cannot(fmt::format("'{}' is no folder", folder.string()));
+  if (std::filesystem::is_directory(file, error)) return cannot("it is a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(std::strerror(errno));
+  return Done{};
+}
+
+Status write_picture(const std::filesystem::path& file, const PixelBuffer& picture, const DisplayTransform& display) {
+  if (contains(linear_extensions, extension_of(file))) return write_image(file, picture);
+  return write_image(file, to_display(picture, display));
+}
+
+}  // namespace montelux
