@@ -1,0 +1,202 @@
+// The film's running sums against the plain formulas, and merging.
+#include "film/film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mc/random.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr PixelBounds bounds{2, 1, 7, 5};
+constexpr int samples_per_pass = 3;
+
+// Samples of one pass over a tile, of a wide range of brightness.
+std::vector<PixelSample> samples_of(const PixelBounds& tile, int pass, std::uint32_t seed) {
+  RandomStream<float> random(seed, std::uint32_t(pass));
+  std::vector<PixelSample> samples(std::size_t(tile.area() * samples_per_pass));
+  for (PixelSample& s : samples) {
+    for (float& c : s.radiance.c) c = std::exp(8 * random.next() - 4);
+    s.features.coverage = random.next() < 0.5f ? 1.0f : 0.0f;
+    s.features.depth = 1 + random.next();
+    s.features.object = 1 + std::uint32_t(5 * random.next());
+  }
+  return samples;
+}
+
+Film film_of(int first_pass, int passes) {
+  Film film(bounds);
+  for (int p = 0; p < passes; ++p) film.add_pass(bounds, p, samples_per_pass, samples_of(bounds, first_pass + p, 7));
+  return film;
+}
+
+void expect_near_relative(double a, double b, double tolerance) { EXPECT_NEAR(a, b, tolerance * std::abs(b)); }
+
+void expect_same(const Film& a, const Film& b, double tolerance) {
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const PixelEstimate &p = a.pixel(x, y), &q = b.pixel(x, y);
+      EXPECT_EQ(p.passes, q.passes);
+      EXPECT_EQ(p.non_finite, q.non_finite);
+      for (int c = 0; c < spectrum_size; ++c) {
+        expect_near_relative(p.mean[c], q.mean[c], tolerance);
+        expect_near_relative(p.m2[c], q.m2[c], tolerance);
+      }
+      EXPECT_EQ(a.samples(x, y), b.samples(x, y));
+      EXPECT_EQ(a.features(x, y).hits, b.features(x, y).hits);
+      EXPECT_EQ(a.features(x, y).object, b.features(x, y).object);
+      expect_near_relative(a.features(x, y).depth, b.features(x, y).depth, tolerance);
+    }
+  const ImageEstimate i = a.image(), j = b.image();
+  EXPECT_EQ(i.passes, j.passes);
+  for (int c = 0; c < spectrum_size; ++c) {
+    expect_near_relative(i.mean[c], j.mean[c], tolerance);
+    expect_near_relative(i.standard_error[c], j.standard_error[c], tolerance);
+  }
+}
+
+}  // namespace
+
+TEST(Film, pixels_hold_mean_and_variance_of_the_pass_means) {
+  constexpr int passes = 11;
+  const Film film = film_of(0, passes);
+  for (int pixel = 0; pixel < bounds.area(); ++pixel) {
+    std::vector<double> means(passes);
+    double mean = 0, squares = 0;
+    for (int p = 0; p < passes; ++p) {
+      const auto samples = samples_of(bounds, p, 7);
+      for (int s = 0; s < samples_per_pass; ++s)
+        means[std::size_t(p)] += double(samples[std::size_t(pixel * samples_per_pass + s)].radiance.c[1]) / 3;
+      mean += means[std::size_t(p)] / passes;
+    }
+    for (double m : means) squares += (m - mean) * (m - mean);
+    const PixelEstimate& e = film.pixel(bounds.x0 + pixel % bounds.width(), bounds.y0 + pixel / bounds.width());
+    EXPECT_EQ(e.passes, std::uint32_t(passes));
+    expect_near_relative(e.mean[1], mean, 1e-13);
+    expect_near_relative(e.variance_of_mean(1), squares / (passes - 1) / passes, 1e-12);
+  }
+}
+
+TEST(Film, image_estimate_is_that_of_the_pass_means_of_the_whole_image) {
+  constexpr int passes = 9;
+  const Film film = film_of(0, passes);
+  std::vector<double> means(passes);
+  double mean = 0, squares = 0;
+  for (int p = 0; p < passes; ++p) {
+    const auto samples = samples_of(bounds, p, 7);
+    for (const PixelSample& s : samples) means[std::size_t(p)] += double(s.radiance.c[2]) / double(samples.size());
+    mean += means[std::size_t(p)] / passes;
+  }
+  for (double m : means) squares += (m - mean) * (m - mean);
+  const ImageEstimate image = film.image();
+  EXPECT_EQ(image.passes, passes);
+  expect_near_relative(image.mean[2], mean, 1e-13);
+  expect_near_relative(image.standard_error[2], std::sqrt(squares / (passes - 1) / passes), 1e-12);
+}
+
+TEST(Film, a_mean_far_from_zero_keeps_its_small_variance) {
+  PixelEstimate e;
+  const double base = 1e8;
+  for (double x : {base + 1, base + 2, base + 3}) e.add({x, x, x});
+  EXPECT_DOUBLE_EQ(e.mean[0], base + 2);
+  EXPECT_DOUBLE_EQ(e.variance_of_mean(0), 1.0 / 3);
+}
+
+TEST(Film, merging_two_films_is_one_film_of_all_passes) {
+  Film merged = film_of(0, 5);
+  merged.merge(film_of(5, 8));
+  expect_same(merged, film_of(0, 13), 1e-12);
+}
+
+TEST(Film, merging_is_associative_to_rounding) {
+  Film left = film_of(0, 3);
+  left.merge(film_of(3, 4));
+  left.merge(film_of(7, 6));
+  Film right = film_of(3, 4);
+  right.merge(film_of(7, 6));
+  Film all = film_of(0, 3);
+  all.merge(right);
+  expect_same(left, all, 1e-12);
+}
+
+TEST(Film, merging_an_empty_film_changes_nothing) {
+  Film film = film_of(0, 4);
+  film.merge(Film(bounds));
+  expect_same(film, film_of(0, 4), 0);
+  Film empty(bounds);
+  empty.merge(film_of(0, 4));
+  expect_same(empty, film_of(0, 4), 1e-15);
+}
+
+TEST(Film, films_of_different_bounds_do_not_merge) {
+  Film film = film_of(0, 2);
+  EXPECT_THROW(film.merge(Film({0, 0, 5, 4})), std::invalid_argument);
+}
+
+TEST(Film, samples_that_are_not_finite_are_counted_and_kept_out) {
+  const PixelBounds one{0, 0, 1, 1};
+  Film film(one);
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
+  for (int pass = 0; pass < 4; ++pass) {
+    std::vector<PixelSample> samples(3);
+    samples[0].radiance = gray(1.0f), samples[1].radiance = gray(3.0f);
+    samples[2].radiance = gray(2.0f);
+    samples[2].radiance.c[pass % 3] = bad[pass % 2];
+    film.add_pass(one, pass, 3, samples);
+  }
+  EXPECT_EQ(film.non_finite(), 4u);
+  EXPECT_EQ(film.pixel(0, 0).passes, 4u);
+  for (double m : film.pixel(0, 0).mean) EXPECT_DOUBLE_EQ(m, 2);
+  EXPECT_DOUBLE_EQ(film.samples(0, 0), 12);
+}
+
+TEST(Film, a_pass_without_a_finite_sample_is_no_pass_of_that_pixel) {
+  const PixelBounds two{0, 0, 2, 1};
+  Film film(two);
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<PixelSample> samples(2);
+    samples[0].radiance = gray(pass == 1 ? std::numeric_limits<float>::infinity() : 1.0f);
+    samples[1].radiance = gray(2.0f);
+    film.add_pass(two, pass, 1, samples);
+  }
+  EXPECT_EQ(film.pixel(0, 0).passes, 2u);
+  EXPECT_EQ(film.pixel(1, 0).passes, 3u);
+  EXPECT_EQ(film.non_finite(), 1u);
+}
+
+TEST(Film, below_two_passes_the_error_is_unknown) {
+  const Film film = film_of(0, 1);
+  EXPECT_TRUE(std::isinf(film.pixel(2, 1).variance_of_mean(0)));
+  EXPECT_TRUE(std::isinf(film.image().standard_error[0]));
+  EXPECT_EQ(film.error(bounds).pixels, 0u);
+}
+
+TEST(Film, image_counts_complete_passes_alone) {
+  const PixelBounds left{2, 1, 4, 5}, right{4, 1, 7, 5};
+  Film film(bounds);
+  for (int pass = 0; pass < 3; ++pass) film.add_pass(left, pass, samples_per_pass, samples_of(left, pass, 1));
+  for (int pass = 0; pass < 2; ++pass) film.add_pass(right, pass, samples_per_pass, samples_of(right, pass, 2));
+  EXPECT_EQ(film.image().passes, 2);
+}
+
+TEST(Film, error_is_the_mean_variance_of_the_pixels) {
+  const Film film = film_of(0, 6);
+  double mse = 0, relative = 0;
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x)
+      for (int c = 0; c < spectrum_size; ++c) {
+        const double variance = film.pixel(x, y).variance_of_mean(c), mean = film.pixel(x, y).mean[c];
+        mse += variance / (3 * bounds.area());
+        relative += variance / (mean * mean + 0.01) / (3 * bounds.area());
+      }
+  const ErrorEstimate e = film.error(bounds);
+  EXPECT_EQ(e.pixels, std::size_t(bounds.area()));
+  expect_near_relative(e.mse, mse, 1e-12);
+  expect_near_relative(e.relative_mse, relative, 1e-12);
+}
+
+}  // namespace montelux
