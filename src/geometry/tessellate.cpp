@@ -30,7 +30,30 @@ bool is_parallelogram(const std::array<Vec3f, 4>& p) {
   return is_affine({to_double(p[0]), to_double(p[1]), to_double(p[2]), to_double(p[3])});
 }
 
-SplitMesh split_affine_quads(const Mesh& mesh) {
+namespace {
+
+// Corners p00, p10, p01, p11 (and normals likewise) of one quadrilateral.
+struct QuadCorners {
+  std::array<Vec3d, 4> p, n{}, uv;
+};
+
+// Whether the corners lie in a plane, to a millionth of their extent, and no inner angle is above 180 degrees.
+bool is_flat_and_convex(const std::array<Vec3d, 4>& p) {
+  const std::array<Vec3d, 4> loop{p[0], p[1], p[3], p[2]};
+  const Vec3d n = cross(p[3] - p[0], p[2] - p[1]);
+  const double size = std::sqrt(dot(n, n));
+  if (!(size > 0)) return false;
+  if (std::abs(dot(p[1] - p[0], n)) > 1e-6 * size * std::sqrt(size)) return false;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3d a = loop[(k + 1) % 4] - loop[k], b = loop[(k + 2) % 4] - loop[(k + 1) % 4];
+    if (!(dot(cross(a, b), n) > 0)) return false;
+  }
+  return true;
+}
+
+// Sorts the quadrilaterals by a rule that says which of them become triangles.
+template <class Rule>
+SplitMesh split_quads(const Mesh& mesh, Rule becomes_triangles) {
   SplitMesh r;
   r.triangles = mesh;
   r.triangles.quads.clear();
@@ -51,7 +74,8 @@ SplitMesh split_affine_quads(const Mesh& mesh) {
   }
   for (std::size_t q = 0; q + 3 < mesh.quads.size(); q += 4) {
     std::array<std::uint32_t, 4> i{};
-    std::array<Vec3d, 4> p, n{}, uv;
+    QuadCorners corners;
+    auto& [p, n, uv] = corners;
     for (std::size_t k = 0; k < 4; ++k) {
       i[k] = mesh.quads[q + k];
       p[k] = to_double(mesh.positions[i[k]]);
@@ -59,7 +83,7 @@ SplitMesh split_affine_quads(const Mesh& mesh) {
       Vec2f t = uv_of(i[k], k);
       uv[k] = {t.x, t.y, 0};
     }
-    bool affine = is_affine(p) && is_affine(n) && is_affine(uv);
+    const bool affine = becomes_triangles(corners);
     Mesh& target = affine ? r.triangles : r.patches;
     std::array<std::uint32_t, 4> v = i;
     if (!affine || !has_uv)
@@ -73,6 +97,16 @@ SplitMesh split_affine_quads(const Mesh& mesh) {
       target.quads.insert(target.quads.end(), v.begin(), v.end());
   }
   return r;
+}
+
+}  // namespace
+
+SplitMesh split_affine_quads(const Mesh& mesh) {
+  return split_quads(mesh, [](const QuadCorners& c) { return is_affine(c.p) && is_affine(c.n) && is_affine(c.uv); });
+}
+
+SplitMesh split_flat_quads(const Mesh& mesh) {
+  return split_quads(mesh, [](const QuadCorners& c) { return is_flat_and_convex(c.p) && is_affine(c.n); });
 }
 
 RepairedMesh drop_degenerate_triangles(const Mesh& mesh) {

@@ -25,6 +25,8 @@ struct SplitMesh {
   Mesh patches;
 };
 SplitMesh split_affine_quads(const Mesh& mesh);
+// The same with all flat, convex ones as triangles: the same surface, but with other parameters over it.
+SplitMesh split_flat_quads(const Mesh& mesh);
 
 // The mesh without triangles of no area, of repeated or of non-finite vertices; how many there were.
 struct RepairedMesh {

@@ -218,6 +218,25 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
   return std::move(b).take();
 }
 
+bool uses_parameters(const Material& material) {
+  if (!material.is_plain()) return true;
+  // A grain: roughness that differs along u and v.
+  const float* v = material.row.v;
+  switch (material.kind) {
+    case BsdfKind::conductor:
+      return v[ConductorSlots::alpha_x] != v[ConductorSlots::alpha_y];
+    case BsdfKind::dielectric:
+      return v[DielectricSlots::alpha_x] != v[DielectricSlots::alpha_y];
+    case BsdfKind::coated_diffuse:
+      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y];
+    case BsdfKind::coated_conductor:
+      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y] ||
+             v[CoatedConductorSlots::conductor_alpha_x] != v[CoatedConductorSlots::conductor_alpha_y];
+    default:
+      return false;
+  }
+}
+
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {
   BsdfRow row = material.row;
   for (const RowBinding& binding : material.bindings) {

@@ -60,6 +60,8 @@ struct MaterialInputs {
 // By the names and parameters of material_table(). What cannot be done is reported, and the default stands.
 Material build_material(const Entity& entity, const MaterialInputs& inputs);
 
+// Whether it matters how a surface of this material is parametrised.
+bool uses_parameters(const Material& material);
 // The parameters at a point.
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point);
 // The normal of the map at uv in the tangent frame, not unit. Only where there is a map.

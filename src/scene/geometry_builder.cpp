@@ -152,7 +152,9 @@ void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const G
     add_triangles(world.mesh, world.flip_normal, row, emission);
     return;
   }
-  SplitMesh split = split_affine_quads(world.mesh);
+  // A flat patch is two triangles wherever nobody looks at its parameters; the kernel is much faster with those.
+  const bool parameters_matter = emission || row.alpha != 0 || inputs_.uses_parameters(shape.material);
+  SplitMesh split = parameters_matter ? split_affine_quads(world.mesh) : split_flat_quads(world.mesh);
   if (!split.triangles.triangles.empty()) add_triangles(split.triangles, world.flip_normal, row, emission);
   if (!split.patches.quads.empty()) add_patches(split.patches, world.flip_normal, row, emission);
 }

@@ -18,6 +18,8 @@ struct ShapeInputs {
   std::function<std::optional<std::uint32_t>(const Entity& shape)> alpha;
   // Whether light passes the material unchanged.
   std::function<bool(MaterialDescId)> is_interface;
+  // Whether the material looks at the surface's parameters: textures, normal maps, a grain.
+  std::function<bool(MaterialDescId)> uses_parameters;
 };
 
 class GeometryBuilder {

@@ -107,7 +107,8 @@ void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
 GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
   ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs()); },
                      [this](const Entity& shape) { return alpha_of(shape); },
-                     [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; }};
+                     [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
+                     [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); }};
   GeometryBuilder builder(inputs, lights, diagnostics_);
   for (const ShapeDesc& shape : desc_.shapes) builder.add_world_shape(shape);
   for (const ObjectDesc& object : desc_.objects) builder.add_object(object);

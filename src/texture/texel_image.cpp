@@ -139,8 +139,18 @@ float TexelImage::value(int x, int y, int channel) const {
 }
 
 Rgb TexelImage::texel(int x, int y) const {
-  if (is_gray()) return gray(value(x, y, 0));
-  return {{value(x, y, 0), value(x, y, 1), value(x, y, 2)}};
+  const std::size_t i = (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * std::size_t(channels());
+  const std::size_t next = is_gray() ? 0 : 1;  // from one primary to the next
+  if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&texels_)) {
+    const std::uint8_t* c = codes->data() + i;
+    return {{decoded_[c[0]], decoded_[c[next]], decoded_[c[2 * next]]}};
+  }
+  if (const auto* halves = std::get_if<std::vector<std::uint16_t>>(&texels_)) {
+    const std::uint16_t* c = halves->data() + i;
+    return {{half_to_float(c[0]), half_to_float(c[next]), half_to_float(c[2 * next])}};
+  }
+  const float* c = std::get<std::vector<float>>(texels_).data() + i;
+  return {{c[0], c[next], c[2 * next]}};
 }
 float TexelImage::alpha_texel(int x, int y) const { return has_alpha_ ? value(x, y, color_channels_) : 1.0f; }
 float TexelImage::number_texel(int x, int y) const {

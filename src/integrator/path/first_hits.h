@@ -24,7 +24,7 @@ class FirstHits {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  std::vector<PathState<float>> paths_;
+  std::vector<PathStart<float>> starts_;
   std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
 };
@@ -36,20 +36,14 @@ constexpr int block_width() {
 }
 
 template <class F>
-PathState<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, Uint<F> y, Uint<F> index) {
+PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, Uint<F> y, Uint<F> index) {
   Sampler<F> sampler(pass.points, x, y, index);
   FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
   Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
   CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)));
-  PathState<F> state{};
+  PathStart<F> state;
   state.o = camera.ray.o, state.d = camera.ray.d;
   state.weight = camera.weight * filtered.weight * scene.imaging_ratio;
-  state.throughput = gray(F(1.0f));
-  state.radiance = gray(F(0.0f));
-  state.p = camera.ray.o, state.n = {F(0.0f), F(0.0f), F(0.0f)};
-  state.density = F(0.0f);
-  state.eta_scale = F(1.0f);
-  state.depth = Uint<F>(0u);
   state.x = x, state.y = y, state.index = index;
   return state;
 }
@@ -61,7 +55,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
   constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
   const PixelBounds& tile = pass.tile;
   const auto samples = pass.points.samples_per_pass;
-  paths_.reserve(std::size_t(tile.area()) * samples);
+  starts_.reserve(std::size_t(tile.area()) * samples);
   const U lane_number = lane_index<F>();
   const U lane_x = lane_number & U(std::uint32_t(block_x - 1));
   U lane_y = U(0u);
@@ -72,7 +66,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
       for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
-        PathState<F> state = start_of_path<F>(scene, pass, x, y, U(sample));
+        PathStart<F> state = start_of_path<F>(scene, pass, x, y, U(sample));
         state.slot =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +
@@ -80,7 +74,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity)}, on, Coherence::coherent);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
-        for_each_lane(found, [&](int k) { paths_.push_back(lane(state, k)); });
+        for_each_lane(found, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });
 
         Mask<F> left = on & !found;
         if (any(left)) {
@@ -92,14 +86,17 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
 
 template <class F>
 Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
-  if (next_ == paths_.size()) return on;
-  std::uint32_t running = bits(on);
-  for (int k = 0; k < lanes_of<F> && next_ < paths_.size(); ++k) {
+  if (next_ == starts_.size()) return on;
+  const std::uint32_t running = bits(on);
+  std::uint32_t fresh = 0;
+  PathStart<F> start{};
+  for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
     if ((running >> k) & 1u) continue;
-    set_lane(state, k, paths_[next_++]);
-    running |= 1u << k;
+    set_lane_words(start, k, starts_[next_++]);
+    fresh |= 1u << k;
   }
-  return mask_of_bits<F>(running);
+  if (fresh != 0) begin_paths(state, start, mask_of_bits<F>(fresh));
+  return mask_of_bits<F>(running | fresh);
 }
 
 }  // namespace montelux

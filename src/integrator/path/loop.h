@@ -2,6 +2,7 @@
 #pragma once
 #include "integrator/path/dimensions.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/path/settings.h"
 #include "mc/mis.h"
 #include "mc/roulette.h"
 

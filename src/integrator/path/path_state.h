@@ -7,7 +7,6 @@
 
 namespace montelux {
 
-// Made of 32-bit words alone, so that a lane can be filled word by word.
 template <class F>
 struct PathState {
   Vec3<F> o, d;            // the ray that led to `hit`
@@ -23,24 +22,48 @@ struct PathState {
   Uint<F> slot;         // where the result goes
 };
 
-// Copies a path into lane k.
+// A path that has just met its first surface: what differs from path to path there.
 template <class F>
-MONTELUX_INLINE void set_lane(PathState<F>& state, int k, const PathState<float>& path) {
-  static_assert(sizeof(PathState<F>) == sizeof(PathState<float>) * lanes_of<F>);
-  constexpr std::size_t words = sizeof(PathState<float>) / 4;
-  auto* to = reinterpret_cast<char*>(&state) + 4 * std::size_t(k);
-  const auto* from = reinterpret_cast<const char*>(&path);
-  for (std::size_t w = 0; w < words; ++w) std::memcpy(to + 4 * w * lanes_of<F>, from + 4 * w, 4);
+struct PathStart {
+  Vec3<F> o, d;
+  Hit<F> hit;
+  F weight;
+  Uint<F> x, y, index;
+  Uint<F> slot;
+};
+
+// Copies one lane's worth of a struct that is made of 32-bit words alone into lane k, word by word.
+template <template <class> class S, class F>
+MONTELUX_INLINE void set_lane_words(S<F>& to_struct, int k, const S<float>& from_struct) {
+  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
+  auto* to = reinterpret_cast<char*>(&to_struct) + 4 * std::size_t(k);
+  const auto* from = reinterpret_cast<const char*>(&from_struct);
+  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w * lanes_of<F>, from + 4 * w, 4);
 }
-// The path in lane k.
+template <template <class> class S, class F>
+MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to_struct) {
+  auto* to = reinterpret_cast<char*>(&to_struct);
+  const auto* from = reinterpret_cast<const char*>(&from_struct) + 4 * std::size_t(k);
+  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
+}
+
+// Paths begin in the lanes `fresh`, where the starts stand.
 template <class F>
-MONTELUX_INLINE PathState<float> lane(const PathState<F>& state, int k) {
-  PathState<float> path;
-  constexpr std::size_t words = sizeof(PathState<float>) / 4;
-  const auto* from = reinterpret_cast<const char*>(&state) + 4 * std::size_t(k);
-  for (std::size_t w = 0; w < words; ++w)
-    std::memcpy(reinterpret_cast<char*>(&path) + 4 * w, from + 4 * w * lanes_of<F>, 4);
-  return path;
+MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, Mask<F> fresh) {
+  using U = Uint<F>;
+  auto put = [fresh](auto& to, const auto& from) { to = select<F>(fresh, from, to); };
+  const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
+  put(path.o, start.o), put(path.d, start.d);
+  auto put_one = [fresh](auto& to, auto from) { to = select(fresh, from, to); };
+  put_one(path.hit.t, start.hit.t), put_one(path.hit.u, start.hit.u), put_one(path.hit.v, start.hit.v);
+  put_one(path.hit.geometry, start.hit.geometry), put_one(path.hit.primitive, start.hit.primitive);
+  put_one(path.hit.instance, start.hit.instance);
+  path.throughput = select(fresh, gray(F(1.0f)), path.throughput);
+  path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
+  put(path.p, start.o), put(path.n, zero);
+  put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
+  put_one(path.depth, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
+  put_one(path.index, start.index), put_one(path.slot, start.slot);
 }
 
 }  // namespace montelux
