@@ -111,9 +111,9 @@ namespace {
 
 // The largest coordinate that goes into an intersection.
 double magnitude(const Patch& q, const Vec3d& o) {
-  double m = 0;
-  for (const Vec3d& p : {q.p00, q.p10, q.p01, q.p11, o}) m = std::max({m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return m;
+  auto largest = [](const Vec3d& p) { return std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))); };
+  return std::max(std::max(largest(q.p00), largest(q.p10)),
+                  std::max(std::max(largest(q.p01), largest(q.p11)), largest(o)));
 }
 
 }  // namespace
@@ -133,11 +133,12 @@ std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray,
   const double slack = 1e-10;
   // Hits nearer than the rounding of their own distance are those of a ray that leaves the patch: an origin that lies
   // exactly in the plane of a flat patch needs this, as no offset moves it out of there.
-  const double nearest = std::max(double(t_min), 1e-12 * magnitude(q, o) / std::sqrt(dot(d, d)));
+  auto leaves = [&](double t) { return t * std::sqrt(dot(d, d)) <= 1e-12 * magnitude(q, o); };
   std::optional<PatchHit> best;
   for (double u : {u1, u2}) {
     auto hit = hit_on_line(q, o, d, u, slack);
-    if (!hit || !(hit->t > nearest) || !(float(hit->t) > t_min) || !(float(hit->t) < ray.t_max)) continue;
+    if (!hit || !(hit->t > t_min) || !(float(hit->t) > t_min) || !(float(hit->t) < ray.t_max) || leaves(hit->t))
+      continue;
     if (!best || hit->t < best->t) best = hit;
   }
   if (!best) return std::nullopt;
