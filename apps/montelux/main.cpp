@@ -21,7 +21,8 @@ constexpr const char* notes = R"(Examples:
   montelux render --help
 
 Exit status: 0 done; 1 diff found a difference; 2 options, scene or pictures cannot be used;
-3 unexpected failure; 130 and 143 interrupted (SIGINT, SIGTERM), what was done is written.)";
+3 unexpected failure; 130 and 143 interrupted (SIGINT, SIGTERM), what was done is written.
+)";
 
 std::vector<std::string_view> verb_names(const CLI::App& app) {
   std::vector<std::string_view> names;
@@ -77,12 +78,11 @@ int run(int argc, char** argv) {
   app.set_help_flag("-h,--help", "print this help");
   app.get_formatter()->column_width(32);
   app.get_formatter()->label("SUBCOMMAND", "VERB");
-  app.get_formatter()->label("SUBCOMMANDS", "VERBS");
-  app.get_formatter()->label("Subcommands", "Verbs");
   app.footer(notes);
   app.require_subcommand(1);
   Action chosen;
-  add_render(app, chosen);
+  for (auto add : {add_render, add_info, add_diff, add_tonemap, add_list, add_completion}) add(app, chosen);
+  for (CLI::App* verb : app.get_subcommands({})) verb->group("Verbs");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -36,7 +36,8 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --time 10m --resolution 1920x1080
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
 
-Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.)";
+Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.
+)";
 
 // The values of one channel each; what is not finite (an error that is not known) is null.
 template <std::size_t n>

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "parameter/diagnostic.h"
+
 namespace montelux {
 
 namespace {
@@ -66,9 +68,34 @@ Status check_picture_file(const std::filesystem::path& file) {
   return Done{};
 }
 
+bool is_display_file(const std::filesystem::path& file) { return contains(display_extensions, extension_of(file)); }
+
 Status write_picture(const std::filesystem::path& file, const PixelBuffer& picture, const DisplayTransform& display) {
-  if (contains(linear_extensions, extension_of(file))) return write_image(file, picture);
+  if (!is_display_file(file)) return write_image(file, picture);
   return write_image(file, to_display(picture, display));
+}
+
+Result<PixelBuffer> read_layer(const std::filesystem::path& file, const std::string& name) {
+  Result<Image> image = read_image(file);
+  if (!image) return image.failure();
+  PixelBuffer& pixels = image->pixels;
+  if (name.empty()) return std::move(pixels);
+  if (auto found = layer(pixels, name)) return std::move(*found);
+  if (auto channel = find_channel(pixels, name)) {
+    PixelBuffer single = make_pixel_buffer(pixels.width, pixels.height, {"Y"});
+    for (std::size_t i = 0; i < single.values.size(); ++i)
+      single.values[i] = pixels.values[i * pixels.channels.size() + std::size_t(*channel)];
+    return single;
+  }
+  std::vector<std::string> names;
+  for (const std::string& channel : pixels.channels) {
+    std::string candidate = channel.substr(0, channel.rfind('.'));
+    if (!contains(names, candidate)) names.push_back(candidate);
+  }
+  std::string message = fmt::format("'{}' has no layer \"{}\"; it has {}", file.string(), name, fmt::join(names, ", "));
+  if (std::string_view near = nearest_name(name, {names.begin(), names.end()}); !near.empty())
+    message += fmt::format(" (did you mean \"{}\"?)", near);
+  return Failure{message};
 }
 
 }  // namespace montelux

@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "image/display.h"
-#include "image/flip.h"
 #include "image/image_file.h"
-#include "image/metrics.h"
-#include "image/welch.h"
 #include "math/result.h"
 
 namespace montelux {
@@ -23,7 +20,14 @@ std::optional<ToneCurve> tone_curve_named(std::string_view name);
 // written to. Asked before a render, so that the work is not lost.
 Status check_picture_file(const std::filesystem::path& file);
 
+// It is a format of 8 bits for display: .png, .jpg.
+bool is_display_file(const std::filesystem::path& file);
+
 // Writes a linear picture by the extension of the file, 8-bit formats through the display transform. One step.
 Status write_picture(const std::filesystem::path& file, const PixelBuffer& picture, const DisplayTransform& display);
+
+// Reads one layer of a picture: the colours for the empty name, else the channels "name.X", or the channel "name"
+// alone. A failure names the layers that there are.
+Result<PixelBuffer> read_layer(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace montelux

@@ -1,0 +1,99 @@
+// montelux info: what is in a scene.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "api/scene.h"
+#include "options.h"
+#include "progress.h"
+#include "status.h"
+#include "verbs.h"
+
+namespace montelux::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+  std::string scene;
+  LoadOptions load;
+  bool json = false;
+};
+
+std::string bytes_text(std::size_t bytes) { return count_text(double(bytes), "B"); }
+
+void print_json(const SceneInfo& info) {
+  Json lights = Json::object();
+  for (const auto& [kind, count] : info.lights) lights[kind] = count;
+  Json json;
+  json["scene"] = info.file;
+  json["width"] = info.width, json["height"] = info.height;
+  json["crop"] = {info.crop.x0, info.crop.y0, info.crop.x1, info.crop.y1};
+  json["camera"] = info.camera, json["film"] = info.film, json["filter"] = info.filter;
+  json["sampler"] = info.sampler, json["integrator"] = info.integrator;
+  json["samples"] = info.samples;
+  json["max_depth"] = info.max_depth ? Json(*info.max_depth) : Json();
+  json["triangles"] = info.triangles, json["instanced_triangles"] = info.instanced_triangles;
+  json["quadrics"] = info.quadrics, json["patches"] = info.patches, json["curve_segments"] = info.curve_segments;
+  json["instances"] = info.instances, json["objects"] = info.objects;
+  json["materials"] = info.materials, json["textures"] = info.textures;
+  json["lights"] = lights;
+  json["bounds"] = {{info.low[0], info.low[1], info.low[2]}, {info.high[0], info.high[1], info.high[2]}};
+  json["geometry_bytes"] = info.geometry_bytes, json["accel_bytes"] = info.accel_bytes;
+  json["texture_bytes"] = info.texture_bytes;
+  json["read_seconds"] = info.read_seconds, json["prepare_seconds"] = info.prepare_seconds;
+  json["build_seconds"] = info.build_seconds;
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const SceneInfo& info) {
+  fmt::print("scene     {}\n", info.file);
+  fmt::print("picture   {} x {} pixels", info.width, info.height);
+  if (info.crop != PixelBounds{0, 0, info.width, info.height})
+    fmt::print(", of these {},{},{},{}", info.crop.x0, info.crop.y0, info.crop.x1, info.crop.y1);
+  fmt::print("; {} samples a pixel\n", info.samples);
+  fmt::print("by        camera {}, film {}, filter {}, sampler {}, integrator {}", info.camera, info.film, info.filter,
+             info.sampler, info.integrator);
+  if (info.max_depth) fmt::print(" up to {} scattering events", *info.max_depth);
+  fmt::print("\nshapes    {} triangles", info.triangles);
+  if (info.instances > 0)
+    fmt::print(" ({} as rays see them: {} instances of {} objects)", info.instanced_triangles, info.instances,
+               info.objects);
+  fmt::print(", {} quadrics, {} patches, {} curve segments\n", info.quadrics, info.patches, info.curve_segments);
+  fmt::print("looks     {} materials, {} textures\nlights   ", info.materials, info.textures);
+  for (const auto& [kind, count] : info.lights) fmt::print(" {} {}", count, kind);
+  if (info.lights.empty()) fmt::print(" none: the picture will be black");
+  fmt::print("\nbounds    {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.low[0], info.low[1], info.low[2],
+             info.high[0], info.high[1], info.high[2]);
+  fmt::print("memory    shapes {}, ray tracing {}, textures {}\n", bytes_text(info.geometry_bytes),
+             bytes_text(info.accel_bytes), bytes_text(info.texture_bytes));
+  fmt::print("time      read {}, prepare {}, build {}\n", time_text(info.read_seconds), time_text(info.prepare_seconds),
+             time_text(info.build_seconds));
+}
+
+int run_info(const InfoArguments& arguments) {
+  LoadResult loaded = load_scene(arguments.scene, arguments.load);
+  print_diagnostics(loaded.diagnostics, false);
+  if (!loaded.scene) return bad_input;
+  if (arguments.json)
+    print_json(loaded.scene->info());
+  else
+    print_text(loaded.scene->info());
+  return done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& chosen) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App& verb = *app.add_subcommand("info", "Say what is in a scene: counts, sizes, lights, memory");
+  verb.footer("Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n");
+  add_scene_options(verb, arguments->scene, arguments->load);
+  verb.add_flag("--json", arguments->json, "as one JSON object");
+  verb.callback([arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
+}
+
+}  // namespace montelux::cli

@@ -1,0 +1,73 @@
+// montelux list: what Montelux knows by name.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "api/catalogue.h"
+#include "options.h"
+#include "status.h"
+#include "verbs.h"
+
+namespace montelux::cli {
+
+namespace {
+
+struct ListArguments {
+  std::string topic, name;
+};
+
+void print_lines(const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::size_t width = 0;
+  for (const auto& [name, meaning] : lines) width = std::max(width, name.size());
+  for (const auto& [name, meaning] : lines) fmt::print("{:{}}  {}\n", name, width, meaning);
+}
+
+// What is not done yet, said behind the meaning.
+std::string with_state(const CatalogueEntry& entry) {
+  if (!entry.instead.empty() && entry.instead != entry.name)
+    return fmt::format("{} ({} serves)", entry.meaning, entry.instead);
+  return entry.later ? entry.meaning + " (not yet)" : entry.meaning;
+}
+
+void print_entry(const CatalogueEntry& entry) {
+  fmt::print("{}: {}\n", entry.name, with_state(entry));
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const CatalogueParameter& p : entry.parameters)
+    lines.emplace_back(fmt::format("  {} {}", p.types, p.name), p.meaning + (p.later ? " (not yet)" : ""));
+  print_lines(lines);
+}
+
+int run_list(const ListArguments& arguments) {
+  if (arguments.topic.empty()) {
+    print_lines(catalogue_topics());
+    return done;
+  }
+  const std::vector<CatalogueEntry> entries = catalogue(arguments.topic).value();
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const CatalogueEntry& entry : entries) lines.emplace_back(entry.name, with_state(entry));
+  if (arguments.name.empty()) {
+    print_lines(lines);
+    return done;
+  }
+  if (Result<std::string> name = parse_choice(arguments.name, names_of(lines)); !name)
+    return complain(fmt::format("list {}: {}", arguments.topic, name.error()));
+  print_entry(*std::find_if(entries.begin(), entries.end(), [&](auto& e) { return e.name == arguments.name; }));
+  return done;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Action& chosen) {
+  auto arguments = std::make_shared<ListArguments>();
+  CLI::App& verb = *app.add_subcommand("list", "List what Montelux knows by name: materials, lights, samplers, ...");
+  verb.footer("Examples:\n  montelux list\n  montelux list materials\n  montelux list materials conductor\n");
+  const std::vector<std::string> topics = names_of(catalogue_topics());
+  add_option(verb, {"TOPIC", alternatives(topics), "what to list; default: these topics"},
+             into(arguments->topic, [topics](const std::string& text) { return parse_choice(text, topics); }));
+  verb.add_option("NAME", arguments->name, "one of the topic, with its parameters")->type_name("NAME");
+  verb.callback([arguments, &chosen] { chosen = [arguments] { return run_list(*arguments); }; });
+}
+
+}  // namespace montelux::cli

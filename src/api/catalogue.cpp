@@ -1,0 +1,86 @@
+#include "api/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "api/images.h"
+#include "api/render.h"
+#include "camera/table.h"
+#include "filter/table.h"
+#include "geometry/table.h"
+#include "io/pbrt/parameters.h"
+#include "light/table.h"
+#include "material/table.h"
+#include "scene/table.h"
+#include "texture/table.h"
+
+namespace montelux {
+
+namespace {
+
+using Names = std::vector<std::pair<std::string, std::string>>;
+
+CatalogueEntry entry_of(const EntitySpec& spec) {
+  CatalogueEntry entry{std::string(spec.name), std::string(spec.meaning), {}, spec.later, std::string(spec.instead)};
+  for (const ParameterSpec& p : spec.parameters) {
+    std::string types;
+    for (ParameterType type : p.types) {
+      types += types.empty() ? "" : "|";
+      types += type == ParameterType::spectrum ? "rgb|spectrum|blackbody" : pbrt::spelling(type);
+    }
+    std::string meaning(p.meaning);
+    if (!p.choices.empty()) meaning += fmt::format(" ({})", fmt::join(p.choices, ", "));
+    entry.parameters.push_back({std::string(p.name), types, meaning, p.later});
+  }
+  return entry;
+}
+
+std::vector<CatalogueEntry> entries_of(std::span<const EntitySpec> table) {
+  std::vector<CatalogueEntry> entries;
+  for (const EntitySpec& spec : table) entries.push_back(entry_of(spec));
+  return entries;
+}
+
+std::vector<CatalogueEntry> entries_of(const Names& names) {
+  std::vector<CatalogueEntry> entries;
+  for (const auto& [name, meaning] : names) entries.push_back({name, meaning, {}, false, {}});
+  return entries;
+}
+
+struct Topic {
+  std::string_view name, meaning;
+  std::vector<CatalogueEntry> (*entries)();
+};
+
+constexpr Topic topics[] = {
+    {"integrators", "algorithms, as --integrator takes them", [] { return entries_of(integrator_names()); }},
+    {"samplers", "point sets, as --sampler takes them", [] { return entries_of(sampler_names()); }},
+    {"tones", "tone curves, as --tone takes them", [] { return entries_of(tone_curves()); }},
+    {"materials", "materials of a scene", [] { return entries_of(material_table()); }},
+    {"textures", "textures of a scene", [] { return entries_of(texture_table()); }},
+    {"lights", "lights of a scene that are no shapes", [] { return entries_of(light_table()); }},
+    {"area-lights", "how the surface of a shape shines", [] { return entries_of(area_light_table()); }},
+    {"shapes", "shapes of a scene", [] { return entries_of(shape_table()); }},
+    {"cameras", "cameras of a scene", [] { return entries_of(camera_table()); }},
+    {"films", "films of a scene", [] { return entries_of(film_table()); }},
+    {"filters", "pixel filters of a scene", [] { return entries_of(filter_table()); }},
+    {"media", "participating media of a scene", [] { return entries_of(medium_table()); }},
+    {"scene-integrators", "integrators that a scene may name", [] { return entries_of(integrator_table()); }},
+    {"scene-samplers", "samplers that a scene may name", [] { return entries_of(sampler_table()); }},
+    {"options", "options of a scene", [] { return std::vector{entry_of(option_spec())}; }},
+};
+
+}  // namespace
+
+Names catalogue_topics() {
+  Names names;
+  for (const Topic& topic : topics) names.emplace_back(topic.name, topic.meaning);
+  return names;
+}
+
+std::optional<std::vector<CatalogueEntry>> catalogue(std::string_view name) {
+  for (const Topic& topic : topics)
+    if (topic.name == name) return topic.entries();
+  return std::nullopt;
+}
+
+}  // namespace montelux

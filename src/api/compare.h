@@ -1,0 +1,66 @@
+// Telling how two pictures differ, and whether their noise explains it.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/images.h"
+#include "image/flip.h"
+#include "image/metrics.h"
+#include "image/welch.h"
+
+namespace montelux {
+
+// The error bars of a picture: one standard deviation of the mean at every pixel.
+struct ErrorBars {
+  PixelBuffer standard_error;                               // R, G, B
+  double degrees_of_freedom;                                // infinite where nobody tells
+  std::optional<PixelBuffer> mean_of_image, error_of_mean;  // one pixel each: the whole image over its passes
+};
+
+// A picture as an estimate.
+struct PictureEstimate {
+  PixelBuffer color;              // R, G, B, linear
+  bool display = false;           // held 8 or 16 bits, so values end at one
+  std::optional<ErrorBars> bars;  // where the file, or the one beside it, has them
+};
+
+struct PictureFiles {
+  std::filesystem::path picture;
+  std::optional<std::filesystem::path> standard_error;  // R, G, B of this file instead of the picture's stderr layer
+  std::optional<double> degrees_of_freedom;             // where the picture does not say its number of passes
+};
+
+// Fails where a file cannot be read, or the sizes of picture and error bars are not equal.
+Result<PictureEstimate> read_estimate(const PictureFiles& files);
+
+struct PictureDifference {
+  bool equal = false;  // every colour value is the same
+  std::array<double, 3> mean_a{}, mean_b{};
+  ErrorMeasures measures;
+  FlipResult flip;
+  bool hdr_flip = false;
+  std::optional<WelchReport> welch;  // where both have error bars
+
+  // By the error bars where both have them, by equality otherwise.
+  bool differs() const { return welch ? welch->differs : !equal; }
+};
+
+// a is the test, b the reference. The level is family-wise. Where both files tell the mean of the whole image and its
+// error over the passes, the test of the image mean takes these, which hold whatever the correlation of pixels.
+// Fails where the sizes are not equal.
+Result<PictureDifference> compare_pictures(const PictureEstimate& a, const PictureEstimate& b, double level);
+
+// Maps of the difference: "relative" (squared, over b^2 + 0.01), "squared", "absolute", "flip".
+std::vector<std::pair<std::string, std::string>> difference_maps();
+// One channel. Fails for an unknown name.
+Result<PixelBuffer> difference_map(std::string_view name, const PictureEstimate& a, const PictureEstimate& b,
+                                   const PictureDifference& difference);
+
+// Writes a map of one channel: to .exr, .hdr and .pfm as it is, to other formats in false colours that end at the 99th
+// percentile.
+Status write_map(const std::filesystem::path& file, const PixelBuffer& map);
+
+}  // namespace montelux
