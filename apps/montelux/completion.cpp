@@ -50,8 +50,8 @@ VerbWords words_of(const CLI::App& verb) {
       continue;
     }
     OptionWords o{{}, option->get_description(), std::nullopt, option->get_items_expected_max() > 1};
-    for (const std::string& name : option->get_snames()) o.names.push_back("-" + name);
-    for (const std::string& name : option->get_lnames()) o.names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) o.names.push_back(fmt::format("-{}", name));
+    for (const std::string& name : option->get_lnames()) o.names.push_back(fmt::format("--{}", name));
     if (option->get_items_expected_max() > 0) o.value = value_of(option->get_type_name());
     words.options.push_back(std::move(o));
   }
@@ -73,7 +73,7 @@ std::string bash_reply(const Value& value) {
 std::string bash_script(const std::vector<VerbWords>& verbs) {
   std::string names, values, places;
   for (const VerbWords& verb : verbs) {
-    names += (names.empty() ? "" : " ") + verb.name;
+    names += fmt::format("{}{}", names.empty() ? "" : " ", verb.name);
     for (const OptionWords& option : verb.options)
       for (const std::string& name : option.names)
         if (option.value)
@@ -137,7 +137,7 @@ std::string zsh_script(const std::vector<VerbWords>& verbs) {
       for (const std::string& name : option.names) {
         const std::string others = option.repeatable ? "*" : fmt::format("({})", fmt::join(option.names, " "));
         cases += fmt::format(" \\\n        '{}{}[{}]{}'", others, name, zsh_text(option.help),
-                             option.value ? ":" + zsh_value(*option.value) : "");
+                             option.value ? fmt::format(":{}", zsh_value(*option.value)) : "");
       }
     for (std::size_t i = 0; i < verb.places.size(); ++i)
       cases += fmt::format(" \\\n        '{}:{}'", i + 1, zsh_value(verb.places[i]));
@@ -181,7 +181,7 @@ std::string fish_script(const std::vector<VerbWords>& verbs) {
     for (const OptionWords& option : verb.options) {
       out += seen;
       for (const std::string& name : option.names)
-        out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+        out += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2)) : fmt::format(" -s {}", name.substr(1));
       if (option.value && option.value->file) out += " -r -F";
       if (option.value && !option.value->file)
         out += option.value->choices.empty() ? std::string(" -x")

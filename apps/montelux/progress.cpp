@@ -28,7 +28,7 @@ std::string numbers(const Progress& p) {
 }  // namespace
 
 ProgressLine::ProgressLine(bool visible, const StopSignals& signals)
-    : signals_(signals), visible_(visible), in_place_(terminal_on_stderr()) {}
+    : signals_(signals), visible_(visible), in_place_(terminal_on_stderr()), next_(in_place_ ? 0 : 1) {}
 
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }
 
@@ -36,8 +36,8 @@ void ProgressLine::progress(const Progress& p) {
   if (!visible_) return;
   const int percent = int(100 * p.fraction);
   if (!in_place_) {
-    if (p.elapsed - last_ < 10 || p.finished) return;
-    last_ = p.elapsed;
+    if (p.elapsed < next_ || p.finished) return;
+    next_ = p.elapsed + 10;
     fmt::print(stderr, "{:3} %  {}\n", percent, numbers(p));
     return;
   }
@@ -47,8 +47,8 @@ void ProgressLine::progress(const Progress& p) {
     std::fflush(stderr);
     return;
   }
-  if (last_ > 0 && p.elapsed - last_ < 0.1) return;
-  last_ = p.elapsed;
+  if (p.elapsed < next_) return;
+  next_ = p.elapsed + 0.1;
   std::string text = numbers(p);
   const int columns = terminal_columns();
   const int width = std::clamp(columns - int(text.size()) - 12, 0, 40);

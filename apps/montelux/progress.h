@@ -7,7 +7,7 @@
 
 namespace montelux::cli {
 
-// A line that is redrawn in place on a terminal, elsewhere a line every ten seconds; and it passes on the request of a
+// A line that is redrawn in place on a terminal, elsewhere a line after a second and then every ten; and it passes on the request of a
 // signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
@@ -19,7 +19,7 @@ class ProgressLine final : public RenderObserver {
  private:
   const StopSignals& signals_;
   bool visible_, in_place_;
-  double last_ = 0;  // seconds at which a line was drawn
+  double next_ = 0;  // seconds at which the next line is due
 };
 
 // "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

@@ -1,0 +1,54 @@
+"""The program under test, and the little that its tests share."""
+import array
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.path.abspath(sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build" / "release" / "montelux")
+SCENE = ROOT / "scenes" / "first-light" / "first-light.pbrt"
+
+# Files carry no time of their own, and messages no colour.
+ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "0", "NO_COLOR": "1"}
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder of its own, in which the program runs."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def start(self, *arguments, **options):
+        return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                stdout=subprocess.PIPE, **{"stderr": subprocess.PIPE, **options})
+
+    def run_program(self, *arguments, status=0):
+        """Runs the program to its end and checks its exit status; returns what it said."""
+        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                capture_output=True, check=False)
+        self.assertEqual(result.returncode, status, f"{arguments}\n{result.stdout}{result.stderr}")
+        return result
+
+    def render(self, *arguments, scene=SCENE, **options):
+        return self.run_program("render", scene, "--resolution", "64x48", *arguments, **options)
+
+
+def write_pfm(path, width, height, color):
+    """A picture of one colour."""
+    values = array.array("f", list(color) * (width * height))
+    path.write_bytes(f"PF\n{width} {height}\n-1.0\n".encode() + values.tobytes())
+
+
+def read_pfm(path):
+    """(width, height, rows), the top row first; a row is three numbers for each pixel."""
+    kind, size, scale, data = path.read_bytes().split(b"\n", 3)
+    assert kind == b"PF" and float(scale) == -1
+    width, height = map(int, size.split())
+    values = array.array("f", data)
+    rows = [values[y * 3 * width:(y + 1) * 3 * width] for y in range(height)]
+    return width, height, rows[::-1]

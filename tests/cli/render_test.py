@@ -1,0 +1,122 @@
+"""montelux render: the same bits in every run, a clean end on signals, and no broken files."""
+import json
+import math
+import os
+import pty
+import signal
+import unittest
+
+from program import SCENE, ProgramTest, read_pfm
+
+
+class Render(ProgramTest):
+    def test_the_same_seed_gives_the_same_bytes_for_any_number_of_threads(self):
+        for threads in 1, 2:
+            self.render("--spp", "8", "--threads", threads, "-o", f"{threads}.exr")
+        one, two = ((self.folder / f"{threads}.exr").read_bytes() for threads in (1, 2))
+        self.assertEqual(one, two)
+        self.render("--spp", "8", "--seed", "1", "-o", "other.exr")
+        self.assertNotEqual(one, (self.folder / "other.exr").read_bytes())
+
+    def test_a_crop_holds_the_same_pixels_as_the_whole_picture(self):
+        for sampler in "independent", "sobol", "blue-noise":
+            with self.subTest(sampler=sampler):
+                options = ["--spp", "8", "--sampler", sampler]
+                self.render(*options, "-o", "whole.pfm")
+                self.render(*options, "--crop", "5,7,44,30", "-o", "crop.pfm")
+                whole, crop = read_pfm(self.folder / "whole.pfm")[2], read_pfm(self.folder / "crop.pfm")[2]
+                self.assertEqual(crop, [row[3 * 5:3 * 44] for row in whole[7:30]])
+
+    def test_one_render_writes_many_files_and_one_json_object(self):
+        result = self.render("--spp", "16", "--json", *(f"-oroom.{kind}" for kind in ("exr", "pfm", "png", "jpg", "hdr")))
+        told = json.loads(result.stdout)
+        for name in told["files"]:
+            self.assertGreater((self.folder / name).stat().st_size, 0)
+        self.assertEqual(len(told["files"]), 5)
+        self.assertEqual(told["samples"], 64 * 48 * told["passes"] * told["samples_per_pass"])
+        self.assertEqual(told["passes"] * told["samples_per_pass"], 16)
+        self.assertEqual(told["non_finite"], 0)
+        self.assertGreater(told["rays"], told["samples"])
+        # The stated mean is that of the picture.
+        _, _, rows = read_pfm(self.folder / "room.pfm")
+        for channel in range(3):
+            mean = math.fsum(math.fsum(row[channel::3]) for row in rows) / (64 * 48)
+            self.assertAlmostEqual(told["mean"][channel], mean, delta=1e-5 * mean)
+            self.assertGreater(told["standard_error"][channel], 0)
+
+    def test_the_default_file_has_the_name_of_the_scene(self):
+        result = self.render("--spp", "1", "--quiet")
+        self.assertTrue((self.folder / "first-light.exr").is_file())
+        self.assertIn("first-light.exr", result.stdout)
+        self.assertEqual(result.stderr, "")
+
+    def test_a_file_that_cannot_be_written_is_refused_before_the_render(self):
+        (self.folder / "good.png").write_text("old")
+        (self.folder / "file").touch()
+        (self.folder / "folder.exr").mkdir()
+        for bad in "missing/room.exr", "file/room.exr", "folder.exr", "room.tif", "room":
+            with self.subTest(file=bad):
+                result = self.render("--time", "1h", "-o", "good.png", "-o", bad, status=2)
+                self.assertIn(bad, result.stderr)
+        self.assertEqual((self.folder / "good.png").read_text(), "old")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["file", "folder.exr", "good.png"])
+
+    def test_time_ends_a_render(self):
+        told = json.loads(self.render("--time", "300ms", "--json").stdout)
+        self.assertGreaterEqual(told["seconds"], 0.3)
+        self.assertFalse(told["interrupted"])
+
+
+class Signals(ProgramTest):
+    def interrupted_by(self, number):
+        """Renders for long, is interrupted once it has begun, and returns what was said."""
+        process = self.start("render", SCENE, "--resolution", "64x48", "--time", "60s", "--sampler", "independent", "-o",
+                             "room.exr", "-o", "room.pfm")
+        self.addCleanup(process.kill)
+        self.assertIn("samples/s", process.stderr.readline())
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=60)
+        self.assertIn("interrupted", errors)
+        self.assertEqual(read_pfm(self.folder / "room.pfm")[:2], (64, 48))
+        self.run_program("diff", "room.exr", "room.exr")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["room.exr", "room.pfm"])
+        self.assertIn("mean", output)
+        return process.returncode
+
+    def test_sigint_writes_what_is_done_and_returns_130(self):
+        self.assertEqual(self.interrupted_by(signal.SIGINT), 130)
+
+    def test_sigterm_writes_what_is_done_and_returns_143(self):
+        self.assertEqual(self.interrupted_by(signal.SIGTERM), 143)
+
+
+class ProgressLine(ProgramTest):
+    def said_on_a_terminal(self, *arguments):
+        terminal, inside = pty.openpty()
+        process = self.start("render", SCENE, "--resolution", "64x48", "--time", "500ms", *arguments, stderr=inside)
+        os.close(inside)
+        said = b""
+        try:
+            while part := os.read(terminal, 4096):
+                said += part
+        except OSError:  # how a terminal ends whose other side is closed
+            pass
+        os.close(terminal)
+        process.communicate()
+        self.assertEqual(process.returncode, 0)
+        return said.decode()
+
+    def test_a_terminal_sees_one_line_that_is_redrawn_and_goes(self):
+        said = self.said_on_a_terminal()
+        self.assertGreater(said.count("\r"), 2)
+        self.assertNotIn("\n", said)
+        self.assertIn("samples/s", said)
+        self.assertTrue(said.endswith("\r\x1b[K"))
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.said_on_a_terminal("--quiet"), "")
+        self.assertEqual(self.said_on_a_terminal("--no-progress"), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
