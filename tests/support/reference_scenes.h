@@ -1,5 +1,6 @@
 // Pictures of one scene by another renderer, with their standard errors, and the test whether ours agree.
 #pragma once
+#include <cstdio>
 #include <cstdlib>
 
 #include "image/image_file.h"
@@ -21,6 +22,8 @@ struct ReferenceScene {
   std::string name;
   std::filesystem::path scene, mean, standard_error;
 };
+
+inline void PrintTo(const ReferenceScene& s, std::ostream* out) { *out << s.name; }
 
 // Every NAME.pbrt below the folder that has NAME.reference.exr and NAME.stderr.exr, by name.
 inline std::vector<ReferenceScene> reference_scenes() {
@@ -67,7 +70,8 @@ inline GrayPicture read_reference(const ReferenceScene& s) {
   return g;
 }
 
-// Of a film of a grey scene, whose channels are equal up to rounding.
+// Of a film of a grey scene, whose channels are equal up to rounding. The film's pixels must be independent of each
+// other (any point set but blue_noise).
 inline GrayPicture gray_picture(const Film& film) {
   const PixelBounds& b = film.bounds();
   GrayPicture g{b.width(), b.height(), {}, {}, double(film.image().passes) - 1};
@@ -149,5 +153,41 @@ inline Comparison compare(const GrayPicture& ours, const GrayPicture& reference)
             [](const auto& a, const auto& b) { return a.test.p_value < b.test.p_value; });
   return c;
 }
+
+// A picture that is wrong by a factor in a part: what the comparison must find.
+inline GrayPicture scaled(GrayPicture g, double factor, int x0, int y0, int x1, int y1) {
+  for (int y = y0; y < std::min(y1, g.height); ++y)
+    for (int x = x0; x < std::min(x1, g.width); ++x) {
+      const auto i = std::size_t(y) * std::size_t(g.width) + std::size_t(x);
+      g.mean[i] *= factor, g.variance[i] *= factor * factor;
+    }
+  return g;
+}
+
+inline constexpr double reference_level = 0.01;
+inline constexpr int reference_passes = 32;
+
+// Renders a scene and holds it against its reference.
+inline Comparison compare_with_reference(const ReferenceScene& s, int samples, int threads) {
+  const TestScene scene(read_text(s.scene), s.scene.parent_path().string());
+  const PassPlan plan{std::max(1, samples / reference_passes), reference_passes};
+  const RenderResult result = scene.render(PointSetKind::padded_sobol, plan, 1, Lanes::native, threads);
+  if (result.film.non_finite() > 0) throw std::runtime_error(s.name + ": samples that are not finite");
+  return compare(gray_picture(result.film), read_reference(s));
+}
+
+// A line of the table of docs/validation.md.
+inline std::string table_row(const std::string& name, const Comparison& c, int samples, double level) {
+  char row[400];
+  const BlockDifference& worst = c.blocks.front();
+  std::snprintf(row, sizeof row,
+                "| %s | %d | %.5f | %.5f | %.4f ± %.4f | %+.2f | %.2f %% | %zu of %zu | %+.2f at (%d, %d) |",
+                name.c_str(), samples, c.ours.mean, c.reference.mean, c.ratio(), c.ratio_error(), c.image.statistic,
+                100 * c.relative_error(), c.differing(level), c.blocks.size(), worst.test.statistic, worst.x, worst.y);
+  return row;
+}
+inline constexpr const char* table_head =
+    "| scene | samples | ours | reference | ratio | t of the mean | our error | blocks that differ | largest block |\n"
+    "|---|---|---|---|---|---|---|---|---|";
 
 }  // namespace montelux::test
