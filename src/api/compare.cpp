@@ -12,10 +12,10 @@ namespace montelux {
 
 namespace {
 
-const std::vector<std::string> rgb_names{"R", "G", "B"};
+std::vector<std::string> rgb_names() { return {"R", "G", "B"}; }
 
 PixelBuffer colors_of(const PixelBuffer& image) {
-  PixelBuffer out = make_pixel_buffer(image.width, image.height, rgb_names);
+  PixelBuffer out = make_pixel_buffer(image.width, image.height, rgb_names());
   const std::array<int, 3> channels = rgb_channels(image);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -37,7 +37,7 @@ std::optional<double> number(const Image& image, std::string_view name) {
 
 // Three numbers of the header as a picture of one pixel.
 std::optional<PixelBuffer> pixel_of_header(const Image& image, std::string_view prefix) {
-  PixelBuffer pixel = make_pixel_buffer(1, 1, rgb_names);
+  PixelBuffer pixel = make_pixel_buffer(1, 1, rgb_names());
   for (int c = 0; c < 3; ++c) {
     auto value = number(image, fmt::format("{}{}", prefix, "RGB"[c]));
     if (!value || !std::isfinite(*value)) return std::nullopt;

@@ -30,11 +30,9 @@ enum Channel {
   id
 };
 
-const std::vector<std::string>& channel_names() {
-  static const std::vector<std::string> names{
-      "R",   "G",   "B",   "A",   "stderr.R", "stderr.G", "stderr.B", "albedo.R", "albedo.G", "albedo.B",
-      "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
-  return names;
+std::vector<std::string> channel_names() {
+  return {"R",   "G",   "B",   "A",   "stderr.R", "stderr.G", "stderr.B", "albedo.R", "albedo.G", "albedo.B",
+          "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
 }
 
 std::string extension_of(const std::filesystem::path& file) {

@@ -37,7 +37,7 @@ std::optional<int> whole_number(const std::string& text, int low) {
 
 // Applies "name=value" pairs to the settings of the path integrator.
 Status apply_settings(const std::vector<std::pair<std::string, std::string>>& pairs, PathSettings& settings) {
-  static const std::vector<std::string_view> names{"maxdepth", "roulette-depth", "lanes"};
+  const std::vector<std::string_view> names{"maxdepth", "roulette-depth", "lanes"};
   for (const auto& [name, value] : pairs) {
     if (name == "maxdepth") {
       if (value == "none" || value == "unbounded") {
@@ -77,7 +77,7 @@ struct Plan {
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
   const PictureSettings& picture = parts.picture;
   Plan plan;
-  static const auto integrators = integrator_names();
+  const auto integrators = integrator_names();
   if (options.integrator && *options.integrator != "path")
     return unknown("integrator", *options.integrator, views_of(integrators));
   plan.path.max_depth = picture.max_depth;
@@ -87,7 +87,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.sampler = picture.sampler;
   if (options.sampler) {
     auto kind = point_set_named(*options.sampler);
-    static const auto samplers = sampler_names();
+    const auto samplers = sampler_names();
     if (!kind) return unknown("sampler", *options.sampler, views_of(samplers));
     r.sampler = *kind;
   }
