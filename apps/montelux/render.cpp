@@ -82,7 +82,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["files"] = arguments.files;
   json["interrupted"] = rendering.result.interrupted;
   json["seed"] = arguments.render.seed;
-  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json();
+  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json::array({nullptr, nullptr, nullptr});
   json["standard_error"] = to_json(outcome.image.standard_error);
   json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
   json["relative_mse"] = known ? number_or_null(outcome.error.relative_mse) : Json();

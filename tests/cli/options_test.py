@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import ENVIRONMENT, PROGRAM, SCENE, ProgramTest
+from program import ENVIRONMENT, SCENE, ProgramTest
 
 VERBS = ["render", "info", "diff", "tonemap", "list", "completion"]
 
@@ -36,10 +36,9 @@ class Options(ProgramTest):
         self.assert_refused(["list", "materials", "conducter"], 'did you mean "conductor"')
 
     def test_a_value_out_of_range_is_refused(self):
-        for option, value in [("--spp", "0"), ("--spp", "many"), ("--time", "3 weeks"), ("--time", "-1s"),
-                              ("--resolution", "64"), ("--resolution", "0x4"), ("--crop", "1,2,3"),
-                              ("--crop", "9,0,3,4"), ("--seed", "-1"), ("--threads", "0"), ("--exposure", "bright"),
-                              ("--set", "maxdepth")]:
+        for option, value in [("--spp", "0"), ("--spp", "many"), ("--time", "3 weeks"), ("--resolution", "64"),
+                              ("--crop", "1,2,3"), ("--crop", "9,0,3,4"), ("--seed", "-1"), ("--threads", "0"),
+                              ("--exposure", "bright"), ("--set", "maxdepth")]:
             with self.subTest(option=option, value=value):
                 self.assert_refused(["render", SCENE, f"{option}={value}"], f"{option}: takes", f'found "{value}"')
 
@@ -63,12 +62,12 @@ class Options(ProgramTest):
         self.assertEqual((info["width"], info["height"]), (80, 60))
         self.assertIn("14 triangles", self.run_program("info", SCENE).stdout)
 
-    def test_list_knows_every_topic(self):
+    def test_list_knows_topics_names_and_parameters(self):
         topics = [line.split()[0] for line in self.run_program("list").stdout.splitlines()]
-        for topic in "integrators", "samplers", "materials", "lights", "shapes", "textures":
+        for topic, name in [("integrators", "path"), ("samplers", "sobol"), ("materials", "diffuse"),
+                            ("lights", "infinite"), ("shapes", "sphere"), ("textures", "checkerboard")]:
             self.assertIn(topic, topics)
-        for topic in topics:
-            self.assertTrue(self.run_program("list", topic).stdout)
+            self.assertIn(name, self.run_program("list", topic).stdout)
         self.assertIn("roughness", self.run_program("list", "materials", "conductor").stdout)
 
 
@@ -96,12 +95,13 @@ class Completion(ProgramTest):
     @unittest.skipUnless(shutil.which("bash"), "no bash")
     def test_bash_completes_verbs_options_choices_and_files(self):
         (self.folder / "room.exr").touch()
+        (self.folder / "completion").write_text(self.script("bash"))
         for words, expected in [(["re"], {"render"}), (["render", "--tone", ""], {"clip", "hable", "aces"}),
                                 (["diff", "--stderr"], {"--stderr-a", "--stderr-b"}), (["list", "mat"], {"materials"}),
                                 (["tonemap", "ro"], {"room.exr"}), (["render", "-o", "roo"], {"room.exr"}),
                                 (["completion", ""], {"bash", "zsh", "fish"})]:
             line = " ".join(f"'{word}'" for word in ["montelux", *words])
-            code = (f"source <('{PROGRAM}' completion bash); COMP_WORDS=({line}); COMP_CWORD={len(words)}; _montelux; "
+            code = (f"source ./completion; COMP_WORDS=({line}); COMP_CWORD={len(words)}; _montelux; "
                     "printf '%s\\n' \"${COMPREPLY[@]}\"")
             result = subprocess.run(["bash", "-c", code], cwd=self.folder, env=ENVIRONMENT, text=True,
                                     capture_output=True, check=True)
