@@ -99,9 +99,10 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
     path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
     path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(goes_on, U(1u), U(0u));
-    const F throughput = max_component(path.throughput) * path.eta_scale;
+    // The square root spares paths that are dim now and may still find a bright place: less noise for the same rays.
+    const F vigour = safe_sqrt(max_component(path.throughput) * path.eta_scale);
     const M plays = goes_on & (path.depth > U(std::uint32_t(settings.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, min(throughput, F(most_survival)), F(1.0f)),
+    const Roulette<F> survival = roulette(select(plays, min(vigour, F(most_survival)), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
     goes_on = goes_on & survival.survives;
     path.throughput = select(goes_on, path.throughput * survival.weight, path.throughput);

@@ -11,7 +11,7 @@ struct PathSettings {
   // Scattering events at most; none: paths end by roulette alone, without bias.
   std::optional<int> max_depth;
   // Scattering events before roulette begins.
-  int roulette_depth = 1;
+  int roulette_depth = 2;
   Lanes lanes = Lanes::native;
 };
 
