@@ -165,6 +165,8 @@ struct LightBvh::Builder {
       std::uint32_t light = items[begin].light;
       write(node, *bounds[light], light, true);
       bvh.turns_[light] = turns;
+      bvh.places_[light] = std::uint32_t(bvh.leaves_.size());
+      bvh.leaves_.push_back(node);
       return *bounds[light];
     }
     std::size_t middle = split(begin, end, depth);
@@ -188,6 +190,7 @@ LightBvh::LightBvh(std::span<const std::optional<LightBounds>> bounds) {
   }
   if (builder.items.empty()) return;
   turns_.resize(bounds.size());
+  places_.resize(bounds.size());
   nodes_.reserve(2 * builder.items.size());
   nodes_.resize(1);
   builder.build(0, 0, builder.items.size(), 0, 0);

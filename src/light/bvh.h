@@ -68,8 +68,40 @@ class LightBvh {
   static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
     return (link_bits & Uint<F>(leaf_bit)) == Uint<F>(0u);
   }
+  // The same number of one node for all lanes, without a gather.
   template <class F>
-  F importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const;
+  MONTELUX_INLINE F number_of(std::uint32_t node, int slot) const {
+    return F(nodes_[node].v[slot]);
+  }
+  template <class F>
+  MONTELUX_INLINE F number_of(const Uint<F>& node, int slot) const requires(lanes_of<F> > 1) {
+    return number<F>(node, slot);
+  }
+  // At is Uint<F>, or std::uint32_t for one node in all lanes.
+  template <class F, class At>
+  F importance(At node, Vec3<F> p, Vec3<F> n) const;
+  // Sets of few lights are not descended but scanned: the choice is then in exact proportion to each light's
+  // importance.
+  static constexpr std::size_t most_scanned = 16;
+  bool is_scanned() const { return leaves_.size() <= most_scanned; }
+  // The importance of every leaf, summed in their order.
+  template <class F>
+  struct Scan {
+    F importance[most_scanned];
+    F sum;
+  };
+  template <class F>
+  MONTELUX_INLINE Scan<F> scan(Vec3<F> p, Vec3<F> n) const {
+    Scan<F> s;
+    s.sum = F(0.0f);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      s.importance[i] = importance<F>(leaves_[i], p, n);
+      s.sum = s.sum + s.importance[i];
+    }
+    return s;
+  }
+  template <class F>
+  LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
   // The probability of the first of two children, and whether either can send light to p.
   template <class F>
   struct Fork {
@@ -78,14 +110,16 @@ class LightBvh {
   };
   template <class F>
   MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n) const {
-    F a = importance(first_child, p, n);
-    F b = importance(Uint<F>(first_child + Uint<F>(1u)), p, n);
+    F a = importance<F>(first_child, p, n);
+    F b = importance<F>(Uint<F>(first_child + Uint<F>(1u)), p, n);
     F sum = a + b;
     return {a / max(sum, F(1e-37f)), sum > F(0.0f)};
   }
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> turns_;  // a light: bit k is the turn at depth k
+  std::vector<std::uint32_t> turns_;   // by light: bit k is the turn at depth k
+  std::vector<std::uint32_t> leaves_;  // nodes that are leaves, in the order of the tree
+  std::vector<std::uint32_t> places_;  // by light: its place among the leaves
 };
 
 namespace light_bvh {
@@ -105,11 +139,12 @@ inline constexpr float slack = 1e-3f;
 
 }  // namespace light_bvh
 
-template <class F>
-F LightBvh::importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const {
+template <class F, class At>
+F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   using namespace light_bvh;
-  Vec3<F> from = p - Vec3<F>{number<F>(node, centre), number<F>(node, centre + 1), number<F>(node, centre + 2)};
-  F r2 = number<F>(node, radius_squared), d2 = max(length_squared(from), F(1e-30f));
+  Vec3<F> from =
+      p - Vec3<F>{number_of<F>(node, centre), number_of<F>(node, centre + 1), number_of<F>(node, centre + 2)};
+  F r2 = number_of<F>(node, radius_squared), d2 = max(length_squared(from), F(1e-30f));
   Vec3<F> w = from * (F(1.0f) / sqrt(d2));
 
   // The angle under which the ball of the bounds is seen; from inside, every direction.
@@ -118,16 +153,16 @@ F LightBvh::importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const {
   F sin_b = select(inside, F(0.0f), sqrt(sin2_b)), cos_b = select(inside, F(-1.0f), sqrt(F(1.0f) - sin2_b));
 
   // The least angle between a normal of the cluster and a direction to p.
-  Vec3<F> a{number<F>(node, axis), number<F>(node, axis + 1), number<F>(node, axis + 2)};
+  Vec3<F> a{number_of<F>(node, axis), number_of<F>(node, axis + 1), number_of<F>(node, axis + 2)};
   F cos_w = clamp(dot(a, w), F(-1.0f), F(1.0f));
-  F strength = number<F>(node, intensity);
+  F strength = number_of<F>(node, intensity);
   cos_w = select(strength < F(0.0f), abs(cos_w), cos_w);
   F sin_w = safe_sqrt(F(1.0f) - cos_w * cos_w);
-  F cos_o = number<F>(node, cos_spread), sin_o = safe_sqrt(F(1.0f) - cos_o * cos_o);
+  F cos_o = number_of<F>(node, cos_spread), sin_o = safe_sqrt(F(1.0f) - cos_o * cos_o);
   F cos_x = cos_of_difference(sin_w, cos_w, sin_o, cos_o), sin_x = sin_of_difference(sin_w, cos_w, sin_o, cos_o);
   F cos_p = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
   F result = abs(strength) * max(cos_p, F(slack)) / max(max(d2, r2), F(1e-18f));
-  result = select(cos_p > number<F>(node, cos_emission) - slack, result, F(0.0f));
+  result = select(cos_p > number_of<F>(node, cos_emission) - slack, result, F(0.0f));
 
   // The least angle between n and a direction to the cluster.
   F cos_i = clamp(F(0.0f) - dot(n, w), F(-1.0f), F(1.0f));
@@ -137,7 +172,27 @@ F LightBvh::importance(Uint<F> node, Vec3<F> p, Vec3<F> n) const {
 }
 
 template <class F>
+LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
+  const Scan<F> s = scan<F>(p, n);
+  const F target = u * s.sum;
+  // The first light at which the running sum passes the target; where rounding lets none pass, the last that counts.
+  F running(0.0f), chosen(0.0f);
+  Uint<F> light(0u);
+  Mask<F> open = on & (s.sum > F(0.0f));
+  const Mask<F> valid = open;
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    running = running + s.importance[i];
+    const Mask<F> takes = open & (s.importance[i] > F(0.0f));
+    chosen = select(takes, s.importance[i], chosen);
+    light = select(takes, Uint<F>(float_bits(nodes_[leaves_[i]].v[link]) & ~leaf_bit), light);
+    open = open & !Mask<F>(running > target);
+  }
+  return {light, {select(valid, chosen / max(s.sum, F(1e-37f)), F(0.0f))}, valid};
+}
+
+template <class F>
 LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
+  if (is_scanned()) return choose_by_scan<F>(p, n, u, on);
   Uint<F> node(0u);
   F mass(1.0f);
   Mask<F> valid = on & Mask<F>(!nodes_.empty());
@@ -166,6 +221,14 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
 template <class F>
 Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
   if (!any(on) || nodes_.empty()) return {F(0.0f)};
+  if (is_scanned()) {
+    const Scan<F> all = scan<F>(p, n);
+    const Uint<F> place = gather(places_.data(), select(on, light, Uint<F>(0u)));
+    F own(0.0f);
+    for (std::size_t i = 0; i < leaves_.size(); ++i)
+      own = select(place == Uint<F>(std::uint32_t(i)), all.importance[i], own);
+    return {select(on & (all.sum > F(0.0f)), own / max(all.sum, F(1e-37f)), F(0.0f))};
+  }
   Uint<F> node(0u), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
   F mass(1.0f);
   Mask<F> inner = on;
