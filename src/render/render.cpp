@@ -16,7 +16,14 @@ namespace montelux {
 
 namespace {
 
-constexpr int tile_size = 32;
+// Side of a tile: large enough that packs stay full, small enough that a unit of work is done within a moment, so that
+// threads share the work evenly and a stop is obeyed soon.
+int tile_side(int samples_per_pass) {
+  constexpr int most_samples = 1 << 16;
+  int side = 32;
+  while (side > 8 && side * side * samples_per_pass > most_samples) side /= 2;
+  return side;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,11 +38,11 @@ struct TileState {
   TileState(PixelBounds b) : bounds(b) {}
 };
 
-std::deque<TileState> cut_into_tiles(const PixelBounds& b) {
+std::deque<TileState> cut_into_tiles(const PixelBounds& b, int side) {
   std::deque<TileState> tiles;
-  for (int y = b.y0; y < b.y1; y += tile_size)
-    for (int x = b.x0; x < b.x1; x += tile_size)
-      tiles.emplace_back(PixelBounds{x, y, std::min(x + tile_size, b.x1), std::min(y + tile_size, b.y1)});
+  for (int y = b.y0; y < b.y1; y += side)
+    for (int x = b.x0; x < b.x1; x += side)
+      tiles.emplace_back(PixelBounds{x, y, std::min(x + side, b.x1), std::min(y + side, b.y1)});
   return tiles;
 }
 
@@ -47,7 +54,7 @@ class Job {
       : integrator_(integrator),
         settings_(settings),
         film_(settings.bounds),
-        tiles_(cut_into_tiles(settings.bounds)),
+        tiles_(cut_into_tiles(settings.bounds, tile_side(settings.plan.samples_per_pass))),
         units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
 
   void work() {
