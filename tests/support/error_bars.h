@@ -1,0 +1,57 @@
+// How often error bars hold what they promise, over many seeds.
+#pragma once
+#include "error_bar_scenes.h"
+#include "statistics.h"
+
+namespace montelux::test {
+
+// Over seeds, for one scene and one point set.
+struct Coverage {
+  double pixels = 0, pixel_intervals = 0;  // 95 % intervals of pixels that hold the truth, and all
+  double images = 0, seeds = 0;            // the same for the image mean
+  double estimated_mse = 0, true_mse = 0;  // sums over seeds of means over pixels; the truth's own error is taken off
+  std::vector<double> pixel_share;         // by seed
+  std::vector<double> excess;              // by seed: estimated less true squared error, mean over pixels
+};
+
+// `shrink` plants a fault: standard errors are multiplied by it.
+inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, PointSetKind sampler, PassPlan plan,
+                                 int seeds, double shrink = 1) {
+  Coverage c;
+  const double t = student_t_quantile(0.975, plan.passes - 1);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Film film = scene.render(sampler, plan, std::uint32_t(seed), Lanes::native, 0).film;
+    const PixelBounds& b = film.bounds();
+    double held = 0, pixels = 0, squares = 0, estimated = 0;
+    std::size_t i = 0;
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x, ++i) {
+        const PixelEstimate& p = film.pixel(x, y);
+        const double variance = shrink * shrink * p.variance_of_mean(0), off = p.mean[0] - truth.mean[i];
+        // The truth's own variance widens the interval by next to nothing.
+        held += off * off <= t * t * (variance + truth.variance[i]) ? 1 : 0;
+        pixels += 1;
+        estimated += variance;
+        squares += off * off - truth.variance[i];
+      }
+    c.true_mse += squares / pixels, c.estimated_mse += estimated / pixels;
+    c.excess.push_back((estimated - squares) / pixels);
+    c.pixels += held, c.pixel_intervals += pixels, c.pixel_share.push_back(held / pixels);
+    const ImageEstimate image = film.image();
+    const double off = image.mean[0] - truth.image, error = shrink * image.standard_error[0];
+    c.images += off * off <= t * t * (error * error + truth.image_error * truth.image_error) ? 1 : 0;
+    c.seeds += 1;
+  }
+  return c;
+}
+
+// Two-sided exact test (Clopper and Pearson 1934): is the probability of a success in [low, high]?
+inline double binomial_p_value(double successes, double trials, double low, double high) {
+  const auto at_least = [&](double k, double p) {
+    return k <= 0 ? 1.0 : k > trials ? 0.0 : incomplete_beta(k, trials - k + 1, p);
+  };
+  const double as_many = at_least(successes, high), as_few = 1 - at_least(successes + 1, low);
+  return std::min(1.0, 2 * std::min(as_many, as_few));
+}
+
+}  // namespace montelux::test
