@@ -37,7 +37,7 @@ std::optional<int> whole_number(const std::string& text, int low) {
 
 // Applies "name=value" pairs to the settings of the path integrator.
 Status apply_settings(const std::vector<std::pair<std::string, std::string>>& pairs, PathSettings& settings) {
-  const std::vector<std::string_view> names{"maxdepth", "roulette-depth", "lanes"};
+  const std::vector<std::string_view> names{"maxdepth", "maxcomponent", "roulette-depth", "lanes"};
   for (const auto& [name, value] : pairs) {
     if (name == "maxdepth") {
       if (value == "none" || value == "unbounded") {
@@ -47,6 +47,15 @@ Status apply_settings(const std::vector<std::pair<std::string, std::string>>& pa
       } else {
         return Failure{fmt::format("maxdepth takes a whole number from 0, or none; found \"{}\"", value)};
       }
+    } else if (name == "maxcomponent") {
+      float most = 0;
+      auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), most);
+      if (value == "none")
+        settings.max_component.reset();
+      else if (error == std::errc{} && end == value.data() + value.size() && most > 0)
+        settings.max_component = most;
+      else
+        return Failure{fmt::format("maxcomponent takes a number above 0, or none; found \"{}\"", value)};
     } else if (name == "roulette-depth") {
       auto depth = whole_number(value, 0);
       if (!depth) return Failure{fmt::format("roulette-depth takes a whole number from 0; found \"{}\"", value)};
@@ -81,6 +90,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   if (options.integrator && *options.integrator != "path")
     return unknown("integrator", *options.integrator, views_of(integrators));
   plan.path.max_depth = picture.max_depth;
+  plan.path.max_component = picture.max_component;
   if (Status status = apply_settings(options.settings, plan.path); !status) return status.failure();
 
   RenderSettings& r = plan.render;
@@ -134,6 +144,8 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const Plan& pl
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
   std::string biased;
   if (plan.path.max_depth) biased += fmt::format("maxdepth={}", *plan.path.max_depth);
+  if (plan.path.max_component)
+    biased += fmt::format("{}maxcomponent={}", biased.empty() ? "" : " ", *plan.path.max_component);
   add("biasedOptions", biased.empty() ? std::string("none") : biased);
   const ErrorEstimate error = result.film.error(result.film.bounds());
   add("estimatedMSE", error.mse);
@@ -168,6 +180,11 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
         fmt::format("paths end after {} scattering events, as the scene asks: the picture is biased by what "
                     "longer paths would bring (--set maxdepth=none lifts it)",
                     *plan.path.max_depth));
+  if (plan.path.max_component)
+    notes.push_back(fmt::format(
+        "samples brighter than {} are scaled down to it: the picture is biased by the light that this takes "
+        "away (--set maxcomponent=none lifts it)",
+        *plan.path.max_component));
   return Rendering{std::move(result), std::move(header), std::move(notes), plan.render.plan};
 }
 

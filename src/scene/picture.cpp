@@ -58,6 +58,8 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.integrator = served_by(find_entity(integrator_table(), scene.integrator.type), scene.integrator.type);
   if (integrator.find("maxdepth")) s.max_depth = integrator.integer("maxdepth", 5);
   std::string selection = integrator.string("lightsampler", "bvh");
+  if (selection == "exhaustive")
+    diagnostics.note(scene.integrator.where, "light sampler \"exhaustive\" is served by \"bvh\"");
   s.light_selection = selection == "uniform" ? LightSelection::uniform
                       : selection == "power" ? LightSelection::power
                                              : LightSelection::bvh;

@@ -12,6 +12,8 @@ struct PathSettings {
   std::optional<int> max_depth;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
+  // Samples with a brighter component are scaled down to it: biased, and off unless asked for.
+  std::optional<float> max_component;
   Lanes lanes = Lanes::native;
 };
 
