@@ -72,11 +72,4 @@ MONTELUX_INLINE void layer_roulette(LayerWalk<F>& walk, int depth, F u) {
   walk.beta = walk.beta / select(doubtful, max(most, F(1e-30f)), F(1.0f));
 }
 
-// The power heuristic of two techniques with one sample each (Veach 1995), for the one of density a > 0.
-template <class F>
-MONTELUX_INLINE F power_heuristic(F a, F b) {
-  F r = b / max(a, F(1e-30f));
-  return F(1.0f) / (F(1.0f) + r * r);
-}
-
 }  // namespace montelux

@@ -3,6 +3,7 @@
 #pragma once
 #include "material/dielectric.h"
 #include "material/layer_walk.h"
+#include "mc/mis.h"
 
 namespace montelux {
 
@@ -138,7 +139,7 @@ Spectrum<F> Layered<F, Base>::meet_base(LayerWalk<F>& walk, const Exit& exit, co
                                         Mask<F> on) const {
   BsdfValue<F> value = base_.evaluate(-walk.w, exit.up, exit.context);
   Mask<F> rough = !coat_.is_delta();
-  F share = select(rough, power_heuristic(exit.density, value.density.value), F(1.0f));
+  F share = select(rough, power_weight(exit.density, value.density.value), F(1.0f));
   F arrives = exit.weight * share * medium_.transmittance(medium_.thickness, exit.up);
   Spectrum<F> sum = select(on & (exit.weight > F(0.0f)), walk.beta * value.f_cos * arrives, gray(F(0.0f)));
 
@@ -157,7 +158,7 @@ Spectrum<F> Layered<F, Base>::meet_medium(LayerWalk<F>& walk, const Exit& exit, 
                                           Mask<F> on) const {
   F phase = henyey_greenstein(dot(walk.w, exit.up), medium_.g);
   Mask<F> rough = !coat_.is_delta();
-  F share = select(rough, power_heuristic(exit.density, phase), F(1.0f));
+  F share = select(rough, power_weight(exit.density, phase), F(1.0f));
   F arrives = exit.weight * share * phase * medium_.transmittance(medium_.thickness - walk.z, exit.up);
   Spectrum<F> sum = select(on & (exit.weight > F(0.0f)), walk.beta * medium_.albedo * arrives, gray(F(0.0f)));
 
@@ -204,7 +205,7 @@ Spectrum<F> Layered<F, Base>::leave_by_chance(const LayerWalk<F>& walk, const Ex
   const TransportMode mode = exit.context.mode;
   CoatValue out = coat_.template evaluate_lobes<Lobes::transmission>(-walk.w, exit.wi, mode);
   CoatValue back = coat_.template evaluate_lobes<Lobes::transmission>(exit.wi, -walk.w, adjoint(mode));
-  F share = power_heuristic(density, back.density);
+  F share = power_weight(density, back.density);
   F arrives = out.f_cos * share * medium_.transmittance(medium_.thickness - walk.z, walk.w);
   return select(on, walk.beta * arrives, gray(F(0.0f)));
 }
