@@ -1,25 +1,13 @@
 #include "io/pbrt/spectra.h"
 
 #include <algorithm>
-#include <array>
 
+#include "color/named_spectra.h"
 #include "io/pbrt/lexer.h"
 #include "io/pbrt/numbers.h"
 #include "io/text_file.h"
 
 namespace montelux::pbrt {
-
-std::span<const std::string_view> spectrum_names() {
-  static constexpr std::array<std::string_view, 40> names{
-      "metal-Ag-eta",   "metal-Ag-k",   "metal-Al-eta",   "metal-Al-k",   "metal-Au-eta",  "metal-Au-k",
-      "metal-Cu-eta",   "metal-Cu-k",   "metal-CuZn-eta", "metal-CuZn-k", "metal-MgO-eta", "metal-MgO-k",
-      "metal-TiO2-eta", "metal-TiO2-k", "glass-BK7",      "glass-BAF10",  "glass-FK51A",   "glass-LASF9",
-      "glass-F5",       "glass-F10",    "glass-F11",      "glass-SF5",    "glass-SF10",    "glass-SF11",
-      "stdillum-A",     "stdillum-D50", "stdillum-D65",   "stdillum-F1",  "stdillum-F2",   "stdillum-F3",
-      "stdillum-F4",    "stdillum-F5",  "stdillum-F6",    "stdillum-F7",  "stdillum-F8",   "stdillum-F9",
-      "stdillum-F10",   "stdillum-F11", "stdillum-F12",   "illum-acesD60"};
-  return names;
-}
 
 std::optional<SampledValue> sampled_from_pairs(const std::vector<float>& pairs, const SourceLocation& where,
                                                Reporter& report) {
@@ -72,11 +60,11 @@ std::optional<SpectrumValue> read_spectrum_file(const std::string& path, const S
 
 std::optional<SpectrumValue> named_spectrum(const std::string& name, const std::string& folder,
                                             const SourceLocation& where, Reporter& report) {
-  auto names = spectrum_names();
+  const std::vector<std::string_view> names = named_spectra();
   if (std::find(names.begin(), names.end(), name) != names.end()) return SpectrumValue(NamedSpectrum{name});
   std::string path = resolve_path(folder, name);
   if (is_regular_file(path)) return read_spectrum_file(path, where, report);
-  std::string_view near = nearest_name(name, {names.begin(), names.end()});
+  std::string_view near = nearest_name(name, names);
   report.error(where, "'" + printable(name) + "' is neither a named spectrum nor a file",
                near.empty() ? "named spectra are as metal-Cu-eta, glass-BK7, stdillum-D65"
                             : "did you mean '" + std::string(near) + "'?");

@@ -1,17 +1,13 @@
 // Spectra that a scene names.
 #pragma once
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "io/reporter.h"
 #include "parameter/value.h"
 
 namespace montelux::pbrt {
-
-// The names that pbrt-v4 gives to measured spectra: metals, glasses, illuminants.
-std::span<const std::string_view> spectrum_names();
 
 // Wavelengths and values from pairs; reports what is wrong with them (uneven number, not rising) at `where`.
 std::optional<SampledValue> sampled_from_pairs(const std::vector<float>& pairs, const SourceLocation& where,
