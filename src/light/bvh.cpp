@@ -110,6 +110,8 @@ struct LightBvh::Builder {
     v[axis] = b.axis.x, v[axis + 1] = b.axis.y, v[axis + 2] = b.axis.z;
     v[intensity] = b.two_sided ? -b.intensity : b.intensity;
     v[cos_spread] = b.cos_spread, v[cos_emission] = b.cos_emission;
+    v[sin_spread] = std::sqrt(std::max(0.0f, 1 - b.cos_spread * b.cos_spread));
+    v[inverse_radius_squared] = 1 / std::max(v[radius_squared], 1e-18f);
     v[link] = std::bit_cast<float>(is_leaf ? link_bits | leaf_bit : link_bits);
   }
 

@@ -47,7 +47,17 @@ class LightBvh {
   };
   // Slots of a node. The intensity is negative where the lights send both ways. The link (bits) is the first of two
   // children that follow each other, or the light of a leaf, which the top bit tells.
-  enum Slot { centre = 0, radius_squared = 3, axis = 4, intensity = 7, cos_spread, cos_emission, link };
+  enum Slot {
+    centre = 0,
+    radius_squared = 3,
+    axis = 4,
+    intensity = 7,
+    cos_spread,
+    cos_emission,
+    link,
+    sin_spread,
+    inverse_radius_squared
+  };
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
 
   struct Item {
@@ -145,11 +155,12 @@ F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   Vec3<F> from =
       p - Vec3<F>{number_of<F>(node, centre), number_of<F>(node, centre + 1), number_of<F>(node, centre + 2)};
   F r2 = number_of<F>(node, radius_squared), d2 = max(length_squared(from), F(1e-30f));
-  Vec3<F> w = from * (F(1.0f) / sqrt(d2));
+  const F inverse_d = F(1.0f) / sqrt(d2), inverse_d2 = inverse_d * inverse_d;
+  Vec3<F> w = from * inverse_d;
 
   // The angle under which the ball of the bounds is seen; from inside, every direction.
   Mask<F> inside = d2 <= r2;
-  F sin2_b = min(r2 / d2, F(1.0f));
+  F sin2_b = min(r2 * inverse_d2, F(1.0f));
   F sin_b = select(inside, F(0.0f), sqrt(sin2_b)), cos_b = select(inside, F(-1.0f), sqrt(F(1.0f) - sin2_b));
 
   // The least angle between a normal of the cluster and a direction to p.
@@ -158,10 +169,11 @@ F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   F strength = number_of<F>(node, intensity);
   cos_w = select(strength < F(0.0f), abs(cos_w), cos_w);
   F sin_w = safe_sqrt(F(1.0f) - cos_w * cos_w);
-  F cos_o = number_of<F>(node, cos_spread), sin_o = safe_sqrt(F(1.0f) - cos_o * cos_o);
+  F cos_o = number_of<F>(node, cos_spread), sin_o = number_of<F>(node, sin_spread);
   F cos_x = cos_of_difference(sin_w, cos_w, sin_o, cos_o), sin_x = sin_of_difference(sin_w, cos_w, sin_o, cos_o);
   F cos_p = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-  F result = abs(strength) * max(cos_p, F(slack)) / max(max(d2, r2), F(1e-18f));
+  F result = abs(strength) * max(cos_p, F(slack)) *
+             min(select(inside, number_of<F>(node, inverse_radius_squared), inverse_d2), F(1e18f));
   result = select(cos_p > number_of<F>(node, cos_emission) - slack, result, F(0.0f));
 
   // The least angle between n and a direction to the cluster.
