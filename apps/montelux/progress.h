@@ -7,8 +7,8 @@
 
 namespace montelux::cli {
 
-// A line that is redrawn in place on a terminal, elsewhere a line after a second and then every ten; and it passes on the request of a
-// signal to stop.
+// A line that is redrawn in place on a terminal, elsewhere a line after a second and then every ten; and it passes on
+// the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
   ProgressLine(bool visible, const StopSignals& signals);
