@@ -19,12 +19,12 @@ const std::map<std::string, std::string> not_yet{{"staircase2-gray", "medium"}, 
 constexpr std::string_view rough_coats =
     "the reference renderer weighs the light that leaves a rough coat by chance with the density of the reversed "
     "directions, which makes one bounce about 10 % too bright; see RoughCoat in distribution/material";
-const std::map<std::string, std::string_view> expected_failures{
-    {"spot-herd-gray", rough_coats}, {"dining-room-gray", rough_coats}, {"many-lights-city-gray", rough_coats}};
+const std::map<std::string, std::string_view> expected_failures{{"spot-herd-gray", rough_coats},
+                                                                {"dining-room-gray", rough_coats}};
 
 // Scenes whose light arrives by rare paths take more samples than the others.
 const std::map<std::string, int> times_more{
-    {"veach-ajar-gray", 8}, {"veach-mis-gray", 8}, {"many-lights-city-gray", 2}};
+    {"veach-ajar-gray", 8}, {"veach-mis-gray", 8}, {"many-lights-city-gray", 8}};
 
 int samples_of(const std::string& name) {
   const char* stated = std::getenv("MONTELUX_REFERENCE_SAMPLES");
