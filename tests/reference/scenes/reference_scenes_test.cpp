@@ -12,11 +12,11 @@ struct SmallScene {
   std::string name;
   int samples;
 };
-const std::vector<SmallScene> small_scenes{{"coffee-gray", 64},
-                                           {"cornell-box-gray", 64},
-                                           {"light-types-gray", 64},
-                                           {"many-lights-city-gray", 192},
-                                           {"testball-silver-aniso-gray", 64}};
+const std::vector<SmallScene> small_scenes{{"coffee-gray", 256},
+                                           {"cornell-box-gray", 128},
+                                           {"light-types-gray", 128},
+
+                                           {"testball-silver-aniso-gray", 128}};
 
 void PrintTo(const SmallScene& s, std::ostream* out) { *out << s.name; }
 
