@@ -1,6 +1,6 @@
 // The bounce loop against the ray-tracing kernel alone, and a pack of lanes against one lane, on one core.
 //
-//   bench_path SCENE.pbrt [SAMPLES [SAMPLER]]
+//   bench_path [SCENE.pbrt [SAMPLES [SAMPLER]]]     (the bundled scene, from the root of the source, by default)
 //
 // Prints millions of camera samples a second for the pack and for the single lane (the same text, compiled for float),
 // and the share of the pack's time that the kernel takes: its packets are recorded and traced once more by themselves.
@@ -60,16 +60,13 @@ double median(std::vector<double> x) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 2) {
-    std::fputs("usage: bench_path SCENE.pbrt [SAMPLES [SAMPLER]]\n", stderr);
-    return 2;
-  }
-  LoadResult loaded = load_scene(arguments[1], {true, {}, 1});
+  const char* scene = count > 1 ? arguments[1] : "scenes/first-light/first-light.pbrt";
+  LoadResult loaded = load_scene(scene, {true, {}, 1});
   if (!loaded.scene) {
     for (const Diagnostic& d : loaded.diagnostics.all()) std::fputs(to_text(d, false).c_str(), stderr);
     return 2;
   }
-  const int samples = count > 2 ? std::max(1, std::atoi(arguments[2])) : 32;
+  const int samples = count > 2 ? std::max(1, std::atoi(arguments[2])) : 8;
   const auto sampler = count > 3 ? point_set_named(arguments[3]) : PointSetKind::independent;
   if (!sampler) {
     std::fprintf(stderr, "unknown sampler \"%s\"\n", arguments[3]);
