@@ -106,12 +106,12 @@ struct LightBvh::Builder {
     float* v = bvh.nodes_[node].v;
     Vec3f middle = (b.low + b.high) * 0.5f, half = max(b.high - middle, middle - b.low);
     v[centre] = middle.x, v[centre + 1] = middle.y, v[centre + 2] = middle.z;
-    v[radius_squared] = dot(half, half) * 1.00001f;
+    v[radius] = length(half) * 1.00001f;
     v[axis] = b.axis.x, v[axis + 1] = b.axis.y, v[axis + 2] = b.axis.z;
     v[intensity] = b.two_sided ? -b.intensity : b.intensity;
-    v[cos_spread] = b.cos_spread, v[cos_emission] = b.cos_emission;
-    v[sin_spread] = std::sqrt(std::max(0.0f, 1 - b.cos_spread * b.cos_spread));
-    v[inverse_radius_squared] = 1 / std::max(v[radius_squared], 1e-18f);
+    v[spread] = b.cos_spread < 0 ? 2.0f : std::sqrt(std::max(0.0f, 1 - b.cos_spread * b.cos_spread));
+    v[cos_emission] = b.cos_emission;
+    v[inverse_radius_squared] = std::min(1 / std::max(v[radius] * v[radius], 1e-37f), 1e18f);
     v[link] = std::bit_cast<float>(is_leaf ? link_bits | leaf_bit : link_bits);
   }
 

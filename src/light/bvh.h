@@ -49,13 +49,12 @@ class LightBvh {
   // children that follow each other, or the light of a leaf, which the top bit tells.
   enum Slot {
     centre = 0,
-    radius_squared = 3,
+    radius = 3,
     axis = 4,
     intensity = 7,
-    cos_spread,
+    spread,  // the sine of the largest angle between the axis and a normal; 2 where that is above a right angle
     cos_emission,
     link,
-    sin_spread,
     inverse_radius_squared
   };
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
@@ -134,17 +133,8 @@ class LightBvh {
 
 namespace light_bvh {
 
-// cos and sin of max(0, a - b) for angles in [0, pi], from their cosines and sines.
-template <class F>
-MONTELUX_INLINE F cos_of_difference(F sin_a, F cos_a, F sin_b, F cos_b) {
-  return select(cos_a > cos_b, F(1.0f), cos_a * cos_b + sin_a * sin_b);
-}
-template <class F>
-MONTELUX_INLINE F sin_of_difference(F sin_a, F cos_a, F sin_b, F cos_b) {
-  return select(cos_a > cos_b, F(0.0f), sin_a * cos_b - cos_a * sin_b);
-}
-
-// Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
+// Angles are subtracted by a bound, which costs no root: cos(max(0, a - b)) <= min(1, cos a + sin b), and is near to
+// it. Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
 inline constexpr float slack = 1e-3f;
 
 }  // namespace light_bvh
@@ -152,35 +142,29 @@ inline constexpr float slack = 1e-3f;
 template <class F, class At>
 F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   using namespace light_bvh;
-  Vec3<F> from =
+  const F one(1.0f);
+  const Vec3<F> from =
       p - Vec3<F>{number_of<F>(node, centre), number_of<F>(node, centre + 1), number_of<F>(node, centre + 2)};
-  F r2 = number_of<F>(node, radius_squared), d2 = max(length_squared(from), F(1e-30f));
-  const F inverse_d = F(1.0f) / sqrt(d2), inverse_d2 = inverse_d * inverse_d;
-  Vec3<F> w = from * inverse_d;
+  const F inverse_d = one / sqrt(max(length_squared(from), F(1e-30f)));
+  const Vec3<F> w = from * inverse_d;
 
   // The angle under which the ball of the bounds is seen; from inside, every direction.
-  Mask<F> inside = d2 <= r2;
-  F sin2_b = min(r2 * inverse_d2, F(1.0f));
-  F sin_b = select(inside, F(0.0f), sqrt(sin2_b)), cos_b = select(inside, F(-1.0f), sqrt(F(1.0f) - sin2_b));
+  const F sin_b = number_of<F>(node, radius) * inverse_d;
+  const Mask<F> inside = sin_b >= one;
 
   // The least angle between a normal of the cluster and a direction to p.
-  Vec3<F> a{number_of<F>(node, axis), number_of<F>(node, axis + 1), number_of<F>(node, axis + 2)};
-  F cos_w = clamp(dot(a, w), F(-1.0f), F(1.0f));
-  F strength = number_of<F>(node, intensity);
-  cos_w = select(strength < F(0.0f), abs(cos_w), cos_w);
-  F sin_w = safe_sqrt(F(1.0f) - cos_w * cos_w);
-  F cos_o = number_of<F>(node, cos_spread), sin_o = number_of<F>(node, sin_spread);
-  F cos_x = cos_of_difference(sin_w, cos_w, sin_o, cos_o), sin_x = sin_of_difference(sin_w, cos_w, sin_o, cos_o);
-  F cos_p = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-  F result = abs(strength) * max(cos_p, F(slack)) *
-             min(select(inside, number_of<F>(node, inverse_radius_squared), inverse_d2), F(1e18f));
+  const Vec3<F> a{number_of<F>(node, axis), number_of<F>(node, axis + 1), number_of<F>(node, axis + 2)};
+  const F strength = number_of<F>(node, intensity), along = dot(a, w);
+  const F cos_w = select(strength < F(0.0f), abs(along), along);
+  const F cos_p = select(inside, one, min(cos_w + number_of<F>(node, spread) + sin_b, one));
+  const F near = min(inverse_d * inverse_d, number_of<F>(node, inverse_radius_squared));
+  F result = abs(strength) * max(cos_p, F(slack)) * near;
   result = select(cos_p > number_of<F>(node, cos_emission) - slack, result, F(0.0f));
 
   // The least angle between n and a direction to the cluster.
-  F cos_i = clamp(F(0.0f) - dot(n, w), F(-1.0f), F(1.0f));
-  F cos_q = cos_of_difference(safe_sqrt(F(1.0f) - cos_i * cos_i), cos_i, sin_b, cos_b);
-  F facing = select(cos_q > F(-slack), max(cos_q, F(slack)), F(0.0f));
-  return result * select(length_squared(n) > F(0.5f), facing, F(1.0f));
+  const F cos_q = select(inside, one, min(sin_b - dot(n, w), one));
+  const F facing = select(cos_q > F(-slack), max(cos_q, F(slack)), F(0.0f));
+  return result * select(length_squared(n) > F(0.5f), facing, one);
 }
 
 template <class F>
