@@ -164,12 +164,14 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   samples = std::max(samples, 1);
   // Independent samples lose nothing by short passes; the others want the longest sets that leave enough replicates.
   constexpr int enough_replicates = 16, bare_replicates = 8;
+  // Beyond this a unit of work takes so long that a stop would have to wait for it.
+  constexpr int longest_pass = 1024;
   const int replicates = samples >= 256 ? enough_replicates : bare_replicates;
   int k = 1;
   if (kind == PointSetKind::independent) {
-    while (samples / (2 * k) >= 64) k *= 2;
+    while (samples / (2 * k) >= 64 && k < longest_pass) k *= 2;
   } else {
-    while (samples / (2 * k) >= replicates) k *= 2;
+    while (samples / (2 * k) >= replicates && k < longest_pass) k *= 2;
   }
   return {k, (samples + k - 1) / k};
 }
