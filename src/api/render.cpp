@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 
 #include "api/parts.h"
 #include "integrator/path/tracer.h"
@@ -171,7 +172,13 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (!checked) return checked.failure();
   Plan& plan = *checked;
   PathTracer tracer(parts.scene, *parts.accel, plan.path);
-  if (plan.render.seconds) plan.render.plan = plan_for_time(tracer, plan.render, *plan.render.seconds);
+  if (plan.render.seconds) {
+    // The pass that measures the speed is taken from the time, too.
+    const auto start = std::chrono::steady_clock::now();
+    plan.render.plan = plan_for_time(tracer, plan.render, *plan.render.seconds);
+    const std::chrono::duration<double> measured = std::chrono::steady_clock::now() - start;
+    plan.render.seconds = std::max(*plan.render.seconds - measured.count(), 0.0);
+  }
   RenderResult result = render(tracer, plan.render, observer);
   std::vector<Attribute> header = header_of(parts, plan, result);
   std::vector<std::string> notes;
