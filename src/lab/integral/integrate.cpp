@@ -1,0 +1,355 @@
+#include "lab/integral/integrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "lab/integral/summary.h"
+#include "lab/integral/technique.h"
+
+namespace montelux::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t default_samples = 1u << 20;
+constexpr std::uint64_t most_samples_of_pass = std::uint64_t(1) << 31;
+
+void check(const Problem& problem, const Budget& budget) {
+  const auto fail = [](std::string message) { throw std::invalid_argument(std::move(message)); };
+  if (!problem.integrand.evaluate) fail("there is no integrand");
+  if (problem.integrand.dimension < 1 || problem.integrand.dimension > 64)
+    fail(fmt::format("an integrand has 1 to 64 dimensions, not {}", problem.integrand.dimension));
+  if (budget.samples && *budget.samples < 2) fail("at least two samples are needed");
+  if (budget.seconds && !(*budget.seconds > 0)) fail("the time must be positive");
+  if (budget.target_error && !(*budget.target_error > 0)) fail("the target error must be positive");
+  if (!(budget.confidence > 0 && budget.confidence < 1)) fail("the confidence must lie between 0 and 1");
+}
+
+// Grows a state by whole parts of passes: all of them, or none where it is stopped on the way.
+class Runner {
+ public:
+  Runner(const Technique& technique, const Execution& execution, IntegralState& state)
+      : technique_(technique), traits_(technique.traits()), execution_(execution), state_(state) {}
+
+  // Adds samples [first, first + count) to passes [begin, end) of this run. False: stopped, and the state is as before.
+  bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count) {
+    std::vector<Unit> units;
+    for (std::uint32_t pass = begin; pass < end; ++pass) {
+      const std::uint64_t cut = traits_.unit == 0 ? count : traits_.unit;
+      for (std::uint64_t done = 0; done < count; done += cut)
+        units.push_back({pass, first + done, std::min(cut, count - done), {}});
+    }
+    if (!run_all(units, count * (end - begin))) return false;
+    for (const Unit& unit : units) enter(unit);
+    return true;
+  }
+
+ private:
+  struct Unit {
+    std::uint32_t pass;
+    std::uint64_t first, count;
+    TermSums sums;
+  };
+
+  bool run_all(std::vector<Unit>& units, std::uint64_t samples) {
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> stopped{false};
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto work = [&] {
+      try {
+        for (std::size_t i; !stopped && (i = next.fetch_add(1)) < units.size();) {
+          Unit& unit = units[i];
+          unit.sums = technique_.run({CubeKey::of(state_.seed, unit.pass), unit.first, unit.count});
+          if (execution_.stop) {
+            std::scoped_lock lock(mutex);
+            if (execution_.stop()) stopped = true;
+          }
+        }
+      } catch (...) {
+        std::scoped_lock lock(mutex);
+        if (!failure) failure = std::current_exception();
+        stopped = true;
+      }
+    };
+    // A thread costs tens of microseconds to start: not for less than a few thousand samples each.
+    const int wanted = execution_.threads > 0 ? execution_.threads : int(std::thread::hardware_concurrency());
+    const int threads = int(std::clamp<std::uint64_t>(samples / 16384, 1, std::uint64_t(std::max(1, wanted))));
+    {
+      std::vector<std::jthread> pool;
+      for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+      work();
+    }
+    if (failure) std::rethrow_exception(failure);
+    return next >= units.size() && !stopped;
+  }
+
+  // In the order of the units, whoever did them: the same bits for any number of threads.
+  void enter(const Unit& unit) {
+    PassRecord* record = &record_of(unit.pass);
+    TermSums sums;
+    sums.samples = record->samples, sums.sum = record->sum, sums.m2 = record->m2;
+    sums.merge(unit.sums);
+    record->samples = sums.samples, record->sum = sums.sum, record->m2 = sums.m2;
+    record->control_sum += unit.sums.control_sum;
+    record->control_squares += unit.sums.control_squares;
+    record->control_products += unit.sums.control_products;
+    state_.evaluations += unit.sums.evaluations, state_.non_finite += unit.sums.non_finite;
+    state_.proposed += unit.sums.proposed, state_.accepted += unit.sums.accepted;
+    state_.largest.merge(unit.sums.largest);
+  }
+
+  // The passes of a run stand one after the other, in the order of their numbers; a merged state may hold others.
+  PassRecord& record_of(std::uint32_t pass) {
+    std::vector<PassRecord>& all = state_.passes;
+    const auto is_it = [&](std::size_t i) {
+      return i < all.size() && all[i].index == pass && all[i].seed == state_.seed;
+    };
+    if (!is_it(last_) && is_it(last_ + 1)) ++last_;
+    for (std::size_t i = 0; i < all.size() && !is_it(last_); ++i)
+      if (is_it(i)) last_ = i;
+    if (!is_it(last_)) {
+      all.push_back({});
+      last_ = all.size() - 1;
+      all[last_].seed = state_.seed, all[last_].index = pass;
+    }
+    return all[last_];
+  }
+
+  const Technique& technique_;
+  TechniqueTraits traits_;
+  const Execution& execution_;
+  IntegralState& state_;
+  std::size_t last_ = 0;  // the record that was asked for last
+};
+
+// One run: decides how many passes of how many samples, and when it is enough.
+class Run {
+ public:
+  Run(const Technique& technique, const Budget& budget, const Execution& execution, IntegralState& state,
+      Clock::time_point start)
+      : traits_(technique.traits()),
+        budget_(budget),
+        execution_(execution),
+        state_(state),
+        runner_(technique, execution, state),
+        start_(start),
+        seconds_before_(state.seconds),
+        evaluations_before_(state.evaluations - state.training_evaluations) {
+    for (const PassRecord& p : state.passes)
+      if (p.seed == state.seed) {
+        passes_ = std::max(passes_, p.index + 1);
+        length_ = std::max(length_, p.samples);
+      }
+  }
+
+  StopReason go() {
+    if (!budget_.seconds && !budget_.target_error) return run_fixed(budget_.samples.value_or(default_samples));
+    return run_growing();
+  }
+  bool target_reached() const { return reached_; }
+  double confidence() const { return confidence_; }
+
+ private:
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  std::uint64_t spent() const { return state_.evaluations - state_.training_evaluations - evaluations_before_; }
+
+  bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count) {
+    const bool done = runner_.add(begin, end, first, count);
+    state_.seconds = seconds_before_ + elapsed();
+    return done;
+  }
+
+  void observe(double fraction) const {
+    if (!execution_.observer) return;
+    const PassEstimate e = estimate_of(state_);
+    execution_.observer({e.mean, e.standard_error, std::min(1.0, fraction), elapsed(), state_.evaluations,
+                         std::uint64_t(state_.passes.size())});
+  }
+
+  // As many samples as are given, in passes of one length; new passes where the run goes on.
+  StopReason run_fixed(std::uint64_t samples) {
+    if (samples > state_.training_evaluations && passes_ == 0) samples -= state_.training_evaluations;
+    std::uint64_t passes = state_.method.passes > 0 ? state_.method.passes : traits_.passes;
+    std::uint64_t length = std::max(traits_.least, samples / passes);
+    if (passes_ > 0) length = length_;
+    if (traits_.powers_of_two && state_.method.passes == 0) length = std::bit_floor(std::max<std::uint64_t>(1, length));
+    if (traits_.powers_of_two || passes_ > 0)
+      passes = state_.method.passes > 0 && passes_ == 0 ? passes : samples / length;
+    passes = std::max<std::uint64_t>(passes, passes_ > 0 ? 1 : 2);
+    // Groups of passes small enough that progress is seen and a stop is obeyed soon.
+    const std::uint64_t group = std::max<std::uint64_t>(1, (std::uint64_t(1) << 20) / length);
+    const std::uint32_t last = passes_ + std::uint32_t(passes);
+    for (std::uint32_t begin = passes_; begin < last;) {
+      const auto end = std::uint32_t(std::min<std::uint64_t>(last, begin + group));
+      if (!add(begin, end, 0, length)) return StopReason::stopped;
+      begin = end;
+      observe(double(begin - passes_) / double(last - passes_));
+    }
+    return StopReason::samples;
+  }
+
+  // Passes that double in length, looked at after each doubling, until the time, the samples or the target is reached;
+  // what is left of the time or the samples goes into more passes of the same length.
+  StopReason run_growing() {
+    if (passes_ == 0) {
+      passes_ = state_.method.passes > 0 ? state_.method.passes : std::max<std::uint32_t>(16, traits_.passes);
+      length_ = std::bit_ceil(std::max(traits_.least, first_look / passes_));
+      if (budget_.samples)
+        length_ = std::min(length_, std::max<std::uint64_t>(traits_.least, *budget_.samples / passes_));
+      if (!add(0, passes_, 0, length_)) return StopReason::stopped;
+    }
+    while (true) {
+      observe(fraction());
+      if (look()) return StopReason::target_error;
+      const std::uint64_t cost = length_ * passes_;
+      if (affordable(cost) && length_ < most_samples_of_pass) {
+        if (!add(0, passes_, length_, length_)) return StopReason::stopped;
+        length_ *= 2;
+        continue;
+      }
+      const StopReason reason = spend_rest();
+      if (look()) return StopReason::target_error;
+      return reason;
+    }
+  }
+
+  StopReason spend_rest() {
+    while (affordable(length_)) {
+      const std::uint64_t fit = budget_.samples ? (*budget_.samples - spent()) / length_ : passes_;
+      const auto group =
+          std::uint32_t(std::clamp<std::uint64_t>(std::min<std::uint64_t>(fit, (1u << 18) / length_), 1, 1u << 16));
+      if (!add(passes_, passes_ + group, 0, length_)) return StopReason::stopped;
+      passes_ += group;
+      observe(fraction());
+    }
+    return budget_.samples && spent() + length_ > *budget_.samples ? StopReason::samples : StopReason::seconds;
+  }
+
+  // Do the samples fit what is left, as far as the speed so far tells?
+  bool affordable(std::uint64_t samples) const {
+    if (budget_.samples && spent() + samples > *budget_.samples) return false;
+    if (!budget_.seconds) return true;
+    const double left = *budget_.seconds - elapsed();
+    return left > 0 && double(samples) * elapsed() / double(std::max<std::uint64_t>(1, spent())) <= left;
+  }
+  double fraction() const {
+    double f = 0;
+    if (budget_.samples) f = double(spent()) / double(*budget_.samples);
+    if (budget_.seconds) f = std::max(f, elapsed() / *budget_.seconds);
+    if (budget_.target_error && target() > 0) {
+      const double ratio = target() / std::max(1e-300, estimate_of(state_).reach(confidence_));
+      f = std::max(f, std::min(1.0, ratio * ratio));
+    }
+    return f;
+  }
+  double target() const {
+    return *budget_.target_error * (budget_.target_is_relative ? std::abs(estimate_of(state_).mean) : 1.0);
+  }
+
+  // One look of the stopping rule, at its share of the error rate.
+  bool look() {
+    if (!budget_.target_error) return false;
+    confidence_ = confidence_of_look(budget_.confidence, ++state_.looks);
+    reached_ = estimate_of(state_).reach(confidence_) <= target();
+    return reached_;
+  }
+
+  static constexpr std::uint64_t first_look = 4096;
+
+  TechniqueTraits traits_;
+  const Budget& budget_;
+  const Execution& execution_;
+  IntegralState& state_;
+  Runner runner_;
+  Clock::time_point start_;
+  double seconds_before_;
+  std::uint64_t evaluations_before_;
+  std::uint32_t passes_ = 0;  // of this seed
+  std::uint64_t length_ = 0;  // samples of each
+  bool reached_ = false;
+  double confidence_ = 0;  // of the last look
+};
+
+}  // namespace
+
+std::string_view name_of(StopReason reason) {
+  switch (reason) {
+    case StopReason::samples:
+      return "samples";
+    case StopReason::seconds:
+      return "seconds";
+    case StopReason::target_error:
+      return "target-error";
+    case StopReason::stopped:
+      break;
+  }
+  return "stopped";
+}
+
+IntegralResult integrate(const Problem& problem, const Method& method, const Budget& budget,
+                         const Execution& execution) {
+  const Clock::time_point start = Clock::now();
+  check(problem, budget);
+  IntegralState state;
+  if (execution.resume) {
+    state = *execution.resume;
+    if (state.dimension != problem.integrand.dimension)
+      throw std::invalid_argument(fmt::format("the state is of an integral in {} dimensions, this one has {}",
+                                              state.dimension, problem.integrand.dimension));
+  } else {
+    state.method = method, state.dimension = problem.integrand.dimension, state.seed = execution.seed;
+  }
+  const auto technique = make_technique(problem, state.method, state.seed, state.training_samples);
+  Run run(*technique, budget, execution, state, start);
+  const StopReason reason = run.go();
+  IntegralResult result = result_of(state, budget.confidence);
+  result.stopped_because = reason;
+  result.target_reached = run.target_reached();
+  if (budget.target_error) {
+    const double reach = estimate_of(state).reach(run.confidence());
+    result.interval = {result.mean - reach, result.mean + reach};
+    if (!result.target_reached)
+      result.warnings.push_back(
+          {IntegralWarning::Kind::target,
+           fmt::format("the budget ended before the target error: half the interval is {:.3g}", reach)});
+  }
+  return result;
+}
+
+bool DensityReport::normalised() const { return std::abs(integral - 1) <= std::max(1e-3, 5 * standard_error); }
+
+DensityReport inspect_density(const Problem& problem, std::size_t which, std::uint64_t samples, std::uint64_t seed) {
+  const UserDensity& density = problem.densities.at(which);
+  const std::size_t dimension = problem.integrand.dimension;
+  DensityReport report;
+  Moments integral, missed;
+  const std::size_t most = batch_size(dimension);
+  std::vector<double> points(dimension * most), p(most), f(most);
+  for (std::uint64_t done = 0; done < samples; done += most) {
+    const PointBatch batch{points, dimension, most};
+    fill_independent(CubeKey::of(seed, 0xdec1a7edu), {dimension, done, most, points.data()});
+    density.density(batch, p);
+    problem.integrand.evaluate(batch, f);
+    for (std::size_t i = 0; i < most; ++i) {
+      integral.add(p[i] * density.scale);
+      missed.add(p[i] == 0 ? f[i] : 0.0);
+      report.negative |= p[i] < 0;
+    }
+  }
+  report.integral = integral.mean, report.standard_error = integral.standard_error();
+  report.non_finite = integral.non_finite;
+  report.missed = missed.mean, report.missed_error = missed.standard_error();
+  return report;
+}
+
+}  // namespace montelux::lab

@@ -1,0 +1,127 @@
+// Integrals over the unit hypercube by named methods. The estimate of every method is the mean over passes: independent
+// randomisations of one construction, whose spread gives the error bar, so it holds whatever the correlation inside.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/integral/integrand.h"
+#include "lab/integral/methods.h"
+#include "lab/integral/state.h"
+#include "mc/confidence.h"
+
+namespace montelux::lab {
+
+// How points of a density are drawn: by its inverse where one is given; else by a table of its inverse distribution
+// function (up to three dimensions; the table's own density then enters the estimate, so it stays unbiased), or by
+// rejection from the uniform distribution.
+enum class DensitySampling : std::uint8_t { automatic, inverse, table, rejection };
+
+// A density to sample from, per unit volume of the unit hypercube. It should integrate to 1 (inspect_density checks
+// it).
+struct UserDensity {
+  BatchFunction density;
+  std::optional<BatchMap> inverse{};  // from uniform points of the cube to points of this density
+  DensitySampling sampling = DensitySampling::automatic;
+  std::optional<double> bound{};  // of the density, for rejection; absent: the largest value found, raised
+  double scale = 1;               // the density is scale * density: what normalises it
+};
+
+// A function near to the integrand, and its integral over the cube.
+struct ControlVariate {
+  BatchFunction evaluate;
+  double integral = 0;
+};
+
+struct Problem {
+  Integrand integrand;
+  std::vector<UserDensity> densities{};     // importance: the first; mis: all
+  std::optional<ControlVariate> control{};  // control
+  std::optional<BatchFunction> target{};    // ris, metropolis: not normalised, not negative; absent: |integrand|
+};
+
+// When to stop: at the first of what is given. Nothing given: 2^20 samples. The target is for half the width of the
+// interval at `confidence`, absolute, or relative to the estimate; the stopping rule is valid whenever it stops (see
+// docs/integration.md).
+struct Budget {
+  std::optional<std::uint64_t> samples{};
+  std::optional<double> seconds{};
+  std::optional<double> target_error{};
+  bool target_is_relative = false;
+  double confidence = 0.95;
+};
+
+struct IntegralProgress {
+  double mean = 0, standard_error = 0, fraction = 0, elapsed = 0;  // fraction of the work, in [0, 1]
+  std::uint64_t evaluations = 0, passes = 0;
+};
+
+struct Execution {
+  std::uint64_t seed = 0;
+  int threads = 1;                                          // 0: all of the machine. The bits do not depend on it.
+  std::function<bool()> stop{};                             // asked between units of work; may be empty
+  std::function<void(const IntegralProgress&)> observer{};  // told from one thread at a time; may be empty
+  std::optional<IntegralState> resume{};                    // goes on from here: the method and seed are the state's
+};
+
+enum class StopReason : std::uint8_t { samples, seconds, target_error, stopped };
+std::string_view name_of(StopReason reason);
+
+// Something that makes the result less than it claims.
+struct IntegralWarning {
+  enum class Kind : std::uint8_t { non_finite, heavy_tail, missed_region, density, inconsistent, few_passes, target };
+  Kind kind;
+  std::string message;
+};
+
+// How heavy the tail of the single terms f / p is.
+struct TailDiagnosis {
+  double hill_index = 0;     // estimated tail index: the variance is infinite below 2; infinite where there is no tail
+  double largest_share = 0;  // of the largest term in the sum of squared deviations
+  bool heavy = false;        // the error bar is not to be trusted
+};
+
+struct IntegralResult {
+  double mean = 0, standard_error = 0;
+  double confidence = 0.95;
+  Interval interval{0, 0};        // holds the integral with probability `confidence`; sequentially valid with a target
+  std::uint64_t evaluations = 0;  // of the integrand, pilots and training included
+  std::uint64_t training_evaluations = 0;  // of these, those that do not enter the mean
+  double variance_of_one_sample = 0;       // of a single term of the mean
+  double seconds = 0, efficiency = 0;      // efficiency: 1 / (standard_error^2 * seconds)
+  std::uint64_t passes = 0, non_finite = 0;
+  double chi2_per_dof = 0, q = 1;  // are the passes of one distribution, by the variance inside and among them?
+  TailDiagnosis tail;
+  std::optional<double> acceptance;   // of rejection or of the Markov chain
+  std::optional<double> coefficient;  // of the control variate, the mean over passes
+  Method method;                      // the one that did the work: never automatic
+  std::string why;                    // what `auto` measured and why it chose the method; else empty
+  StopReason stopped_because = StopReason::samples;
+  bool target_reached = false;
+  std::vector<IntegralWarning> warnings;
+  IntegralState state;
+};
+
+// Throws std::invalid_argument where the problem lacks what the method needs (a density, a control variate), the
+// dimension is not in 1..64, or the budget is empty or not positive.
+IntegralResult integrate(const Problem& problem, const Method& method, const Budget& budget,
+                         const Execution& execution = {});
+
+// The result that a state (saved, or merged from several) stands for.
+IntegralResult result_of(const IntegralState& state, double confidence = 0.95);
+
+// What is wrong with a density, measured with `samples` uniform points.
+struct DensityReport {
+  double integral = 0, standard_error = 0;  // of the density as given, times scale
+  bool negative = false;
+  std::uint64_t non_finite = 0;
+  double missed = 0, missed_error = 0;  // the integral of the integrand where the density is 0: the bias it causes
+  double acceptance = 1;                // of rejection with the bound; 1 where another way of sampling is taken
+  bool normalised() const;              // 1 within five standard errors or 1e-3
+};
+DensityReport inspect_density(const Problem& problem, std::size_t which, std::uint64_t samples = 1u << 16,
+                              std::uint64_t seed = 0);
+
+}  // namespace montelux::lab

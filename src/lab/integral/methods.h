@@ -1,0 +1,56 @@
+// The methods of integration by name: one closed table feeds the parser, the help text and the documentation.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "mc/mis.h"
+#include "parameter/choice.h"
+
+namespace montelux::lab {
+
+enum class MethodKind : std::uint8_t {
+  uniform,
+  stratified,
+  antithetic,
+  control,
+  importance,
+  mis,
+  qmc,
+  vegas,
+  miser,
+  ris,
+  metropolis,
+  automatic
+};
+enum class Strata : std::uint8_t { grid, latin };
+enum class QmcPoints : std::uint8_t { sobol, halton, lattice };
+
+// A method with its parameters; those of other methods are ignored.
+struct Method {
+  MethodKind kind = MethodKind::automatic;
+  std::uint32_t passes = 0;  // independent randomisations; 0: the method's own choice
+  Strata strata = Strata::grid;
+  std::optional<double> coefficient;  // of the control variate; absent: the best one, fitted on the other passes
+  MisHeuristic heuristic = MisHeuristic::balance;
+  QmcPoints points = QmcPoints::sobol;
+  bool baker = false;  // fold each coordinate by the baker's transformation, which makes the integrand periodic
+  bool adapt = false;  // qmc: through an adaptive map of each coordinate
+  std::uint32_t candidates = 16, resamples = 1;  // ris: M and N
+  double step = 0.3;                             // metropolis: the size of a small step; 0 < step <= 1
+};
+
+// Every method by name, in the order of MethodKind, with its parameters.
+std::span<const EntitySpec> method_table();
+std::string_view name_of(MethodKind kind);
+
+// The method of that name with its settings. Fails with one message that names everything that is wrong.
+Result<Method> method_of(std::string_view name, const std::vector<Setting>& settings);
+// The same from text as a person types it: "qmc", "qmc:points=lattice,baker=true".
+Result<Method> parse_method(std::string_view text);
+// The shortest text that parse_method reads as this method.
+std::string to_text(const Method& method);
+
+}  // namespace montelux::lab

@@ -1,0 +1,46 @@
+// A running estimate as a plain value: saved, resumed, merged.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lab/integral/methods.h"
+#include "mc/moments.h"
+#include "mc/tail.h"
+
+namespace montelux::lab {
+
+// One pass: an independent randomisation, and the sums over its samples so far.
+struct PassRecord {
+  std::uint64_t seed = 0;   // of the run it is from
+  std::uint32_t index = 0;  // its number there
+  std::uint64_t samples = 0;
+  double sum = 0, m2 = 0;  // of the terms; of their squared deviations from their mean
+  // Of the control variate less its integral, of its square, and of its product with the term.
+  double control_sum = 0, control_squares = 0, control_products = 0;
+  double mean() const { return samples == 0 ? 0 : sum / double(samples); }
+};
+
+struct IntegralState {
+  Method method;  // what does the work; never automatic
+  std::size_t dimension = 1;
+  std::uint64_t seed = 0;              // of the run that goes on
+  std::uint64_t training_samples = 0;  // the plan that adaptive methods train by, so that a resumed run trains alike
+  std::uint64_t training_evaluations = 0;
+  std::uint64_t evaluations = 0, non_finite = 0;  // training included
+  double seconds = 0;
+  int looks = 0;                             // at the data by a stopping rule
+  std::uint64_t proposed = 0, accepted = 0;  // of rejection or of the Markov chain
+  std::vector<PassRecord> passes;
+  LargestTerms largest;
+};
+
+std::string to_json(const IntegralState& state);
+// Throws std::invalid_argument that says what is wrong with the text.
+IntegralState state_from_json(std::string_view text);
+// As if all passes had been made in one run. Throws std::invalid_argument where method or dimension differ, or where
+// two states share passes (equal seeds).
+IntegralState merge(const std::vector<IntegralState>& states);
+
+}  // namespace montelux::lab

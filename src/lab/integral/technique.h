@@ -1,0 +1,52 @@
+// What a method of integration does in one pass. The engine runs passes, adds them up, and knows nothing else of it.
+#pragma once
+#include <memory>
+
+#include "lab/integral/integrate.h"
+#include "mc/cube_points.h"
+
+namespace montelux::lab {
+
+// Sums over the terms of a part of a pass.
+struct TermSums {
+  std::uint64_t samples = 0, evaluations = 0, non_finite = 0, proposed = 0, accepted = 0;
+  double sum = 0, m2 = 0;
+  double control_sum = 0, control_squares = 0, control_products = 0;
+  LargestTerms largest;
+
+  // Adds terms; a non-finite one is counted and becomes 0 (in place).
+  void add(std::span<double> terms);
+  void merge(const TermSums& other);
+};
+
+// The samples [first, first + count) of a pass.
+struct PassPart {
+  CubeKey key;  // of the pass
+  std::uint64_t first = 0, count = 0;
+};
+
+// How a technique likes to be asked.
+struct TechniqueTraits {
+  std::uint32_t passes = 32;   // for a fixed number of samples
+  std::uint64_t unit = 8192;   // a part may be cut at multiples of this, for threads; 0: never
+  bool powers_of_two = false;  // the samples of a pass should be a power of two
+  std::uint64_t least = 1;     // samples that a part needs at the least
+  std::uint64_t training_evaluations = 0;
+};
+
+// An unbiased estimator of the integral: the mean over the terms of a pass, whatever parts it was run in.
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  virtual TechniqueTraits traits() const = 0;
+  virtual TermSums run(const PassPart& part) const = 0;
+};
+
+// The method made ready: adaptive ones train with about `training_samples` samples. Throws like integrate.
+std::unique_ptr<Technique> make_technique(const Problem& problem, const Method& method, std::uint64_t seed,
+                                          std::uint64_t training_samples);
+
+// Points that go into one call of the integrand: so many that they fit the first cache.
+std::size_t batch_size(std::size_t dimension);
+
+}  // namespace montelux::lab
