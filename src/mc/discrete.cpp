@@ -1,5 +1,6 @@
 #include "mc/discrete.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -60,6 +61,26 @@ AliasTable::AliasTable(std::span<const double> weights) {
   for (std::uint32_t i : poor) {
     share_[i] = mass_[i] > 0 ? 1.0f : 0.0f;
     alias_[i] = heaviest;
+  }
+  list_parts();
+}
+
+void AliasTable::list_parts() {
+  std::vector<std::vector<std::uint32_t>> bins(size());
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (share_[i] > 0) bins[i].push_back(i);
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (share_[i] < 1 && alias_[i] != i) bins[alias_[i]].push_back(i);
+  first_part_ = {0};
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    double before = 0;
+    for (std::uint32_t bin : bins[i]) {
+      part_bin_.push_back(bin);
+      part_start_.push_back(std::min(float(before / (double(mass_[i]) * size())), one_minus_epsilon));
+      before += bin == i ? double(share_[bin]) : 1 - double(share_[bin]);
+    }
+    first_part_.push_back(std::uint32_t(part_bin_.size()));
+    most_parts_ = std::max(most_parts_, first_part_[i + 1] - first_part_[i]);
   }
 }
 

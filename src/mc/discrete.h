@@ -14,18 +14,23 @@ struct DiscreteSample {
   F remapped;  // what is left of the random number, uniform in [0, 1) again
 };
 
-// The last i in [0, n) with ascending[base + i] <= x, in every lane; ascending[base] <= x.
+// The last i in [0, n) with ascending[base + i] <= x, in every lane; ascending[base] <= x. n may differ between lanes
+// and is at most `most`.
 template <class F>
-MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, std::uint32_t n, F x) {
+MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, Uint<F> n, std::uint32_t most, F x) {
   using U = Uint<F>;
   U low = 0u;
-  for (std::uint32_t step = std::bit_floor(n); step != 0; step /= 2) {
+  for (std::uint32_t step = std::bit_floor(most); step != 0; step /= 2) {
     U middle = low + U(step);
-    U safe = min(middle, U(n - 1u));
-    Mask<F> go = (middle < U(n)) & (gather(ascending, U(base + safe)) <= x);
+    U safe = min(middle, n - U(1u));
+    Mask<F> go = (middle < n) & (gather(ascending, U(base + safe)) <= x);
     low = select(go, middle, low);
   }
   return low;
+}
+template <class F>
+MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, std::uint32_t n, F x) {
+  return find_interval<F>(ascending, base, Uint<F>(n), n, x);
 }
 
 // The weights' running sums from 0 to exactly 1, n + 1 numbers. Negative and non-finite weights, or none at all, throw
@@ -83,11 +88,36 @@ class AliasTable {
   Mass<F> mass(Uint<F> index) const {
     return {gather(mass_.data(), index)};
   }
+  // A u that `sample` maps to this element, whose mass must not be zero: for v in [0, 1) from first to last the numbers
+  // of the element's own bin, then those of the bins that it tops up, each bin's linearly; uniform where v is. An
+  // interval of u that is narrower than 2^-24 may be missed.
+  template <class F>
+  F invert(Uint<F> index, F v) const {
+    const Uint<F> first = gather(first_part_.data(), index), end = gather(first_part_.data() + 1, index);
+    const Uint<F> part = first + find_interval<F>(part_start_.data(), first, end - first, most_parts_, v);
+    const Uint<F> bin = gather(part_bin_.data(), part);
+    const Mask<F> own = bin == index;
+    const F share = gather(share_.data(), bin), n = float(size());
+    const F low = select(own, F(0.0f), share), high = select(own, share, F(1.0f));
+    // From a share of the element's mass to one of the bin's.
+    const F inside = (v - gather(part_start_.data(), part)) * gather(mass_.data(), index) * n;
+    const F u = min((to_float(bin) + min(low + inside, high)) / n, F(one_minus_epsilon));
+    // Rounding at an edge must not lead to the neighbour: a few units in the last place toward the middle.
+    const F to_middle = (to_float(bin) + F(0.5f) * (low + high)) / n - u;
+    return select(sample(u).index == index, u, u + min(max(to_middle, F(-0x1p-22f)), F(0x1p-22f)));
+  }
 
  private:
+  void list_parts();
+
   std::vector<float> mass_;
   std::vector<float> share_;          // of a bin that its own element has
   std::vector<std::uint32_t> alias_;  // the element that has the rest of the bin
+  // For the inverse: the bins of element i, its own first, are parts first_part_[i] to first_part_[i + 1]; part_start_
+  // is what share of its mass lies in its bins before.
+  std::vector<std::uint32_t> first_part_, part_bin_;
+  std::vector<float> part_start_;
+  std::uint32_t most_parts_ = 0;  // of one element
 };
 
 }  // namespace montelux

@@ -130,6 +130,46 @@ inline TestResult proportion_test(double successes, double trials, double truth)
   return z_test(successes, std::sqrt(trials * truth * (1 - truth)), trials * truth);
 }
 
+// One-sided: the p-value of "the truth is `bound` or more". Small values prove that it is less; 1 minus this is the
+// p-value of "the truth is `bound` or less".
+inline double at_least_p_value(double value, double standard_error, double bound) {
+  if (standard_error == 0) return value < bound ? 0 : 1;
+  return normal_cdf((value - bound) / standard_error);
+}
+inline double at_most_p_value(double value, double standard_error, double bound) {
+  return at_least_p_value(-value, standard_error, -bound);
+}
+
+// One-sided test of two sample variances of normal values (Fisher's F): the p-value of "the first is not larger in
+// truth".
+inline double f_test_p_value(double a, double count_a, double b, double count_b) {
+  const double da = count_a - 1, db = count_b - 1;
+  return incomplete_beta(0.5 * db, 0.5 * da, db * b / (db * b + da * a));
+}
+
+// The variance of a random variable as the mean of the variances of batches, and the spread of those among the batches:
+// whatever the variable's kurtosis, a t-test of this summary is a test of the variance. `realise(i)` is its i-th
+// independent realisation.
+template <class Realise>
+SampleSummary variance_summary(Realise realise, std::uint32_t realisations, std::uint32_t batches = 50) {
+  std::vector<double> variances;
+  for (std::uint32_t b = 0; b < batches; ++b) {
+    Moments m;
+    for (std::uint32_t i = b; i < realisations; i += batches) m.add(double(realise(i)));
+    variances.push_back(m.variance());
+  }
+  return summarize(variances);
+}
+
+// The exponent of N in a quantity that was measured at N and at `factor` N, with its standard error (delta method).
+struct Exponent {
+  double value, standard_error;
+};
+inline Exponent measured_exponent(const SampleSummary& first, const SampleSummary& second, double factor) {
+  const double relative = std::hypot(first.standard_error() / first.mean, second.standard_error() / second.mean);
+  return {std::log(second.mean / first.mean) / std::log(factor), relative / std::log(factor)};
+}
+
 // ---- quadrature -----------------------------------------------------------------------------------------------------
 
 struct QuadratureRule {

@@ -1,6 +1,8 @@
 // Distributions on a line and tables of weights.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "mc/discrete.h"
 #include "mc/linear.h"
 #include "mc/piecewise.h"
@@ -13,7 +15,7 @@ namespace {
 
 using namespace test;
 
-const double level = sidak_level(family_level, 60);
+const double level = sidak_level(family_level, 66);
 constexpr double samples = 200000;
 
 float bent(float u) { return std::pow(u, 1.06f); }
@@ -164,12 +166,81 @@ TEST(DiscreteCdf, choice_matches_mass) {
   }
 }
 
-TEST(AliasTable, choice_matches_mass) {
-  check_discrete(AliasTable(weights), weights);
+std::vector<double> many_weights() {
   std::vector<double> many;
   for (int i = 0; i < 1000; ++i) many.push_back(i % 17 == 0 ? 0 : 1.0 / (1 + i % 29));
-  const AliasTable table(many);
-  EXPECT_GT(index_p_value(table, many, 1.0f), level);
+  return many;
+}
+
+TEST(AliasTable, choice_matches_mass) {
+  check_discrete(AliasTable(weights), weights);
+  const AliasTable table(many_weights());
+  EXPECT_GT(index_p_value(table, many_weights(), 1.0f), level);
+}
+
+TEST(AliasTable, inverse_is_one_to_one_onto_the_numbers_that_lead_to_an_element) {
+  for (const std::vector<double>& w : {weights, many_weights(), std::vector<double>{5}, std::vector<double>{0, 0}}) {
+    const AliasTable table(w);
+    double total = 0;
+    for (double x : w) total += x;
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+      if (total > 0 && w[i] == 0) continue;
+      // The inverse is linear in pieces of slope 1 / mass, so that evenly spaced v lead to numbers at least this far
+      // apart.
+      const int n = 200;
+      const double apart = double(table.mass<float>(i).value) / n;
+      std::vector<float> found;
+      for (int k = 0; k < n; ++k) {
+        const float u = table.invert<float>(i, (float(k) + 0.5f) / n);
+        ASSERT_EQ(table.sample(u).index, i) << u;
+        found.push_back(u);
+      }
+      std::sort(found.begin(), found.end());
+      if (apart < 0x1p-20) continue;
+      // Where one piece ends and the next begins two numbers may be nearer, their pieces being cut at different phases.
+      int near = 0;
+      for (int k = 1; k < n; ++k) near += double(found[std::size_t(k)] - found[std::size_t(k) - 1]) < apart - 0x1p-21;
+      std::set<int> bins;
+      for (float u : found) bins.insert(int(u * float(table.size())));
+      EXPECT_LE(near, int(bins.size()) - 1) << i;
+    }
+  }
+}
+
+TEST(AliasTable, inverse_of_samples_is_uniform) {
+  const auto number = [](const AliasTable& table, auto& s, float fault) {
+    const std::uint32_t i = table.sample(s.next()).index;
+    return table.invert<float>(i, std::pow(s.next(), fault));
+  };
+  for (const std::vector<double>& w : {weights, many_weights()}) {
+    const AliasTable table(w);
+    const auto p_value = [&](auto draw, int cells) {
+      return line_p_value(
+          draw, [](float) { return 1.0f; }, 0, 1, cells);
+    };
+    for (int cells : {12, 360}) EXPECT_GT(p_value([&](auto& s) { return number(table, s, 1); }, cells), level);
+    EXPECT_LT(p_value([&](auto& s) { return number(table, s, 1.3f); }, 360), level);
+    // An inverse that keeps to the first of the bins of each element is seen.
+    const auto first_bin = [&](auto& s) {
+      const std::uint32_t i = table.sample(s.next()).index;
+      const float bin = std::floor(table.invert<float>(i, 0.0f) * float(table.size()));
+      for (;;) {
+        const float u = (bin + s.next()) / float(table.size());
+        if (table.sample(u).index == i) return u;
+      }
+    };
+    EXPECT_LT(p_value(first_bin, 360), level);
+  }
+}
+
+TEST(AliasTable, lanes_invert_as_floats_do) {
+  const AliasTable table(weights);
+  RandomStream<NativeFloats> stream(lane_index<NativeFloats>(), Uint<NativeFloats>(5u));
+  for (int i = 0; i < 200; ++i) {
+    const DiscreteSample<NativeFloats> s = table.sample(stream.next());
+    const NativeFloats v = stream.next(), u = table.invert(s.index, v);
+    for (int k = 0; k < native_lanes; ++k) EXPECT_EQ(lane(u, k), table.invert<float>(lane(s.index, k), lane(v, k)));
+  }
 }
 
 TEST(Discrete, single_and_zero_weights_are_served_and_bad_weights_refused) {

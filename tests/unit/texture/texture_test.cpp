@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "mc/random.h"
+#include "statistics.h"
 #include "texture/build.h"
 #include "texture/noise.h"
 #include "texture/table.h"
@@ -187,7 +188,9 @@ TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_pa
 TEST(Dots, are_discs_inside_of_their_cells_and_in_two_of_five_of_them) {
   Bench b;
   NumberTextureId id = b.number_texture(entity("dots"));
-  int cells_with_dot = 0;
+  // Whether a cell has a dot hangs on the noise in its middle, by the gradients at the corners about it: cells at even
+  // places share none.
+  int cells_with_dot = 0, apart_with_dot = 0;
   double area = 0;
   const int cells = 40, n = 30;
   for (int t = 0; t < cells; ++t)
@@ -198,11 +201,13 @@ TEST(Dots, are_discs_inside_of_their_cells_and_in_two_of_five_of_them) {
           inside += b.set.number(id, at_uv(float(s) - 0.5f + (float(i) + 0.5f) / n,
                                            float(t) - 0.5f + (float(j) + 0.5f) / n)) == 1;
       if (inside > 0) ++cells_with_dot, area += double(inside) / (n * n);
+      if (inside > 0 && s % 2 == 0 && t % 2 == 0) ++apart_with_dot;
     }
   // In the middle of a cell eight gradients pull by -1, 0 or 1, that is by sixteen fair halves: the sum is positive
   // with probability (1 - C(16, 8) / 2^16) / 2.
   double expected = 0.5 * (1 - 12870.0 / 65536);
-  EXPECT_NEAR(double(cells_with_dot) / (cells * cells), expected, 0.05);
+  EXPECT_GT(test::proportion_test(apart_with_dot, cells * cells / 4, expected).p_value, test::family_level);
+  EXPECT_LT(test::proportion_test(apart_with_dot, cells * cells / 4, 0.5).p_value, test::family_level);
   EXPECT_NEAR(area / cells_with_dot, std::numbers::pi * 0.35 * 0.35, 2e-3);
 }
 
