@@ -5,6 +5,9 @@
 
 namespace montelux {
 
+static_assert(RTC_VERSION_MAJOR == MONTELUX_EMBREE_MAJOR,
+              "the compiler sees the headers of another Embree than CMake found");
+
 Accel::Accel(const GeometryStore& store, AlphaTest alpha, int threads)
     : kernel_(std::make_unique<Kernel>(store, std::move(alpha), threads)) {}
 Accel::~Accel() = default;

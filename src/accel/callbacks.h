@@ -1,12 +1,7 @@
 // Geometries of the kernel, and the functions that it calls back: alpha masks, and shapes that it does not know.
 #pragma once
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include "accel/accel.h"
+#include "accel/rtcore.h"
 
 namespace montelux {
 

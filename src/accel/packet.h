@@ -2,13 +2,8 @@
 #pragma once
 #include <cstring>
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include "accel/accel.h"
+#include "accel/rtcore.h"
 
 namespace montelux {
 

@@ -1,0 +1,7 @@
+// The kernel's own header: Embree 4 where there is one, else Embree 3. CMake looks for them in the same order.
+#pragma once
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
