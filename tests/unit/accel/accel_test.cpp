@@ -1,0 +1,254 @@
+#include "accel/accel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "mc/random.h"
+
+namespace montelux {
+namespace {
+
+const AlphaTest opaque = [](const Hit<float>&, const Ray<float>&) { return true; };
+
+// A store that grows by one row at a time: first those of the world, then those of the objects.
+struct StoreBuilder {
+  GeometryStore store;
+
+  StoreBuilder() { store.positions.push_back({0, 0, 0}); }
+
+  std::uint32_t add(GeometryKind kind, std::size_t first, std::size_t count) {
+    GeometryRow row;
+    row.kind = kind, row.first = std::uint32_t(first), row.count = std::uint32_t(count);
+    store.rows.push_back(row);
+    return std::uint32_t(store.rows.size() - 1);
+  }
+  std::uint32_t triangle(Vec3f a, Vec3f b, Vec3f c) {
+    auto n = std::uint32_t(store.positions.size() - 1);  // the last one is room for reading four floats
+    store.positions.insert(store.positions.end() - 1, {a, b, c});
+    store.triangles.push_back({n, n + 1, n + 2});
+    return add(GeometryKind::triangles, store.triangles.size() - 1, 1);
+  }
+  // The triangle (0,0,z), (1,0,z), (0,1,z), where u is x and v is y.
+  std::uint32_t triangle_at(float z) { return triangle({0, 0, z}, {1, 0, z}, {0, 1, z}); }
+  std::uint32_t shape(Shape s) {
+    store.shapes.push_back(std::move(s));
+    return add(GeometryKind::shape, store.shapes.size() - 1, 1);
+  }
+  std::uint32_t curve(CurveType type, std::vector<Vec3f> normals) {
+    CurveDesc desc{{{-1, 0, 0}, {-1 / 3.0f, 0, 0}, {1 / 3.0f, 0, 0}, {1, 0, 0}}};
+    desc.type = type, desc.normals = std::move(normals), desc.width0 = 0.2f, desc.width1 = 0.4f;
+    store.curves.push_back(*make_curves(desc));
+    return add(GeometryKind::curves, store.curves.size() - 1, 1);
+  }
+  void end_of_world() { store.world_rows = std::uint32_t(store.rows.size()); }
+};
+
+Ray<float> down(float x, float y, float height = 10) { return {{x, y, height}, {0, 0, -1}, ray_infinity}; }
+
+struct Answer {
+  bool found, occluded;
+  Hit<float> hit;
+};
+
+// Every lane of F asks a ray of its own, but for every third lane, which is off and must find nothing.
+template <class F>
+std::vector<Answer> ask(const Accel& accel, const std::vector<Ray<float>>& rays) {
+  std::vector<Answer> answers;
+  for (std::size_t next = 0; next < rays.size();) {
+    Ray<F> pack{{F(0.0f), F(0.0f), F(0.0f)}, {F(0.0f), F(0.0f), F(1.0f)}, F(ray_infinity)};
+    Uint<F> bits(0u);
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const Ray<float>& ray = rays[std::min(next, rays.size() - 1)];
+      set_lane(pack.o, k, ray.o), set_lane(pack.d, k, ray.d), set_lane(pack.t_max, k, ray.t_max);
+      if (next == rays.size() || k % 3 == 2) continue;
+      set_lane(bits, k, 1u);
+      ++next;
+    }
+    Mask<F> on = bits != Uint<F>(0u);
+    Accel::Trace<F> trace = accel.trace<F>(pack, on, next % 2 == 0 ? Coherence::coherent : Coherence::none);
+    Mask<F> occluded = accel.occluded<F>(pack, on);
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      Hit<float> hit{lane(trace.hit.t, k),        lane(trace.hit.u, k),         lane(trace.hit.v, k),
+                     lane(trace.hit.geometry, k), lane(trace.hit.primitive, k), lane(trace.hit.instance, k)};
+      if (lane(on, k)) {
+        answers.push_back({lane(trace.found, k), lane(occluded, k), hit});
+      } else {
+        EXPECT_FALSE(lane(trace.found, k));
+        EXPECT_FALSE(lane(occluded, k));
+      }
+    }
+  }
+  return answers;
+}
+
+// For one ray at a time and for packs of them.
+template <class F>
+struct AccelFor : ::testing::Test {};
+using RealTypes = ::testing::Types<float, NativeFloats>;
+TYPED_TEST_SUITE(AccelFor, RealTypes);
+
+TYPED_TEST(AccelFor, a_triangle_is_met_where_the_ray_was_aimed_and_nowhere_else) {
+  const Vec3f a{-1, 0.5f, 2}, b{2, -1, 0}, c{0.3f, 2.5f, -1};
+  StoreBuilder builder;
+  builder.triangle(a, b, c);
+  builder.end_of_world();
+  Accel accel(builder.store, opaque);
+
+  struct Aim {
+    float t, u, v;
+  };
+  std::vector<Ray<float>> rays;
+  std::vector<Aim> aims;
+  RandomStream<float> random(7, 0);
+  while (rays.size() < 1000) {
+    Aim aim{0.5f + random.next(), 1.5f * random.next() - 0.25f, 1.5f * random.next() - 0.25f};
+    float edge = std::min({aim.u, aim.v, 1 - aim.u - aim.v});
+    Vec3f o{6 * random.next() - 3, 6 * random.next() - 3, 6 * random.next() - 3};
+    Vec3f to = interpolate(a, b, c, aim.u, aim.v) - o;
+    float slant = std::abs(dot(cross(b - a, c - a), to)) / length(to);
+    if (std::abs(edge) < 1e-3f || slant < 0.3f || length(to) < 0.1f) continue;  // where rounding decides
+    rays.push_back({o, to / aim.t, random.next() < 0.2f ? 0.99f * aim.t : ray_infinity});
+    aims.push_back(aim);
+  }
+  std::vector<Answer> answers = ask<TypeParam>(accel, rays);
+  ASSERT_EQ(answers.size(), rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Aim& aim = aims[i];
+    bool inside = std::min({aim.u, aim.v, 1 - aim.u - aim.v}) > 0 && rays[i].t_max > aim.t;
+    ASSERT_EQ(answers[i].found, inside) << i;
+    ASSERT_EQ(answers[i].occluded, inside) << i;
+    if (!inside) continue;
+    EXPECT_NEAR(answers[i].hit.t, aim.t, 2e-5f * aim.t);
+    EXPECT_NEAR(answers[i].hit.u, aim.u, 1e-4f);
+    EXPECT_NEAR(answers[i].hit.v, aim.v, 1e-4f);
+    EXPECT_EQ(answers[i].hit.geometry, 0u);
+    EXPECT_EQ(answers[i].hit.instance, 0u);
+  }
+}
+
+TYPED_TEST(AccelFor, a_hit_names_its_row_primitive_and_instance) {
+  StoreBuilder builder;
+  GeometryStore& store = builder.store;
+  builder.triangle_at(0);
+  std::uint32_t world_sphere = builder.shape(Sphere{translate(5, 0, 0)});
+  builder.end_of_world();
+  // Object 0: two triangles in one row, and a disk. Object 1: a sphere.
+  std::uint32_t pair = builder.triangle_at(0);
+  builder.triangle({-1, 0, 0}, {0, 0, 0}, {-1, 1, 0});
+  store.rows.pop_back();
+  store.rows[pair].count = 2;
+  std::uint32_t disk = builder.shape(Disk{translate(3, 0, 1)});
+  std::uint32_t sphere = builder.shape(Sphere{});
+  store.objects = {{pair, 2}, {sphere, 1}};
+  store.instances = {{0, translate(10, 0, 0)}, {1, translate(20, 0, 0) * scale(2, 2, 2)}, {0, translate(30, 0, -1)}};
+  Accel accel(store, opaque);
+
+  struct Case {
+    Ray<float> ray;
+    float t;
+    std::uint32_t geometry, primitive, instance;
+  };
+  std::vector<Case> cases = {{down(0.2f, 0.2f), 10, 0, 0, 0},        {down(5, 0), 9, world_sphere, 0, 0},
+                             {down(10.2f, 0.2f), 10, pair, 0, 1},    {down(9.2f, 0.2f), 10, pair, 1, 1},
+                             {down(13.2f, 0.2f), 9, disk, 0, 1},     {down(20, 0), 8, sphere, 0, 2},
+                             {down(30.2f, 0.2f), 11, pair, 0, 3},    {down(29.2f, 0.2f), 11, pair, 1, 3},
+                             {down(33.2f, 0.2f, 20), 20, disk, 0, 3}};
+  std::vector<Ray<float>> rays;
+  for (const Case& c : cases) rays.push_back(c.ray);
+  rays.push_back(down(-5, -5));
+  std::vector<Answer> answers = ask<TypeParam>(accel, rays);
+  ASSERT_EQ(answers.size(), cases.size() + 1);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    ASSERT_TRUE(answers[i].found && answers[i].occluded) << i;
+    EXPECT_NEAR(answers[i].hit.t, cases[i].t, 1e-4f) << i;
+    EXPECT_EQ(answers[i].hit.geometry, cases[i].geometry) << i;
+    EXPECT_EQ(answers[i].hit.primitive, cases[i].primitive) << i;
+    EXPECT_EQ(answers[i].hit.instance, cases[i].instance) << i;
+  }
+  EXPECT_FALSE(answers.back().found || answers.back().occluded);
+}
+
+// The mask lets through where u > 1/2. For a disk u is the azimuth, so its half y < 0 is cut out.
+TYPED_TEST(AccelFor, an_alpha_mask_cuts_holes_and_sees_the_hit_it_decides) {
+  StoreBuilder builder;
+  GeometryStore& store = builder.store;
+  std::uint32_t cut = builder.triangle_at(1), whole = builder.triangle_at(0);
+  std::uint32_t cut_disk = builder.shape(Disk{translate(5, 0, 1)});
+  builder.end_of_world();
+  std::uint32_t placed = builder.triangle_at(1);
+  for (std::uint32_t row : {cut, cut_disk, placed}) store.rows[row].alpha = 1;
+  store.objects = {{placed, 1}};
+  store.instances = {{0, translate(10, 0, 0)}};
+  std::atomic<int> wrong{0};
+  Accel accel(store, [&](const Hit<float>& hit, const Ray<float>& ray) {
+    bool right =
+        std::abs(hit.t - 9) < 1e-4f && (hit.geometry == cut || hit.geometry == cut_disk || hit.geometry == placed);
+    wrong += right && ray.d.z == -1 ? 0 : 1;
+    return hit.u < 0.5f;
+  });
+
+  std::vector<Answer> a = ask<TypeParam>(
+      accel, {down(0.2f, 0.2f), down(0.7f, 0.2f), down(5, 0.5f), down(5, -0.5f), down(10.2f, 0.2f), down(10.7f, 0.2f)});
+  ASSERT_EQ(a.size(), 6u);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_TRUE(a[0].found && a[0].occluded && a[0].hit.geometry == cut);
+  EXPECT_TRUE(a[1].found && a[1].occluded && a[1].hit.geometry == whole);
+  EXPECT_NEAR(a[1].hit.t, 10, 1e-5f);
+  EXPECT_TRUE(a[2].found && a[2].occluded && a[2].hit.geometry == cut_disk);
+  EXPECT_FALSE(a[3].found || a[3].occluded);
+  EXPECT_TRUE(a[4].found && a[4].occluded && a[4].hit.geometry == placed && a[4].hit.instance == 1);
+  EXPECT_FALSE(a[5].found || a[5].occluded);
+}
+
+TYPED_TEST(AccelFor, what_shadow_rays_do_not_see_is_traced_and_does_not_occlude) {
+  StoreBuilder builder;
+  builder.triangle_at(0);
+  builder.shape(Disk{translate(5, 0, 0)});
+  builder.curve(CurveType::flat, {});
+  builder.end_of_world();
+  for (GeometryRow& row : builder.store.rows) row.flags = GeometryRow::invisible_to_shadow_rays;
+  Accel accel(builder.store, opaque);
+  for (const Answer& a : ask<TypeParam>(accel, {down(0.3f, 0.3f), down(5, 0), down(-0.5f, 0)})) {
+    EXPECT_TRUE(a.found);
+    EXPECT_FALSE(a.occluded);
+  }
+}
+
+// A straight band along x whose half width grows from 0.1 to 0.2, seen face on.
+TYPED_TEST(AccelFor, a_curve_is_as_wide_as_stated) {
+  for (CurveType type : {CurveType::flat, CurveType::ribbon}) {
+    StoreBuilder builder;
+    builder.curve(type, type == CurveType::ribbon ? std::vector<Vec3f>{{0, 0, 1}, {0, 0, 1}} : std::vector<Vec3f>{});
+    builder.end_of_world();
+    Accel accel(builder.store, opaque);
+    std::vector<Ray<float>> rays;
+    for (float u : {0.1f, 0.3f, 0.5f, 0.9f}) {
+      float half = 0.1f + 0.1f * u;
+      for (float y : {-1.05f, -0.95f, 0.2f, 0.95f, 1.05f}) rays.push_back(down(2 * u - 1, y * half));
+    }
+    std::vector<Answer> answers = ask<TypeParam>(accel, rays);
+    ASSERT_EQ(answers.size(), rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      bool inside = i % 5 != 0 && i % 5 != 4;
+      ASSERT_EQ(answers[i].found, inside) << i;
+      ASSERT_EQ(answers[i].occluded, inside) << i;
+      if (!inside) continue;
+      EXPECT_NEAR(answers[i].hit.t, 10, 1e-3f) << i;
+      EXPECT_NEAR(answers[i].hit.u, 0.5f * (rays[i].o.x + 1), 2e-3f) << i;
+    }
+  }
+}
+
+TEST(Accel, counts_its_memory_and_names_its_kernel) {
+  StoreBuilder builder;
+  builder.triangle_at(0);
+  builder.end_of_world();
+  Accel accel(builder.store, opaque);
+  EXPECT_GT(accel.memory(), 0u);
+  EXPECT_EQ(Accel::kernel_version().find_first_of("34"), 0u);
+}
+
+}  // namespace
+}  // namespace montelux
