@@ -1,5 +1,6 @@
 // Pictures of one scene by another renderer, with their standard errors, and the test whether ours agree.
 #pragma once
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 

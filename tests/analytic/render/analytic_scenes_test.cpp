@@ -3,6 +3,7 @@
 // is 1 % off, and a fault that is planted in the scene.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>

@@ -2,6 +2,8 @@
 // differences and the count of a random line's hits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry_samples.h"
 #include "statistics.h"
 

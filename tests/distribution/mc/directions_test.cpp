@@ -1,6 +1,8 @@
 // Every distribution of directions and of points in the plane: samples against density, density against 1, and back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mc/hemisphere.h"
 #include "mc/microfacet.h"
 #include "mc/phong_lobe.h"

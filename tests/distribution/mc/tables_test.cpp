@@ -1,6 +1,7 @@
 // Distributions on a line and tables of weights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "mc/discrete.h"

@@ -3,6 +3,7 @@
 // MONTELUX_REFERENCE_SAMPLES states the samples a pixel (default 512).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "api/scene.h"
