@@ -1,0 +1,68 @@
+// Where an integral is taken: a product of intervals and shapes, as a person states it, and as a map from the unit
+// cube.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "lab/domain/shapes.h"
+#include "parameter/spec.h"
+
+namespace montelux::lab {
+
+// Columns of variables at many points, and the measure by which the cube is stretched there.
+struct DomainPoints {
+  std::vector<double> memory;
+  std::vector<double*> columns;  // one a variable; those that were not needed have no meaning
+  std::vector<double> stretch;
+  std::span<const double* const> variables() const { return {columns.data(), columns.size()}; }
+};
+
+class Domain {
+ public:
+  explicit Domain(std::vector<DomainFactor> factors);
+
+  std::size_t dimension() const { return dimension_; }
+  // Every name that an expression may use. Some domains have more of them than dimensions.
+  const std::vector<std::string>& variables() const { return variables_; }
+  // Its measure; nothing where it is infinite or its bounds depend on each other.
+  std::optional<double> volume() const;
+  // Only intervals, each of one variable: points can be taken back to the cube.
+  bool invertible() const;
+
+  // Marks the variables that an expression or a bound needs.
+  std::vector<char> needed_by(const Expression& expression) const;
+  DomainPoints map(PointBatch points, const std::vector<char>& needed) const;
+  // From variables (all of them) to coordinates of the cube, laid out as a BatchMap does. For invertible domains.
+  void invert(std::span<const double* const> variables, std::size_t count, std::span<double> cube) const;
+
+ private:
+  std::vector<DomainFactor> factors_;
+  std::vector<std::string> variables_;
+  std::size_t dimension_ = 0;
+};
+
+// A text of the user with what is wrong in it.
+struct DomainMistake {
+  std::string text;
+  TextMistake mistake;
+};
+struct ParsedDomain {
+  std::optional<Domain> domain;
+  std::vector<DomainMistake> mistakes;
+};
+
+// Each text is "x=0:1,y=0:x" (intervals; bounds are expressions of the variables before) or a shape by name:
+// "disk:radius=2"; the domain is the product of all.
+ParsedDomain parse_domain(const std::vector<std::string>& texts);
+// The shapes by name with their parameters.
+std::span<const EntitySpec> domain_table();
+
+// The expression times the measure, as a function on the cube; 0 where the measure is 0.
+BatchFunction on_cube(std::shared_ptr<const Domain> domain, Expression expression);
+// A density per unit of the domain's measure, as a density on the cube.
+BatchFunction density_on_cube(std::shared_ptr<const Domain> domain, Expression density);
+// The map from uniform points u1, u2, ... to the domain's variables, given by one expression each, as a map of the
+// cube into itself. For invertible domains.
+BatchMap inverse_on_cube(std::shared_ptr<const Domain> domain, std::vector<Expression> variables);
+
+}  // namespace montelux::lab

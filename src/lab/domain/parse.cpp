@@ -1,0 +1,286 @@
+// From "x=0:pi/2,y=0:x" or "disk:radius=2" to a domain.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/domain/domain.h"
+#include "parameter/choice.h"
+
+namespace montelux::lab {
+namespace {
+
+constexpr std::size_t most_dimensions = 64;
+
+// A part of a text, and where it begins there.
+struct Part {
+  std::string_view text;
+  std::size_t begin;
+};
+
+Part trimmed(Part part) {
+  while (!part.text.empty() && part.text.front() == ' ') part.text.remove_prefix(1), ++part.begin;
+  while (!part.text.empty() && part.text.back() == ' ') part.text.remove_suffix(1);
+  return part;
+}
+
+// Cuts at a character, but not within brackets; at most `most` parts.
+std::vector<Part> split(Part whole, char at, std::size_t most = std::string_view::npos) {
+  std::vector<Part> parts;
+  std::size_t begin = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i < whole.text.size(); ++i) {
+    const char c = whole.text[i];
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c != at || depth > 0 || parts.size() + 1 >= most) continue;
+    parts.push_back({whole.text.substr(begin, i - begin), whole.begin + begin});
+    begin = i + 1;
+  }
+  parts.push_back({whole.text.substr(begin), whole.begin + begin});
+  return parts;
+}
+
+const std::vector<EntitySpec>& table() {
+  using enum ParameterType;
+  static const std::vector<EntitySpec> entries{
+      {"disk", "the disk about the origin; variables x, y, r, phi; area", {{"radius", {number}, "default 1"}}},
+      {"triangle",
+       "a triangle of the plane or of space; variables x, y and, in space, z; area",
+       {{"a", {point3}, "corner (x, y) or (x, y, z); default (0, 0)"},
+        {"b", {point3}, "corner; default (1, 0)"},
+        {"c", {point3}, "corner; default (0, 1)"}}},
+      {"sphere",
+       "the unit sphere of directions; variables x, y, z, theta (from z), phi; solid angle",
+       {{"radius", {number}, "default 1; with another one the measure is area"}}},
+      {"hemisphere",
+       "directions with z >= 0; variables x, y, z, theta (from z), phi",
+       {{"measure", {string}, "default solid-angle", -1e30, 1e30, {"solid-angle", "projected"}}}},
+      {"ball", "the ball about the origin; variables x, y, z, r; volume", {{"radius", {number}, "default 1"}}},
+      {"simplex",
+       "x, y, ... >= 0 with a sum up to 1; variables x, y, z, above three dimensions x1, x2, ...; volume",
+       {{"dimension", {integer}, "default 2", 1, double(most_dimensions)}}},
+      {"cube",
+       "the unit cube; variables x1, x2, ...; volume",
+       {{"dimension", {integer}, "default 3", 1, double(most_dimensions)}}},
+  };
+  return entries;
+}
+
+class Reader {
+ public:
+  void read(const std::string& text) {
+    text_ = text;
+    const std::size_t equals = text.find('='), colon = text.find(':');
+    if (text.find_first_not_of(' ') == std::string::npos) return complain(0, 1, "a domain is missing");
+    if (equals == std::string::npos || colon < equals)
+      read_shape();
+    else
+      for (const Part& part : split({text_, 0}, ',')) read_side(trimmed(part));
+  }
+
+  ParsedDomain finish() {
+    std::size_t dimension = 0;
+    for (const DomainFactor& f : factors_) dimension += std::visit([](const auto& x) { return x.dimension(); }, f);
+    if (mistakes_.empty() && dimension > most_dimensions)
+      complain(0, text_.size(),
+               fmt::format("the domain has {} dimensions; {} are the most", dimension, most_dimensions));
+    ParsedDomain result{std::nullopt, std::move(mistakes_)};
+    if (result.mistakes.empty()) result.domain.emplace(std::move(factors_));
+    return result;
+  }
+
+ private:
+  void complain(std::size_t position, std::size_t length, std::string message) {
+    mistakes_.push_back({text_, {position, std::max<std::size_t>(1, length), std::move(message)}});
+  }
+  void complain(Part part, std::string message) { complain(part.begin, part.text.size(), std::move(message)); }
+
+  std::optional<Expression> read_expression(Part part, const std::vector<std::string>& variables) {
+    CompiledExpression compiled = compile(part.text, variables);
+    for (TextMistake& m : compiled.mistakes) complain(part.begin + m.position, m.length, std::move(m.message));
+    return std::move(compiled.expression);
+  }
+
+  // Adds a factor unless one of its names is taken.
+  void add(DomainFactor factor, Part where) {
+    std::vector<std::string> names = std::visit([](const auto& f) { return f.names(); }, factor);
+    for (const std::string& name : names)
+      if (std::ranges::find(names_, name) != names_.end())
+        return complain(where, fmt::format("there are two variables \"{}\"", name));
+    names_.insert(names_.end(), names.begin(), names.end());
+    factors_.push_back(std::move(factor));
+  }
+
+  // "x=0:1"
+  void read_side(Part part) {
+    const std::vector<Part> halves = split(part, '=', 2);
+    if (halves.size() < 2) return complain(part, "an interval is written name=low:high, as x=0:1");
+    const Part name = trimmed(halves[0]);
+    if (!valid_variable(name.text))
+      return complain(name,
+                      fmt::format("\"{}\" cannot be a variable: names start with a letter, go on with letters and "
+                                  "digits, and are no function or constant",
+                                  name.text));
+    const std::vector<Part> bounds = split(halves[1], ':');
+    if (bounds.size() != 2) return complain(trimmed(halves[1]), "bounds are written low:high, as 0:1");
+    const std::size_t before = mistakes_.size();
+    auto low = read_expression(trimmed(bounds[0]), names_), high = read_expression(trimmed(bounds[1]), names_);
+    if (!low || !high) return keep_name(name);
+    Side side{std::string(name.text), std::move(*low), std::move(*high)};
+    check_bounds(side, trimmed(bounds[0]), trimmed(bounds[1]));
+    if (mistakes_.size() == before)
+      add(std::move(side), name);
+    else
+      keep_name(name);
+  }
+
+  // So that a mistake in its bounds does not make a variable unknown elsewhere.
+  void keep_name(Part name) { names_.emplace_back(name.text); }
+
+  void check_bounds(Side& side, Part low, Part high) {
+    const std::vector<double> nothing(names_.size(), 0.5);
+    const auto fixed = [&](const Expression& e) -> std::optional<double> {
+      return e.constant() ? std::optional(e(nothing)) : std::nullopt;
+    };
+    const auto a = fixed(side.low), b = fixed(side.high);
+    side.from_minus_infinity = a && std::isinf(*a) && *a < 0;
+    side.to_infinity = b && std::isinf(*b) && *b > 0;
+    if (a && (std::isnan(*a) || (std::isinf(*a) && *a > 0))) complain(low, "a lower bound is finite or -inf");
+    if (b && (std::isnan(*b) || (std::isinf(*b) && *b < 0))) complain(high, "an upper bound is finite or inf");
+    if (!a || !b) return;
+    if (*a >= *b)
+      complain(low.begin, high.begin + high.text.size() - low.begin, "the lower bound is not below the upper one");
+    side.fixed = std::pair(*a, *b);
+  }
+
+  // "disk:radius=2"
+  void read_shape() {
+    const std::vector<Part> halves = split({text_, 0}, ':', 2);
+    const Part name = trimmed(halves[0]);
+    const EntitySpec* entry = find_entity(table(), name.text);
+    if (!entry)
+      return complain(
+          name, unknown_name("domain", name.text, names_of(domain_table())).message + "; an interval is written x=0:1");
+    settings_.clear();
+    const std::size_t before = mistakes_.size();
+    if (halves.size() > 1)
+      for (const Part& part : split(halves[1], ',')) read_setting(*entry, trimmed(part));
+    auto factors = shape(name.text);
+    if (mistakes_.size() > before) return;
+    for (DomainFactor& factor : factors) add(std::move(factor), name);
+  }
+
+  void read_setting(const EntitySpec& entry, Part part) {
+    const std::vector<Part> halves = split(part, '=', 2);
+    const Part name = trimmed(halves[0]);
+    std::vector<std::string_view> valid;
+    for (const ParameterSpec& p : entry.parameters) valid.push_back(p.name);
+    if (std::ranges::find(valid, name.text) == valid.end())
+      return complain(name, unknown_name(fmt::format("setting of {}", entry.name), name.text, valid).message);
+    if (halves.size() < 2 || trimmed(halves[1]).text.empty())
+      return complain(part, fmt::format("{0} is written {0}=VALUE", name.text));
+    settings_.emplace_back(name.text, trimmed(halves[1]));
+  }
+
+  const Part* setting(std::string_view name) const {
+    const auto it = std::ranges::find(settings_, name, &std::pair<std::string_view, Part>::first);
+    return it == settings_.end() ? nullptr : &it->second;
+  }
+
+  // A number, which may be an expression such as pi/2.
+  std::optional<double> number(Part part) {
+    auto e = read_expression(part, {});
+    if (!e) return std::nullopt;
+    const double value = (*e)({});
+    if (std::isfinite(value)) return value;
+    complain(part, "a finite number is needed here");
+    return std::nullopt;
+  }
+
+  double positive(std::string_view name, double otherwise) {
+    const Part* part = setting(name);
+    if (!part) return otherwise;
+    const auto value = number(*part);
+    if (value && *value <= 0) complain(*part, fmt::format("the {} is above 0", name));
+    return value.value_or(otherwise);
+  }
+
+  std::size_t dimension(std::size_t otherwise) {
+    const Part* part = setting("dimension");
+    if (!part) return otherwise;
+    const auto value = number(*part);
+    if (value && *value >= 1 && *value <= double(most_dimensions) && *value == std::floor(*value))
+      return std::size_t(*value);
+    if (value) complain(*part, fmt::format("the dimension is a whole number from 1 to {}", most_dimensions));
+    return otherwise;
+  }
+
+  // "(0, 1)" or "(0, 1, 2)"; returns how many coordinates there were, 0 where there is no such setting.
+  std::size_t corner(std::string_view name, std::array<double, 3>& point) {
+    const Part* part = setting(name);
+    if (!part) return 0;
+    const std::string_view t = part->text;
+    std::vector<Part> coordinates;
+    if (t.size() >= 2 && t.front() == '(' && t.back() == ')')
+      coordinates = split({t.substr(1, t.size() - 2), part->begin + 1}, ',');
+    if (coordinates.size() != 2 && coordinates.size() != 3) {
+      complain(*part, "a corner is written (x, y) or (x, y, z)");
+      return 0;
+    }
+    point = {};
+    for (std::size_t k = 0; k < coordinates.size(); ++k) point[k] = number(trimmed(coordinates[k])).value_or(0);
+    return coordinates.size();
+  }
+
+  Triangle triangle() {
+    Triangle t;
+    std::size_t least = 3, most = 0;
+    const std::string_view names[] = {"a", "b", "c"};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const std::size_t n = corner(names[k], t.corners[k])) least = std::min(least, n), most = std::max(most, n);
+    t.in_space = most == 3;
+    if (most > least) complain(0, text_.size(), "all corners have two coordinates, or all have three");
+    if (!(*t.volume() > 0)) complain(0, text_.size(), "the corners lie on one line");
+    return t;
+  }
+
+  bool projected() {
+    const Part* part = setting("measure");
+    if (!part || part->text == "solid-angle") return false;
+    if (part->text != "projected")
+      complain(*part, unknown_name("measure", part->text, {"solid-angle", "projected"}).message);
+    return true;
+  }
+
+  std::vector<DomainFactor> shape(std::string_view name) {
+    if (name == "disk") return {Disk{positive("radius", 1)}};
+    if (name == "ball") return {Ball{positive("radius", 1)}};
+    if (name == "sphere") return {Sphere{positive("radius", 1)}};
+    if (name == "hemisphere") return {Hemisphere{projected()}};
+    if (name == "triangle") return {triangle()};
+    if (name == "simplex") return {Simplex{dimension(2)}};
+    std::vector<DomainFactor> sides;
+    for (std::size_t k = 1, n = dimension(3); k <= n; ++k)
+      sides.push_back(Side{fmt::format("x{}", k), *compile("0", {}).expression, *compile("1", {}).expression, false,
+                           false, std::pair(0.0, 1.0)});
+    return sides;
+  }
+
+  std::string text_;
+  std::vector<DomainFactor> factors_;
+  std::vector<std::string> names_;
+  std::vector<DomainMistake> mistakes_;
+  std::vector<std::pair<std::string_view, Part>> settings_;
+};
+
+}  // namespace
+
+std::span<const EntitySpec> domain_table() { return table(); }
+
+ParsedDomain parse_domain(const std::vector<std::string>& texts) {
+  Reader reader;
+  for (const std::string& text : texts) reader.read(text);
+  return reader.finish();
+}
+
+}  // namespace montelux::lab
