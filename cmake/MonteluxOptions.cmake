@@ -30,6 +30,7 @@ if(MONTELUX_WERROR)
   target_compile_options(montelux_options INTERFACE -Werror)
 endif()
 if(MONTELUX_SANITIZE)
-  target_compile_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
   target_link_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE})
 endif()

@@ -11,7 +11,22 @@ struct Coverage {
   double images = 0, seeds = 0;            // the same for the image mean
   double estimated_mse = 0, true_mse = 0;  // sums over seeds of means over pixels; the truth's own error is taken off
   std::vector<double> pixel_share;         // by seed
-  std::vector<double> excess;              // by seed: estimated less true squared error, mean over pixels
+  std::vector<double> estimated, squares;  // by seed: estimated and true squared error, means over pixels
+
+  // Of the estimated to the true mean squared error.
+  double ratio() const { return estimated_mse / true_mse; }
+  // Is that ratio in [low, high]? Student's test of estimated - r true, r the nearest ratio of the range.
+  double ratio_p_value(double low, double high) const {
+    const double nearest = std::clamp(ratio(), low, high);
+    std::vector<double> excess;
+    for (std::size_t i = 0; i < squares.size(); ++i) excess.push_back(estimated[i] - nearest * squares[i]);
+    return t_test(excess, 0).p_value;
+  }
+  // Is the mean share of covered pixels in [low, high]?
+  double pixels_p_value(double low, double high) const {
+    const SampleSummary share = summarize(pixel_share);
+    return t_test(share, std::clamp(share.mean, low, high)).p_value;
+  }
 };
 
 // `shrink` plants a fault: standard errors are multiplied by it.
@@ -35,7 +50,7 @@ inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, Poi
         squares += off * off - truth.variance[i];
       }
     c.true_mse += squares / pixels, c.estimated_mse += estimated / pixels;
-    c.excess.push_back((estimated - squares) / pixels);
+    c.estimated.push_back(estimated / pixels), c.squares.push_back(squares / pixels);
     c.pixels += held, c.pixel_intervals += pixels, c.pixel_share.push_back(held / pixels);
     const ImageEstimate image = film.image();
     const double off = image.mean[0] - truth.image, error = shrink * image.standard_error[0];

@@ -21,9 +21,8 @@ struct Decision {
 // Whether pixels and image are covered within the range and the estimated error is the true one.
 Decision decide(const Coverage& c) {
   const double level = sidak_level(family_level, 3.0 * std::size(point_sets) * double(error_bar_scenes().size()));
-  const SampleSummary share = summarize(c.pixel_share);
-  return {t_test(share, std::clamp(share.mean, low, high)).p_value >= level,
-          binomial_p_value(c.images, c.seeds, low, high) >= level, t_test(c.excess, 0).p_value >= level};
+  return {c.pixels_p_value(low, high) >= level, binomial_p_value(c.images, c.seeds, low, high) >= level,
+          c.ratio_p_value(1, 1) >= level};
 }
 
 class ErrorBarsOf : public testing::TestWithParam<ErrorBarScene> {};
@@ -36,7 +35,7 @@ TEST_P(ErrorBarsOf, the_scene_cover_the_truth) {
     const Decision d = decide(c);
     EXPECT_TRUE(d.pixels) << name_of(set) << ": " << c.pixels / c.pixel_intervals << " of the pixels are covered";
     EXPECT_TRUE(d.image) << name_of(set) << ": " << c.images / c.seeds << " of the image means are covered";
-    EXPECT_TRUE(d.error) << name_of(set) << ": estimated over true error " << c.estimated_mse / c.true_mse;
+    EXPECT_TRUE(d.error) << name_of(set) << ": estimated over true error " << c.ratio();
   }
 }
 
