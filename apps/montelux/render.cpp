@@ -91,6 +91,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["samples"] = outcome.samples;
   json["seconds"] = seconds;
   json["rays"] = outcome.rays;
+  if (rendering.result.rays.by_depth[0] > 0) json["rays_by_depth"] = rendering.result.rays.by_depth;
   json["rays_per_second"] = number_or_null(double(outcome.rays) / seconds);
   json["non_finite"] = outcome.non_finite;
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
@@ -183,8 +184,13 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
     return [names](const std::string& text) { return parse_choice(text, names); };
   };
   const auto integrators = names_of(integrator_names()), samplers = names_of(sampler_names());
-  add_option(verb, {"--integrator", alternatives(integrators), "algorithm; default: the scene's"},
-             into(render.integrator, choice(integrators)));
+  add_option(verb,
+             {"--integrator", alternatives(integrators),
+              "algorithm, with settings if need be, as direct:strategy=ris,candidates=32; default: the scene's"},
+             [&render](const std::string& text) -> Status {
+               render.integrator = text;
+               return check_integrator_text(text);
+             });
   add_option(verb, {"--sampler", alternatives(samplers), "point set; default: the scene's"},
              into(render.sampler, choice(samplers)));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},

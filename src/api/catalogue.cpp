@@ -7,6 +7,7 @@
 #include "camera/table.h"
 #include "filter/table.h"
 #include "geometry/table.h"
+#include "integrator/catalogue.h"
 #include "io/pbrt/parameters.h"
 #include "light/table.h"
 #include "material/table.h"
@@ -52,7 +53,7 @@ struct Topic {
 };
 
 constexpr Topic topics[] = {
-    {"integrators", "algorithms, as --integrator takes them", [] { return entries_of(integrator_names()); }},
+    {"integrators", "algorithms, as --integrator takes them", [] { return entries_of(integrator_catalogue()); }},
     {"samplers", "point sets, as --sampler takes them", [] { return entries_of(sampler_names()); }},
     {"tones", "tone curves, as --tone takes them", [] { return entries_of(tone_curves()); }},
     {"materials", "materials of a scene", [] { return entries_of(material_table()); }},

@@ -14,7 +14,7 @@ struct RenderOptions {
   std::uint32_t seed = 0;
   int threads = 0;                                            // 0: all of the machine
   std::optional<PixelBounds> crop;                            // within the picture; default: the file's
-  std::optional<std::string> integrator;                      // name; default: the file's
+  std::optional<std::string> integrator;                      // "path", "direct:strategy=ris"; default: the file's
   std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
 };
@@ -37,6 +37,9 @@ PixelBuffer layers_of(const Rendering& rendering);
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
 // file is replaced in one step.
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display);
+
+// Whether there is such an integrator with such settings, "direct:strategy=ris"; a scene is not needed to tell.
+Status check_integrator_text(const std::string& text);
 
 // Names that --integrator and --sampler take, with a line for each.
 std::vector<std::pair<std::string, std::string>> integrator_names();

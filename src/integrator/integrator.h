@@ -1,5 +1,6 @@
 // What the scheduler asks of an integrator. Integrators know no threads, no film and no files.
 #pragma once
+#include <array>
 #include <span>
 
 #include "image/pixel_sample.h"
@@ -16,8 +17,12 @@ struct TilePass {
 // Rays that were traced, for statistics.
 struct RayCounts {
   std::uint64_t camera = 0, scattered = 0, shadow = 0;
+  // Camera rays, rays after one scattering event, after two, ...; the last holds all that are deeper. Only integrators
+  // that branch fill it.
+  std::array<std::uint64_t, 16> by_depth{};
   RayCounts& operator+=(const RayCounts& other) {
     camera += other.camera, scattered += other.scattered, shadow += other.shadow;
+    for (std::size_t i = 0; i < by_depth.size(); ++i) by_depth[i] += other.by_depth[i];
     return *this;
   }
   std::uint64_t all() const { return camera + scattered + shadow; }

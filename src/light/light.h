@@ -43,6 +43,10 @@ inline constexpr bool is_delta(LightKind k) { return !is_surface(k) && !is_infin
 enum class LightSelection { uniform, power, bvh };
 inline constexpr std::array<std::string_view, 3> light_selection_names{"uniform", "power", "bvh"};
 
+// In what the points of a surface that shines are drawn uniformly: in the solid angle under which they are seen, where
+// the kind has a way to, or in area.
+enum class LightMeasure { solid_angle, area };
+
 struct LightSettings {
   LightSelection selection = LightSelection::bvh;
 };

@@ -12,11 +12,23 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
                         [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); });
   infinite_count_ = int(std::count_if(unbounded_.begin(), unbounded_.end(),
                                       [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); }));
+  for (std::uint32_t i = 0; i < count(); ++i) has_delta_ |= is_delta(kind(LightId(i)));
   if (settings_.selection == LightSelection::power && count() > 0)
     by_power_.emplace(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));
   if (settings_.selection == LightSelection::bvh) bvh_ = LightBvh(tables_.bounds);
   std::size_t shares = unbounded_.size() + (bvh_.empty() ? 0 : 1);
   unbounded_mass_ = shares > 0 ? 1.0f / float(shares) : 0.0f;
+}
+
+std::optional<LightPolygon> LightSet::polygon(LightId light) const {
+  const LightKind its_kind = kind(light);
+  if (its_kind != LightKind::triangle && its_kind != LightKind::parallelogram) return std::nullopt;
+  const LightRows<float> row = rows<float>(std::uint32_t(light), true);
+  // Both kinds begin with a corner and two edges.
+  const TriangleEmitter<float> flat(row);
+  const Vec3f a = flat.p0, b = a + flat.e1, d = a + flat.e2;
+  if (its_kind == LightKind::triangle) return LightPolygon{{a, b, d, d}, 3};
+  return LightPolygon{{a, b, b + flat.e2, d}, 4};
 }
 
 }  // namespace montelux

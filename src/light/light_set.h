@@ -28,6 +28,11 @@ struct LightTables {
   float scene_radius = 1;
 };
 
+struct LightPolygon {
+  std::array<Vec3f, 4> corners;
+  int count = 0;  // 3 or 4
+};
+
 // Immutable. Every function is for one lane or many; `n` is the unit normal of the side that scatters at the reference
 // point, or the zero vector where both sides do (or there is no surface). Where n is given, lights and directions
 // wholly on its other side may have probability zero. Idle lanes may hold anything.
@@ -40,6 +45,8 @@ class LightSet {
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
   const LightSettings& settings() const { return settings_; }
   float scene_radius() const { return tables_.scene_radius; }
+  // Whether there are lights that no ray meets.
+  bool has_delta() const { return has_delta_; }
 
   // Which light to sample at p, and the probability of that choice (equal to the last bit).
   template <class F>
@@ -47,12 +54,14 @@ class LightSet {
   template <class F>
   Mass<F> choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
-  // A direction toward some light.
+  // A direction toward some light. Only draws by solid angle have the densities that hit() states.
   template <class F>
-  LightSample<F> sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on) const;
+  LightSample<F> sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on,
+                        LightMeasure measure = LightMeasure::solid_angle) const;
   // The same for a light that is given: its density and radiance are without the choice.
   template <class F>
-  LightSample<F> sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
+  LightSample<F> sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
+                              LightMeasure measure = LightMeasure::solid_angle) const;
 
   // For a ray that left reference_p along the unit wi and met the surface of `light` at p, where the oriented unit
   // normal is ng and uv are the surface's parameters.
@@ -62,6 +71,9 @@ class LightSet {
   // The radiance of hit() alone, as a camera ray needs it.
   template <class F>
   Spectrum<F> hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const;
+
+  // The corners of a light that is a flat polygon, in order around it; none for the other kinds.
+  std::optional<LightPolygon> polygon(LightId light) const;
 
   // The lights that a ray meets that leaves the scene, by their place in 0 ... infinite_count() - 1.
   int infinite_count() const { return infinite_count_; }
@@ -85,8 +97,8 @@ class LightSet {
   static void with_emitter(LightKind kind, const LightRows<F>& rows, Function f);
 
   template <class F>
-  LightSample<F> sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u,
-                             Mask<F> on) const;
+  LightSample<F> sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
+                             LightMeasure measure) const;
   template <class F>
   Spectrum<F> surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const;
   // Of a light whose kind is is_delta; `distance` to the light, no density.
@@ -104,6 +116,7 @@ class LightSet {
   std::optional<AliasTable> by_power_;    // likewise
   std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
+  bool has_delta_ = false;
   float unbounded_mass_ = 0;  // of each unbounded light, by the hierarchy's choice
 };
 

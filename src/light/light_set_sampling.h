@@ -49,14 +49,22 @@ Spectrum<F> LightSet::surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mas
   return e;
 }
 
+// A point of a surface; only kinds that can be drawn by solid angle have two ways.
+template <class Emitter, class F>
+EmitterPoint<F> draw_point(const Emitter& emitter, Vec3<F> from, Vec2<F> u, LightMeasure measure) {
+  if constexpr (requires { emitter.sample_by_area(from, u); })
+    if (measure == LightMeasure::area) return emitter.sample_by_area(from, u);
+  return emitter.sample(from, u);
+}
+
 template <class F>
 LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u,
-                                     Mask<F> on) const {
+                                     Mask<F> on, LightMeasure measure) const {
   LightSample<F> r{};
   r.valid = Mask<F>(false), r.delta = Mask<F>(is_delta(kind));
   if (is_surface(kind)) {
     with_emitter<F>(kind, rows, [&](const auto& emitter) {
-      EmitterPoint<F> e = emitter.sample(p, u);
+      EmitterPoint<F> e = draw_point(emitter, p, u, measure);
       Vec3<F> d = e.p - p;
       r.distance = length(d);
       r.wi = d * (F(1.0f) / max(r.distance, F(1e-37f)));
@@ -123,13 +131,14 @@ LightSample<F> LightSet::sample_delta(LightKind kind, const LightRows<F>& rows, 
 }
 
 template <class F>
-LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const {
+LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
+                                      LightMeasure measure) const {
   LightSample<F> r{};
   r.wi = {F(0.0f), F(0.0f), F(1.0f)};
   r.distance = F(1.0f), r.radiance = gray(F(0.0f)), r.density = {F(0.0f)};
   r.valid = Mask<F>(false), r.delta = Mask<F>(false);
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
-    LightSample<F> s = sample_kind(kind, rows<F>(light, m), p, n, u, m);
+    LightSample<F> s = sample_kind(kind, rows<F>(light, m), p, n, u, m, measure);
     Mask<F> good = m & s.valid;
     r.wi = select(good, s.wi, r.wi), r.distance = select(good, s.distance, r.distance);
     r.radiance = select(good, s.radiance, r.radiance);
@@ -140,9 +149,9 @@ LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<
 }
 
 template <class F>
-LightSample<F> LightSet::sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on) const {
+LightSample<F> LightSet::sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on, LightMeasure measure) const {
   LightChoice<F> choice = choose(p, n, u_choice, on);
-  LightSample<F> r = sample_light(choice.light, p, n, u, choice.valid);
+  LightSample<F> r = sample_light(choice.light, p, n, u, choice.valid, measure);
   F mass = select(r.valid, choice.mass.value, F(1.0f));
   r.radiance = select(r.delta, r.radiance * (F(1.0f) / mass), r.radiance);
   r.density.value = select(r.delta, r.density.value, r.density.value * mass);

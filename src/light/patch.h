@@ -34,16 +34,23 @@ struct ParallelogramEmitter {
       Vec2<F> met = meet_plane(from, sample_spherical_rectangle(seen, u), p0, e1, e2);
       at = select(by_angle, Vec2<F>{clamp(met.x, 0.0f, 1.0f), clamp(met.y, 0.0f, 1.0f)}, at);
     }
-    Vec2<F> uv{F(0.0f), F(0.0f)};
-    if (any(rows.has_image())) uv = bilinear(rows.vec2(uv00), rows.vec2(uv10), rows.vec2(uv01), rows.vec2(uv11), at);
-    Vec3<F> p = p0 + e1 * at.x + e2 * at.y;
-    return {p, n, uv, density_of(seen, from, p, direction_to(from, p))};
+    Vec3<F> p = point(at);
+    return {p, n, parameters(at), density_of(seen, from, p, direction_to(from, p))};
+  }
+  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const {
+    Vec3<F> p = point(u);
+    return {p, n, parameters(u), area_density(rows.number(area), n, from, p, direction_to(from, p))};
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     return density_of(SphericalRectangle<F>::from_edges(p0 - from, e1, e2), from, p, wi);
   }
 
  private:
+  MONTELUX_INLINE Vec3<F> point(Vec2<F> at) const { return p0 + e1 * at.x + e2 * at.y; }
+  MONTELUX_INLINE Vec2<F> parameters(Vec2<F> at) const {
+    if (!any(rows.has_image())) return {F(0.0f), F(0.0f)};
+    return bilinear(rows.vec2(uv00), rows.vec2(uv10), rows.vec2(uv01), rows.vec2(uv11), at);
+  }
   MONTELUX_INLINE Mask<F> is_by_angle(const SphericalRectangle<F>& seen) const {
     Mask<F> right_angled = rows.flag(light_special), fit = is_spherical(seen.solid_angle);
     return right_angled & fit;

@@ -124,6 +124,7 @@ struct SphereEmitter {
             uv,
             {select(cap.visible, cone_density(cap.one_minus_cos).value, result.density.value)}};
   }
+  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return part.sample(from, u); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     Cap cap = cap_from(from);
     F value = all(cap.visible) ? F(0.0f) : part.density(from, p, wi).value;

@@ -36,17 +36,24 @@ struct TriangleEmitter {
       met.y = clamp(met.y, 0.0f, F(1.0f) - met.x);
       b = select(by_angle, met, b);
     }
-    Vec2<F> uv{F(0.0f), F(0.0f)};
-    if (any(rows.has_image()))
-      uv = rows.vec2(uv0) * (F(1.0f) - b.x - b.y) + rows.vec2(uv1) * b.x + rows.vec2(uv2) * b.y;
-    Vec3<F> p = p0 + e1 * b.x + e2 * b.y;
-    return {p, n, uv, density_of(seen, from, p, direction_to(from, p))};
+    Vec3<F> p = point(b);
+    return {p, n, parameters(b), density_of(seen, from, p, direction_to(from, p))};
+  }
+  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const {
+    Vec2<F> b = sample_triangle(u);
+    Vec3<F> p = point(b);
+    return {p, n, parameters(b), area_density(rows.number(area), n, from, p, direction_to(from, p))};
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     return density_of(spherical(from), from, p, wi);
   }
 
  private:
+  MONTELUX_INLINE Vec3<F> point(Vec2<F> b) const { return p0 + e1 * b.x + e2 * b.y; }
+  MONTELUX_INLINE Vec2<F> parameters(Vec2<F> b) const {
+    if (!any(rows.has_image())) return {F(0.0f), F(0.0f)};
+    return rows.vec2(uv0) * (F(1.0f) - b.x - b.y) + rows.vec2(uv1) * b.x + rows.vec2(uv2) * b.y;
+  }
   MONTELUX_INLINE SphericalTriangle<F> spherical(Vec3<F> from) const {
     Vec3<F> a = p0 - from;
     return SphericalTriangle<F>::from_corners(a, a + e1, a + e2);

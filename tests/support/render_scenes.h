@@ -8,6 +8,7 @@
 #include <string>
 
 #include "accel/accel.h"
+#include "integrator/catalogue.h"
 #include "integrator/path/tracer.h"
 #include "io/pbrt.h"
 #include "render/render.h"
@@ -56,6 +57,15 @@ class TestScene {
     settings.max_depth = prepared_->picture.max_depth;
     settings.lanes = lanes;
     return PathTracer(prepared_->scene, *accel_, settings);
+  }
+  // The integrator of this name and settings, as --integrator takes them; throws where there is none.
+  ChosenIntegrator integrator(std::string_view text) const {
+    auto choice = parse_choice(text);
+    if (!choice) throw std::runtime_error(choice.error());
+    const PictureSettings& p = prepared_->picture;
+    auto chosen = choose_integrator(*choice, {p.max_depth, p.max_component}, prepared_->scene, *accel_);
+    if (!chosen) throw std::runtime_error(chosen.error());
+    return *std::move(chosen);
   }
   RenderSettings settings(PointSetKind sampler, PassPlan plan, std::uint32_t seed, int threads = 1) const {
     const PictureSettings& p = prepared_->picture;

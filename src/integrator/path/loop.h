@@ -1,5 +1,6 @@
 // The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
 #pragma once
+#include "integrator/arrival.h"
 #include "integrator/path/dimensions.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/settings.h"
@@ -8,8 +9,6 @@
 
 namespace montelux {
 
-// Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
-inline constexpr float shadow_shortening = 1e-4f;
 // Roulette lets no path live on with certainty, or one between white walls would never end.
 inline constexpr float most_survival = 0.97f;
 
@@ -33,7 +32,8 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
   using U = Uint<F>;
   using M = Mask<F>;
   FirstHits<F> first_hits(scene, rays, pass, out);
-  RayCounts counts{first_hits.rays(), 0, 0};
+  RayCounts counts;
+  counts.camera = first_hits.rays();
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
   PathState<F> path{};
   M on(false);

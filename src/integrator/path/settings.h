@@ -2,6 +2,8 @@
 #pragma once
 #include <optional>
 
+#include "parameter/choice.h"
+
 namespace montelux {
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
@@ -12,9 +14,11 @@ struct PathSettings {
   std::optional<int> max_depth;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
-  // Samples with a brighter component are scaled down to it: biased, and off unless asked for.
-  std::optional<float> max_component;
   Lanes lanes = Lanes::native;
 };
+
+EntitySpec path_spec();
+// All but max_depth, which a scene may state too.
+PathSettings path_settings(const ParameterList& list);
 
 }  // namespace montelux

@@ -1,0 +1,122 @@
+// Where a ray arrives, and the light that it meets on its way: what every integrator but the path loop is made of.
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "mc/mis.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
+inline constexpr float shadow_shortening = 1e-4f;
+
+// The point from which rays leave, as the lights' densities take it.
+template <class F>
+struct Departure {
+  Vec3<F> p, n;  // n: unit normal of the side that scatters; zero: both sides, or no surface
+};
+
+// A surface that scatters, at the end of a ray. Results hold where `found`.
+template <class F>
+struct Arrival {
+  Mask<F> found;
+  Vec3<F> d;          // in which the ray came
+  F distance;         // from the ray's origin
+  Spectrum<F> light;  // emitted toward the origin by the surface, by interfaces on the way and by the sky, weighted
+  SurfaceHit<F> x;
+  SurfaceScattering<F> bsdf;
+  Vec3<F> wo;  // local
+  BsdfContext<F> context;
+
+  Departure<F> departure() const { return {x.point.p, bsdf.light_normal}; }
+  Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(x.point.p, x.point.p_error, x.point.ng, wi); }
+};
+
+template <class F>
+Hit<F> select_hit(Mask<F> m, const Hit<F>& a, const Hit<F>& b) {
+  return {select(m, a.t, b.t),
+          select(m, a.u, b.u),
+          select(m, a.v, b.v),
+          select(m, a.geometry, b.geometry),
+          select(m, a.primitive, b.primitive),
+          select(m, a.instance, b.instance)};
+}
+
+// The light from beyond the scene along d, each infinite light weighted by weight(density): the density, solid angle,
+// with which light sampling at `from` would have drawn d.
+template <class F, class Weight>
+Spectrum<F> sky_light(const Scene& scene, const Departure<F>& from, const Vec3<F>& d, Mask<F> on, Weight weight) {
+  Spectrum<F> sum = gray(F(0.0f));
+  for (int i = 0; i < scene.lights.infinite_count() && any(on); ++i) {
+    const LightHit<F> sky = scene.lights.template escaped<F>(i, from.p, from.n, d, on);
+    sum += select(on, sky.radiance * weight(sky.density.value), gray(F(0.0f)));
+  }
+  return sum;
+}
+
+// Follows rays that have met `hit` where `found`, straight on through interfaces, to a surface that scatters.
+// weight(density) is the weight of the light that is met, as for sky_light; `random` belongs to this vertex.
+template <class F, class Rays, class Weight>
+Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from, const Ray<F>& ray, Hit<F> hit,
+                  Mask<F> found, RandomStream<F> random, RayCounts& counts, Weight weight) {
+  using U = Uint<F>;
+  Arrival<F> a{};
+  a.d = ray.d, a.light = gray(F(0.0f));
+  Vec3<F> o = ray.o;
+  U crossings = U(0u);
+  const auto meet_surface = [&](Mask<F> on) {
+    a.x = surface<F>(scene.geometry, o, ray.d, hit, on);
+    a.context = {TransportMode::radiance, random.fork(crossings)};
+    a.bsdf = scene.materials.template scattering<F>(a.x, ray.d, on, a.context.random);
+  };
+  bool crossed = false;
+  for (Mask<F> open = found; any(open);) {
+    meet_surface(open);
+    if (const Mask<F> emits = open & (a.x.light != U(0u)); any(emits)) {
+      const LightHit<F> light = scene.lights.template hit<F>(select(emits, a.x.light - U(1u), U(0u)), from.p, from.n,
+                                                             a.x.point.p, a.x.point.ng, a.x.point.uv, ray.d, emits);
+      a.light += select(emits, light.radiance * weight(light.density.value), gray(F(0.0f)));
+    }
+    const Mask<F> passes = open & a.bsdf.is_interface;
+    if (!any(passes)) break;
+    crossed = true;
+    o = select(passes, a.origin_toward(ray.d), o);
+    crossings = crossings + select(passes, U(1u), U(0u));
+    counts.scattered += std::uint64_t(count(passes));
+    const auto [further, next] = rays.template trace<F>({o, ray.d, F(ray_infinity)}, passes);
+    const Mask<F> left = passes & !further;
+    a.light += sky_light(scene, from, ray.d, left, weight);
+    found = found & !left;
+    open = passes & further;
+    hit = select_hit(open, next, hit);
+  }
+  if (crossed) meet_surface(found);
+  a.found = found;
+  a.wo = a.bsdf.frame.to_local(-ray.d);
+  a.distance = length(a.x.point.p - ray.o);
+  return a;
+}
+
+// Traces the ray first. Lanes that are off come back with nothing.
+template <class F, class Rays, class Weight>
+Arrival<F> trace_to_arrival(const Scene& scene, const Rays& rays, const Departure<F>& from, const Ray<F>& ray,
+                            Mask<F> on, RandomStream<F> random, RayCounts& counts, Weight weight) {
+  counts.scattered += std::uint64_t(count(on));
+  const auto [found, hit] = rays.template trace<F>(ray, on);
+  Arrival<F> a = arrive(scene, rays, from, ray, hit, found, random, counts, weight);
+  a.light += sky_light(scene, from, ray.d, Mask<F>(on & !found), weight);
+  return a;
+}
+
+// What the first surface of a camera path shows, for the feature layers.
+template <class F>
+void write_features(const Arrival<F>& at, const Spectrum<F>& albedo, Uint<F> slot, Mask<F> on,
+                    std::span<PixelSample> out) {
+  const Vec3<F> normal = face_forward(at.x.point.ns, -at.d);
+  for_each_lane(on, [&](int k) {
+    out[lane(slot, k)].features = {
+        lane(albedo, k), lane(normal, k), lane(at.x.point.p, k), lane(at.distance, k), 1.0f, lane(at.x.object, k)};
+  });
+}
+
+}  // namespace montelux

@@ -1,0 +1,170 @@
+#include "integrator/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "integrator/clamped.h"
+#include "integrator/direct/integrator.h"
+#include "integrator/distribution/integrator.h"
+#include "integrator/look/integrator.h"
+#include "integrator/path/tracer.h"
+#include "integrator/tracepath/integrator.h"
+
+namespace montelux {
+
+namespace {
+
+// The settings of one integrator, read, with the scene they are for.
+struct Request {
+  const ParameterList& list;
+  std::optional<int> max_depth;
+  const Scene& scene;
+  const Accel& accel;
+};
+using Made = Result<ChosenIntegrator>;
+
+ChosenIntegrator made(std::string_view name, std::unique_ptr<PixelIntegrator> integrator) {
+  return {std::string(name), std::move(integrator), {}, {}};
+}
+
+void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
+  if (!max_depth) return;
+  chosen.biases.push_back(fmt::format("maxdepth={}", *max_depth));
+  chosen.notes.push_back(
+      fmt::format("paths end after {} scattering events, as asked: the picture is biased by what longer paths would "
+                  "bring (--set maxdepth=none lifts it)",
+                  *max_depth));
+}
+
+Made make_path(const Request& r) {
+  PathSettings settings = path_settings(r.list);
+  settings.max_depth = r.max_depth;
+  ChosenIntegrator chosen = made("path", std::make_unique<PathTracer>(r.scene, r.accel, settings));
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
+Made make_direct(const Request& r) {
+  const DirectSettings settings = direct_settings(r.list);
+  ChosenIntegrator chosen = made("direct", std::make_unique<DirectIntegrator>(r.scene, r.accel, settings));
+  chosen.biases.push_back("direct light alone");
+  const bool fixed = settings.pattern == PointSetKind::uniform_grid;
+  if (fixed) chosen.biases.push_back("fixed shadow rays");
+  if (fixed)
+    chosen.notes.push_back(
+        "the shadow rays go to the same places in every pass: the picture is biased, and its error bar leaves that "
+        "out");
+  return chosen;
+}
+
+Made make_distribution(const Request& r) {
+  auto settings = distribution_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  ChosenIntegrator chosen = made("distribution", std::make_unique<DistributionIntegrator>(r.scene, r.accel, *settings));
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
+Made make_tracepath(const Request& r) {
+  TracePathSettings settings = tracepath_settings(r.list);
+  settings.max_depth = r.max_depth;
+  ChosenIntegrator chosen = made("tracepath", std::make_unique<TracePathIntegrator>(r.scene, r.accel, settings));
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
+template <const char* name>
+Made make_look(const Request& r) {
+  ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
+  chosen.biases.push_back("no picture of light");
+  return chosen;
+}
+constexpr char ao[] = "ao", normal[] = "normal", albedo[] = "albedo", depth[] = "depth", irradiance[] = "irradiance";
+
+struct Row {
+  EntitySpec spec;
+  Made (*make)(const Request&);
+};
+
+// The one table of integrators.
+const std::vector<Row>& rows() {
+  static const std::vector<Row> table = [] {
+    std::vector<Row> all{{path_spec(), make_path},
+                         {direct_spec(), make_direct},
+                         {distribution_spec(), make_distribution},
+                         {tracepath_spec(), make_tracepath}};
+    constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
+                                                 make_look<irradiance>};
+    const std::vector<EntitySpec> specs = look_specs();
+    for (std::size_t i = 0; i < specs.size(); ++i) all.push_back({specs[i], looks[i]});
+    for (Row& row : all)
+      row.spec.parameters.push_back({"maxcomponent",
+                                     {ParameterType::number},
+                                     "brighter samples are scaled down to it: biased; default none",
+                                     1e-30,
+                                     1e30,
+                                     {"none"}});
+    return all;
+  }();
+  return table;
+}
+
+// A setting that the scene states too: what was typed wins, and "none" lifts it.
+template <class T>
+std::optional<T> stated(const ChoiceText& choice, std::string_view name, std::optional<T> typed,
+                        std::optional<T> by_scene) {
+  for (const auto& [key, value] : choice.settings)
+    if (key == name) return typed;
+  return by_scene;
+}
+
+// The row of the table that is meant, and its settings.
+Result<std::pair<const Row*, ParameterList>> read_choice(const ChoiceText& choice) {
+  for (const Row& row : rows()) {
+    if (row.spec.name != choice.name) continue;
+    auto list = read_settings(row.spec, choice.settings, "integrator");
+    if (!list) return list.failure();
+    return std::pair{&row, *std::move(list)};
+  }
+  return unknown_name("integrator", choice.name, names_of(integrator_catalogue()));
+}
+
+}  // namespace
+
+Status check_integrator(const ChoiceText& choice) {
+  auto read = read_choice(choice);
+  if (!read) return read.failure();
+  return Done{};
+}
+
+std::span<const EntitySpec> integrator_catalogue() {
+  static const std::vector<EntitySpec> specs = [] {
+    std::vector<EntitySpec> all;
+    for (const Row& row : rows()) all.push_back(row.spec);
+    return all;
+  }();
+  return specs;
+}
+
+Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const IntegratorDefaults& defaults,
+                                           const Scene& scene, const Accel& accel) {
+  auto read = read_choice(choice);
+  if (!read) return read.failure();
+  const auto& [row, list] = *read;
+
+  const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
+  const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
+  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), scene, accel};
+  Made result = row->make(request);
+  if (!result) return result;
+  if (const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component)) {
+    result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *most);
+    result->biases.push_back(fmt::format("maxcomponent={}", *most));
+    result->notes.push_back(fmt::format(
+        "samples brighter than {} are scaled down to it: the picture is biased by the light that this takes "
+        "away (--set maxcomponent=none lifts it)",
+        *most));
+  }
+  return result;
+}
+
+}  // namespace montelux

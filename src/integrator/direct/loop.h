@@ -1,0 +1,204 @@
+// Direct light at the first surface, by every strategy: for one camera ray (F = float) and for a pack of them.
+#pragma once
+#include "integrator/arrival.h"
+#include "integrator/branches.h"
+#include "integrator/direct/settings.h"
+#include "integrator/path/first_hits.h"
+#include "mc/hemisphere.h"
+#include "mc/resampling.h"
+
+namespace montelux {
+
+// All that the shadow rays of one vertex share.
+template <class F, class Rays>
+struct DirectLight {
+  using U = Uint<F>;
+  using M = Mask<F>;
+  const Scene& scene;
+  const Rays& rays;
+  const DirectSettings& settings;
+  const Arrival<F>& at;
+  const Branches<F>& numbers;
+  RayCounts& counts;
+
+  // One shadow ray's estimate of the light that the vertex sends on.
+  Spectrum<F> estimate(std::uint32_t ray, M on) const {
+    const M smooth = on & at.bsdf.is_delta, rough = on & !at.bsdf.is_delta;
+    Spectrum<F> sum = gray(F(0.0f));
+    switch (settings.strategy) {
+      case DirectStrategy::light_area:
+        sum = toward_light(ray, rough, LightMeasure::area, false);
+        break;
+      case DirectStrategy::light_solid_angle:
+        sum = toward_light(ray, rough, LightMeasure::solid_angle, false);
+        break;
+      case DirectStrategy::ris:
+        sum = resampled(ray, rough);
+        break;
+      case DirectStrategy::mis:
+        return toward_light(ray, rough, LightMeasure::solid_angle, true) + along_bsdf(ray, on, true);
+      case DirectStrategy::bsdf:
+        return along_bsdf(ray, on, false) + delta_lights(ray, rough);
+      case DirectStrategy::uniform:
+      case DirectStrategy::cosine:
+        sum = along_hemisphere(ray, rough) + delta_lights(ray, rough);
+    }
+    // A mirror can be answered by its own direction alone.
+    return any(smooth) ? sum + along_bsdf(ray, smooth, false) : sum;
+  }
+
+ private:
+  F heuristic(F own, F other) const {
+    const F products[2] = {own, other};
+    return mis_weight<F>(settings.heuristic, products, 0);
+  }
+  LightSample<F> draw_light(F u_choice, Vec2<F> u, LightMeasure measure, M on) const {
+    const Departure<F> from = at.departure();
+    return scene.lights.template sample<F>(from.p, from.n, u_choice, u, on, measure);
+  }
+  BsdfValue<F> scattered(const Vec3<F>& wi, M on) const {
+    return evaluate<F>(at.bsdf.lanes(on), at.wo, at.bsdf.frame.to_local(wi), at.context);
+  }
+  // What is left of `light` behind what blocks the way.
+  Spectrum<F> unblocked(const LightSample<F>& sample, const Spectrum<F>& light, M on) const {
+    const M asks = on & (max_component(light) > F(0.0f));
+    if (!any(asks)) return gray(F(0.0f));
+    counts.shadow += std::uint64_t(count(asks));
+    const M blocked = rays.template occluded<F>(
+        {at.origin_toward(sample.wi), sample.wi, sample.distance * (1.0f - shadow_shortening)}, asks);
+    return select(asks & !blocked, light, gray(F(0.0f)));
+  }
+
+  // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
+  Spectrum<F> toward_light(std::uint32_t ray, M on, LightMeasure measure, bool shared) const {
+    const LightSample<F> light = draw_light(numbers.get1(ray, path_dimension::light_choice),
+                                            numbers.get2(ray, path_dimension::light_point), measure, on);
+    const M asks = on & light.valid;
+    const BsdfValue<F> value = scattered(light.wi, asks);
+    F weight = F(1.0f) / light.density.value;
+    if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density.value, value.density.value));
+    return unblocked(light, value.f_cos * light.radiance * weight, asks);
+  }
+
+  // Lights that no direction can meet by chance, where the strategy draws directions.
+  Spectrum<F> delta_lights(std::uint32_t ray, M on) const {
+    if (!scene.lights.has_delta()) return gray(F(0.0f));
+    const LightSample<F> light =
+        draw_light(numbers.get1(ray, path_dimension::light_choice), numbers.get2(ray, path_dimension::light_point),
+                   LightMeasure::solid_angle, on);
+    const M asks = on & light.valid & light.delta;
+    return unblocked(light, scattered(light.wi, asks).f_cos * light.radiance, asks);
+  }
+
+  // What a direction of the world brings; weight(density) as for arrive().
+  template <class Weight>
+  Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, Weight weight) const {
+    return trace_to_arrival<F>(scene, rays, at.departure(), {at.origin_toward(wi), wi, F(ray_infinity)}, on,
+                               numbers.stream(ray, path_dimension::per_vertex), counts, weight)
+        .light;
+  }
+
+  Spectrum<F> along_bsdf(std::uint32_t ray, M on, bool shared) const {
+    const Vec2<F> u = numbers.get2(ray, path_dimension::direction);
+    const BsdfSample<F> next =
+        sample<F>(at.bsdf.lanes(on), at.wo, Vec3<F>{numbers.get1(ray, path_dimension::lobe), u.x, u.y}, at.context);
+    const M goes = on & next.valid & (max_component(next.weight) > F(0.0f));
+    if (!any(goes)) return gray(F(0.0f));
+    const Spectrum<F> light = incoming(at.bsdf.frame.to_world(next.wi), ray, goes, [&](F by_light) {
+      return shared ? select(next.delta, F(1.0f), heuristic(next.density.value, by_light)) : F(1.0f);
+    });
+    return select(goes, next.weight * light, gray(F(0.0f)));
+  }
+
+  // A direction uniform in solid angle or projected solid angle, on either side where light can pass through.
+  Spectrum<F> along_hemisphere(std::uint32_t ray, M on) const {
+    const bool by_cosine = settings.strategy == DirectStrategy::cosine;
+    const Vec2<F> u = numbers.get2(ray, path_dimension::direction);
+    const M both_sides = length_squared(at.bsdf.light_normal) < F(0.5f);
+    const F side = numbers.get1(ray, path_dimension::lobe);
+    const M below = select(both_sides, side, F(0.0f)) >= F(0.5f);
+    Vec3<F> wi = by_cosine ? sample_cosine_hemisphere(u) : sample_hemisphere(u);
+    F density = by_cosine ? cosine_hemisphere_density(wi.z).value : hemisphere_density(wi.z).value;
+    density = density * select(both_sides, F(0.5f), F(1.0f));
+    // The upper side is that of wo where one side alone scatters.
+    const M one_side_below = (at.wo.z < F(0.0f)) & !both_sides;
+    const M flip = (both_sides & below) | one_side_below;
+    wi.z = select(flip, -wi.z, wi.z);
+    const Vec3<F> world = at.bsdf.frame.to_world(wi);
+    const BsdfValue<F> value = scattered(world, on);
+    const M goes = on & (density > F(0.0f)) & (max_component(value.f_cos) > F(0.0f));
+    if (!any(goes)) return gray(F(0.0f));
+    const Spectrum<F> light = incoming(world, ray, goes, [](F) { return F(1.0f); });
+    return select(goes, value.f_cos * light * (F(1.0f) / density), gray(F(0.0f)));
+  }
+
+  // One out of many candidates on lights, in proportion to what each would bring if nothing were in the way: a shadow
+  // ray for that one alone (Talbot, Cline and Egbert 2005).
+  Spectrum<F> resampled(std::uint32_t ray, M on) const {
+    struct Chosen {
+      LightSample<F> light;
+      Spectrum<F> value;
+      F target;
+    };
+    Chosen chosen{};
+    chosen.value = gray(F(0.0f)), chosen.target = F(0.0f), chosen.light.valid = M(false);
+    F sum = 0.0f;
+    RandomStream<F> stream = numbers.stream(ray, path_dimension::own).fork(U(1u));
+    for (int i = 0; i < settings.candidates; ++i) {
+      const F u_choice = stream.next();
+      const Vec2<F> u = stream.next2();
+      const F u_take = stream.next();
+      const LightSample<F> light = draw_light(u_choice, u, LightMeasure::solid_angle, on);
+      const M asks = on & light.valid;
+      const Spectrum<F> value = scattered(light.wi, asks).f_cos * light.radiance;
+      const F target = select(asks, average(value), F(0.0f));
+      const F weight = select(target > F(0.0f), target / light.density.value, F(0.0f));
+      sum = sum + weight;
+      const M taken = u_take * sum < weight;
+      chosen.light.wi = select(taken, light.wi, chosen.light.wi);
+      chosen.light.distance = select(taken, light.distance, chosen.light.distance);
+      chosen.value = select(taken, value, chosen.value);
+      chosen.target = select(taken, target, chosen.target);
+    }
+    const F factor = resampling_weight(sum, F(float(settings.candidates)), chosen.target);
+    return unblocked(chosen.light, chosen.value * factor, on);
+  }
+};
+
+template <class F, class Rays>
+RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSettings& settings, const TilePass& pass,
+                       std::span<PixelSample> out) {
+  using U = Uint<F>;
+  using M = Mask<F>;
+  FirstHits<F> first_hits(scene, rays, pass, out);
+  RayCounts counts;
+  counts.camera = first_hits.rays();
+  PathState<F> path{};
+  const auto n = std::uint32_t(settings.shadow_rays);
+  for (;;) {
+    const M on = first_hits.refill(path, M(false));
+    if (!any(on)) return counts;
+    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const U first = U(path_dimension::first_vertex);
+    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
+    const Arrival<F> at = arrive<F>(scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
+                                    sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
+
+    const std::uint32_t points = settings.fixed ? 1u : n;
+    const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), points, settings.pattern);
+    const DirectLight<F, Rays> direct{scene, rays, settings, at, numbers, counts};
+    Spectrum<F> sum = gray(F(0.0f));
+    for (std::uint32_t ray = 0; ray < n && any(at.found); ++ray)
+      sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
+    const Spectrum<F> reflected = select(at.found, sum * (1.0f / float(n)), gray(F(0.0f)));
+    const Spectrum<F> radiance = (at.light + reflected) * path.weight;
+    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+
+    const Vec2<F> u = sampler.get2(first + U(path_dimension::direction));
+    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo,
+                                         Vec3<F>{sampler.get1(first + U(path_dimension::lobe)), u.x, u.y}, at.context);
+    write_features(at, select(next.valid & at.found, next.weight, gray(F(0.0f))), path.slot, at.found, out);
+  }
+}
+
+}  // namespace montelux

@@ -1,0 +1,129 @@
+#include "integrator/look/integrator.h"
+
+#include <algorithm>
+
+#include "integrator/arrival.h"
+#include "integrator/branches.h"
+#include "integrator/path/first_hits.h"
+#include "mc/hemisphere.h"
+
+namespace montelux {
+
+namespace {
+
+using F = NativeFloats;
+using U = Uint<F>;
+using M = Mask<F>;
+
+struct View {
+  const Scene& scene;
+  const Accel& accel;
+  const LookSettings& settings;
+  const Arrival<F>& at;
+  const Branches<F>& numbers;
+  RayCounts& counts;
+
+  Vec3<F> normal() const { return face_forward(at.bsdf.frame.n, -at.d); }
+
+  M blocked(const Vec3<F>& wi, F distance, M on) const {
+    counts.shadow += std::uint64_t(count(on));
+    return accel.occluded<F>({at.origin_toward(wi), wi, distance}, on);
+  }
+
+  Spectrum<F> openness(std::uint32_t sample) const {
+    const Vec3<F> local = sample_cosine_hemisphere(numbers.get2(sample, path_dimension::direction));
+    const Vec3<F> wi = Frame<F>::from_normal(normal()).to_world(local);
+    return gray(select(blocked(wi, F(settings.distance), at.found), F(0.0f), F(1.0f)));
+  }
+
+  Spectrum<F> irradiance(std::uint32_t sample) const {
+    const LightSample<F> light =
+        scene.lights.sample<F>(at.x.point.p, normal(), numbers.get1(sample, path_dimension::light_choice),
+                               numbers.get2(sample, path_dimension::light_point), at.found);
+    const F cos = dot(light.wi, normal());
+    const M asks = at.found & light.valid & (cos > F(0.0f));
+    const M lit = asks & !blocked(light.wi, light.distance * (1.0f - shadow_shortening), asks);
+    return select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
+  }
+
+  Spectrum<F> albedo(std::uint32_t sample) const {
+    const Vec2<F> u = numbers.get2(sample, path_dimension::direction);
+    const BsdfSample<F> next = montelux::sample<F>(
+        at.bsdf.lanes(at.found), at.wo, Vec3<F>{numbers.get1(sample, path_dimension::lobe), u.x, u.y}, at.context);
+    return select(next.valid, next.weight, gray(F(0.0f)));
+  }
+
+  Spectrum<F> value(std::uint32_t sample) const {
+    switch (settings.look) {
+      case Look::ambient_occlusion:
+        return openness(sample);
+      case Look::irradiance:
+        return irradiance(sample);
+      case Look::albedo:
+        return albedo(sample);
+      case Look::depth:
+        return gray(at.distance);
+      case Look::normal:
+        break;
+    }
+    const Vec3<F> n = normal();
+    return {{0.5f * (n.x + F(1.0f)), 0.5f * (n.y + F(1.0f)), 0.5f * (n.z + F(1.0f))}};
+  }
+};
+
+}  // namespace
+
+RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out) const {
+  std::fill(out.begin(), out.end(), PixelSample{});
+  FirstHits<F> first_hits(scene_, accel_, pass, out);
+  // Where nothing is met, everything is open, and there is nothing else to see.
+  const float beyond = settings_.look == Look::ambient_occlusion ? 1.0f : 0.0f;
+  for (PixelSample& sample : out) sample.radiance = gray(beyond);
+  RayCounts counts;
+  counts.camera = first_hits.rays();
+  PathState<F> path{};
+  const U first = U(path_dimension::first_vertex);
+  const auto n = std::uint32_t(settings_.samples);
+  for (;;) {
+    const M on = first_hits.refill(path, M(false));
+    if (!any(on)) return counts;
+    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
+    const Arrival<F> at = arrive<F>(scene_, accel_, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
+                                    sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
+    const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), n);
+    const View view{scene_, accel_, settings_, at, numbers, counts};
+    Spectrum<F> sum = gray(F(0.0f));
+    for (std::uint32_t i = 0; i < n; ++i) sum += view.value(i);
+    const Spectrum<F> radiance =
+        select(at.found, sum * (1.0f / float(n)), gray(F(beyond))) * (path.weight / scene_.imaging_ratio);
+    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    write_features(at, view.albedo(0), path.slot, at.found, out);
+  }
+}
+
+std::vector<EntitySpec> look_specs() {
+  using enum ParameterType;
+  const ParameterSpec samples{"samples", {integer}, "of each camera ray; default 1", 1, 4096};
+  return {{"ao",
+           "the share of open directions (no picture of light)",
+           {samples, {"distance", {number}, "what lies farther does not occlude; default: no bound", 1e-6, 1e30}}},
+          {"normal", "shading normals as colours (no picture of light)", {}},
+          {"albedo", "light reflected of unit light from everywhere (no picture of light)", {samples}},
+          {"depth", "distance from the camera (no picture of light)", {}},
+          {"irradiance", "direct light that falls on surfaces (no picture of light)", {samples}}};
+}
+
+LookSettings look_settings(std::string_view name, const ParameterList& list) {
+  LookSettings s;
+  s.look = name == "ao"       ? Look::ambient_occlusion
+           : name == "normal" ? Look::normal
+           : name == "albedo" ? Look::albedo
+           : name == "depth"  ? Look::depth
+                              : Look::irradiance;
+  s.samples = list.integer("samples", s.samples);
+  s.distance = list.number("distance", s.distance);
+  return s;
+}
+
+}  // namespace montelux

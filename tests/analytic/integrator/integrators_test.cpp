@@ -1,0 +1,154 @@
+// Every integrator of light finds the closed forms of scenes/analytic, and they agree with each other in a closed room.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "render_scenes.h"
+#include "statistics.h"
+
+namespace montelux::test {
+
+namespace {
+
+const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/analytic";
+constexpr int passes = 32;
+constexpr double rounding = 1e-5;
+
+struct Expected {
+  std::string scene;
+  double value = 0;
+};
+
+std::vector<Expected> expected_means() {
+  std::vector<Expected> all;
+  for (const nlohmann::json& e : nlohmann::json::parse(read_text(folder / "expected.json")))
+    all.push_back({e.at("scene"), e.at("value").get<double>()});
+  return all;
+}
+
+// Scenes that direct light alone fills: rough surfaces that see the lamp or the sky, and nothing else.
+const std::vector<std::string> direct_scenes{
+    "alpha-shadow.pbrt",    "cylinder-around.pbrt",      "disk-light-aside.pbrt",       "disk-light-axis.pbrt",
+    "distant-light.pbrt",   "goniometric-light.pbrt",    "instance-shadow.pbrt",        "kinds-of-lights.pbrt",
+    "point-light.pbrt",     "many-point-lights.pbrt",    "one-sided-light.pbrt",        "projection-light.pbrt",
+    "rectangle-light.pbrt", "rectangle-light-near.pbrt", "rectangle-light-tilted.pbrt", "sky-two-tone.pbrt",
+    "rough-metal-45.pbrt",  "sky-two-tone-tilted.pbrt",  "sphere-light.pbrt",           "sphere-light-near.pbrt",
+    "spot-light-core.pbrt", "triangle-light.pbrt",       "triangle-light-far.pbrt",     "translucent-sheet.pbrt"};
+const std::vector<std::string> direct_ways{
+    "direct:strategy=light-area",
+    "direct:strategy=light-solid-angle",
+    "direct:strategy=uniform",
+    "direct:strategy=cosine",
+    "direct:strategy=bsdf",
+    "direct:strategy=mis",
+    "direct:strategy=mis,mis=balance,shadow-rays=3",
+    "direct:strategy=mis,mis=maximum",
+    "direct:strategy=mis,mis=cutoff",
+    "direct:strategy=ris,candidates=4",
+    "direct:strategy=light-area,shadow-rays=9,pattern=stratified",
+    "direct:strategy=cosine,shadow-rays=8,pattern=sobol",
+    "direct:strategy=light-solid-angle,shadow-rays=4,pattern=random",
+};
+const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays=1",
+                                         "distribution:branching=1,shadow-rays=0", "tracepath",
+                                         "tracepath:p-emit=0.5,roulette-depth=0"};
+
+struct Measured {
+  double mean = 0, standard_error = 0;
+  std::uint64_t non_finite = 0;
+};
+
+Measured measure(const TestScene& scene, const std::string& way, int samples_per_pass) {
+  const ChosenIntegrator chosen = scene.integrator(way);
+  RenderObserver silent;
+  const RenderResult result =
+      render(*chosen.integrator, scene.settings(PointSetKind::independent, {samples_per_pass, passes}, 3), silent);
+  const ImageEstimate image = result.film.image();
+  return {image.mean[0], image.standard_error[0], result.film.non_finite()};
+}
+
+bool agrees(const Measured& m, double value, double level) {
+  const double distance = std::max(0.0, std::abs(m.mean - value) - rounding * std::abs(value));
+  if (distance == 0) return true;
+  return m.standard_error > 0 && 2 * student_t_cdf(-distance / m.standard_error, passes - 1) >= level;
+}
+
+// Holds every way against the closed form of every scene; the share of the tests that a mean 10 % off would fail.
+double hold_to_closed_forms(const std::vector<Expected>& scenes, const std::vector<std::string>& ways, int samples) {
+  const double level = sidak_level(family_level, double(scenes.size() * ways.size()));
+  double caught = 0, tests = 0;
+  for (const Expected& e : scenes) {
+    const TestScene scene(read_text(folder / e.scene), folder.string());
+    for (const std::string& way : ways) {
+      const Measured m = measure(scene, way, samples);
+      EXPECT_TRUE(agrees(m, e.value, level))
+          << way << " in " << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value
+          << " is right (" << (m.mean - e.value) / m.standard_error << " standard errors)";
+      EXPECT_EQ(m.non_finite, 0u) << way << " in " << e.scene;
+      caught += agrees(m, e.value * 1.1, level) ? 0 : 1, tests += 1;
+    }
+  }
+  return caught / tests;
+}
+
+TEST(DirectStrategies, find_the_closed_forms_of_scenes_with_direct_light_alone) {
+  std::vector<Expected> scenes;
+  for (const Expected& e : expected_means())
+    if (std::ranges::find(direct_scenes, e.scene) != direct_scenes.end()) scenes.push_back(e);
+  EXPECT_EQ(scenes.size(), direct_scenes.size());
+  EXPECT_GT(hold_to_closed_forms(scenes, direct_ways, 16), 0.8);
+}
+
+TEST(FullIntegrators, find_the_closed_form_of_every_scene) {
+  EXPECT_GT(hold_to_closed_forms(expected_means(), full_ways, 16), 0.8);
+}
+
+TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
+  const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
+  EXPECT_EQ(scene.integrator("direct:pattern=fixed").biases,
+            (std::vector<std::string>{"direct light alone", "fixed shadow rays"}));
+  double value = 0;
+  for (const Expected& e : expected_means())
+    if (e.scene == "rectangle-light-near.pbrt") value = e.value;
+  EXPECT_FALSE(agrees(measure(scene, "direct:strategy=light-area,pattern=fixed", 16), value, family_level));
+}
+
+// A closed room with a lamp, a mirror-like ball and a glass ball: the whole transport, and no closed form.
+TEST(FullIntegrators, agree_pairwise_in_a_closed_room) {
+  const std::filesystem::path room = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/first-light";
+  const TestScene scene(read_text(room / "first-light.pbrt"), room.string(), std::pair(24, 18));
+  std::vector<std::string> ways = full_ways;
+  ways.push_back("path");
+  std::vector<Measured> means;
+  for (const std::string& way : ways) means.push_back(measure(scene, way, 4));
+  const double level = sidak_level(0.01, double(ways.size() * (ways.size() - 1)) / 2);
+  const auto differ = [&](const Measured& a, const Measured& b) {
+    return welch_test({a.mean, a.standard_error * a.standard_error * passes, passes},
+                      {b.mean, b.standard_error * b.standard_error * passes, passes})
+               .p_value < level;
+  };
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(differ(means[i], means[j]))
+          << ways[i] << " " << means[i].mean << " +- " << means[i].standard_error << ", " << ways[j] << " "
+          << means[j].mean << " +- " << means[j].standard_error;
+  // The light of the first scattering event alone is another picture.
+  EXPECT_TRUE(differ(measure(scene, "direct", 4), means.back()));
+}
+
+TEST(Distribution, counts_its_rays_by_depth) {
+  const TestScene scene(read_text(folder / "closed-furnace-box.pbrt"), folder.string());
+  const ChosenIntegrator chosen = scene.integrator("distribution:branching=3/2,maxdepth=3");
+  RenderObserver silent;
+  const RayCounts rays = render(*chosen.integrator, scene.settings(PointSetKind::independent, {1, 2}, 3), silent).rays;
+  // Nothing leaves a closed box, so the tree is complete.
+  EXPECT_EQ(rays.by_depth[1], 3 * rays.by_depth[0]);
+  EXPECT_EQ(rays.by_depth[2], 6 * rays.by_depth[0]);
+  EXPECT_EQ(rays.by_depth[3], 12 * rays.by_depth[0]);
+  EXPECT_EQ(rays.by_depth[4], 0u);
+}
+
+}  // namespace
+
+}  // namespace montelux::test

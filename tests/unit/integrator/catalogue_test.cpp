@@ -1,0 +1,56 @@
+#include "integrator/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/direct/settings.h"
+#include "render_scenes.h"
+
+namespace montelux::test {
+namespace {
+
+const char* room = R"(Camera "perspective" WorldBegin LightSource "infinite" Shape "sphere")";
+
+std::string failure_of(const TestScene& scene, const std::string& text) {
+  try {
+    scene.integrator(text);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(IntegratorCatalogue, makes_every_integrator_by_its_name_alone) {
+  const TestScene scene(room);
+  for (const EntitySpec& spec : integrator_catalogue()) EXPECT_EQ(scene.integrator(spec.name).name, spec.name);
+}
+
+TEST(IntegratorCatalogue, makes_every_preset) {
+  const TestScene scene(room);
+  for (const DirectPreset& preset : direct_presets()) EXPECT_NO_THROW(scene.integrator(preset.integrator));
+}
+
+TEST(IntegratorCatalogue, names_the_nearest_of_what_it_does_not_know) {
+  const TestScene scene(room);
+  EXPECT_NE(failure_of(scene, "pth").find("did you mean \"path\""), std::string::npos);
+  EXPECT_NE(failure_of(scene, "direct:strategy=riss").find("light-area, light-solid-angle"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "direct:shadowrays=2").find("did you mean \"shadow-rays\""), std::string::npos);
+}
+
+TEST(IntegratorCatalogue, refuses_a_tree_that_never_ends) {
+  const TestScene scene(room);
+  EXPECT_NE(failure_of(scene, "distribution:branching=4/2").find("never ends"), std::string::npos);
+  EXPECT_EQ(failure_of(scene, "distribution:branching=4/2,maxdepth=3"), "");
+  for (const char* text : {"", "0", "4/", "4/x", "-1/1", "1/5000"})
+    EXPECT_NE(failure_of(scene, std::string("distribution:branching=") + text), "") << text;
+}
+
+TEST(IntegratorCatalogue, records_what_is_biased) {
+  const TestScene scene(room);
+  EXPECT_TRUE(scene.integrator("path").biases.empty());
+  EXPECT_EQ(scene.integrator("path:maxdepth=3").biases, std::vector<std::string>{"maxdepth=3"});
+  EXPECT_EQ(scene.integrator("tracepath:maxcomponent=2").biases, std::vector<std::string>{"maxcomponent=2"});
+  EXPECT_EQ(scene.integrator("ao").biases, std::vector<std::string>{"no picture of light"});
+}
+
+}  // namespace
+}  // namespace montelux::test
