@@ -1,5 +1,7 @@
 // How often error bars hold what they promise, over many seeds.
 #pragma once
+#include <algorithm>
+
 #include "error_bar_scenes.h"
 #include "statistics.h"
 
