@@ -11,8 +11,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.path.abspath(sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build" / "release" / "montelux")
 SCENE = ROOT / "scenes" / "first-light" / "first-light.pbrt"
 
-# Files carry no time of their own, and messages no colour.
-ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "0", "NO_COLOR": "1"}
+# Files carry no time of their own, messages no colour, and a terminal is one that can redraw a line.
+ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "0", "NO_COLOR": "1", "TERM": "xterm"}
 
 
 class ProgramTest(unittest.TestCase):
