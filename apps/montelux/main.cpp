@@ -12,15 +12,16 @@ namespace montelux::cli {
 
 namespace {
 
-constexpr const char* description = "Monte Carlo renderer that says how wrong its answer is.";
+constexpr const char* description = "Monte Carlo renderer and integrator that says how wrong its answer is.";
 
 constexpr const char* notes = R"(Examples:
   montelux render scene.pbrt -o room.exr --spp 256
   montelux tonemap room.exr -o room.png
+  montelux integrate '4*x^3' --over x=0:1
   montelux diff a.exr b.exr
   montelux render --help
 
-Exit status: 0 done; 1 diff found a difference; 2 options, scene or pictures cannot be used;
+Exit status: 0 done; 1 diff found a difference; 2 options, scene, pictures or integral cannot be used;
 3 unexpected failure; 130 and 143 interrupted (SIGINT, SIGTERM), what was done is written.
 )";
 
@@ -64,7 +65,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     if (argument.starts_with('-')) {
       const std::vector<std::string> names = option_names(verb);
       return fmt::format("unknown option \"{}\" of {}; valid: {}{}", argument, verb.get_name(), fmt::join(names, ", "),
-                         did_you_mean(argument.substr(0, argument.find('=')), {names.begin(), names.end()}));
+                         did_you_mean(argument.substr(0, argument.find('=')), {names.begin(), names.end()})) +
+             (verb.get_name() == "integrate" ? "; an expression that begins with - goes behind --" : "");
     }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())
     return fmt::format("unexpected argument \"{}\"{}", extra.front(), help);
@@ -81,7 +83,8 @@ int run(int argc, char** argv) {
   app.footer(notes);
   app.require_subcommand(1);
   Action chosen;
-  for (auto add : {add_render, add_info, add_diff, add_tonemap, add_list, add_completion}) add(app, chosen);
+  for (auto add : {add_render, add_integrate, add_merge, add_info, add_diff, add_tonemap, add_list, add_completion})
+    add(app, chosen);
   for (CLI::App* verb : app.get_subcommands({})) verb->group("Verbs");
   try {
     app.parse(argc, argv);

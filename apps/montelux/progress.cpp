@@ -27,39 +27,42 @@ std::string numbers(const Progress& p) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool visible, const StopSignals& signals)
-    : signals_(signals), visible_(visible), in_place_(terminal_on_stderr()), next_(in_place_ ? 0 : 1) {}
+StatusLine::StatusLine(bool visible) : visible_(visible), in_place_(terminal_on_stderr()), next_(in_place_ ? 0 : 1) {}
+
+void StatusLine::show(double fraction, double elapsed, const std::function<std::string()>& text) {
+  if (!visible_ || elapsed < next_) return;
+  next_ = elapsed + (in_place_ ? 0.1 : 10);
+  const std::string numbers = text();
+  const int percent = int(100 * fraction);
+  if (!in_place_) {
+    fmt::print(stderr, "{:3} %  {}\n", percent, numbers);
+    return;
+  }
+  const int columns = terminal_columns();
+  const int width = std::clamp(columns - int(numbers.size()) - 12, 0, 40);
+  std::string line = fmt::format("{:3} % ", percent);
+  if (width >= 8) {
+    const int full = int(std::lround(fraction * width));
+    line += fmt::format("[{}{}] ", std::string(std::size_t(full), '='), std::string(std::size_t(width - full), ' '));
+  }
+  line = (line + numbers).substr(0, std::size_t(std::max(columns - 1, 1)));
+  fmt::print(stderr, "\r{}\x1b[K", line);
+  std::fflush(stderr);
+}
+
+void StatusLine::finish() {
+  if (!visible_ || !in_place_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+}
 
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }
 
 void ProgressLine::progress(const Progress& p) {
-  if (!visible_) return;
-  const int percent = int(100 * p.fraction);
-  if (!in_place_) {
-    if (p.elapsed < next_ || p.finished) return;
-    next_ = p.elapsed + 10;
-    fmt::print(stderr, "{:3} %  {}\n", percent, numbers(p));
-    return;
-  }
-  // The line goes at the end: the results say the same for good.
-  if (p.finished) {
-    fmt::print(stderr, "\r\x1b[K");
-    std::fflush(stderr);
-    return;
-  }
-  if (p.elapsed < next_) return;
-  next_ = p.elapsed + 0.1;
-  std::string text = numbers(p);
-  const int columns = terminal_columns();
-  const int width = std::clamp(columns - int(text.size()) - 12, 0, 40);
-  std::string line = fmt::format("{:3} % ", percent);
-  if (width >= 8) {
-    const int full = int(std::lround(p.fraction * width));
-    line += fmt::format("[{}{}] ", std::string(std::size_t(full), '='), std::string(std::size_t(width - full), ' '));
-  }
-  line = (line + text).substr(0, std::size_t(std::max(columns - 1, 1)));
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  if (p.finished)
+    line_.finish();
+  else
+    line_.show(p.fraction, p.elapsed, [&p] { return numbers(p); });
 }
 
 std::string time_text(double seconds) {

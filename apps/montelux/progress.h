@@ -1,5 +1,6 @@
 // Showing how a render gets on, on standard error.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "api/render.h"
@@ -7,19 +8,31 @@
 
 namespace montelux::cli {
 
-// A line that is redrawn in place on a terminal, elsewhere a line after a second and then every ten; and it passes on
-// the request of a signal to stop.
+// A line with a bar that is redrawn in place on a terminal; elsewhere a line after a second and then every ten.
+class StatusLine {
+ public:
+  explicit StatusLine(bool visible);
+  // Draws the line where it is due; `text` is made only then.
+  void show(double fraction, double elapsed, const std::function<std::string()>& text);
+  // Takes the line away: the results say the same for good.
+  void finish();
+
+ private:
+  bool visible_, in_place_;
+  double next_ = 0;  // seconds at which the next line is due
+};
+
+// The progress of a render as a status line; and it passes on the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
-  ProgressLine(bool visible, const StopSignals& signals);
+  ProgressLine(bool visible, const StopSignals& signals) : signals_(signals), line_(visible) {}
 
   void progress(const Progress& progress) override;
   bool stop_requested() override;
 
  private:
   const StopSignals& signals_;
-  bool visible_, in_place_;
-  double next_ = 0;  // seconds at which the next line is due
+  StatusLine line_;
 };
 
 // "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

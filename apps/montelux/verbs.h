@@ -12,6 +12,8 @@ namespace montelux::cli {
 using Action = std::function<int()>;
 
 void add_render(CLI::App& app, Action& chosen);
+void add_integrate(CLI::App& app, Action& chosen);
+void add_merge(CLI::App& app, Action& chosen);
 void add_info(CLI::App& app, Action& chosen);
 void add_diff(CLI::App& app, Action& chosen);
 void add_tonemap(CLI::App& app, Action& chosen);

@@ -9,6 +9,9 @@
 #include "geometry/table.h"
 #include "integrator/catalogue.h"
 #include "io/pbrt/parameters.h"
+#include "lab/domain/domain.h"
+#include "lab/expression/functions.h"
+#include "lab/integral/methods.h"
 #include "light/table.h"
 #include "material/table.h"
 #include "scene/table.h"
@@ -47,6 +50,14 @@ std::vector<CatalogueEntry> entries_of(const Names& names) {
   return entries;
 }
 
+// Functions and constants of expressions.
+std::vector<CatalogueEntry> expression_names() {
+  Names names;
+  for (const lab::NamedFunction& f : lab::expression_functions()) names.emplace_back(f.name, f.meaning);
+  for (const lab::NamedConstant& c : lab::expression_constants()) names.emplace_back(c.name, c.meaning);
+  return entries_of(names);
+}
+
 struct Topic {
   std::string_view name, meaning;
   std::vector<CatalogueEntry> (*entries)();
@@ -56,6 +67,10 @@ constexpr Topic topics[] = {
     {"integrators", "algorithms, as --integrator takes them", [] { return entries_of(integrator_catalogue()); }},
     {"samplers", "point sets, as --sampler takes them", [] { return entries_of(sampler_names()); }},
     {"tones", "tone curves, as --tone takes them", [] { return entries_of(tone_curves()); }},
+    {"methods", "methods of integration, as integrate --method takes them",
+     [] { return entries_of(lab::method_table()); }},
+    {"domains", "shapes that integrate --over takes beside intervals", [] { return entries_of(lab::domain_table()); }},
+    {"functions", "functions and constants of expressions", [] { return expression_names(); }},
     {"materials", "materials of a scene", [] { return entries_of(material_table()); }},
     {"textures", "textures of a scene", [] { return entries_of(texture_table()); }},
     {"lights", "lights of a scene that are no shapes", [] { return entries_of(light_table()); }},

@@ -6,7 +6,7 @@ import unittest
 
 from program import ENVIRONMENT, SCENE, ProgramTest
 
-VERBS = ["render", "info", "diff", "tonemap", "list", "completion"]
+VERBS = ["render", "integrate", "merge", "info", "diff", "tonemap", "list", "completion"]
 
 
 class Options(ProgramTest):
@@ -65,7 +65,8 @@ class Options(ProgramTest):
     def test_list_knows_topics_names_and_parameters(self):
         topics = [line.split()[0] for line in self.run_program("list").stdout.splitlines()]
         for topic, name in [("integrators", "path"), ("samplers", "sobol"), ("materials", "diffuse"),
-                            ("lights", "infinite"), ("shapes", "sphere"), ("textures", "checkerboard")]:
+                            ("lights", "infinite"), ("shapes", "sphere"), ("textures", "checkerboard"), ("methods", "vegas"),
+                            ("domains", "simplex"), ("functions", "heaviside")]:
             self.assertIn(topic, topics)
             self.assertIn(name, self.run_program("list", topic).stdout)
         self.assertIn("roughness", self.run_program("list", "materials", "conductor").stdout)
@@ -99,7 +100,8 @@ class Completion(ProgramTest):
         for words, expected in [(["re"], {"render"}), (["render", "--tone", ""], {"clip", "hable", "aces"}),
                                 (["diff", "--stderr"], {"--stderr-a", "--stderr-b"}), (["list", "mat"], {"materials"}),
                                 (["tonemap", "ro"], {"room.exr"}), (["render", "-o", "roo"], {"room.exr"}),
-                                (["completion", ""], {"bash", "zsh", "fish"})]:
+                                (["completion", ""], {"bash", "zsh", "fish"}), (["integrate", "--tar"], {"--target", "--target-error"}),
+                                (["integrate", "--method", "v"], {"vegas"}), (["merge", "ro"], {"room.exr"})]:
             line = " ".join(f"'{word}'" for word in ["montelux", *words])
             code = (f"source ./completion; COMP_WORDS=({line}); COMP_CWORD={len(words)}; _montelux; "
                     "printf '%s\\n' \"${COMPREPLY[@]}\"")

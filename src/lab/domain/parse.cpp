@@ -5,40 +5,13 @@
 #include <cmath>
 
 #include "lab/domain/domain.h"
+#include "lab/expression/text_part.h"
 #include "parameter/choice.h"
 
 namespace montelux::lab {
 namespace {
 
 constexpr std::size_t most_dimensions = 64;
-
-// A part of a text, and where it begins there.
-struct Part {
-  std::string_view text;
-  std::size_t begin;
-};
-
-Part trimmed(Part part) {
-  while (!part.text.empty() && part.text.front() == ' ') part.text.remove_prefix(1), ++part.begin;
-  while (!part.text.empty() && part.text.back() == ' ') part.text.remove_suffix(1);
-  return part;
-}
-
-// Cuts at a character, but not within brackets; at most `most` parts.
-std::vector<Part> split(Part whole, char at, std::size_t most = std::string_view::npos) {
-  std::vector<Part> parts;
-  std::size_t begin = 0;
-  int depth = 0;
-  for (std::size_t i = 0; i < whole.text.size(); ++i) {
-    const char c = whole.text[i];
-    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (c != at || depth > 0 || parts.size() + 1 >= most) continue;
-    parts.push_back({whole.text.substr(begin, i - begin), whole.begin + begin});
-    begin = i + 1;
-  }
-  parts.push_back({whole.text.substr(begin), whole.begin + begin});
-  return parts;
-}
 
 const std::vector<EntitySpec>& table() {
   using enum ParameterType;
@@ -75,7 +48,7 @@ class Reader {
     if (equals == std::string::npos || colon < equals)
       read_shape();
     else
-      for (const Part& part : split({text_, 0}, ',')) read_side(trimmed(part));
+      for (const TextPart& part : split({text_, 0}, ',')) read_side(trimmed(part));
   }
 
   ParsedDomain finish() {
@@ -93,16 +66,16 @@ class Reader {
   void complain(std::size_t position, std::size_t length, std::string message) {
     mistakes_.push_back({text_, {position, std::max<std::size_t>(1, length), std::move(message)}});
   }
-  void complain(Part part, std::string message) { complain(part.begin, part.text.size(), std::move(message)); }
+  void complain(TextPart part, std::string message) { complain(part.begin, part.text.size(), std::move(message)); }
 
-  std::optional<Expression> read_expression(Part part, const std::vector<std::string>& variables) {
+  std::optional<Expression> read_expression(TextPart part, const std::vector<std::string>& variables) {
     CompiledExpression compiled = compile(part.text, variables);
     for (TextMistake& m : compiled.mistakes) complain(part.begin + m.position, m.length, std::move(m.message));
     return std::move(compiled.expression);
   }
 
   // Adds a factor unless one of its names is taken.
-  void add(DomainFactor factor, Part where) {
+  void add(DomainFactor factor, TextPart where) {
     std::vector<std::string> names = std::visit([](const auto& f) { return f.names(); }, factor);
     for (const std::string& name : names)
       if (std::ranges::find(names_, name) != names_.end())
@@ -112,16 +85,16 @@ class Reader {
   }
 
   // "x=0:1"
-  void read_side(Part part) {
-    const std::vector<Part> halves = split(part, '=', 2);
+  void read_side(TextPart part) {
+    const std::vector<TextPart> halves = split(part, '=', 2);
     if (halves.size() < 2) return complain(part, "an interval is written name=low:high, as x=0:1");
-    const Part name = trimmed(halves[0]);
+    const TextPart name = trimmed(halves[0]);
     if (!valid_variable(name.text))
       return complain(name,
                       fmt::format("\"{}\" cannot be a variable: names start with a letter, go on with letters and "
                                   "digits, and are no function or constant",
                                   name.text));
-    const std::vector<Part> bounds = split(halves[1], ':');
+    const std::vector<TextPart> bounds = split(halves[1], ':');
     if (bounds.size() != 2) return complain(trimmed(halves[1]), "bounds are written low:high, as 0:1");
     const std::size_t before = mistakes_.size();
     auto low = read_expression(trimmed(bounds[0]), names_), high = read_expression(trimmed(bounds[1]), names_);
@@ -135,9 +108,9 @@ class Reader {
   }
 
   // So that a mistake in its bounds does not make a variable unknown elsewhere.
-  void keep_name(Part name) { names_.emplace_back(name.text); }
+  void keep_name(TextPart name) { names_.emplace_back(name.text); }
 
-  void check_bounds(Side& side, Part low, Part high) {
+  void check_bounds(Side& side, TextPart low, TextPart high) {
     const std::vector<double> nothing(names_.size(), 0.5);
     const auto fixed = [&](const Expression& e) -> std::optional<double> {
       return e.constant() ? std::optional(e(nothing)) : std::nullopt;
@@ -155,8 +128,8 @@ class Reader {
 
   // "disk:radius=2"
   void read_shape() {
-    const std::vector<Part> halves = split({text_, 0}, ':', 2);
-    const Part name = trimmed(halves[0]);
+    const std::vector<TextPart> halves = split({text_, 0}, ':', 2);
+    const TextPart name = trimmed(halves[0]);
     const EntitySpec* entry = find_entity(table(), name.text);
     if (!entry)
       return complain(
@@ -164,15 +137,15 @@ class Reader {
     settings_.clear();
     const std::size_t before = mistakes_.size();
     if (halves.size() > 1)
-      for (const Part& part : split(halves[1], ',')) read_setting(*entry, trimmed(part));
+      for (const TextPart& part : split(halves[1], ',')) read_setting(*entry, trimmed(part));
     auto factors = shape(name.text);
     if (mistakes_.size() > before) return;
     for (DomainFactor& factor : factors) add(std::move(factor), name);
   }
 
-  void read_setting(const EntitySpec& entry, Part part) {
-    const std::vector<Part> halves = split(part, '=', 2);
-    const Part name = trimmed(halves[0]);
+  void read_setting(const EntitySpec& entry, TextPart part) {
+    const std::vector<TextPart> halves = split(part, '=', 2);
+    const TextPart name = trimmed(halves[0]);
     std::vector<std::string_view> valid;
     for (const ParameterSpec& p : entry.parameters) valid.push_back(p.name);
     if (std::ranges::find(valid, name.text) == valid.end())
@@ -182,13 +155,13 @@ class Reader {
     settings_.emplace_back(name.text, trimmed(halves[1]));
   }
 
-  const Part* setting(std::string_view name) const {
-    const auto it = std::ranges::find(settings_, name, &std::pair<std::string_view, Part>::first);
+  const TextPart* setting(std::string_view name) const {
+    const auto it = std::ranges::find(settings_, name, &std::pair<std::string_view, TextPart>::first);
     return it == settings_.end() ? nullptr : &it->second;
   }
 
   // A number, which may be an expression such as pi/2.
-  std::optional<double> number(Part part) {
+  std::optional<double> number(TextPart part) {
     auto e = read_expression(part, {});
     if (!e) return std::nullopt;
     const double value = (*e)({});
@@ -198,7 +171,7 @@ class Reader {
   }
 
   double positive(std::string_view name, double otherwise) {
-    const Part* part = setting(name);
+    const TextPart* part = setting(name);
     if (!part) return otherwise;
     const auto value = number(*part);
     if (value && *value <= 0) complain(*part, fmt::format("the {} is above 0", name));
@@ -206,7 +179,7 @@ class Reader {
   }
 
   std::size_t dimension(std::size_t otherwise) {
-    const Part* part = setting("dimension");
+    const TextPart* part = setting("dimension");
     if (!part) return otherwise;
     const auto value = number(*part);
     if (value && *value >= 1 && *value <= double(most_dimensions) && *value == std::floor(*value))
@@ -217,10 +190,10 @@ class Reader {
 
   // "(0, 1)" or "(0, 1, 2)"; returns how many coordinates there were, 0 where there is no such setting.
   std::size_t corner(std::string_view name, std::array<double, 3>& point) {
-    const Part* part = setting(name);
+    const TextPart* part = setting(name);
     if (!part) return 0;
     const std::string_view t = part->text;
-    std::vector<Part> coordinates;
+    std::vector<TextPart> coordinates;
     if (t.size() >= 2 && t.front() == '(' && t.back() == ')')
       coordinates = split({t.substr(1, t.size() - 2), part->begin + 1}, ',');
     if (coordinates.size() != 2 && coordinates.size() != 3) {
@@ -245,7 +218,7 @@ class Reader {
   }
 
   bool projected() {
-    const Part* part = setting("measure");
+    const TextPart* part = setting("measure");
     if (!part || part->text == "solid-angle") return false;
     if (part->text != "projected")
       complain(*part, unknown_name("measure", part->text, {"solid-angle", "projected"}).message);
@@ -270,7 +243,7 @@ class Reader {
   std::vector<DomainFactor> factors_;
   std::vector<std::string> names_;
   std::vector<DomainMistake> mistakes_;
-  std::vector<std::pair<std::string_view, Part>> settings_;
+  std::vector<std::pair<std::string_view, TextPart>> settings_;
 };
 
 }  // namespace

@@ -119,7 +119,7 @@ class Scanner {
     std::string message = fmt::format("unknown {} \"{}\"", called ? "function" : "name", name);
     if (std::string_view nearest = nearest_name(name, near); !nearest.empty())
       message += fmt::format(" (did you mean \"{}\"?)", nearest);
-    else if (!called)
+    if (!called)
       message += variables_.empty() ? "; there are no variables here"
                                     : fmt::format("; the variables are {}", fmt::join(variables_, ", "));
     return message;

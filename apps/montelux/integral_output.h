@@ -1,0 +1,19 @@
+// What an integral came to, for people and for programs.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "api/integrate.h"
+
+namespace montelux::cli {
+
+// One value with its interval, cost and checks; or a table where several methods ran. `brief`: the values alone.
+void print_integral_text(const std::vector<IntegralRun>& runs, bool brief);
+// An object; with several methods it has them in the array "results".
+void print_integral_json(const IntegralOptions& options, const std::vector<IntegralRun>& runs);
+// A header and a row for each method.
+void print_integral_csv(const std::vector<IntegralRun>& runs);
+// What makes results less than they claim, on standard error.
+void print_integral_warnings(const std::vector<IntegralRun>& runs);
+
+}  // namespace montelux::cli

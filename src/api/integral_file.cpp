@@ -1,0 +1,150 @@
+// Integrals in files: the statement, the budget, and a running estimate a method, as JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "api/integrate.h"
+#include "api/render.h"
+#include "image/replace_file.h"
+
+namespace montelux {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view format_name = "montelux integrals";
+constexpr int format_version = 1;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+template <class T>
+std::optional<T> optional_at(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found == json.end() || found->is_null() ? std::nullopt : std::optional<T>(found->get<T>());
+}
+
+Json statement_json(const lab::IntegralStatement& s) {
+  return {{"integrand", s.integrand},
+          {"over", s.over},
+          {"pdf", s.densities},
+          {"normalize_pdf", s.normalize_densities},
+          {"allow_missed", s.allow_missed},
+          {"control", or_null(s.control)},
+          {"control_integral", or_null(s.control_integral)},
+          {"target", or_null(s.target)}};
+}
+lab::IntegralStatement statement_from(const Json& j) {
+  lab::IntegralStatement s;
+  s.integrand = j.at("integrand"), s.over = j.at("over").get<std::vector<std::string>>();
+  s.densities = j.at("pdf").get<std::vector<std::string>>();
+  s.normalize_densities = j.at("normalize_pdf"), s.allow_missed = j.at("allow_missed");
+  s.control = optional_at<std::string>(j, "control");
+  s.control_integral = optional_at<std::string>(j, "control_integral");
+  s.target = optional_at<std::string>(j, "target");
+  return s;
+}
+
+Json budget_json(const lab::Budget& b) {
+  return {{"samples", or_null(b.samples)},
+          {"seconds", or_null(b.seconds)},
+          {"target_error", or_null(b.target_error)},
+          {"target_is_relative", b.target_is_relative},
+          {"confidence", b.confidence}};
+}
+lab::Budget budget_from(const Json& j) {
+  lab::Budget b;
+  b.samples = optional_at<std::uint64_t>(j, "samples"), b.seconds = optional_at<double>(j, "seconds");
+  b.target_error = optional_at<double>(j, "target_error"), b.target_is_relative = j.at("target_is_relative");
+  b.confidence = j.at("confidence");
+  return b;
+}
+
+SavedIntegral saved_from(const Json& j) {
+  if (!j.is_object() || j.value("format", "") != format_name)
+    throw std::invalid_argument("it is not a file that montelux integrate --save wrote");
+  if (j.at("version") != format_version)
+    throw std::invalid_argument(fmt::format("its format has version {}, this program reads version {}",
+                                            j.at("version").dump(), format_version));
+  SavedIntegral saved;
+  saved.options.statement = statement_from(j.at("statement"));
+  saved.options.methods = j.at("methods").get<std::vector<std::string>>();
+  saved.options.budget = budget_from(j.at("budget"));
+  saved.options.seed = j.at("seed");
+  for (const Json& run : j.at("runs")) {
+    saved.methods.push_back(run.at("method"));
+    saved.states.push_back(lab::state_from_json(run.at("state").dump()));
+  }
+  if (saved.states.empty() || saved.states.size() > saved.options.methods.size())
+    throw std::invalid_argument("its runs do not match its methods");
+  return saved;
+}
+
+}  // namespace
+
+Status save_integral(const std::filesystem::path& file, const SavedIntegral& saved) {
+  Json runs = Json::array();
+  for (std::size_t k = 0; k < saved.states.size(); ++k)
+    runs.push_back({{"method", saved.methods[k]}, {"state", Json::parse(lab::to_json(saved.states[k]))}});
+  const Json json{{"format", format_name},
+                  {"version", format_version},
+                  {"program", version()},
+                  {"statement", statement_json(saved.options.statement)},
+                  {"methods", saved.options.methods},
+                  {"budget", budget_json(saved.options.budget)},
+                  {"seed", saved.options.seed},
+                  {"runs", runs}};
+  return replace_file(file, [&json](const std::string& temporary) -> Status {
+    std::ofstream out(temporary);
+    out << json.dump(1) << '\n';
+    out.close();
+    if (!out) return Failure{"it cannot be written"};
+    return Done{};
+  });
+}
+
+Result<SavedIntegral> load_integral(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  if (!in || !(text << in.rdbuf())) return Failure{fmt::format("{}: cannot be read", file.string())};
+  try {
+    return saved_from(Json::parse(text.str()));
+  } catch (const Json::exception& error) {
+    return Failure{fmt::format("{}: is no saved integral ({})", file.string(), error.what())};
+  } catch (const std::invalid_argument& error) {
+    return Failure{fmt::format("{}: {}", file.string(), error.what())};
+  }
+}
+
+Result<SavedIntegral> merge_integrals(const std::vector<SavedIntegral>& parts) {
+  if (parts.empty()) return Failure{"there is nothing to merge"};
+  SavedIntegral total = parts.front();
+  for (const SavedIntegral& part : parts) {
+    const Json a = statement_json(total.options.statement), b = statement_json(part.options.statement);
+    for (const auto& [key, value] : a.items())
+      if (b.at(key) != value)
+        return Failure{
+            fmt::format("the files are of different integrals: {} is {} and {}", key, value.dump(), b.at(key).dump())};
+    if (part.methods != total.methods)
+      return Failure{fmt::format("the files are of different methods: {} and {}", fmt::join(total.methods, ", "),
+                                 fmt::join(part.methods, ", "))};
+  }
+  try {
+    for (std::size_t k = 0; k < total.states.size(); ++k) {
+      std::vector<lab::IntegralState> states;
+      for (const SavedIntegral& part : parts) states.push_back(part.states[k]);
+      total.states[k] = lab::merge(states);
+    }
+  } catch (const std::invalid_argument& error) {
+    return Failure{error.what()};
+  }
+  return total;
+}
+
+}  // namespace montelux

@@ -1,0 +1,196 @@
+"""Integrals from the command line: their values, their files, and what is said of mistakes."""
+import csv
+import io
+import json
+import math
+import re
+import signal
+import time
+import unittest
+from pathlib import Path
+
+from program import ProgramTest
+
+
+class IntegrateTest(ProgramTest):
+    def integrate(self, *arguments, **options):
+        return self.run_program("integrate", *arguments, **options)
+
+    def result(self, *arguments, **options):
+        return json.loads(self.integrate(*arguments, "--json", **options).stdout)
+
+    def assert_refused(self, arguments, *words):
+        result = self.integrate(*arguments, status=2)
+        self.assertEqual(result.stdout, "")
+        for word in words:
+            self.assertIn(word, result.stderr)
+        return result.stderr
+
+
+class Values(IntegrateTest):
+    def test_the_first_line_is_the_value_with_its_error(self):
+        first = self.integrate("4*x^3", "--over", "x=0:1", "--method", "uniform").stdout.splitlines()[0]
+        self.assertRegex(first, r"^(0\.\d+|1\.\d+)\(\d\d\)$")
+        digits = len(first.split(".")[1].split("(")[0])
+        value, error = float(first.split("(")[0]), int(first[-3:-1]) * 10 ** -digits
+        self.assertLess(abs(value - 1), 5 * error)
+        self.assertEqual(self.integrate("4*x^3", "--over", "x=0:1", "--method", "uniform", "--quiet").stdout, first + "\n")
+
+    def test_integrals_have_their_closed_forms(self):
+        cases = [("exp(-x*y)", ["x=0:1,y=0:2"], 1.3193), ("1", ["disk:radius=2"], 4 * math.pi),
+                 ("cos(theta)^2", ["sphere"], 4 * math.pi / 3), ("z", ["hemisphere"], math.pi),
+                 ("1 + 0*x", ["hemisphere:measure=projected"], math.pi), ("x1", ["simplex:dimension=5"], 1 / 720),
+                 ("x*y", ["triangle:a=(0,0),b=(1,0),c=(1,1)"], 1 / 8), ("exp(-x^2)", ["x=-inf:inf"], math.sqrt(math.pi)),
+                 ("y", ["x=0:1,y=0:x"], 1 / 6), ("t*r^2", ["disk", "t=0:2"], math.pi),
+                 ("x < 0.5 ? 1 : 0", ["x=0:pi/2"], 0.5), ("x1*x64", ["cube:dimension=64"], 0.25)]
+        cases[0] = (*cases[0][:2], sum((-1) ** k * 2 ** (k + 1) / ((k + 1) * math.factorial(k + 1)) for k in range(40)))
+        for text, over, truth in cases:
+            with self.subTest(text=text, over=over):
+                domain = [word for part in over for word in ("--over", part)]
+                r = self.result(text, *domain, "--method", "uniform", "--samples", "200000")
+                # Twelve decisions at 1e-3 in all: 4.1 standard errors of 31 degrees of freedom.
+                self.assertLessEqual(abs(r["mean"] - truth), 4.6 * r["standard_error"] + 1e-12 * truth)
+                self.assertLessEqual(r["interval"][0], r["mean"])
+
+    def test_a_wrong_truth_would_be_found(self):
+        r = self.result("z", "--over", "hemisphere", "--method", "uniform", "--samples", "200000")
+        self.assertGreater(abs(r["mean"] - 1.01 * math.pi), 4.6 * r["standard_error"])
+
+    def test_every_field_is_there(self):
+        r = self.result("4*x^3", "--over", "x=0:1", "--method", "uniform", "--samples", "1e4", "--seed", "7")
+        for key in ("mean standard_error interval confidence evaluations variance_of_one_sample seconds efficiency "
+                    "chi2_per_dof q passes non_finite method reason stopped_because warnings seed version").split():
+            self.assertIn(key, r)
+        self.assertEqual((r["confidence"], r["seed"], r["method"], r["non_finite"]), (0.95, 7, "uniform", 0))
+        self.assertAlmostEqual(r["variance_of_one_sample"], 9 / 7, delta=0.15)
+        self.assertEqual(r["stopped_because"], "samples")
+
+    def test_several_methods_make_a_table(self):
+        arguments = ("4*x^3", "--over", "x=0:1", "--method", "uniform", "--method", "uniform:passes=64", "--samples", "1e4")
+        lines = self.integrate(*arguments).stdout.splitlines()
+        self.assertTrue(lines[0].startswith("method"))
+        self.assertTrue(lines[1].startswith("uniform ") and lines[2].startswith("uniform:passes=64 "))
+        self.assertEqual(len(self.result(*arguments)["results"]), 2)
+        rows = list(csv.DictReader(io.StringIO(self.integrate(*arguments, "--csv").stdout)))
+        self.assertEqual([row["method"] for row in rows], ["uniform", "uniform:passes=64"])
+        self.assertLess(abs(float(rows[0]["mean"]) - 1), 0.1)
+
+    def test_the_target_error_is_reached_or_missed_with_a_word(self):
+        common = ("4*x^3", "--over", "x=0:1", "--method", "uniform", "--confidence", "90%")
+        r = self.result(*common, "--target-error", "1%")
+        self.assertEqual((r["stopped_because"], r["target_reached"], r["confidence"]), ("target-error", True, 0.9))
+        self.assertLessEqual(r["interval"][1] - r["interval"][0], 2 * 0.01 * r["mean"])
+        short = self.integrate(*common, "--target-error", "1e-7", "--samples", "1e5")
+        self.assertIn("before the target", short.stderr)
+
+
+class Files(IntegrateTest):
+    BITS = ("mean", "standard_error", "interval", "variance_of_one_sample", "evaluations", "passes")
+
+    def bits(self, result):
+        return [result[key] for key in self.BITS]
+
+    def test_the_bits_are_the_same_for_any_number_of_threads(self):
+        one, two = (self.result("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform", "--threads", threads)
+                    for threads in (1, 2))
+        self.assertEqual(self.bits(one), self.bits(two))
+        other = self.result("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform", "--seed", "1")
+        self.assertNotEqual(self.bits(one), self.bits(other))
+
+    def test_a_resumed_run_is_one_long_run_bit_for_bit(self):
+        integral = ("exp(-x*y)", "--over", "x=0:1,y=0:2")
+        long = self.result(*integral, "--method", "uniform:passes=64", "--samples", "64000")
+        self.integrate(*integral, "--method", "uniform:passes=32", "--samples", "32000", "--save", "half.json")
+        resumed = self.result("--resume", "half.json", "--samples", "32000", "--save", "half.json")
+        self.assertEqual(self.bits(long), self.bits(resumed))
+        self.assertEqual(self.bits(json.loads(self.run_program("merge", "half.json", "--json").stdout)), self.bits(long))
+
+    def test_a_spent_budget_and_a_changed_integral_are_refused(self):
+        self.integrate("x", "--over", "x=0:1", "--method", "uniform", "--save", "a.json")
+        self.assert_refused(["--resume", "a.json"], "has spent its budget")
+        self.assert_refused(["x^2", "--resume", "a.json", "--samples", "100"], "only the budget")
+        self.assert_refused(["--resume", "none.json"], "none.json", "cannot be read")
+        (self.folder / "b.json").write_text("{}")
+        self.assert_refused(["--resume", "b.json"], "b.json")
+
+    def wait_for_handler(self, process):
+        """Until the program is ready for SIGINT, as far as the system tells."""
+        status = Path(f"/proc/{process.pid}/status")
+        while process.poll() is None and status.exists():
+            caught = re.search(r"SigCgt:\s*([0-9a-f]+)", status.read_text())
+            if not caught or int(caught.group(1), 16) & 1 << (signal.SIGINT - 1):
+                return
+            time.sleep(0.005)
+
+    def test_an_interrupted_run_tells_what_it_has_and_goes_on_to_the_same_bits(self):
+        integral = ("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform:passes=4096", "--samples", "33554432")
+        process = self.start("integrate", *integral, "--save", "part.json", "--json")
+        self.wait_for_handler(process)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        if process.returncode == 0:
+            self.skipTest("the machine was too fast for the signal")
+        self.assertEqual(process.returncode, 130, err)
+        if "before anything" in err:
+            self.skipTest("the machine was too slow for the signal")
+        part = json.loads(out)
+        self.assertEqual(part["stopped_because"], "stopped")
+        self.assertLess(part["passes"], 4096)
+        resumed = self.result("--resume", "part.json")
+        self.assertEqual(self.bits(resumed), self.bits(self.result(*integral)))
+
+    def test_runs_of_different_seeds_merge(self):
+        integral = ("4*x^3", "--over", "x=0:1", "--method", "uniform", "--samples", "32000")
+        parts = [self.result(*integral, "--seed", seed, "--save", f"{seed}.json") for seed in (1, 2)]
+        merged = json.loads(self.run_program("merge", "1.json", "2.json", "-o", "both.json", "--json").stdout)
+        self.assertAlmostEqual(merged["mean"], (parts[0]["mean"] + parts[1]["mean"]) / 2, delta=1e-15)
+        self.assertEqual(merged["evaluations"], sum(part["evaluations"] for part in parts))
+        self.assertLess(merged["standard_error"], parts[0]["standard_error"])
+        again = json.loads(self.run_program("merge", "both.json", "--json").stdout)
+        self.assertEqual(self.bits(again), self.bits(merged))
+        self.assertIn("seed", self.run_program("merge", "1.json", "1.json", status=2).stderr)
+        self.integrate("x", *integral[1:], "--save", "other.json")
+        self.assertIn("integrand", self.run_program("merge", "1.json", "other.json", status=2).stderr)
+
+
+class Mistakes(IntegrateTest):
+    def test_a_mistake_is_shown_with_a_caret(self):
+        text = self.assert_refused(["4*sinn(x)", "--over", "x=0:1"], 'did you mean "sin"')
+        self.assertIn("\n    4*sinn(x)\n      ^~~~\n", text)
+
+    def test_all_mistakes_are_told_together(self):
+        text = self.assert_refused(["x + width", "--over", "x=0:1,y=3:2", "--method", "vegs", "--method", "qmc:pints=sobol"],
+                                   'did you mean "vegas"', 'did you mean "points"', "not below")
+        self.assertGreaterEqual(len(re.findall("error:", text)), 3)
+
+    def test_what_is_missing_is_named(self):
+        self.assert_refused([], "an expression is missing")
+        self.assert_refused(["x"], "--over")
+        self.assert_refused(["x", "--over", "x=0:1", "--method", "control"], "--control-integral")
+        self.assert_refused(["x", "--over", "x=0:1", "--control", "x"], "--control-integral")
+        self.assert_refused(["x", "--over", "x=0:1", "--method", "importance"], "--pdf")
+        self.assert_refused(["-x^2", "--over", "x=0:1"], "behind --")
+
+    def test_a_value_out_of_range_is_refused(self):
+        for option, value in [("--samples", "1"), ("--samples", "many"), ("--time", "long"), ("--confidence", "1"),
+                              ("--confidence", "200%"), ("--target-error", "0"), ("--seed", "-1"), ("--threads", "0")]:
+            with self.subTest(option=option, value=value):
+                self.assert_refused(["x", "--over", "x=0:1", f"{option}={value}"], f"{option}: takes", f'found "{value}"')
+
+    def test_values_that_are_not_finite_are_counted_and_told(self):
+        run = self.integrate("x < 0.25 ? 1/0 : 1", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--json")
+        r = json.loads(run.stdout)
+        self.assertLess(abs(r["non_finite"] / r["evaluations"] - 0.25), 0.01)
+        self.assertIn("not finite", run.stderr)
+        self.assertEqual(r["warnings"][0]["kind"], "non-finite")
+
+    def test_a_heavy_tail_is_found(self):
+        r = self.result("1/sqrt(x)^1.9", "--over", "x=0:1", "--method", "uniform")
+        self.assertTrue(r["heavy_tail"])
+        self.assertIn("heavy-tail", [warning["kind"] for warning in r["warnings"]])
+        self.assertFalse(self.result("exp(x)", "--over", "x=0:1", "--method", "uniform")["heavy_tail"])
+
+
+if __name__ == "__main__":
+    unittest.main()
