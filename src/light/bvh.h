@@ -10,6 +10,16 @@
 
 namespace montelux {
 
+namespace light_bvh {
+
+// Angles are subtracted by a bound, which costs no root: cos(max(0, a - b)) <= min(1, cos a + sin b), and is near to
+// it. Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
+inline constexpr float slack = 1e-3f;
+// Of a half of a node, if it is not dark: so small that it costs nothing, yet a turn leaves half of the 24 bits of u.
+inline constexpr float least_share = 0x1p-12f;
+
+}  // namespace light_bvh
+
 // Where a light is, where it looks, and how strong it is.
 struct LightBounds {
   Vec3f low{}, high{};     // box of its points
@@ -121,8 +131,11 @@ class LightBvh {
   MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n) const {
     F a = importance<F>(first_child, p, n);
     F b = importance<F>(Uint<F>(first_child + Uint<F>(1u)), p, n);
-    F sum = a + b;
-    return {a / max(sum, F(1e-37f)), sum > F(0.0f)};
+    F sum = a + b, first = a / max(sum, F(1e-37f));
+    // A half that can send light at all keeps a share that u can hit, however much more the other promises.
+    first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::least_share)), first);
+    first = select(a > F(0.0f), max(first, F(light_bvh::least_share)), first);
+    return {first, sum > F(0.0f)};
   }
 
   std::vector<Node> nodes_;
@@ -130,14 +143,6 @@ class LightBvh {
   std::vector<std::uint32_t> leaves_;  // nodes that are leaves, in the order of the tree
   std::vector<std::uint32_t> places_;  // by light: its place among the leaves
 };
-
-namespace light_bvh {
-
-// Angles are subtracted by a bound, which costs no root: cos(max(0, a - b)) <= min(1, cos a + sin b), and is near to
-// it. Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
-inline constexpr float slack = 1e-3f;
-
-}  // namespace light_bvh
 
 template <class F, class At>
 F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {

@@ -8,7 +8,8 @@ namespace montelux::test {
 namespace {
 
 Vec2f drawn(const LightCase& c, RandomStream<float>& r) {
-  LightSample<float> s = c.lights.sample<float>(c.reference, c.n, r.next(), r.next2(), true);
+  const float choice = r.next();
+  LightSample<float> s = c.lights.sample<float>(c.reference, c.n, choice, r.next2(), true);
   if (!s.valid) return {-1, -1};
   return c.chart(is_infinite(c.kind) ? s.wi : c.reference + s.wi * s.distance);
 }
@@ -41,7 +42,8 @@ TEST(LightKinds, a_ray_finds_the_density_and_the_radiance_of_the_sample) {
     RandomStream<float> r(21, 22);
     int valid = 0;
     for (int i = 0; i < 2000; ++i) {
-      LightSample<float> s = c.lights.sample<float>(c.reference, c.n, r.next(), r.next2(), true);
+      const float choice = r.next();
+      LightSample<float> s = c.lights.sample<float>(c.reference, c.n, choice, r.next2(), true);
       if (!s.valid) continue;
       ++valid;
       EXPECT_FALSE(s.delta);

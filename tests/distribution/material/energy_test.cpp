@@ -9,6 +9,11 @@ namespace {
 
 using namespace test;
 
+Vec3f any_direction(RandomStream<float>& stream) {
+  const float cos = 2 * stream.next() - 1;
+  return direction(cos, stream.next());
+}
+
 // The mean weight of samples, which is the part of the light that is not absorbed; `fault` is planted.
 template <class Model>
 SampleSummary albedo(const Model& model, Vec3f wo, int component, double fault = 1) {
@@ -103,8 +108,8 @@ TEST(BsdfReciprocity, value_is_symmetric_up_to_the_squared_index) {
     if constexpr (std::is_same_v<Model, Dielectric<float>>) eta = model.eta();
     const BsdfContext<float> radiance = context_of(stream), importance{TransportMode::importance, radiance.random};
     for (int i = 0; i < 2000; ++i) {
-      const Vec3f wo = direction(2 * stream.next() - 1, stream.next());
-      const Vec3f wi = direction(2 * stream.next() - 1, stream.next());
+      const Vec3f wo = any_direction(stream);
+      const Vec3f wi = any_direction(stream);
       if (std::abs(wo.z) < 0.02f || std::abs(wi.z) < 0.02f || length(wo + wi) < 0.2f) continue;
       const float there = model.evaluate(wo, wi, radiance).f_cos[0] / std::abs(wi.z);
       const float back = model.evaluate(wi, wo, radiance).f_cos[0] / std::abs(wo.z);
@@ -146,8 +151,8 @@ TEST(BsdfLanes, pack_equals_single_lanes) {
     for (int k = 0; k < native_lanes; ++k) {
       const Entry& e = entries[std::size_t(stream.next() * float(entries.size()))];
       rows[std::size_t(k)] = e.row;
-      const Vec3f wo = direction(2 * stream.next() - 1, stream.next());
-      const Vec3f wi = direction(2 * stream.next() - 1, stream.next());
+      const Vec3f wo = any_direction(stream);
+      const Vec3f wi = any_direction(stream);
       const bool want = stream.next() < 0.7f;
       const float u = stream.next();
       queries[std::size_t(k)] = {wo, wi, want, u, stream.next2()};

@@ -7,7 +7,7 @@
 namespace montelux::test {
 namespace {
 
-constexpr int draws = 40000;
+constexpr int draws = 80000;
 
 struct Dvec {
   double x, y, z;
@@ -32,7 +32,8 @@ SampleSummary irradiance(const LightSet& lights, Vec3f p, Vec3f n, bool one_side
   RandomStream<float> r(31, one_side);
   std::vector<double> x;
   for (int i = 0; i < draws; ++i) {
-    LightSample<float> s = lights.sample<float>(p, one_side ? n : Vec3f{0, 0, 0}, r.next(), r.next2(), true);
+    const float u = r.next();
+    LightSample<float> s = lights.sample<float>(p, one_side ? n : Vec3f{0, 0, 0}, u, r.next2(), true);
     x.push_back(s.valid ? fault * double(s.radiance[0] * max(dot(s.wi, n), 0.0f) / s.density.value) : 0);
   }
   return summarize(x);
