@@ -13,7 +13,8 @@ using test::Stream;
 using test::uniform;
 
 TriangleCorners<float> random_triangle(Stream& r, float scale) {
-  Vec3f shift = random_direction(r) * (scale * uniform(r, 0, 100));
+  const Vec3f aside = random_direction(r);
+  Vec3f shift = aside * (scale * uniform(r, 0, 100));
   auto corner = [&] { return random_direction(r) * scale + shift; };
   Vec3f a = corner(), b = corner(), c = corner();
   return {a, b, c, r.next2(), r.next2(), r.next2()};
