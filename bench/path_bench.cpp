@@ -43,7 +43,7 @@ struct Bench {
         const PixelBounds tile{x, y, std::min(x + 32, width), std::min(y + 32, height)};
         const TilePass pass{tile, {sampler, 1, 0, std::uint32_t(samples), std::uint32_t(width), std::uint32_t(height)}};
         out.assign(std::size_t(tile.area()) * std::size_t(samples), {});
-        trace_paths<F>(parts.scene, rays, settings, pass, out);
+        trace_paths<F>(parts.scene, parts.scene.lights, rays, settings, pass, out);
       }
     return thread_seconds() - start;
   }

@@ -191,6 +191,10 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
                render.integrator = text;
                return check_integrator_text(text);
              });
+  const auto presets = names_of(preset_names());
+  add_option(verb, {"--preset", alternatives(presets), "integrator and samples of a published comparison"},
+             into(render.preset, choice(presets)));
+  verb.get_option("--preset")->excludes("--integrator");
   add_option(verb, {"--sampler", alternatives(samplers), "point set; default: the scene's"},
              into(render.sampler, choice(samplers)));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},

@@ -65,6 +65,7 @@ struct Topic {
 
 constexpr Topic topics[] = {
     {"integrators", "algorithms, as --integrator takes them", [] { return entries_of(integrator_catalogue()); }},
+    {"presets", "integrators with samples, as --preset takes them", [] { return entries_of(preset_names()); }},
     {"samplers", "point sets, as --sampler takes them", [] { return entries_of(sampler_names()); }},
     {"tones", "tone curves, as --tone takes them", [] { return entries_of(tone_curves()); }},
     {"methods", "methods of integration, as integrate --method takes them",

@@ -7,6 +7,7 @@
 
 #include "api/parts.h"
 #include "integrator/catalogue.h"
+#include "integrator/direct/settings.h"
 
 namespace montelux {
 
@@ -29,7 +30,15 @@ struct Plan {
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
   const PictureSettings& picture = parts.picture;
   Plan plan;
-  auto choice = parse_choice(options.integrator.value_or(picture.integrator));
+  const DirectPreset* preset = nullptr;
+  if (options.preset) {
+    for (const DirectPreset& candidate : direct_presets())
+      if (candidate.name == *options.preset) preset = &candidate;
+    const auto names = preset_names();
+    if (!preset) return unknown_name("preset", *options.preset, views_of(names));
+  }
+  auto choice =
+      parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
   auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component}, parts.scene, *parts.accel);
@@ -55,7 +64,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.seed = options.seed;
   r.threads = options.threads;
   r.seconds = options.seconds;
-  r.plan = plan_passes(options.samples.value_or(picture.samples), r.sampler);
+  r.plan = plan_passes(options.samples.value_or(preset ? preset->eye_rays : picture.samples), r.sampler);
   return plan;
 }
 
@@ -138,6 +147,12 @@ std::vector<std::pair<std::string, std::string>> integrator_names() {
 std::vector<std::pair<std::string, std::string>> sampler_names() {
   std::vector<std::pair<std::string, std::string>> names;
   for (const NamedPointSet& set : point_set_names) names.emplace_back(set.name, set.description);
+  return names;
+}
+
+std::vector<std::pair<std::string, std::string>> preset_names() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const DirectPreset& preset : direct_presets()) names.emplace_back(preset.name, preset.meaning);
   return names;
 }
 

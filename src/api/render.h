@@ -16,6 +16,7 @@ struct RenderOptions {
   std::optional<PixelBounds> crop;                            // within the picture; default: the file's
   std::optional<std::string> integrator;                      // "path", "direct:strategy=ris"; default: the file's
   std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
+  std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
 };
 
@@ -44,6 +45,8 @@ Status check_integrator_text(const std::string& text);
 // Names that --integrator and --sampler take, with a line for each.
 std::vector<std::pair<std::string, std::string>> integrator_names();
 std::vector<std::pair<std::string, std::string>> sampler_names();
+// Integrators with numbers of samples, as published comparisons have them.
+std::vector<std::pair<std::string, std::string>> preset_names();
 
 // "0.1.0".
 std::string version();

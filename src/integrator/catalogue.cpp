@@ -35,10 +35,12 @@ void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
                   *max_depth));
 }
 
+template <bool naive>
 Made make_path(const Request& r) {
-  PathSettings settings = path_settings(r.list);
-  settings.max_depth = r.max_depth;
-  ChosenIntegrator chosen = made("path", std::make_unique<PathTracer>(r.scene, r.accel, settings));
+  auto settings = path_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  if (naive) settings->nee = false;
+  ChosenIntegrator chosen = made(naive ? "naive" : "path", std::make_unique<PathTracer>(r.scene, r.accel, *settings));
   note_depth(chosen, r.max_depth);
   return chosen;
 }
@@ -88,7 +90,8 @@ struct Row {
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path},
+    std::vector<Row> all{{path_spec(), make_path<false>},
+                         {naive_spec(), make_path<true>},
                          {direct_spec(), make_direct},
                          {distribution_spec(), make_distribution},
                          {tracepath_spec(), make_tracepath}};

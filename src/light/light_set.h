@@ -41,6 +41,9 @@ class LightSet {
   LightSet() = default;  // no lights
   explicit LightSet(LightTables tables, LightSettings settings = {});
 
+  // The same lights, chosen in another way.
+  LightSet with(LightSettings settings) const { return LightSet(tables_, settings); }
+
   std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
   const LightSettings& settings() const { return settings_; }

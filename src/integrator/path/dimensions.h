@@ -16,5 +16,7 @@ inline constexpr std::uint32_t lobe = 5;          // 1
 inline constexpr std::uint32_t roulette = 6;      // 1
 inline constexpr std::uint32_t own = 7;           // a stream, for mixtures and models that walk
 inline constexpr std::uint32_t per_vertex = 8;
+// Interfaces are no vertices, but each has a stream of its own.
+inline constexpr std::uint32_t per_crossing = 1u << 20;
 
 }  // namespace montelux::path_dimension

@@ -24,11 +24,46 @@ void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const 
   });
 }
 
+// The weight of light that next-event estimation found and BSDF sampling could have found, too.
+template <class F>
+MONTELUX_INLINE F weight_of_light_sample(const PathSettings& settings, F own, F by_bsdf) {
+  if (!settings.nee || settings.mis == PathMis::off) return F(1.0f);
+  return settings.mis == PathMis::balance ? balance_weight(own, by_bsdf) : power_weight(own, by_bsdf);
+}
+// The weight of light that a path met; `own` is 0 where no light sample could have found it.
+template <class F>
+MONTELUX_INLINE F weight_of_light_hit(const PathSettings& settings, F own, F by_light) {
+  if (!settings.nee) return F(1.0f);
+  const F shared = settings.mis == PathMis::off       ? F(0.0f)
+                   : settings.mis == PathMis::balance ? balance_weight(own, by_light)
+                                                      : power_weight(own, by_light);
+  return select(own > F(0.0f), shared, F(1.0f));
+}
+
+// The probability that a path lives on. Its throughput counts without the squared indices of refraction, which cancel
+// on the way out.
+template <class F>
+MONTELUX_INLINE F survival_probability(const PathSettings& settings, const PathState<F>& path) {
+  const F vigour = max_component(path.throughput) * path.eta_scale;
+  switch (settings.roulette) {
+    case PathRoulette::off:
+      return F(1.0f);
+    case PathRoulette::fixed:
+      return F(settings.fixed_survival);
+    case PathRoulette::proportional:
+      return min(vigour, F(most_survival));
+    case PathRoulette::throughput:
+      break;
+  }
+  // The root spares paths that are dim now and may still find a bright place: less noise for the same rays.
+  return min(safe_sqrt(vigour), F(most_survival));
+}
+
 // A tile's paths, one a lane. A lane whose path ends takes the next of the first hits. `rays` answers trace and
-// occluded as Accel does; benchmarks and tests give others.
+// occluded as Accel does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings ask.
 template <class F, class Rays>
-RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& settings, const TilePass& pass,
-                      std::span<PixelSample> out) {
+RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
+                      const TilePass& pass, std::span<PixelSample> out) {
   using U = Uint<F>;
   using M = Mask<F>;
   FirstHits<F> first_hits(scene, rays, pass, out);
@@ -45,9 +80,9 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
     const SurfaceHit<F> x = surface<F>(scene.geometry, path.o, path.d, path.hit, on);
     const M emits = on & (x.light != U(0u));
     if (any(emits)) {
-      LightHit<F> light = scene.lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
-                                                       x.point.ng, x.point.uv, path.d, emits);
-      F weight = select(path.density > F(0.0f), power_weight(path.density, light.density.value), F(1.0f));
+      LightHit<F> light = lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
+                                                 x.point.ng, x.point.uv, path.d, emits);
+      F weight = weight_of_light_hit(settings, path.density, light.density.value);
       path.radiance += select(emits, path.throughput * light.radiance * weight, gray(F(0.0f)));
     }
     M scatters = on & (path.depth < max_depth);
@@ -55,7 +90,8 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
     // How the surface scatters: parameters, frame, and the numbers of this vertex.
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
-    BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + U(path_dimension::own))};
+    const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
+    BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own)};
     const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
     const M passes = scatters & bsdf.is_interface;
     scatters = scatters & !bsdf.is_interface;
@@ -63,10 +99,10 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
 
     // A direction toward a light, and one by the BSDF.
     const M wants_light = scatters & !bsdf.is_delta;
-    LightSample<F> light = scene.lights.template sample<F>(
+    LightSample<F> light = lights.template sample<F>(
         x.point.p, bsdf.light_normal, sampler.get1(dimension + U(path_dimension::light_choice)),
         sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
-    const M asks = wants_light & light.valid;
+    const M asks = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
     const Scattering<F> scattered =
         scatter<F>(bsdf.lanes(scatters),
                    {wo, bsdf.frame.to_local(light.wi), asks, sampler.get1(dimension + U(path_dimension::lobe)),
@@ -78,7 +114,8 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
 
     // Next-event estimation.
     F light_weight =
-        select(light.delta, F(1.0f), power_weight(light.density.value, scattered.toward_light.density.value));
+        select(light.delta, F(1.0f),
+               weight_of_light_sample(settings, light.density.value, scattered.toward_light.density.value));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     M shadow = asks & (max_component(direct) > F(0.0f));
@@ -89,7 +126,7 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
       path.radiance += select(shadow & !blocked, direct, gray(F(0.0f)));
     }
 
-    // Scatter; roulette by the throughput, without the squared indices of refraction that cancel on the way out.
+    // Scatter; roulette.
     const BsdfSample<F>& next = scattered.next;
     M goes_on = scatters & next.valid;
     // A weight that is not a number ends the path and shows in the count of such samples.
@@ -99,10 +136,8 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
     path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
     path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(goes_on, U(1u), U(0u));
-    // The square root spares paths that are dim now and may still find a bright place: less noise for the same rays.
-    const F vigour = safe_sqrt(max_component(path.throughput) * path.eta_scale);
     const M plays = goes_on & (path.depth > U(std::uint32_t(settings.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, min(vigour, F(most_survival)), F(1.0f)),
+    const Roulette<F> survival = roulette(select(plays, survival_probability(settings, path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
     goes_on = goes_on & survival.survives;
     path.throughput = select(goes_on, path.throughput * survival.weight, path.throughput);
@@ -113,13 +148,14 @@ RayCounts trace_paths(const Scene& scene, const Rays& rays, const PathSettings& 
     // The next vertex, or the sky.
     const M moves = goes_on | passes;
     path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
+    path.crossings = path.crossings + select(passes, U(1u), U(0u));
     counts.scattered += std::uint64_t(count(moves));
     auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity)}, moves);
     path.hit = hit;
     const M left = moves & !found;
-    for (int i = 0; i < scene.lights.infinite_count() && any(left); ++i) {
-      LightHit<F> sky = scene.lights.template escaped<F>(i, path.p, path.n, path.d, left);
-      F weight = select(path.density > F(0.0f), power_weight(path.density, sky.density.value), F(1.0f));
+    for (int i = 0; i < lights.infinite_count() && any(left); ++i) {
+      LightHit<F> sky = lights.template escaped<F>(i, path.p, path.n, path.d, left);
+      F weight = weight_of_light_hit(settings, path.density, sky.density.value);
       path.radiance += select(left, path.throughput * sky.radiance * weight, gray(F(0.0f)));
     }
     const M ended = on & !found;

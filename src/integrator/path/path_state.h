@@ -18,6 +18,7 @@ struct PathState {
   F weight;             // of the camera and the filter (which may be negative), for the result
   F eta_scale;          // squared relative indices of refraction crossed; roulette takes it out
   Uint<F> depth;        // scattering events so far
+  Uint<F> crossings;    // interfaces gone through so far
   Uint<F> x, y, index;  // pixel, and number of the sample there
   Uint<F> slot;         // where the result goes
 };
@@ -62,7 +63,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
   put(path.p, start.o), put(path.n, zero);
   put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
-  put_one(path.depth, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
+  put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.slot, start.slot);
 }
 

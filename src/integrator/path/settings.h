@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "light/light.h"
 #include "parameter/choice.h"
 
 namespace montelux {
@@ -9,16 +10,34 @@ namespace montelux {
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
 enum class Lanes { one, native };
 
+// How next-event estimation and BSDF sampling share the light that both can find; `off`: it is all next-event
+// estimation's where the surface is not a mirror.
+enum class PathMis { off, balance, power };
+
+// What decides whether a path lives on. `throughput`: the square root of the product of its weights; `proportional`:
+// that product itself, so that survivors weigh alike; `fixed`: always the same probability.
+enum class PathRoulette { off, throughput, proportional, fixed };
+
 struct PathSettings {
   // Scattering events at most; none: paths end by roulette alone, without bias.
   std::optional<int> max_depth;
+  // Next-event estimation; without it a path waits to hit a light (those that no ray can hit are still sampled).
+  bool nee = true;
+  PathMis mis = PathMis::power;
+  PathRoulette roulette = PathRoulette::throughput;
+  float fixed_survival = 0.5f;  // of PathRoulette::fixed
+  // How lights are chosen; none: as the scene says.
+  std::optional<LightSelection> light_selection;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;
 };
 
 EntitySpec path_spec();
-// All but max_depth, which a scene may state too.
-PathSettings path_settings(const ParameterList& list);
+// The same without next-event estimation, under a name of its own.
+EntitySpec naive_spec();
+// max_depth is that of the request, since a scene may state it too. Fails where paths would never end: no roulette and
+// no greatest depth.
+Result<PathSettings> path_settings(const ParameterList& list, std::optional<int> max_depth);
 
 }  // namespace montelux

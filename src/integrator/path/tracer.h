@@ -11,8 +11,7 @@ namespace montelux {
 class PathTracer final : public PixelIntegrator {
  public:
   // Scene and accel must outlive the tracer.
-  PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings)
-      : scene_(scene), accel_(accel), settings_(settings) {}
+  PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings);
 
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
 
@@ -20,6 +19,7 @@ class PathTracer final : public PixelIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   PathSettings settings_;
+  std::optional<LightSet> own_lights_;  // where they are chosen in another way than the scene's
 };
 
 }  // namespace montelux

@@ -51,7 +51,13 @@ const std::vector<std::string> direct_ways{
     "direct:strategy=light-solid-angle,shadow-rays=4,pattern=random",
 };
 const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays=1",
-                                         "distribution:branching=1,shadow-rays=0", "tracepath",
+                                         "distribution:branching=1,shadow-rays=0",
+                                         "tracepath",
+                                         "naive",
+                                         "path:nee=off,roulette=proportional",
+                                         "path:mis=off,light-selection=uniform",
+                                         "path:mis=balance,light-selection=power,roulette=fixed:0.6",
+                                         "path:roulette=fixed:0.4,roulette-depth=0",
                                          "tracepath:p-emit=0.5,roulette-depth=0"};
 
 struct Measured {
