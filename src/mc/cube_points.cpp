@@ -1,8 +1,11 @@
 #include "mc/cube_points.h"
 
+#include <cmath>
 #include <cstring>
 
-#include "mc/random.h"
+#include "mc/halton.h"
+#include "mc/lattice.h"
+#include "mc/sobol.h"
 
 namespace montelux {
 namespace {
@@ -43,18 +46,141 @@ CubeKey CubeKey::fork(std::uint32_t purpose) const {
   return {mix_bits(low ^ mix_bits(purpose * 0x85ebca6bu + 0x27d4eb2fu)), mix_bits(high + mix_bits(low + purpose))};
 }
 
+namespace {
+
+// Uniform numbers of one coordinate at the places first, first + 1, ... of a stream.
+struct CoordinateStream {
+  CubeKey key;
+  MONTELUX_INLINE Doubles at(std::uint64_t index) const {
+    // A pack that straddles a multiple of 2^32 wraps within its 2^32 numbers; blocks begin at multiples of the pack.
+    const CubeKey part = index >> 32 == 0 ? key : key.fork(std::uint32_t(index >> 32));
+    const Words place = Words(std::uint32_t(index)) + lane_index<NativeFloats>();
+    const Words high = mix_bits(Words(Words(part.high) ^ mix_bits(Words(Words(part.low) + place * 0x9e3779b9u))));
+    return unit_doubles(high, mix_bits(Words(high ^ (place + part.low))));
+  }
+};
+
+}  // namespace
+
 void fill_independent(CubeKey key, CubeBlock block) {
   for (std::size_t d = 0; d < block.dimension; ++d) {
-    const CubeKey own = key.fork(std::uint32_t(d));
-    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+    const CoordinateStream stream{key.fork(std::uint32_t(d))};
+    fill_coordinate(block.out + d * block.count, block.count,
+                    [&](std::size_t i) { return stream.at(block.first + i); });
+  }
+}
+
+void fill_antithetic(CubeKey key, CubeBlock block) {
+  const std::uint64_t first = block.first / 2, last = (block.first + block.count + 1) / 2;
+  std::vector<double> half(std::size_t(last - first) * block.dimension);
+  fill_independent(key, {block.dimension, first, std::size_t(last - first), half.data()});
+  for (std::size_t d = 0; d < block.dimension; ++d)
+    for (std::size_t i = 0; i < block.count; ++i) {
       const std::uint64_t index = block.first + i;
-      // A pack that straddles a multiple of 2^32 would wrap; blocks begin at multiples of the pack, so none does.
-      const CubeKey part = index >> 32 == 0 ? own : own.fork(std::uint32_t(index >> 32));
-      const Words place = Words(std::uint32_t(index)) + lane_index<NativeFloats>();
-      const Words high = mix_bits(Words(Words(part.high) ^ mix_bits(Words(Words(part.low) + place * 0x9e3779b9u))));
-      return unit_doubles(high, mix_bits(Words(high ^ (place + part.low))));
+      const double x = half[d * std::size_t(last - first) + std::size_t(index / 2 - first)];
+      block.out[d * block.count + i] = index % 2 == 0 ? x : 1 - x;
+    }
+}
+
+void fill_sobol(CubeKey key, CubeBlock block) {
+  const Words lanes = lane_index<NativeFloats>();
+  constexpr int lane_bits = std::countr_zero(unsigned(native_lanes));
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey own = key.fork(std::uint32_t(d)), more = own.fork(1);
+    const auto& columns = sobol_matrices[d];
+    const auto digits_of = [&](std::uint32_t index) {
+      std::uint32_t digits = 0;
+      for (; index != 0; index &= index - 1) digits ^= columns[std::size_t(std::countr_zero(index))];
+      return digits;
+    };
+    // The digits of a pack are those of its first point and, by linearity, those of the lanes.
+    Words lane_digits = 0u;
+    for (int k = 0; k < native_lanes; ++k) set_lane(lane_digits, k, digits_of(std::uint32_t(k)));
+    const bool aligned = block.first % width == 0;
+    std::uint32_t digits = digits_of(std::uint32_t(block.first));
+    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+      Words x = 0u;
+      const auto index = std::uint32_t(block.first + i);
+      if (aligned) {
+        x = Words(digits) ^ lane_digits;
+        // From one pack to the next the index changes in its lowest bits, up to the first that becomes 1.
+        for (std::uint32_t flip = (index >> lane_bits) ^ ((index >> lane_bits) + 1); flip != 0; flip &= flip - 1)
+          digits ^= columns[std::size_t(lane_bits + std::countr_zero(flip)) & 31];
+      } else {
+        for (int k = 0; k < native_lanes; ++k) set_lane(x, k, digits_of(index + std::uint32_t(k)));
+      }
+      const Words scrambled = reverse_bits(scramble_upwards(x, Words(own.low))) ^ Words(own.high);
+      const Words rest = mix_bits(Words((Words(index) + lanes) * 0x9e3779b9u ^ Words(more.low)));
+      return unit_doubles(scrambled, rest);
     });
   }
+}
+
+void fill_lattice(CubeKey key, CubeBlock block) {
+  const Words lanes = lane_index<NativeFloats>();
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey own = key.fork(std::uint32_t(d));
+    const std::uint32_t z = lattice_generator[d];
+    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+      const Words index = Words(std::uint32_t(block.first + i)) + lanes;
+      return unit_doubles(reverse_bits(index) * Words(z) + Words(own.high), Words(own.low));
+    });
+  }
+}
+
+void fill_halton(CubeKey key, CubeBlock block) {
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey own = key.fork(std::uint32_t(d));
+    for (std::size_t i = 0; i < block.count; ++i)
+      block.out[d * block.count + i] =
+          scrambled_radical_inverse_double(std::uint32_t(block.first + i), halton_bases[d], ~0u, own.low);
+  }
+}
+
+void fill_latin(CubeKey key, std::uint64_t n, CubeBlock block) {
+  const Words lanes = lane_index<NativeFloats>();
+  const double scale = 1 / double(n);
+  const Words last(std::uint32_t(n - 1));
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey own = key.fork(std::uint32_t(d));
+    const CoordinateStream jitter{own.fork(1)};
+    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+      const Words index = min(Words(Words(std::uint32_t(block.first + i)) + lanes), last);
+      const Words part = permute(index, std::uint32_t(n), Words(own.low));
+      return (__builtin_convertvector(part.v, Doubles) + jitter.at(block.first + i)) * scale;
+    });
+  }
+}
+
+GridShape GridShape::of(std::size_t dimension, std::uint64_t n) {
+  GridShape shape;
+  auto parts = std::uint32_t(std::pow(double(n), 1 / double(dimension)) + 1e-9);
+  shape.parts.assign(dimension, std::max(1u, parts));
+  for (std::uint32_t p : shape.parts) shape.boxes *= p;
+  for (std::uint32_t& p : shape.parts) {
+    if (shape.boxes / p * (p + 1) > n) break;
+    shape.boxes = shape.boxes / p * (p + 1);
+    ++p;
+  }
+  return shape;
+}
+
+void fill_grid(CubeKey key, const GridShape& shape, CubeBlock block) {
+  fill_independent(key, block);
+  std::vector<std::uint64_t> place(block.count);
+  for (std::size_t i = 0; i < block.count; ++i) place[i] = block.first + i;
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const std::uint32_t parts = shape.parts[d];
+    double* x = block.out + d * block.count;
+    for (std::size_t i = 0; i < block.count; ++i) {
+      if (block.first + i < shape.boxes) x[i] = (double(place[i] % parts) + x[i]) / double(parts);
+      place[i] /= parts;
+    }
+  }
+}
+
+void fold(std::span<double> x) {
+  for (double& v : x) v = 1 - std::abs(2 * v - 1);
 }
 
 }  // namespace montelux

@@ -3,6 +3,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace montelux {
 
@@ -23,7 +25,37 @@ struct CubeBlock {
   double* out = nullptr;
 };
 
-// Independent uniform numbers in (0, 1), 52 bits each.
+// All fill with numbers in (0, 1), of 52 random bits where nothing else is said. Blocks of one key may be filled in any
+// order and any parts.
+
+// Independent uniform points.
 void fill_independent(CubeKey key, CubeBlock block);
+// Points 2k and 2k + 1 are mirror images of each other in the centre of the cube.
+void fill_antithetic(CubeKey key, CubeBlock block);
+// The Sobol' sequence, Owen-scrambled by a hash and shifted digit by digit, so that each point is exactly uniform.
+// Indices below 2^32, dimensions up to sobol_dimensions.
+void fill_sobol(CubeKey key, CubeBlock block);
+// The Halton sequence with nested random digits. Indices below 2^32, dimensions up to halton_dimensions.
+void fill_halton(CubeKey key, CubeBlock block);
+// A lattice sequence with a random shift: the first 2^m points are a rank-1 lattice, and so are those after them, for
+// every m (mc/lattice.h has the generating vector). Indices below 2^32, dimensions up to lattice_dimensions.
+void fill_lattice(CubeKey key, CubeBlock block);
+
+// n points in a Latin hypercube: each coordinate has one of them in each of n equal parts (McKay, Beckman and Conover
+// 1979). The block lies within [0, n); n < 2^31.
+void fill_latin(CubeKey key, std::uint64_t n, CubeBlock block);
+
+// How a grid of at most n boxes cuts the axes: as evenly as can be, the first axes by one more.
+struct GridShape {
+  std::vector<std::uint32_t> parts;  // of each axis
+  std::uint64_t boxes = 1;
+  static GridShape of(std::size_t dimension, std::uint64_t n);
+};
+// n points, one uniform in each box of the grid; points that the boxes leave over are uniform in the cube.
+void fill_grid(CubeKey key, const GridShape& shape, CubeBlock block);
+
+// Folds each number by the baker's transformation x -> 1 - |2x - 1| (Hickernell 2002): uniform stays uniform, and any
+// smooth function becomes continuous as a periodic one.
+void fold(std::span<double> x);
 
 }  // namespace montelux

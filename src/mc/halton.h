@@ -27,8 +27,8 @@ inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] 
 // The digits of the index mirrored at the point, each permuted by a random permutation that hangs on the digits before
 // it (Owen 1995). The digits that tell apart the indices below `count` are worked out; those after them differ from
 // point to point anyway and are random.
-inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, std::uint32_t count,
-                                       std::uint32_t key) {
+inline double scrambled_radical_inverse_double(std::uint32_t index, std::uint32_t base, std::uint32_t count,
+                                               std::uint32_t key) {
   double value = 0, scale = 1;
   for (std::uint64_t told_apart = 1; told_apart < count; told_apart *= base) {
     const std::uint32_t digit = index % base;
@@ -40,7 +40,11 @@ inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, 
     index /= base;
   }
   value += scale * double(unit_float<float>(mix_bits(key ^ (index * 0x85ebca6bu))));
-  return std::min(float(value), one_minus_epsilon);
+  return value;
+}
+inline float scrambled_radical_inverse(std::uint32_t index, std::uint32_t base, std::uint32_t count,
+                                       std::uint32_t key) {
+  return std::min(float(scrambled_radical_inverse_double(index, base, count, key)), one_minus_epsilon);
 }
 
 // The scrambled radical inverse in every lane; the base is that of the dimension (below halton_dimensions).

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "lab/integral/choose.h"
+#include "lab/integral/sampled.h"
 #include "lab/integral/summary.h"
 #include "lab/integral/technique.h"
 
@@ -34,6 +36,56 @@ void check(const Problem& problem, const Budget& budget) {
   if (!(budget.confidence > 0 && budget.confidence < 1)) fail("the confidence must lie between 0 and 1");
 }
 
+// How many samples the run will have, as far as that is known before it.
+std::uint64_t planned_samples(const Budget& budget) {
+  constexpr std::uint64_t unknown = 1u << 16;
+  if (budget.samples) return *budget.samples;
+  if (budget.target_error) return unknown;
+  return budget.seconds ? std::uint64_t(std::clamp(1e6 * *budget.seconds, 1e5, 1e8)) : default_samples;
+}
+
+// A share of the samples small enough that it costs little where it brings nothing, and no more than a map can use.
+std::uint64_t training_plan(std::uint64_t samples) {
+  constexpr std::uint64_t least = 128, most = 1u << 16;
+  return std::clamp<std::uint64_t>(samples / 6, least, most);
+}
+
+// What a run is made of before its first pass.
+struct Start {
+  IntegralState state;
+  std::unique_ptr<Technique> technique;
+  std::string why;  // of the choice of `auto`
+};
+Start begin(const Problem& problem, const Method& method, const Budget& budget, const Execution& execution) {
+  Start start;
+  IntegralState& state = start.state;
+  const bool resumed = execution.resume.has_value();
+  if (resumed) {
+    state = *execution.resume;
+    if (state.dimension != problem.integrand.dimension)
+      throw std::invalid_argument(fmt::format("the state is of an integral in {} dimensions, this one has {}",
+                                              state.dimension, problem.integrand.dimension));
+  } else {
+    state.method = method, state.dimension = problem.integrand.dimension, state.seed = execution.seed;
+    const bool may_train = method.kind == MethodKind::automatic || trains(method);
+    if (may_train) state.training_samples = training_plan(planned_samples(budget));
+  }
+  MapTraining training(problem.integrand, state.seed, state.training_samples);
+  if (state.method.kind == MethodKind::automatic) {
+    const Choice choice = choose_method(problem, state.seed, planned_samples(budget), training);
+    state.method = choice.method, state.training_evaluations = choice.evaluations;
+    start.why = choice.why;
+    if (!trains(state.method)) state.training_evaluations += training.evaluations();
+  }
+  if (trains(state.method)) training.go_to(MapTraining::steps);
+  start.technique = make_technique(problem, state.method, state.seed, &training);
+  if (!resumed) {
+    state.training_evaluations += start.technique->traits().training_evaluations;
+    state.evaluations = state.training_evaluations;
+  }
+  return start;
+}
+
 // Grows a state by whole parts of passes: all of them, or none where it is stopped on the way.
 class Runner {
  public:
@@ -46,7 +98,8 @@ class Runner {
     for (std::uint32_t pass = begin; pass < end; ++pass) {
       const std::uint64_t cut = traits_.unit == 0 ? count : traits_.unit;
       for (std::uint64_t done = 0; done < count; done += cut)
-        units.push_back({pass, first + done, std::min(cut, count - done), {}});
+        units.push_back(
+            {{CubeKey::of(state_.seed, pass), first + done, std::min(cut, count - done), first, count}, pass, {}});
     }
     if (!run_all(units, count * (end - begin))) return false;
     for (const Unit& unit : units) enter(unit);
@@ -55,8 +108,8 @@ class Runner {
 
  private:
   struct Unit {
+    PassPart part;
     std::uint32_t pass;
-    std::uint64_t first, count;
     TermSums sums;
   };
 
@@ -69,7 +122,7 @@ class Runner {
       try {
         for (std::size_t i; !stopped && (i = next.fetch_add(1)) < units.size();) {
           Unit& unit = units[i];
-          unit.sums = technique_.run({CubeKey::of(state_.seed, unit.pass), unit.first, unit.count});
+          unit.sums = technique_.run(unit.part);
           if (execution_.stop) {
             std::scoped_lock lock(mutex);
             if (execution_.stop()) stopped = true;
@@ -137,7 +190,8 @@ class Run {
  public:
   Run(const Technique& technique, const Budget& budget, const Execution& execution, IntegralState& state,
       Clock::time_point start)
-      : traits_(technique.traits()),
+      : technique_(technique),
+        traits_(technique.traits()),
         budget_(budget),
         execution_(execution),
         state_(state),
@@ -161,7 +215,11 @@ class Run {
 
  private:
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  std::uint64_t spent() const { return state_.evaluations - state_.training_evaluations - evaluations_before_; }
+  std::uint64_t spent() const {
+    return (state_.evaluations - state_.training_evaluations - evaluations_before_) / traits_.cost;
+  }
+
+  std::uint64_t most_samples() const { return *budget_.samples / traits_.cost; }
 
   bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count) {
     const bool done = runner_.add(begin, end, first, count);
@@ -179,13 +237,12 @@ class Run {
   // As many samples as are given, in passes of one length; new passes where the run goes on.
   StopReason run_fixed(std::uint64_t samples) {
     if (samples > state_.training_evaluations && passes_ == 0) samples -= state_.training_evaluations;
-    std::uint64_t passes = state_.method.passes > 0 ? state_.method.passes : traits_.passes;
-    std::uint64_t length = std::max(traits_.least, samples / passes);
-    if (passes_ > 0) length = length_;
-    if (traits_.powers_of_two && state_.method.passes == 0) length = std::bit_floor(std::max<std::uint64_t>(1, length));
-    if (traits_.powers_of_two || passes_ > 0)
-      passes = state_.method.passes > 0 && passes_ == 0 ? passes : samples / length;
-    passes = std::max<std::uint64_t>(passes, passes_ > 0 ? 1 : 2);
+    samples /= traits_.cost;
+    const bool passes_given = state_.method.passes > 0 && passes_ == 0;
+    std::uint64_t passes = passes_given ? state_.method.passes : traits_.passes;
+    if (passes_ == 0) length_ = std::max(traits_.least, technique_.fitting(std::max(traits_.least, samples / passes)));
+    if (!passes_given) passes = std::max<std::uint64_t>(passes_ > 0 ? 1 : 2, samples / length_);
+    const std::uint64_t length = length_;
     // Groups of passes small enough that progress is seen and a stop is obeyed soon.
     const std::uint64_t group = std::max<std::uint64_t>(1, (std::uint64_t(1) << 20) / length);
     const std::uint32_t last = passes_ + std::uint32_t(passes);
@@ -225,26 +282,26 @@ class Run {
 
   StopReason spend_rest() {
     while (affordable(length_)) {
-      const std::uint64_t fit = budget_.samples ? (*budget_.samples - spent()) / length_ : passes_;
+      const std::uint64_t fit = budget_.samples ? (most_samples() - spent()) / length_ : passes_;
       const auto group =
           std::uint32_t(std::clamp<std::uint64_t>(std::min<std::uint64_t>(fit, (1u << 18) / length_), 1, 1u << 16));
       if (!add(passes_, passes_ + group, 0, length_)) return StopReason::stopped;
       passes_ += group;
       observe(fraction());
     }
-    return budget_.samples && spent() + length_ > *budget_.samples ? StopReason::samples : StopReason::seconds;
+    return budget_.samples && spent() + length_ > most_samples() ? StopReason::samples : StopReason::seconds;
   }
 
   // Do the samples fit what is left, as far as the speed so far tells?
   bool affordable(std::uint64_t samples) const {
-    if (budget_.samples && spent() + samples > *budget_.samples) return false;
+    if (budget_.samples && spent() + samples > most_samples()) return false;
     if (!budget_.seconds) return true;
     const double left = *budget_.seconds - elapsed();
     return left > 0 && double(samples) * elapsed() / double(std::max<std::uint64_t>(1, spent())) <= left;
   }
   double fraction() const {
     double f = 0;
-    if (budget_.samples) f = double(spent()) / double(*budget_.samples);
+    if (budget_.samples) f = double(spent()) / double(most_samples());
     if (budget_.seconds) f = std::max(f, elapsed() / *budget_.seconds);
     if (budget_.target_error && target() > 0) {
       const double ratio = target() / std::max(1e-300, estimate_of(state_).reach(confidence_));
@@ -266,6 +323,7 @@ class Run {
 
   static constexpr std::uint64_t first_look = 4096;
 
+  const Technique& technique_;
   TechniqueTraits traits_;
   const Budget& budget_;
   const Execution& execution_;
@@ -300,20 +358,12 @@ IntegralResult integrate(const Problem& problem, const Method& method, const Bud
                          const Execution& execution) {
   const Clock::time_point start = Clock::now();
   check(problem, budget);
-  IntegralState state;
-  if (execution.resume) {
-    state = *execution.resume;
-    if (state.dimension != problem.integrand.dimension)
-      throw std::invalid_argument(fmt::format("the state is of an integral in {} dimensions, this one has {}",
-                                              state.dimension, problem.integrand.dimension));
-  } else {
-    state.method = method, state.dimension = problem.integrand.dimension, state.seed = execution.seed;
-  }
-  const auto technique = make_technique(problem, state.method, state.seed, state.training_samples);
+  auto [state, technique, why] = begin(problem, method, budget, execution);
   Run run(*technique, budget, execution, state, start);
   const StopReason reason = run.go();
   IntegralResult result = result_of(state, budget.confidence);
   result.stopped_because = reason;
+  result.why = why;
   result.target_reached = run.target_reached();
   if (budget.target_error) {
     const double reach = estimate_of(state).reach(run.confidence());

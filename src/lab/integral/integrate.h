@@ -42,9 +42,10 @@ struct Problem {
   std::optional<BatchFunction> target{};    // ris, metropolis: not normalised, not negative; absent: |integrand|
 };
 
-// When to stop: at the first of what is given. Nothing given: 2^20 samples. The target is for half the width of the
-// interval at `confidence`, absolute, or relative to the estimate; the stopping rule is valid whenever it stops (see
-// docs/integration.md).
+// When to stop: at the first of what is given. `samples` are evaluations of the integrand, pilots and training
+// included, and a bound: passes have the length that suits the method. Nothing given: 2^20 samples. The target is for
+// half the width of the interval at `confidence`, absolute, or relative to the estimate; the stopping rule is valid
+// whenever it stops (see docs/integration.md).
 struct Budget {
   std::optional<std::uint64_t> samples{};
   std::optional<double> seconds{};

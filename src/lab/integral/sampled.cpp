@@ -1,38 +1,195 @@
 #include "lab/integral/sampled.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
 
 namespace montelux::lab {
 namespace {
 
-class Uniform final : public Technique {
- public:
-  explicit Uniform(const Integrand& integrand) : integrand_(integrand) {}
+constexpr std::uint32_t training_purpose = 0x7ea1u;  // the key of training's points: no pass has this number
 
-  TechniqueTraits traits() const override { return {}; }
+// Buffers of one part: points by coordinate, and what is worked out at them.
+struct Batch {
+  std::size_t dimension, most;
+  std::vector<double> points, values, jacobian, control;
+
+  Batch(std::size_t d, std::uint64_t count)
+      : dimension(d),
+        most(std::size_t(std::min<std::uint64_t>(batch_size(d), count))),
+        points(d * most),
+        values(most) {}
+  std::span<double> coordinates(std::size_t n) { return std::span(points).first(dimension * n); }
+};
+
+class Sampled final : public Technique {
+ public:
+  Sampled(const Problem& problem, const Method& method, const MapTraining* training)
+      : integrand_(problem.integrand), control_(problem.control), method_(method) {
+    if (method.kind != MethodKind::qmc || !method.adapt || training == nullptr) return;
+    map_ = training->map();
+    training_evaluations_ = training->evaluations();
+  }
+
+  TechniqueTraits traits() const override {
+    TechniqueTraits t;
+    const bool correlated = method_.kind == MethodKind::qmc || method_.kind == MethodKind::stratified;
+    t.passes = correlated ? 6 : 32;  // where lengths are powers of two, up to twice as many
+    t.training_evaluations = training_evaluations_;
+    if (method_.kind == MethodKind::antithetic) t.least = 2;
+    return t;
+  }
+
+  std::uint64_t fitting(std::uint64_t samples) const override {
+    if (method_.kind == MethodKind::qmc && method_.points != QmcPoints::halton) return std::bit_floor(samples);
+    if (method_.kind == MethodKind::antithetic) return samples / 2 * 2;
+    if (method_.kind == MethodKind::stratified && method_.strata == Strata::grid)
+      return GridShape::of(integrand_.dimension, samples).boxes;
+    return samples;
+  }
+
   TermSums run(const PassPart& part) const override {
-    const std::size_t dimension = integrand_.dimension, most = batch_size(dimension);
-    std::vector<double> points(dimension * most), values(most);
+    Batch batch(integrand_.dimension, part.count);
+    const GridShape shape = method_.kind == MethodKind::stratified && method_.strata == Strata::grid
+                                ? GridShape::of(integrand_.dimension, part.block_count)
+                                : GridShape{};
     TermSums sums;
     for (std::uint64_t done = 0; done < part.count;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(most, part.count - done));
-      fill_independent(part.key, {dimension, part.first + done, n, points.data()});
-      integrand_.evaluate({std::span(points).first(dimension * n), dimension, n}, std::span(values).first(n));
-      sums.add(std::span(values).first(n));
-      sums.evaluations += n;
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, part.count - done));
+      fill(part, shape, {integrand_.dimension, part.first + done, n, batch.points.data()});
+      evaluate(batch, n, sums);
       done += n;
     }
     return sums;
   }
 
  private:
+  void fill(const PassPart& part, const GridShape& shape, CubeBlock block) const {
+    switch (method_.kind) {
+      case MethodKind::antithetic:
+        return fill_antithetic(part.key, block);
+      case MethodKind::stratified: {
+        const CubeKey key = part.key.fork(std::uint32_t(part.block_first));
+        block.first -= part.block_first;
+        if (method_.strata == Strata::latin) return fill_latin(key, part.block_count, block);
+        return fill_grid(key, shape, block);
+      }
+      case MethodKind::qmc:
+        if (method_.points == QmcPoints::sobol) fill_sobol(part.key, block);
+        if (method_.points == QmcPoints::halton) fill_halton(part.key, block);
+        if (method_.points == QmcPoints::lattice) fill_lattice(part.key, block);
+        if (method_.baker) fold({block.out, block.dimension * block.count});
+        return;
+      default:
+        return fill_independent(part.key, block);
+    }
+  }
+
+  void evaluate(Batch& batch, std::size_t n, TermSums& sums) const {
+    const std::span<double> values = std::span(batch.values).first(n);
+    if (map_) {
+      batch.jacobian.assign(n, 1.0);
+      map_->apply(batch.coordinates(n), batch.jacobian);
+    }
+    const PointBatch points{batch.coordinates(n), integrand_.dimension, n};
+    integrand_.evaluate(points, values);
+    if (map_)
+      for (std::size_t i = 0; i < n; ++i) values[i] *= batch.jacobian[i];
+    sums.evaluations += n;
+    if (method_.kind == MethodKind::control) add_control(batch, points, values, sums);
+    sums.add(values);
+  }
+
+  void add_control(Batch& batch, PointBatch points, std::span<const double> values, TermSums& sums) const {
+    batch.control.resize(points.count);
+    control_->evaluate(points, batch.control);
+    for (std::size_t i = 0; i < points.count; ++i) {
+      const double c = batch.control[i] - control_->integral;
+      if (!std::isfinite(c) || !std::isfinite(values[i])) {
+        sums.non_finite += std::isfinite(values[i]) ? 1 : 0;
+        continue;
+      }
+      sums.control_sum += c, sums.control_squares += c * c, sums.control_products += c * values[i];
+    }
+  }
+
   Integrand integrand_;
+  std::optional<ControlVariate> control_;
+  Method method_;
+  std::optional<AdaptiveMap> map_;
+  std::uint64_t training_evaluations_ = 0;
 };
+
+// One step of training: the squared terms in the bins of each axis, and the variances of a sample.
+struct StepSums {
+  std::vector<double> squares;
+  double gain = 1;  // variance of a uniform sample over that of one through the map
+};
+StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, CubeKey key, std::uint64_t samples) {
+  const std::size_t dimension = integrand.dimension, bins = map.bins();
+  Batch batch(dimension, samples);
+  std::vector<double> sums(dimension * bins), uniform;
+  double mean = 0, mapped_square = 0, plain_square = 0;
+  for (std::uint64_t done = 0; done < samples;) {
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, samples - done));
+    fill_sobol(key, {dimension, done, n, batch.points.data()});
+    uniform.assign(batch.points.begin(), batch.points.begin() + std::ptrdiff_t(dimension * n));
+    batch.jacobian.assign(n, 1.0);
+    map.apply(batch.coordinates(n), batch.jacobian);
+    integrand.evaluate({batch.coordinates(n), dimension, n}, std::span(batch.values).first(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double term = batch.values[i] * batch.jacobian[i], kept = std::isfinite(term) ? term : 0;
+      mean += kept, mapped_square += kept * kept, plain_square += kept * kept / batch.jacobian[i];
+      batch.values[i] = kept * kept;
+    }
+    for (std::size_t d = 0; d < dimension; ++d) {
+      double* __restrict axis = sums.data() + d * bins;
+      const double* y = uniform.data() + d * n;
+      for (std::size_t i = 0; i < n; ++i) axis[std::size_t(y[i] * double(bins))] += batch.values[i];
+    }
+    done += n;
+  }
+  const double n = double(samples);
+  mean /= n;
+  const double mapped = mapped_square / n - mean * mean, plain = plain_square / n - mean * mean;
+  return {sums, mapped > 0 ? plain / mapped : 1.0};
+}
+
+// Later steps know better and get more.
+constexpr std::array<double, MapTraining::steps> step_shares{0.031, 0.047, 0.07, 0.105, 0.158, 0.236, 0.353};
+
+std::size_t bins_for(std::uint64_t samples) {
+  constexpr std::uint64_t least = 8, most = 128, samples_per_bin = 32;
+  return std::size_t(std::clamp(samples / samples_per_bin, least, most));
+}
 
 }  // namespace
 
-std::unique_ptr<Technique> make_sampled(const Problem& problem, const Method&) {
-  return std::make_unique<Uniform>(problem.integrand);
+MapTraining::MapTraining(const Integrand& integrand, std::uint64_t seed, std::uint64_t samples)
+    : integrand_(integrand), seed_(seed), samples_(samples), map_(integrand.dimension, bins_for(samples_of(0))) {}
+
+std::uint64_t MapTraining::samples_of(int step) const {
+  const double share = step_shares[std::size_t(std::min(step, steps - 1))];
+  return std::max<std::uint64_t>(16, std::uint64_t(double(samples_) * share));
+}
+
+void MapTraining::go_to(int step) {
+  for (; step_ < step; ++step_) {
+    const CubeKey key = CubeKey::of(seed_, ~0u - std::uint32_t(step_)).fork(training_purpose);
+    const std::uint64_t n = samples_of(step_);
+    const StepSums sums = squares_in_bins(integrand_, map_, key, n);
+    evaluations_ += n;
+    gain_ = sums.gain;
+    map_.refine(sums.squares, bins_for(samples_of(step_ + 1)));
+  }
+}
+
+std::unique_ptr<Technique> make_sampled(const Problem& problem, const Method& method, const MapTraining* training) {
+  if (method.kind == MethodKind::control && !problem.control)
+    throw std::invalid_argument("the method control needs a control variate and its integral");
+  return std::make_unique<Sampled>(problem, method, training);
 }
 
 }  // namespace montelux::lab

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "lab/integral/sampled.h"
+#include "lab/integral/weighted.h"
+#include "lab/integral/whole_pass.h"
 
 namespace montelux::lab {
 namespace {
@@ -91,13 +93,35 @@ std::size_t batch_size(std::size_t dimension) {
   return std::clamp<std::size_t>(fit, 64, 512);
 }
 
-std::unique_ptr<Technique> make_technique(const Problem& problem, const Method& method, std::uint64_t, std::uint64_t) {
+bool trains(const Method& method) {
+  return method.kind == MethodKind::vegas || (method.kind == MethodKind::qmc && method.adapt);
+}
+
+std::unique_ptr<Technique> make_technique(const Problem& problem, const Method& method, std::uint64_t seed,
+                                          const MapTraining* training) {
   switch (method.kind) {
     case MethodKind::uniform:
-      return make_sampled(problem, method);
-    default:
-      throw std::invalid_argument("the method " + std::string(name_of(method.kind)) + " is not at hand");
+    case MethodKind::stratified:
+    case MethodKind::antithetic:
+    case MethodKind::control:
+    case MethodKind::qmc:
+      return make_sampled(problem, method, training);
+    case MethodKind::importance:
+      return make_importance(problem);
+    case MethodKind::mis:
+      return make_mis(problem, method);
+    case MethodKind::ris:
+      return make_ris(problem, method);
+    case MethodKind::vegas:
+      return make_vegas(problem, seed, *training);
+    case MethodKind::miser:
+      return make_miser(problem);
+    case MethodKind::metropolis:
+      return make_metropolis(problem, method);
+    case MethodKind::automatic:
+      break;
   }
+  throw std::logic_error("auto is no technique of its own");
 }
 
 }  // namespace montelux::lab

@@ -19,18 +19,19 @@ struct TermSums {
   void merge(const TermSums& other);
 };
 
-// The samples [first, first + count) of a pass.
+// The samples [first, first + count) of a pass, within the block of samples that it was made longer by.
 struct PassPart {
   CubeKey key;  // of the pass
   std::uint64_t first = 0, count = 0;
+  std::uint64_t block_first = 0, block_count = 0;
 };
 
 // How a technique likes to be asked.
 struct TechniqueTraits {
-  std::uint32_t passes = 32;   // for a fixed number of samples
-  std::uint64_t unit = 8192;   // a part may be cut at multiples of this, for threads; 0: never
-  bool powers_of_two = false;  // the samples of a pass should be a power of two
-  std::uint64_t least = 1;     // samples that a part needs at the least
+  std::uint32_t passes = 32;  // for a fixed number of samples
+  std::uint64_t unit = 8192;  // a part may be cut at multiples of this, for threads; 0: never
+  std::uint64_t least = 1;    // samples that a part needs at the least
+  std::uint64_t cost = 1;     // evaluations of one sample
   std::uint64_t training_evaluations = 0;
 };
 
@@ -39,12 +40,18 @@ class Technique {
  public:
   virtual ~Technique() = default;
   virtual TechniqueTraits traits() const = 0;
+  // The largest number of samples, not above this one, that suits a pass; 0 where there is none.
+  virtual std::uint64_t fitting(std::uint64_t samples) const { return samples; }
   virtual TermSums run(const PassPart& part) const = 0;
 };
 
-// The method made ready: adaptive ones train with about `training_samples` samples. Throws like integrate.
+class MapTraining;
+
+// Does the method train a map of the coordinates?
+bool trains(const Method& method);
+// The method made ready; one that trains takes its map from `training`. Throws like integrate.
 std::unique_ptr<Technique> make_technique(const Problem& problem, const Method& method, std::uint64_t seed,
-                                          std::uint64_t training_samples);
+                                          const MapTraining* training);
 
 // Points that go into one call of the integrand: so many that they fit the first cache.
 std::size_t batch_size(std::size_t dimension);

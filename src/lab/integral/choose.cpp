@@ -1,0 +1,152 @@
+#include "lab/integral/choose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lab/integral/technique.h"
+
+namespace montelux::lab {
+namespace {
+
+constexpr std::uint32_t passes = 8;
+constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // no pass of a run has such a number
+constexpr double pilot_share = 0.05;
+// A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
+// less is not, where the training is long enough to be sure.
+constexpr double clear_gain = 3, no_gain = 1.5;
+constexpr std::uint64_t sure_samples = 16384, least_samples_to_try = 4096;
+constexpr int first_steps = 4;
+
+// One candidate: its passes grow as long as it may still win.
+struct Pilot {
+  Method method;
+  double weight = 1;  // what a sample costs, in evaluations and what goes with them
+  std::unique_ptr<Technique> technique;
+  std::vector<TermSums> sums = std::vector<TermSums>(passes);
+  std::uint64_t length = 0;
+  std::vector<double> variances;  // of the mean of passes, at lengths that double
+  double predicted = 0;           // logarithm of the variance times the cost, at the full budget
+
+  void grow(std::uint64_t seed, std::uint64_t to) {
+    const std::uint64_t count = to - length;
+    Moments means;
+    for (std::uint32_t p = 0; p < passes; ++p) {
+      sums[p].merge(technique->run({CubeKey::of(seed, first_pilot_pass + p), length, count, length, count}));
+      means.add(sums[p].sum / double(sums[p].samples));
+    }
+    length = to;
+    variances.push_back(means.variance() + 1e-32 * means.mean * means.mean);
+  }
+  std::uint64_t evaluations() const {
+    std::uint64_t n = 0;
+    for (const TermSums& s : sums) n += s.evaluations;
+    return n;
+  }
+  // The variance at `full` samples a pass. Its decline per doubling is a mean of what is seen and what is usual.
+  void predict(double full) {
+    constexpr double usual = 2.2, slowest = 1, fastest = 4;
+    double decline = usual;
+    if (variances.size() > 1) {
+      const double seen = std::log2(variances.front() / variances.back()) / double(variances.size() - 1);
+      const double doublings = double(variances.size() - 1);
+      decline = (usual * 1.5 + std::clamp(seen, slowest, fastest) * doublings) / (1.5 + doublings);
+    }
+    const double ratio = std::max(1.0, full / double(length) / weight);
+    predicted = std::log(variances.back()) - decline * std::log(ratio);
+  }
+};
+
+Method qmc(QmcPoints points, bool baker, bool adapt) {
+  Method m;
+  m.kind = MethodKind::qmc, m.points = points, m.baker = baker, m.adapt = adapt;
+  return m;
+}
+
+// Which methods may win, by what the map has brought so far.
+std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, double gain) {
+  const std::size_t dimension = problem.integrand.dimension;
+  const bool mapped = gain >= no_gain || samples < sure_samples, plain = gain < clear_gain;
+  std::vector<Method> methods;
+  for (bool adapt : {false, true}) {
+    if (adapt ? !mapped : !plain) continue;
+    methods.push_back(qmc(QmcPoints::lattice, true, adapt));
+    methods.push_back(qmc(QmcPoints::sobol, false, adapt));
+  }
+  // Too few samples for trials: what is best as a rule.
+  if (samples < least_samples_to_try) {
+    const bool few_dimensions = dimension <= 4, adapt = gain >= no_gain;
+    methods = {few_dimensions ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt)};
+  }
+  Method given;
+  given.kind = MethodKind::control;
+  if (problem.control) methods.push_back(given);
+  given.kind = problem.densities.size() > 1 ? MethodKind::mis : MethodKind::importance;
+  if (!problem.densities.empty()) methods.push_back(given);
+  return methods;
+}
+
+std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double gain) {
+  std::string text = fmt::format("an adaptive map divides the variance of a sample by {:.2g}; ", gain);
+  if (pilots.size() < 2) return text + fmt::format("{} is best as a rule", to_text(best.method));
+  std::vector<std::string> items;
+  for (const Pilot& p : pilots)
+    items.push_back(
+        fmt::format("{} {:.2g}", to_text(p.method), std::exp(0.5 * p.predicted) / std::sqrt(double(passes))));
+  return text + fmt::format("pilots of up to {} samples predict the standard errors {} at equal cost",
+                            best.length * passes, fmt::join(items, ", "));
+}
+
+}  // namespace
+
+Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
+  training.go_to(first_steps);
+  const double gain = training.gain();
+  const std::vector<Method> methods = plausible(problem, samples, gain);
+  // Where only mapped methods are left, they are tried with the map that they will have.
+  if (std::all_of(methods.begin(), methods.end(), trains)) training.go_to(MapTraining::steps);
+  std::vector<Pilot> pilots;
+  for (const Method& method : methods) {
+    Pilot p;
+    p.method = method, p.weight = trains(method) ? 1.2 : method.kind == MethodKind::qmc ? 1 : 2;
+    p.technique = make_technique(problem, method, seed, &training);
+    pilots.push_back(std::move(p));
+  }
+  if (pilots.size() == 1) return {methods.front(), explain(pilots, pilots.front(), gain), 0};
+  const double budget = pilot_share * double(samples), full = double(samples) / passes;
+  const std::uint64_t first =
+      std::bit_floor(std::max<std::uint64_t>(4, std::uint64_t(0.4 * budget) / (passes * pilots.size())));
+  double spent = 0;
+  const auto grow = [&](Pilot& p, std::uint64_t to) {
+    spent += double((to - p.length) * passes * p.technique->traits().cost);
+    p.grow(seed, to);
+    p.predict(full);
+  };
+  for (Pilot& p : pilots) {
+    if (first >= 8) grow(p, first / 4), grow(p, first / 2);
+    grow(p, first);
+  }
+
+  // Those that may still win get twice the samples, as long as the budget of the pilots holds.
+  const auto least = [&] {
+    return std::min_element(pilots.begin(), pilots.end(),
+                            [](const Pilot& a, const Pilot& b) { return a.predicted < b.predicted; });
+  };
+  constexpr double hopeless = 2.5;  // in the logarithm of the predicted variance
+  for (std::uint64_t to = 2 * first;; to *= 2) {
+    const double limit = least()->predicted + hopeless;
+    std::vector<Pilot*> alive;
+    for (Pilot& p : pilots)
+      if (p.predicted <= limit && p.length == to / 2) alive.push_back(&p);
+    if (alive.size() < 2 || spent + double(to / 2 * passes * alive.size()) > budget) break;
+    for (Pilot* p : alive) grow(*p, to);
+  }
+  const Pilot& best = *least();
+  Choice choice{best.method, explain(pilots, best, gain), 0};
+  for (const Pilot& p : pilots) choice.evaluations += p.evaluations();
+  return choice;
+}
+
+}  // namespace montelux::lab

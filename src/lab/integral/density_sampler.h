@@ -1,0 +1,36 @@
+// Points of a user's density.
+#pragma once
+#include "lab/integral/integrate.h"
+#include "mc/cube_points.h"
+
+namespace montelux::lab {
+
+// Draws points and states the density they were drawn with, which is that of the table where a table is used.
+class DensitySampler {
+ public:
+  DensitySampler(const UserDensity& density, std::size_t dimension);
+
+  struct Drawn {
+    std::uint64_t proposed = 0;
+  };
+  // `count` points into `points` (coordinate-major); `first` tells them from others of the same key.
+  Drawn sample(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
+  // The density per unit volume at each point.
+  void density(PointBatch points, std::span<double> values) const;
+  DensitySampling sampling() const { return sampling_; }
+
+ private:
+  void tabulate();
+  void find_bound();
+  Drawn sample_by_table(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
+  Drawn sample_by_rejection(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
+
+  UserDensity user_;
+  std::size_t dimension_;
+  DensitySampling sampling_;
+  std::size_t cells_ = 0;          // of one axis of the table
+  std::vector<double> cumulated_;  // running sums of the cells' mass, from 0 to 1
+  double bound_ = 0;
+};
+
+}  // namespace montelux::lab
