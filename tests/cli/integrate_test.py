@@ -154,6 +154,69 @@ class Files(IntegrateTest):
         self.assertIn("integrand", self.run_program("merge", "1.json", "other.json", status=2).stderr)
 
 
+class Densities(IntegrateTest):
+    def assert_right(self, r, truth=1):
+        self.assertLessEqual(abs(r["mean"] - truth), 5 * r["standard_error"] + 1e-12)
+
+    def test_a_density_makes_importance_sampling_by_each_way_of_drawing(self):
+        plain = self.result("4*x^3", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5")
+        for pdf in "2*x, inverse=sqrt(u)", "2*x", "2*x, sampling=table", "2*x, sampling=rejection, bound=2":
+            with self.subTest(pdf=pdf):
+                r = self.result("4*x^3", "--over", "x=0:1", "--pdf", pdf, "--samples", "1e5")
+                self.assertEqual(r["method"], "importance")
+                self.assert_right(r)
+                # The variance of 2x^2 under 2x is 1/3, that of 4x^3 is 9/7.
+                self.assertAlmostEqual(r["variance_of_one_sample"], 1 / 3, delta=0.03)
+                self.assertLess(r["standard_error"], plain["standard_error"])
+        self.assertAlmostEqual(r["acceptance"], 0.5, delta=0.01)
+
+    def test_several_densities_make_mis(self):
+        for heuristic in "balance", "power", "max", "cutoff":
+            r = self.result("sqrt(x)+x^8", "--over", "x=0:1", "--pdf", "1.5*sqrt(x)", "--pdf", "9*x^8",
+                            "--method", f"mis:heuristic={heuristic}", "--samples", "1e5")
+            self.assert_right(r, 2 / 3 + 1 / 9)
+
+    def test_a_density_that_is_wrong_is_refused_with_all_that_is_wrong(self):
+        self.assert_refused(["x", "--over", "x=0:1", "--pdf", "3*x"], "integrates to 1.5", "--normalize-pdf")
+        self.assert_refused(["x", "--over", "x=0:1", "--pdf", "3*x-0.5"], "negative at x = ")
+        self.assert_refused(["x", "--over", "x=0:1", "--pdf", "x<0.5 ? 2 : 0"], "misses 0.37", "--allow-missed")
+        self.assert_right(self.result("4*x^3", "--over", "x=0:1", "--pdf", "3*x", "--normalize-pdf"))
+        biased = self.integrate("x", "--over", "x=0:1", "--pdf", "x<0.5 ? 2 : 0", "--allow-missed", "--json")
+        self.assertIn("misses", biased.stderr)
+        self.assertAlmostEqual(json.loads(biased.stdout)["mean"], 1 / 8, delta=1e-3)
+
+    def test_a_control_variate_takes_variance_away(self):
+        common = ("exp(x)", "--over", "x=0:1", "--samples", "1e5")
+        plain = self.result(*common, "--method", "uniform")
+        r = self.result(*common, "--control", "1+x", "--control-integral", "3/2")
+        self.assertEqual(r["method"], "control")
+        self.assert_right(r, math.e - 1)
+        self.assertLess(r["standard_error"], plain["standard_error"] / 4)
+
+    def test_every_method_finds_the_integral_the_same_with_any_number_of_threads(self):
+        methods = ["uniform", "stratified", "stratified:strata=latin", "antithetic", "qmc", "qmc:points=halton",
+                   "qmc:points=lattice", "vegas", "miser", "ris", "metropolis", "auto"]
+        arguments = ["exp(-x*y)", "--over", "x=0:1,y=0:2", "--target", "1+0*x", "--samples", "1e5"]
+        for method in methods:
+            arguments += ["--method", method]
+        one, two = (self.result(*arguments, "--threads", threads)["results"] for threads in (1, 2))
+        truth = sum((-1) ** k * 2 ** (k + 1) / ((k + 1) * math.factorial(k + 1)) for k in range(40))
+        for method, a, b in zip(methods, one, two):
+            with self.subTest(method=method):
+                self.assert_right(a, truth)
+                if method != "auto":  # it measures time
+                    self.assertEqual([a[key] for key in Files.BITS], [b[key] for key in Files.BITS])
+
+    def test_adaptive_runs_go_on_to_the_same_bits(self):
+        for method in "vegas", "qmc", "stratified", "metropolis":
+            with self.subTest(method=method):
+                self.integrate("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", method, "--samples", "1e5", "--save", "a.json")
+                first = self.result("--resume", "a.json", "--samples", "1e5", "--threads", "1")
+                again = self.result("--resume", "a.json", "--samples", "1e5", "--threads", "2")
+                self.assertEqual([first[key] for key in Files.BITS], [again[key] for key in Files.BITS])
+                self.assertGreater(first["evaluations"], 150000)
+
+
 class Mistakes(IntegrateTest):
     def test_a_mistake_is_shown_with_a_caret(self):
         text = self.assert_refused(["4*sinn(x)", "--over", "x=0:1"], 'did you mean "sin"')

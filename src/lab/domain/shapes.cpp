@@ -63,6 +63,11 @@ void Side::map(const MapTask& task) const {
     });
     return;
   }
+  if (fixed && !from_minus_infinity && !to_infinity) {
+    const double from = fixed->first, length = fixed->second - fixed->first;
+    for (std::size_t i = 0; i < n; ++i) x[i] = from + u[i] * length;
+    return scale(task.stretch, length);
+  }
   std::vector<double> a(n), b(n);
   const std::span<const double* const> known(task.columns.data(), task.columns.size());
   if (!from_minus_infinity) low.evaluate(known, a);
