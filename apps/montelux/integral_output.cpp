@@ -86,10 +86,10 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
 }
 
 void print_comparison(const std::vector<IntegralRun>& runs) {
-  double best = 0;
-  for (const IntegralRun& run : runs) best = std::max(best, run.result.efficiency);
+  // Efficiencies as multiples of the first method's.
+  const double first = runs.front().result.efficiency;
   std::vector<std::vector<std::string>> rows{
-      {"method", "value", "variance", "evaluations", "passes", "time", "chi2/dof", "Q", "efficiency", "of best"}};
+      {"method", "value", "variance", "evaluations", "passes", "time", "chi2/dof", "Q", "efficiency", "of first"}};
   for (const IntegralRun& run : runs) {
     const IntegralResult& r = run.result;
     const std::string name = run.method == lab::to_text(r.method) || run.method != "auto"
@@ -99,7 +99,7 @@ void print_comparison(const std::vector<IntegralRun>& runs) {
                     fmt::format("{:.3g}", r.variance_of_one_sample), fmt::format("{}", r.evaluations),
                     fmt::format("{}", r.passes), time_text(r.seconds), fmt::format("{:.2f}", r.chi2_per_dof),
                     fmt::format("{:.2g}", r.q), fmt::format("{:.3g}", r.efficiency),
-                    best > 0 ? fmt::format("{:.3g} %", 100 * r.efficiency / best) : "-"});
+                    first > 0 ? fmt::format("{:.3g} x", r.efficiency / first) : "-"});
   }
   print_table(rows);
   for (const IntegralRun& run : runs)

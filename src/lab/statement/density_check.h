@@ -19,7 +19,7 @@ struct MissedIntegral {
 MissedIntegral missed_by(const Problem& problem, std::span<const UserDensity> densities);
 
 // How far the means of a few bounded functions of a coordinate differ between points of the inverse and points weighted
-// by the density, in standard errors: the largest of them. Beyond 6 they are not of one distribution.
+// by the density, in standard errors: the largest of them. Beyond 8 they are not of one distribution.
 double inverse_disagreement(const UserDensity& density, std::size_t dimension);
 
 }  // namespace montelux::lab

@@ -7,6 +7,7 @@
 
 #include "lab/expression/text_part.h"
 #include "lab/statement/density_check.h"
+#include "lab/statement/value_text.h"
 #include "parameter/choice.h"
 
 namespace montelux::lab {
@@ -15,9 +16,6 @@ namespace {
 bool any_of_kind(const std::vector<Method>& methods, MethodKind kind) {
   return std::ranges::any_of(methods, [kind](const Method& m) { return m.kind == kind; });
 }
-
-// "1.02(3)" would need a style of its own; here plain numbers do.
-std::string with_error(double value, double error) { return fmt::format("{:.6g} ± {:.2g}", value, error); }
 
 class Reader {
  public:
@@ -179,10 +177,10 @@ class Reader {
         facts.scaled_by = density.scale;
       } else if (std::abs(check.integral - 1) > std::max(1e-4, 6 * check.standard_error)) {
         complain(fmt::format("{}: integrates to {} over the domain, not to 1 (--normalize-pdf divides by it)", name,
-                             with_error(check.integral, check.standard_error)));
+                             value_with_error(check.integral, check.standard_error)));
         continue;
       }
-      if (density.inverse && inverse_disagreement(density, domain_->dimension()) > 6)
+      if (density.inverse && inverse_disagreement(density, domain_->dimension()) > 8)
         complain(fmt::format("{}: the points of the inverse are not distributed like the density", name));
     }
   }
@@ -201,7 +199,7 @@ class Reader {
     if (missed.value == 0 && missed.standard_error == 0) return;
     const std::string message =
         fmt::format("{} is 0 where the integrand is not: the estimate misses {} of the integral", what,
-                    with_error(missed.value, missed.standard_error));
+                    value_with_error(missed.value, missed.standard_error));
     if (statement_.allow_missed)
       reading_.notes.push_back(message);
     else

@@ -11,8 +11,8 @@ namespace montelux::lab {
 struct IntegralStatement {
   std::string integrand;
   std::vector<std::string> over;
-  std::vector<std::string> densities;
-  std::optional<std::string> control, control_integral, target;
+  std::vector<std::string> densities{};
+  std::optional<std::string> control{}, control_integral{}, target{};
   bool normalize_densities = false;
   bool allow_missed = false;  // densities may be 0 where the integrand is not: the estimate is biased
 };
