@@ -66,6 +66,7 @@ void ProgressLine::progress(const Progress& p) {
 }
 
 std::string time_text(double seconds) {
+  if (seconds < 0.00995) return fmt::format("{:.2g} ms", seconds * 1e3);
   if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1e3);
   if (seconds < 99.95) return fmt::format("{:.1f} s", seconds);
   const auto whole = (long long)(std::min(seconds, 1e15));

@@ -35,7 +35,7 @@ class ProgressLine final : public RenderObserver {
   StatusLine line_;
 };
 
-// "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".
+// "1.2 ms", "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".
 std::string time_text(double seconds);
 // "1.23 k", "45.6 Mrays/s": three digits, a decimal prefix and the unit.
 std::string count_text(double count, std::string_view unit = "");

@@ -10,7 +10,7 @@
 #include "integrator/catalogue.h"
 #include "io/pbrt/parameters.h"
 #include "lab/domain/domain.h"
-#include "lab/expression/functions.h"
+#include "lab/expression/table.h"
 #include "lab/integral/methods.h"
 #include "light/table.h"
 #include "material/table.h"

@@ -109,6 +109,7 @@ class Files(IntegrateTest):
         self.integrate("x", "--over", "x=0:1", "--method", "uniform", "--save", "a.json")
         self.assert_refused(["--resume", "a.json"], "has spent its budget")
         self.assert_refused(["x^2", "--resume", "a.json", "--samples", "100"], "only the budget")
+        self.assert_refused(["x", "--over", "x=0:1", "--save", "none/a.json"], "none/a.json", "no such folder")
         self.assert_refused(["--resume", "none.json"], "none.json", "cannot be read")
         (self.folder / "b.json").write_text("{}")
         self.assert_refused(["--resume", "b.json"], "b.json")

@@ -17,6 +17,9 @@ struct DomainPoints {
   std::span<const double* const> variables() const { return {columns.data(), columns.size()}; }
 };
 
+// The most that a domain may have.
+inline constexpr std::size_t most_dimensions = 64;
+
 class Domain {
  public:
   explicit Domain(std::vector<DomainFactor> factors);

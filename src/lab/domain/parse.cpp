@@ -11,34 +11,6 @@
 namespace montelux::lab {
 namespace {
 
-constexpr std::size_t most_dimensions = 64;
-
-const std::vector<EntitySpec>& table() {
-  using enum ParameterType;
-  static const std::vector<EntitySpec> entries{
-      {"disk", "the disk about the origin; variables x, y, r, phi; area", {{"radius", {number}, "default 1"}}},
-      {"triangle",
-       "a triangle of the plane or of space; variables x, y and, in space, z; area",
-       {{"a", {point3}, "corner (x, y) or (x, y, z); default (0, 0)"},
-        {"b", {point3}, "corner; default (1, 0)"},
-        {"c", {point3}, "corner; default (0, 1)"}}},
-      {"sphere",
-       "the unit sphere of directions; variables x, y, z, theta (from z), phi; solid angle",
-       {{"radius", {number}, "default 1; with another one the measure is area"}}},
-      {"hemisphere",
-       "directions with z >= 0; variables x, y, z, theta (from z), phi",
-       {{"measure", {string}, "default solid-angle", -1e30, 1e30, {"solid-angle", "projected"}}}},
-      {"ball", "the ball about the origin; variables x, y, z, r; volume", {{"radius", {number}, "default 1"}}},
-      {"simplex",
-       "x, y, ... >= 0 with a sum up to 1; variables x, y, z, above three dimensions x1, x2, ...; volume",
-       {{"dimension", {integer}, "default 2", 1, double(most_dimensions)}}},
-      {"cube",
-       "the unit cube; variables x1, x2, ...; volume",
-       {{"dimension", {integer}, "default 3", 1, double(most_dimensions)}}},
-  };
-  return entries;
-}
-
 class Reader {
  public:
   void read(const std::string& text) {
@@ -87,6 +59,8 @@ class Reader {
   // "x=0:1"
   void read_side(TextPart part) {
     const std::vector<TextPart> halves = split(part, '=', 2);
+    if (halves.size() < 2 && find_entity(domain_table(), split(part, ':').front().text))
+      return complain(part, "a shape stands in an --over of its own; several make their product");
     if (halves.size() < 2) return complain(part, "an interval is written name=low:high, as x=0:1");
     const TextPart name = trimmed(halves[0]);
     if (!valid_variable(name.text))
@@ -130,7 +104,7 @@ class Reader {
   void read_shape() {
     const std::vector<TextPart> halves = split({text_, 0}, ':', 2);
     const TextPart name = trimmed(halves[0]);
-    const EntitySpec* entry = find_entity(table(), name.text);
+    const EntitySpec* entry = find_entity(domain_table(), name.text);
     if (!entry)
       return complain(
           name, unknown_name("domain", name.text, names_of(domain_table())).message + "; an interval is written x=0:1");
@@ -247,8 +221,6 @@ class Reader {
 };
 
 }  // namespace
-
-std::span<const EntitySpec> domain_table() { return table(); }
 
 ParsedDomain parse_domain(const std::vector<std::string>& texts) {
   Reader reader;

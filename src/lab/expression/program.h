@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lab/expression/functions.h"
+#include "lab/expression/table.h"
 
 namespace montelux::lab {
 

@@ -21,6 +21,8 @@ std::string value_with_error(double value, double error) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   if (!std::isfinite(error)) return fmt::format("{:.6g}(?)", value);
   if (error <= 0) return fmt::format("{:.12g}(0)", value);
+  // Below this a double has no digits.
+  error = std::max(error, 1e-15 * std::abs(value));
   const double size = std::max(std::abs(value), error);
   const int exponent = int(std::floor(std::log10(size)));
   // Plain digits for sizes that people read, and while the error is no whole number of many digits.

@@ -31,6 +31,7 @@ TEST(ValueText, errors_that_are_none_are_said) {
   EXPECT_EQ(value_with_error(0.25, std::nan("")), "0.25(?)");
   EXPECT_EQ(value_with_error(0.25, INFINITY), "0.25(?)");
   EXPECT_EQ(value_with_error(NAN, 1), "nan");
+  EXPECT_EQ(value_with_error(2, 1e-17), "2.0000000000000000(20)");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lab/expression/functions.h"
+#include "lab/expression/table.h"
 
 #include <algorithm>
 #include <array>
