@@ -56,6 +56,13 @@ class Setup(unittest.TestCase):
         self.assertEqual(log.splitlines()[-1].split("recommends")[1].split(), ["ninja-build", "libfmt-dev"])
         self.assertEqual(self.run_tool()[2], log)
 
+    def test_a_package_is_not_installed_where_its_command_is_there_already(self):
+        self.debian([name for name in PACKAGES if name not in ("nodejs", "npm", "zlib1g-dev")])
+        self.command("node", "echo v20.0.0")
+        status, output, log = self.run_tool()
+        self.assertEqual(status, 0, output)
+        self.assertEqual(log.splitlines()[-1].split("recommends")[1].split(), ["zlib1g-dev", "npm"])
+
     def test_a_dry_run_installs_nothing(self):
         self.debian([])
         status, output, log = self.run_tool("--dry-run")

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lab/report/axis_scale.h"
+#include "lab/report/base64.h"
+#include "lab/report/write.h"
+
+namespace montelux::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Seven digits, more than any plot can show.
+Json number(double x) { return std::isfinite(x) ? Json(std::stod(fmt::format("{:.7g}", x))) : Json(); }
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (double x : values) array.push_back(number(x));
+  return array;
+}
+
+Json to_json(const Axis& axis) {
+  Json json{{"label", plain_text(axis.label)}, {"log", axis.logarithmic}};
+  if (axis.low) json["low"] = *axis.low;
+  if (axis.high) json["high"] = *axis.high;
+  return json;
+}
+
+Json to_json(const Curve& curve) {
+  constexpr const char* marks[] = {"line", "dashes", "points", "bars", "steps"};
+  Json json{{"name", curve.name}, {"mark", marks[std::size_t(curve.mark)]}};
+  json["x"] = numbers(curve.x), json["y"] = numbers(curve.y);
+  if (curve.color >= 0) json["color"] = curve.color;
+  if (!curve.low.empty()) json["low"] = numbers(curve.low), json["high"] = numbers(curve.high);
+  return json;
+}
+
+// One section, by its kind.
+struct SectionWriter {
+  bool with_pictures;
+
+  Json operator()(const Text& text) const { return {{"kind", "text"}, {"text", text.text}}; }
+  Json operator()(const Formula& formula) const {
+    return {{"kind", "formula"}, {"latex", formula.latex}, {"source", formula.source}};
+  }
+  Json operator()(const Table& table) const {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+      Json cells = Json::array();
+      for (const Cell& cell : row)
+        cells.push_back(std::holds_alternative<double>(cell) ? number(std::get<double>(cell))
+                                                             : Json(std::get<std::string>(cell)));
+      rows.push_back(std::move(cells));
+    }
+    Json json{{"kind", "table"}, {"name", table.name}, {"caption", table.caption}};
+    json["columns"] = table.columns, json["rows"] = std::move(rows);
+    return json;
+  }
+  Json operator()(const Figure& figure) const {
+    Json json{{"kind", "figure"}, {"name", figure.name}, {"caption", figure.caption}};
+    json["x"] = to_json(figure.x), json["y"] = to_json(figure.y), json["square"] = figure.square;
+    json["curves"] = Json::array();
+    for (const Curve& curve : figure.curves) json["curves"].push_back(to_json(curve));
+    return json;
+  }
+  Json operator()(const Images& images) const {
+    Json json{{"kind", "images"}, {"name", images.name}, {"caption", images.caption}, {"columns", images.columns}};
+    json["pictures"] = Json::array();
+    for (const Picture& picture : images.pictures) {
+      Json one{{"caption", picture.caption}, {"width", picture.width}, {"height", picture.height}};
+      if (with_pictures) one["src"] = "data:image/png;base64," + base64(to_png(picture));
+      json["pictures"].push_back(std::move(one));
+    }
+    return json;
+  }
+  Json operator()(const Verdict& verdict) const {
+    return {{"kind", "verdict"}, {"claim", verdict.claim}, {"detail", verdict.detail}, {"passed", verdict.passed}};
+  }
+  Json operator()(const Commands& commands) const { return {{"kind", "commands"}, {"lines", commands.lines}}; }
+};
+
+}  // namespace
+
+bool Report::passed() const {
+  for (const Section& section : sections)
+    if (const auto* verdict = std::get_if<Verdict>(&section); verdict && !verdict->passed) return false;
+  return true;
+}
+
+std::string to_json(const ReportSet& set, bool with_pictures) {
+  Json json{{"title", set.title}, {"subtitle", set.subtitle}, {"reports", Json::array()}};
+  for (const Report& report : set.reports) {
+    Json one{{"name", report.name}, {"title", report.title}, {"group", report.group}, {"passed", report.passed()}};
+    one["sections"] = Json::array();
+    for (const Section& section : report.sections)
+      one["sections"].push_back(std::visit(SectionWriter{with_pictures}, section));
+    json["reports"].push_back(std::move(one));
+  }
+  return json.dump() + "\n";
+}
+
+}  // namespace montelux::lab

@@ -1,0 +1,99 @@
+// A report as plain data: what a page, a table of numbers and a figure for a paper are made from.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace montelux::lab {
+
+// ---- figures --------------------------------------------------------------------------------------------------------
+
+enum class Mark : std::uint8_t { line, dashes, points, bars, steps };
+
+// y over x, of one size. `low` and `high`, both empty or of that size, bound an error band (lines) or error bars
+// (points, bars). The x of all but points ascend. Bars stand at their middle, steps begin at x. A curve without a name
+// is not in the legend. `color` counts through the palette; where it is negative, the curve has that of its place.
+struct Curve {
+  std::string name;
+  Mark mark = Mark::line;
+  std::vector<double> x, y;
+  std::vector<double> low, high;
+  int color = -1;
+};
+
+// `label` may hold formulas in dollars. Without bounds the axis fits its data.
+struct Axis {
+  std::string label;
+  bool logarithmic = false;
+  std::optional<double> low, high;
+};
+
+// `name` is unique in its report and good for a file. `square`: both axes have one scale.
+struct Figure {
+  std::string name, caption;
+  Axis x, y;
+  std::vector<Curve> curves;
+  bool square = false;
+};
+
+// ---- pictures -------------------------------------------------------------------------------------------------------
+
+// Eight bits a component, red, green, blue; the top row first.
+struct Picture {
+  std::string caption;
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+// Pictures in a grid; all of one size zoom and pan together.
+struct Images {
+  std::string name, caption;
+  int columns = 4;
+  std::vector<Picture> pictures;
+};
+
+// ---- the rest -------------------------------------------------------------------------------------------------------
+
+// A paragraph. Formulas stand in dollars, code in backticks.
+struct Text {
+  std::string text;
+};
+// In LaTeX; `source` says where it is found.
+struct Formula {
+  std::string latex, source;
+};
+using Cell = std::variant<std::string, double>;
+struct Table {
+  std::string name, caption;
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;
+};
+// A claim and how it was decided: `detail` gives statistic, p-value and level.
+struct Verdict {
+  std::string claim, detail;
+  bool passed = false;
+};
+struct Commands {
+  std::vector<std::string> lines;
+};
+
+using Section = std::variant<Text, Formula, Table, Figure, Images, Verdict, Commands>;
+
+// `name` is good for a file and for a link; `group` gathers the reports of a page.
+struct Report {
+  std::string name, title, group;
+  std::vector<Section> sections;
+
+  // Every verdict holds.
+  bool passed() const;
+};
+
+// What one run made.
+struct ReportSet {
+  std::string title, subtitle;
+  std::vector<Report> reports;
+};
+
+}  // namespace montelux::lab

@@ -1,0 +1,240 @@
+// A figure as an interactive plot: zoom by dragging, reset by a double click, read-out under the pointer.
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { element } from "./dom";
+import { join, type Joined } from "./join";
+import { paletteIndex } from "./palette";
+import { readout } from "./readout";
+import type { Axis, Curve, FigureSection } from "./report";
+import { rich } from "./text";
+import { color, onThemeChange } from "./theme";
+import { linearTicks, logTicks, rangeOf } from "./ticks";
+
+type Range = [number, number];
+
+const seriesColor = (curve: Curve, i: number): string => color(`--series-${paletteIndex(curve, i)}`);
+const finite = (values: (number | null)[] | undefined): number[] => (values ?? []).filter((v): v is number => v !== null);
+const barStep = (curve: Curve): number => (curve.x.length > 1 ? curve.x[1]! - curve.x[0]! : 1);
+
+function ranges(figure: FigureSection): { x: Range; y: Range } {
+  const bars = figure.curves.some((curve) => curve.mark === "bars");
+  const x = figure.curves.flatMap((curve) => {
+    const own = finite(curve.x);
+    if (curve.mark !== "bars" || own.length < 2) return own;
+    return [...own, own[0]! - barStep(curve) / 2, own[own.length - 1]! + barStep(curve) / 2];
+  });
+  const y = figure.curves.flatMap((curve) => [...finite(curve.y), ...finite(curve.low), ...finite(curve.high)]);
+  const bounded = (axis: Axis, range: Range): Range => [axis.low ?? range[0], axis.high ?? range[1]];
+  return {
+    x: bounded(figure.x, rangeOf(x, figure.x.log, false)),
+    y: bounded(figure.y, rangeOf(y, figure.y.log, bars)),
+  };
+}
+
+function axisOptions(axis: Axis, side: number): uPlot.Axis {
+  const ticks = (low: number, high: number) => (axis.log ? logTicks(low, high) : linearTicks(low, high));
+  let labels: string[] = [];
+  return {
+    side,
+    scale: side === 2 ? "x" : "y",
+    label: axis.label,
+    labelSize: 24,
+    size: side === 2 ? 34 : 56,
+    labelFont: "13px system-ui, sans-serif",
+    font: "12px system-ui, sans-serif",
+    stroke: () => color("--faint"),
+    grid: { stroke: () => color("--grid"), width: 1 },
+    ticks: { show: false },
+    splits: (_u, _axis, low, high) => {
+      const made = ticks(low, high);
+      labels = made.labels;
+      return made.values;
+    },
+    filter: (_u, splits) => splits,
+    values: () => labels,
+  };
+}
+
+// Bars as wide as the cells of the curve, whatever else stands on the axis.
+function barPath(curve: Curve): uPlot.Series.PathBuilder {
+  return (u) => {
+    const fill = new Path2D();
+    const half = 0.46 * barStep(curve);
+    const floor = u.scales.y!.distr === 3 ? u.scales.y!.min! : Math.max(0, u.scales.y!.min!);
+    const zero = u.valToPos(floor, "y", true);
+    curve.x.forEach((x, i) => {
+      const y = curve.y[i];
+      if (x === null || y === null || y === undefined) return;
+      const left = u.valToPos(x - half, "x", true);
+      const top = u.valToPos(y, "y", true);
+      fill.rect(left, Math.min(top, zero), u.valToPos(x + half, "x", true) - left, Math.abs(zero - top));
+    });
+    return { stroke: null, fill };
+  };
+}
+
+function seriesOptions(curve: Curve, i: number): uPlot.Series {
+  const stroke = (): string => seriesColor(curve, i);
+  const many = curve.x.length > 150;
+  const shared: uPlot.Series = { label: curve.name, scale: "y", stroke, spanGaps: true };
+  switch (curve.mark) {
+    case "points":
+      return { ...shared, paths: () => null, points: { show: true, size: many ? 3.5 : 7, width: 0, fill: stroke, stroke } };
+    case "bars":
+      return { ...shared, paths: barPath(curve), fill: () => `${seriesColor(curve, i)}73`, width: 0, points: { show: false } };
+    case "steps":
+      return { ...shared, paths: uPlot.paths.stepped!({ align: 1 }), width: 1.6, points: { show: false } };
+    default:
+      return { ...shared, width: 1.8, points: { show: false }, ...(curve.mark === "dashes" ? { dash: [7, 5] } : {}) };
+  }
+}
+
+function clipped(u: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
+  const { left, top, width, height } = u.bbox;
+  u.ctx.save();
+  u.ctx.beginPath();
+  u.ctx.rect(left, top, width, height);
+  u.ctx.clip();
+  draw(u.ctx);
+  u.ctx.restore();
+}
+
+// A value on the canvas; what a logarithm cannot show lies below it.
+function onCanvas(u: uPlot, y: number): number {
+  if (u.scales.y!.distr === 3 && y <= 0) return u.bbox.top + 3 * u.bbox.height;
+  return u.valToPos(y, "y", true);
+}
+
+function drawBand(u: uPlot, curve: Curve, stroke: string): void {
+  const shown = curve.x.flatMap((x, i) => {
+    const low = curve.low![i];
+    const high = curve.high![i];
+    if (x === null || low == null || high == null || (u.scales.x!.distr === 3 && x <= 0)) return [];
+    return [{ x: u.valToPos(x, "x", true), low: onCanvas(u, low), high: onCanvas(u, high) }];
+  });
+  clipped(u, (context) => {
+    context.beginPath();
+    shown.forEach((p) => context.lineTo(p.x, p.high));
+    shown.reverse().forEach((p) => context.lineTo(p.x, p.low));
+    context.closePath();
+    context.fillStyle = `${stroke}2e`;
+    context.fill();
+  });
+}
+
+function drawErrorBars(u: uPlot, curve: Curve, stroke: string): void {
+  const cap = 3 * devicePixelRatio;
+  clipped(u, (context) => {
+    context.strokeStyle = stroke;
+    context.setLineDash([]);
+    context.lineWidth = 1.2 * devicePixelRatio;
+    context.beginPath();
+    curve.x.forEach((x, i) => {
+      const low = curve.low![i];
+      const high = curve.high![i];
+      if (x === null || low == null || high == null) return;
+      const px = u.valToPos(x, "x", true);
+      for (const y of [onCanvas(u, low), onCanvas(u, high)]) {
+        context.moveTo(px - cap, y);
+        context.lineTo(px + cap, y);
+      }
+      context.moveTo(px, onCanvas(u, low));
+      context.lineTo(px, onCanvas(u, high));
+    });
+    context.stroke();
+  });
+}
+
+// Bands lie under the curves, error bars over them.
+function drawSpread(u: uPlot, curves: Curve[], bands: boolean): void {
+  curves.forEach((curve, i) => {
+    if (!curve.low || !curve.high || !u.series[i + 1]!.show) return;
+    const onPoints = curve.mark === "points" || curve.mark === "bars";
+    if (onPoints === bands) return;
+    if (bands) drawBand(u, curve, seriesColor(curve, i));
+    else drawErrorBars(u, curve, seriesColor(curve, i));
+  });
+}
+
+function plotOptions(figure: FigureSection, joined: Joined, host: HTMLElement): uPlot.Options {
+  const full = ranges(figure);
+  const width = Math.min(host.clientWidth, figure.square ? 460 : 900);
+  const reset = (u: uPlot) => {
+    u.batch(() => {
+      u.setScale("x", { min: full.x[0], max: full.x[1] });
+      u.setScale("y", { min: full.y[0], max: full.y[1] });
+    });
+  };
+  return {
+    width,
+    height: figure.square ? width - 28 : Math.round(Math.max(260, width * 0.5)),
+    padding: [10, 14, 0, 0],
+    legend: { show: false },
+    scales: {
+      x: { time: false, distr: figure.x.log ? 3 : 1, range: () => full.x },
+      y: { distr: figure.y.log ? 3 : 1, range: () => full.y },
+    },
+    axes: [axisOptions(figure.x, 2), axisOptions(figure.y, 3)],
+    series: [{}, ...figure.curves.map(seriesOptions)],
+    cursor: {
+      drag: { x: true, y: true, uni: 24 },
+      points: { show: false },
+      bind: { dblclick: (u) => () => (reset(u), null) },
+    },
+    hooks: {
+      drawAxes: [(u) => drawSpread(u, figure.curves, true)],
+      draw: [(u) => drawSpread(u, figure.curves, false)],
+    },
+    plugins: [readout(figure, joined)],
+  };
+}
+
+// A name for each curve; a click hides and shows it.
+function legend(figure: FigureSection, plot: () => uPlot | undefined): HTMLElement {
+  const made = element("div", { class: "legend" });
+  figure.curves.forEach((curve, i) => {
+    if (!curve.name) return;
+    const key = element("i", { class: `key ${curve.mark}`, style: `--key: var(--series-${paletteIndex(curve, i)})` });
+    const button = element("button", { type: "button", "aria-pressed": "true" }, key, rich(curve.name));
+    button.addEventListener("click", () => {
+      const shown = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(shown));
+      plot()?.setSeries(i + 1, { show: shown });
+    });
+    made.append(button);
+  });
+  return made;
+}
+
+export function figureView(figure: FigureSection): HTMLElement {
+  const host = element("div", { class: figure.square ? "plot square" : "plot" });
+  const joined = join(figure.curves, figure.x.log);
+  let plot: uPlot | undefined;
+  const hint = element("span", { class: "hint" }, "Drag to zoom, double-click to reset.");
+  const caption = element("figcaption", {}, rich(figure.caption), " ", hint);
+  const made = element("figure", { class: figure.square ? "half" : "" }, legend(figure, () => plot), host, caption);
+
+  const draw = (): void => {
+    if (host.clientWidth === 0) return;
+    const hidden = plot?.series.map((series) => series.show === false) ?? [];
+    plot?.destroy();
+    plot = new uPlot(plotOptions(figure, joined, host), [joined.x, ...joined.columns] as uPlot.AlignedData, host);
+    hidden.forEach((off, i) => off && plot!.setSeries(i, { show: false }));
+  };
+  // Plots are made when they come near to the window, and again at another width or in other colours.
+  let width = 0;
+  new IntersectionObserver(
+    (entries, observer) => {
+      if (!entries.some((entry) => entry.isIntersecting)) return;
+      observer.disconnect();
+      new ResizeObserver(() => {
+        if (host.clientWidth !== width) draw();
+        width = host.clientWidth;
+      }).observe(host);
+    },
+    { rootMargin: "600px" },
+  ).observe(host);
+  onThemeChange(() => plot && draw());
+  addEventListener("beforeprint", draw);
+  return made;
+}

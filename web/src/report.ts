@@ -1,0 +1,73 @@
+// The form of the data in the page, as src/lab/report/json.cpp writes it.
+
+export type Mark = "line" | "dashes" | "points" | "bars" | "steps";
+export type Value = number | null;
+
+export interface Curve {
+  name: string;
+  mark: Mark;
+  x: Value[];
+  y: Value[];
+  low?: Value[];
+  high?: Value[];
+  color?: number;
+}
+
+export interface Axis {
+  label: string;
+  log: boolean;
+  low?: number;
+  high?: number;
+}
+
+export interface TextSection { kind: "text"; text: string }
+export interface FormulaSection { kind: "formula"; latex: string; source: string }
+export interface TableSection {
+  kind: "table";
+  name: string;
+  caption: string;
+  columns: string[];
+  rows: (string | Value)[][];
+}
+export interface FigureSection {
+  kind: "figure";
+  name: string;
+  caption: string;
+  x: Axis;
+  y: Axis;
+  square: boolean;
+  curves: Curve[];
+}
+export interface Picture { caption: string; width: number; height: number; src: string }
+export interface ImagesSection {
+  kind: "images";
+  name: string;
+  caption: string;
+  columns: number;
+  pictures: Picture[];
+}
+export interface VerdictSection { kind: "verdict"; claim: string; detail: string; passed: boolean }
+export interface CommandsSection { kind: "commands"; lines: string[] }
+
+export type Section =
+  | TextSection
+  | FormulaSection
+  | TableSection
+  | FigureSection
+  | ImagesSection
+  | VerdictSection
+  | CommandsSection;
+
+export interface Report {
+  name: string;
+  title: string;
+  group: string;
+  passed: boolean;
+  sections: Section[];
+}
+
+export interface ReportSet {
+  title: string;
+  subtitle: string;
+  reports: Report[];
+}

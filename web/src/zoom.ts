@@ -1,0 +1,66 @@
+// Zoom and pan that any number of views share: what one shows, all show.
+
+export interface Place { scale: number; x: number; y: number } // x, y: shift in parts of the view's width and height
+
+export class SharedZoom {
+  private place: Place = { scale: 1, x: 0, y: 0 };
+  private readonly views: HTMLElement[] = [];
+
+  // `view` is moved inside of `frame`, which takes the gestures: drag to pan, control and wheel to zoom, double click
+  // to go in and, with shift, back.
+  add(frame: HTMLElement, view: HTMLElement): void {
+    this.views.push(view);
+    frame.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.ctrlKey && !event.metaKey && this.place.scale === 1) return;
+        event.preventDefault();
+        this.zoomAt(frame, event.clientX, event.clientY, Math.exp(-event.deltaY * 0.002));
+      },
+      { passive: false },
+    );
+    frame.addEventListener("dblclick", (event) => {
+      if (event.shiftKey || this.place.scale > 12) this.reset();
+      else this.zoomAt(frame, event.clientX, event.clientY, 2.5);
+    });
+    frame.addEventListener("pointerdown", (event) => {
+      if (this.place.scale === 1) return;
+      frame.setPointerCapture(event.pointerId);
+      event.preventDefault();
+    });
+    frame.addEventListener("pointermove", (event) => {
+      if (!frame.hasPointerCapture(event.pointerId)) return;
+      this.show({
+        scale: this.place.scale,
+        x: this.place.x + event.movementX / frame.clientWidth,
+        y: this.place.y + event.movementY / frame.clientHeight,
+      });
+    });
+    this.show(this.place);
+  }
+
+  reset(): void {
+    this.show({ scale: 1, x: 0, y: 0 });
+  }
+
+  private zoomAt(frame: HTMLElement, clientX: number, clientY: number, factor: number): void {
+    const box = frame.getBoundingClientRect();
+    const u = (clientX - box.left) / box.width;
+    const v = (clientY - box.top) / box.height;
+    const scale = Math.min(32, Math.max(1, this.place.scale * factor));
+    const grown = scale / this.place.scale;
+    this.show({ scale, x: u - grown * (u - this.place.x), y: v - grown * (v - this.place.y) });
+  }
+
+  private show(place: Place): void {
+    // The picture never leaves its frame.
+    const least = 1 - place.scale;
+    const held = (value: number): number => Math.min(0, Math.max(least, value));
+    this.place = { scale: place.scale, x: held(place.x), y: held(place.y) };
+    const { scale, x, y } = this.place;
+    for (const view of this.views) {
+      view.style.transform = `translate(${x * 100}%, ${y * 100}%) scale(${scale})`;
+      view.parentElement?.classList.toggle("zoomed", scale > 1);
+    }
+  }
+}

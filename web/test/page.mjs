@@ -1,0 +1,140 @@
+// usage: node page.mjs REPORT.html [SCREENSHOT_FOLDER]
+// Opens a report in headless Chromium and holds it to what a reader expects: no error on the console, plots that are
+// drawn, a read-out under the pointer, zoom, pictures that zoom together, and colours of its own in the dark. Exit status:
+// 0 all good, 1 not, 77 no Chromium here.
+import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [, , report, shots] = process.argv;
+const browsers = [process.env.MONTELUX_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const executablePath = browsers.find((path) => path && existsSync(path));
+if (!executablePath) {
+  console.log("skipped: no Chromium on this machine");
+  process.exit(77);
+}
+if (shots) mkdirSync(shots, { recursive: true });
+
+const failures = [];
+const expect = (good, claim) => {
+  console.log(`${good ? "ok  " : "FAIL"} ${claim}`);
+  if (!good) failures.push(claim);
+};
+
+// How many colours a canvas shows beside its ground: a blank one shows none.
+const drawnColors = (canvas) =>
+  canvas.evaluate((element) => {
+    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+    const colors = new Set();
+    for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200) colors.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+    return colors.size;
+  });
+const pixels = (canvas) => canvas.evaluate((element) => element.toDataURL());
+const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+
+const profile = mkdtempSync(join(tmpdir(), "montelux-page-"));
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath,
+  headless: true,
+  viewport: { width: 1280, height: 900 },
+  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--disable-extensions"],
+});
+try {
+  const page = context.pages()[0] ?? (await context.newPage());
+  const errors = [];
+  const requests = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("request", (request) => /^https?:|^wss?:/.test(request.url()) && requests.push(request.url()));
+  await page.emulateMedia({ colorScheme: "light" });
+  await page.goto(pathToFileURL(resolve(report)).href);
+  await page.waitForSelector("article h2");
+  if (shots) await page.screenshot({ path: join(shots, "top-light.png") });
+
+  const figures = page.locator("figure:has(.plot)");
+  const count = await figures.count();
+  expect(count > 0, `there are figures (${count})`);
+  expect((await page.locator("math").count()) > 0, "formulas are MathML");
+  expect((await page.locator(".katex-error").count()) === 0, "every formula can be read");
+  let blank = 0;
+  for (let i = 0; i < count; ++i) {
+    await figures.nth(i).scrollIntoViewIfNeeded();
+    const canvas = figures.nth(i).locator("canvas");
+    await canvas.waitFor({ timeout: 10000 });
+    await page.waitForTimeout(30);
+    if ((await drawnColors(canvas)) < 8) ++blank;
+  }
+  expect(blank === 0, `every plot is drawn (${blank} blank)`);
+
+  const figure = figures.first();
+  await figure.scrollIntoViewIfNeeded();
+  const over = figure.locator(".u-over");
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.55 * box.width, box.y + 0.45 * box.height);
+  await page.waitForTimeout(100);
+  const text = await figure.locator(".readout.shown").first().textContent().catch(() => "");
+  expect(/\d/.test(text ?? ""), `the pointer reads values ("${text}")`);
+  if (shots) await page.screenshot({ path: join(shots, "hover.png") });
+
+  const before = await pixels(figure.locator("canvas"));
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.3 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.7 * box.height, { steps: 8 });
+  await page.mouse.up();
+  await page.waitForTimeout(100);
+  const zoomed = await pixels(figure.locator("canvas"));
+  expect(zoomed !== before, "dragging zooms");
+  await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await page.waitForTimeout(400);
+  expect((await pixels(figure.locator("canvas"))) === before, "a double click shows all again");
+
+  await figure.locator(".legend button").first().click();
+  await page.waitForTimeout(100);
+  expect((await pixels(figure.locator("canvas"))) !== before, "a click on a name hides its curve");
+  await figure.locator(".legend button").first().click();
+
+  const frames = page.locator(".frame");
+  if ((await frames.count()) > 1) {
+    await frames.first().scrollIntoViewIfNeeded();
+    await frames.first().dblclick();
+    const shown = await frames.nth(1).locator("img").evaluate((image) => image.style.transform);
+    expect(/scale\(2\.5\)/.test(shown), "pictures zoom together");
+    await frames.first().dblclick({ modifiers: ["Shift"] });
+    if (shots) await page.screenshot({ path: join(shots, "pictures.png") });
+  }
+
+  const light = await ground(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.locator("button.theme").click();
+  await page.waitForTimeout(200);
+  const dark = await ground(page);
+  expect(light !== dark, `the switch turns the page dark (${light} to ${dark})`);
+  if (shots) await page.screenshot({ path: join(shots, "top-dark.png") });
+  await figure.scrollIntoViewIfNeeded();
+  expect((await pixels(figure.locator("canvas"))) !== before, "plots follow into the dark");
+  if (shots) await page.screenshot({ path: join(shots, "figure-dark.png") });
+  await page.evaluate(() => localStorage.clear());
+  await page.emulateMedia({ colorScheme: "dark" });
+  await page.reload();
+  await page.waitForSelector("article h2");
+  expect((await ground(page)) === dark, "a dark system makes the page dark");
+
+  await page.emulateMedia({ colorScheme: "light" });
+  await page.setViewportSize({ width: 390, height: 800 });
+  await page.reload();
+  await page.waitForSelector("article h2");
+  await page.waitForTimeout(300);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
+  if (shots) await page.screenshot({ path: join(shots, "narrow.png") });
+
+  expect(errors.length === 0, `nothing on the console ${errors.slice(0, 3).join("; ")}`);
+  expect(requests.length === 0, `no request to a network ${requests.slice(0, 3).join("; ")}`);
+} finally {
+  await context.close();
+  rmSync(profile, { recursive: true, force: true });
+}
+process.exit(failures.length === 0 ? 0 : 1);
