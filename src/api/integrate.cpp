@@ -15,12 +15,6 @@ std::vector<std::string> default_methods(const lab::IntegralStatement& statement
   return {"auto"};
 }
 
-std::uint64_t samples_of(const lab::IntegralState& state) {
-  std::uint64_t samples = state.training_evaluations;
-  for (const lab::PassRecord& pass : state.passes) samples += pass.samples;
-  return samples;
-}
-
 }  // namespace
 
 IntegralPreparation prepare_integral(const IntegralOptions& options) {
@@ -85,7 +79,7 @@ std::optional<lab::Budget> rest_of_budget(const SavedIntegral& saved) {
   std::uint64_t samples = 0;
   double seconds = 0;
   for (const lab::IntegralState& state : saved.states) {
-    samples = std::max(samples, samples_of(state));
+    samples = std::max(samples, state.evaluations);
     seconds = std::max(seconds, state.seconds);
   }
   if (rest.samples) {

@@ -10,7 +10,9 @@ Domain::Domain(std::vector<DomainFactor> factors) : factors_(std::move(factors))
     std::visit(
         [this](const auto& f) {
           dimension_ += f.dimension();
-          for (std::string& name : f.names()) variables_.push_back(std::move(name));
+          const std::vector<std::string> names = f.names();
+          first_variables_.push_back(variables_.size());
+          variables_.insert(variables_.end(), names.begin(), names.end());
         },
         factor);
 }
@@ -42,18 +44,19 @@ std::vector<char> Domain::needed_by(const Expression& expression) const {
 
 DomainPoints Domain::map(PointBatch points, const std::vector<char>& needed) const {
   DomainPoints result;
-  result.memory.resize(variables_.size() * points.count);
-  for (std::size_t k = 0; k < variables_.size(); ++k) result.columns.push_back(result.memory.data() + k * points.count);
+  result.memory = std::make_unique_for_overwrite<double[]>(variables_.size() * points.count);
+  for (std::size_t k = 0; k < variables_.size(); ++k) result.columns.push_back(result.memory.get() + k * points.count);
   result.stretch.assign(points.count, 1.0);
-  MapTask task{points, 0, 0, result.columns, needed, result.stretch};
-  for (const DomainFactor& factor : factors_)
+  MapTask task{points, 0, 0, result.columns, result.memory.get(), needed, result.stretch};
+  for (std::size_t k = 0; k < factors_.size(); ++k) {
+    task.column = first_variables_[k];
     std::visit(
         [&task](const auto& f) {
           f.map(task);
           task.first += f.dimension();
-          task.column += f.names().size();
         },
-        factor);
+        factors_[k]);
+  }
   return result;
 }
 
@@ -71,7 +74,7 @@ BatchFunction times_stretch(std::shared_ptr<const Domain> domain, Expression exp
   return [domain = std::move(domain), expression = std::move(expression), needed = std::move(needed)](
              PointBatch points, std::span<double> values) {
     const DomainPoints p = domain->map(points, needed);
-    expression.evaluate(p.variables(), values);
+    expression.evaluate(p.columns, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double stretch = turns_sign ? p.stretch[i] : std::abs(p.stretch[i]);
       values[i] = stretch == 0 ? 0.0 : values[i] * stretch;

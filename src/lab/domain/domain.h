@@ -11,10 +11,9 @@ namespace montelux::lab {
 
 // Columns of variables at many points, and the measure by which the cube is stretched there.
 struct DomainPoints {
-  std::vector<double> memory;
-  std::vector<double*> columns;  // one a variable; those that were not needed have no meaning
+  std::unique_ptr<double[]> memory;
+  std::vector<const double*> columns;  // one a variable; those that were not needed have no meaning
   std::vector<double> stretch;
-  std::span<const double* const> variables() const { return {columns.data(), columns.size()}; }
 };
 
 // The most that a domain may have.
@@ -34,6 +33,7 @@ class Domain {
 
   // Marks the variables that an expression or a bound needs.
   std::vector<char> needed_by(const Expression& expression) const;
+  // The points must outlive the result, which may look into them.
   DomainPoints map(PointBatch points, const std::vector<char>& needed) const;
   // From variables (all of them) to coordinates of the cube, laid out as a BatchMap does. For invertible domains.
   void invert(std::span<const double* const> variables, std::size_t count, std::span<double> cube) const;
@@ -41,6 +41,7 @@ class Domain {
  private:
   std::vector<DomainFactor> factors_;
   std::vector<std::string> variables_;
+  std::vector<std::size_t> first_variables_;  // of each factor
   std::size_t dimension_ = 0;
 };
 

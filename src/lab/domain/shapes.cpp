@@ -51,7 +51,17 @@ std::optional<double> Side::volume() const {
 void Side::map(const MapTask& task) const {
   const std::span<const double> u = task.u(0);
   const std::size_t n = u.size();
-  double* x = task.columns[task.column];
+  double* x = task.memory + task.column * n;
+  if (fixed && !from_minus_infinity && !to_infinity) {
+    const double from = fixed->first, length = fixed->second - fixed->first;
+    if (from == 0 && length == 1) {
+      task.columns[task.column] = u.data();
+      return;
+    }
+    if (task.needed[task.column])
+      for (std::size_t i = 0; i < n; ++i) x[i] = from + u[i] * length;
+    return scale(task.stretch, length);
+  }
   const auto set = [&](auto one) {
     for (std::size_t i = 0; i < n; ++i) task.stretch[i] *= one(i);
   };
@@ -63,13 +73,8 @@ void Side::map(const MapTask& task) const {
     });
     return;
   }
-  if (fixed && !from_minus_infinity && !to_infinity) {
-    const double from = fixed->first, length = fixed->second - fixed->first;
-    for (std::size_t i = 0; i < n; ++i) x[i] = from + u[i] * length;
-    return scale(task.stretch, length);
-  }
   std::vector<double> a(n), b(n);
-  const std::span<const double* const> known(task.columns.data(), task.columns.size());
+  const std::span<const double* const> known = task.columns;
   if (!from_minus_infinity) low.evaluate(known, a);
   if (!to_infinity) high.evaluate(known, b);
   set([&](std::size_t i) {

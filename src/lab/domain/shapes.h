@@ -12,18 +12,19 @@
 
 namespace montelux::lab {
 
-// What a factor works on. Its own coordinates of the cube start at `first`; its own variables are columns[column] and
+// What a factor works on. Its own coordinates of the cube start at `first`; its own variables are those from `column`
 // on, of which only those that `needed` marks have to be set. The measure is multiplied into `stretch`.
 struct MapTask {
   PointBatch points;
   std::size_t first = 0, column = 0;
-  std::span<double* const> columns;  // of the whole domain; those of earlier factors are done
+  std::span<const double*> columns;  // of the whole domain; those of earlier factors are done
+  double* memory = nullptr;          // where columns are written: points.count numbers each
   std::span<const char> needed;
   std::span<double> stretch;
 
   std::span<const double> u(std::size_t d) const { return points[first + d]; }
-  // Null where nobody needs it.
-  double* variable(std::size_t k) const { return needed[column + k] ? columns[column + k] : nullptr; }
+  // Where the values of an own variable go; null where nobody needs it.
+  double* variable(std::size_t k) const { return needed[column + k] ? memory + (column + k) * points.count : nullptr; }
 };
 
 // One variable between bounds, each an expression of the variables before it, or infinite. Infinite ends are reached by

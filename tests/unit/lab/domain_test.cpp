@@ -106,7 +106,7 @@ TEST(Domain, points_go_back_to_the_cube) {
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::fmod(0.5 + 0.618033988749895 * double(i), 1.0);
   const std::vector<char> all(5, 1);
   const DomainPoints p = domain->map({u, 5, n}, all);
-  domain->invert(p.variables(), n, back);
+  domain->invert(p.columns, n, back);
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(back[i], u[i], 1e-12) << i;
 }
 
