@@ -68,19 +68,6 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   return plan;
 }
 
-// For a render that is bounded by time: as many samples a pass as leave enough passes, by a measured pass.
-PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings settings, double seconds) {
-  settings.seconds.reset();
-  settings.plan = {1, 1};
-  settings.first_pass = 1 << 30;  // a pass that the render itself will never take
-  RenderObserver silent;
-  const double one_sample = std::max(render(integrator, settings, silent).seconds, 1e-6);
-  const auto affordable = int(std::min(seconds / one_sample, 1e6));
-  PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
-  plan.passes = 1 << 20;  // time ends it
-  return plan;
-}
-
 std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const Plan& plan, const RenderResult& result) {
   std::vector<Attribute> header;
   auto add = [&](std::string name, std::variant<std::string, std::int32_t, float, double> value) {
@@ -120,14 +107,16 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (!checked) return checked.failure();
   Plan& plan = *checked;
   const PixelIntegrator& integrator = *plan.chosen.integrator;
+  double pilot_seconds = 0;
   if (plan.render.seconds) {
-    // The pass that measures the speed is taken from the time, too.
+    // The pass that measures the speed is taken from the time, too, and counted into it.
     const auto start = std::chrono::steady_clock::now();
     plan.render.plan = plan_for_time(integrator, plan.render, *plan.render.seconds);
-    const std::chrono::duration<double> measured = std::chrono::steady_clock::now() - start;
-    plan.render.seconds = std::max(*plan.render.seconds - measured.count(), 0.0);
+    pilot_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    plan.render.seconds = std::max(*plan.render.seconds - pilot_seconds, 0.0);
   }
   RenderResult result = render(integrator, plan.render, observer);
+  result.seconds += pilot_seconds;
   std::vector<Attribute> header = header_of(parts, plan, result);
   return Rendering{std::move(result), std::move(header), std::move(plan.chosen.notes), plan.render.plan};
 }

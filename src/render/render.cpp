@@ -176,6 +176,18 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   return {k, (samples + k - 1) / k};
 }
 
+PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings settings, double seconds) {
+  settings.seconds.reset();
+  settings.plan = {1, 1};
+  settings.first_pass = 1 << 30;  // a pass that the render itself will never take
+  RenderObserver silent;
+  const double one_sample = std::max(render(integrator, settings, silent).seconds, 1e-6);
+  const auto affordable = int(std::min(seconds / one_sample, 1e6));
+  PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
+  plan.passes = 1 << 20;  // time ends it
+  return plan;
+}
+
 RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   Job job(integrator, settings);

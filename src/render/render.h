@@ -54,6 +54,9 @@ struct RenderResult {
   bool interrupted = false;  // the observer asked to stop before the work was done
 };
 
+// The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass.
+PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings settings, double seconds);
+
 // The film is the same bits for any number of threads (where no time limit is set and nobody interrupts).
 RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer);
 

@@ -1,0 +1,245 @@
+// montelux compare: methods take turns on a scene, and the better one is named, with how sure that is.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "api/contest.h"
+#include "api/render.h"
+#include "options.h"
+#include "progress.h"
+#include "signals.h"
+#include "status.h"
+#include "verbs.h"
+
+namespace montelux::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using lab::Measured;
+using lab::MethodResult;
+
+struct CompareArguments {
+  std::string scene;
+  LoadOptions load;
+  ContestOptions contest;
+  bool json = false, csv = false, quiet = false, no_progress = false, no_cache = false;
+};
+
+constexpr const char* examples = R"(Examples:
+  montelux compare room.pbrt -a path -b 'direct:strategy=ris,candidates=32' --spp 64
+  montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12
+  montelux compare room.pbrt -a path:sampler=halton -b path:sampler=blue-noise --reference truth.exr --json
+
+Each method is run in independent repeats, the methods taking turns, so every figure has an error bar. Efficiency is
+1 / (mean squared error x seconds). Where the interval of a ratio holds one, nothing is decided.
+Exit status: 0 compared (decided or not); 1 the reference is not good enough; 2 and above as for render.
+)";
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const Measured& m) {
+  return {{"mean", number(m.mean)},
+          {"interval", {number(m.low), number(m.high)}},
+          {"standard_error", number(m.standard_error)}};
+}
+
+Json to_json(const WelchScale& scale) {
+  return {{"tests", scale.tests}, {"smallest_p", scale.smallest_p}, {"t", number(scale.t)}, {"differs", scale.differs}};
+}
+
+Json to_json(const MethodResult& m) {
+  Json json;
+  json["label"] = m.contestant.label;
+  json["method"] = m.contestant.text;
+  json["sampler"] = name_of(m.contestant.sampler);
+  json["biases"] = m.contestant.biases;
+  json["repeats"] = m.repeats.size();
+  json["mse"] = to_json(m.mse);
+  json["relative_mse"] = to_json(m.relative_mse);
+  json["flip"] = to_json(m.flip);
+  json["variance"] = to_json(m.variance);
+  json["seconds"] = to_json(m.seconds);
+  json["samples"] = to_json(m.samples);
+  json["rays"] = to_json(m.rays);
+  json["efficiency"] = to_json(m.efficiency);
+  json["relative_efficiency"] = to_json(m.relative_efficiency);
+  json["coverage"] = to_json(m.coverage);
+  json["slope_by_samples"] = to_json(m.slope_by_samples);
+  json["slope_by_time"] = to_json(m.slope_by_time);
+  json["differs_from_reference"] = lab::differs_from_reference(m);
+  json["bias_squared"] = m.bias_squared;
+  json["bias"] = {
+      {"image", to_json(m.bias.image)}, {"blocks", to_json(m.bias.blocks)}, {"pixels", to_json(m.bias.pixels)}};
+  json["non_finite"] = m.non_finite;
+  Json curve = Json::array();
+  for (const lab::ConvergencePoint& p : m.convergence)
+    curve.push_back({{"samples", p.samples}, {"mse", to_json(p.mse)}, {"seconds", to_json(p.seconds)}});
+  json["convergence"] = curve;
+  return json;
+}
+
+void print_json(const CompareArguments& arguments, const Contest& contest) {
+  const lab::ContestResult& r = contest.result;
+  Json json;
+  json["version"] = version();
+  json["scene"] = arguments.scene;
+  json["seed"] = arguments.contest.seed;
+  json["confidence"] = arguments.contest.confidence;
+  json["reference"] = {{"origin", r.reference.origin}, {"share_of_smallest_mse", number(r.reference_share)}};
+  json["refused"] = contest.refusal.empty() ? Json() : Json(contest.refusal);
+  json["interrupted"] = r.interrupted;
+  json["methods"] = Json::array();
+  for (const MethodResult& m : r.methods) json["methods"].push_back(to_json(m));
+  json["verdicts"] = Json::array();
+  for (const lab::PairVerdict& v : r.verdicts)
+    json["verdicts"].push_back({{"first", r.methods[v.first].contestant.label},
+                                {"second", r.methods[v.second].contestant.label},
+                                {"efficiency_ratio", to_json(v.ratio)},
+                                {"relative_efficiency_ratio", to_json(v.relative_ratio)},
+                                {"decided", v.decided && contest.refusal.empty()},
+                                {"times_longer_to_decide", number(v.times_longer)}});
+  fmt::print("{}\n", json.dump(2));
+}
+
+std::string spread(const Measured& m) {
+  if (m.count < 2) return fmt::format("{:.4g}", m.mean);
+  return fmt::format("{:.4g} ± {:.1g}", m.mean, m.high - m.mean);
+}
+
+void print_csv(const Contest& contest) {
+  fmt::print("label,method,repeat,seconds,samples,rays,mse,relative_mse,flip,variance,coverage\n");
+  for (const MethodResult& m : contest.result.methods)
+    for (std::size_t i = 0; i < m.repeats.size(); ++i) {
+      const lab::Repeat& r = m.repeats[i];
+      fmt::print("{},\"{}\",{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", m.contestant.label,
+                 m.contestant.text, i, r.seconds, r.samples, r.rays, r.mse, r.relative_mse, r.flip, r.variance,
+                 r.coverage);
+    }
+}
+
+// "a is 2.31 times as efficient as b (95 % between 2.10 and 2.55)", or that nothing is decided.
+std::string sentence(const Contest& contest, const lab::PairVerdict& v, double confidence) {
+  const std::string& a = contest.result.methods[v.first].contestant.label;
+  const std::string& b = contest.result.methods[v.second].contestant.label;
+  const bool first_wins = v.ratio.mean >= 1;
+  const double factor = first_wins ? v.ratio.mean : 1 / v.ratio.mean;
+  const double low = first_wins ? v.ratio.low : 1 / v.ratio.high, high = first_wins ? v.ratio.high : 1 / v.ratio.low;
+  const std::string interval = fmt::format("{:g} % between {:.3g} and {:.3g}", 100 * confidence, low, high);
+  if (!contest.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", a, b);
+  if (v.ratio.count < 2) return fmt::format("{} and {}: not decided, there are too few repeats", a, b);
+  if (!v.decided)
+    return fmt::format(
+        "{} and {}: not decided: the ratio of efficiencies is {:.3g} ({}); {} times the time may decide it", a, b,
+        factor, interval, std::isfinite(v.times_longer) ? fmt::format("{:.2g}", v.times_longer) : "many");
+  const bool biased = lab::differs_from_reference(contest.result.methods[v.first]) ||
+                      lab::differs_from_reference(contest.result.methods[v.second]);
+  return fmt::format("{} is {:.3g} times as efficient as {} ({}){}", first_wins ? a : b, factor, first_wins ? b : a,
+                     interval, biased ? "; one of them is biased, so this holds for this time alone" : "");
+}
+
+void print_text(const CompareArguments& arguments, const Contest& contest) {
+  const lab::ContestResult& r = contest.result;
+  for (const MethodResult& m : r.methods) {
+    const Measured& s = m.slope_by_samples;
+    fmt::print("{}  {}\n", m.contestant.label, m.contestant.text);
+    fmt::print("   mse {}   relMSE {}   FLIP {}\n", spread(m.mse), spread(m.relative_mse), spread(m.flip));
+    fmt::print("   {} repeats of {:.3g} s and {:.4g} samples a pixel, {:.3g} rays\n", m.repeats.size(), m.seconds.mean,
+               m.samples.mean, m.rays.mean);
+    fmt::print("   efficiency {}   slope by samples {}   error bars hold {:.1f} %\n", spread(m.efficiency),
+               s.count >= 2 ? spread(s) : "-", 100 * m.coverage.mean);
+    fmt::print("   mean {} the reference (image {}, blocks p {:.2g})\n",
+               lab::differs_from_reference(m) ? "differs from" : "agrees with",
+               fmt::format("{:+.1f} standard errors", m.bias.image.t), m.bias.blocks.smallest_p);
+  }
+  fmt::print("reference  {} ({:.2g} of the smallest mse)\n", r.reference.origin, r.reference_share);
+  for (const lab::PairVerdict& v : r.verdicts) fmt::print("{}\n", sentence(contest, v, arguments.contest.confidence));
+}
+
+int run_compare(CompareArguments& arguments) {
+  if (arguments.contest.methods.size() < 2)
+    return complain("at least two methods are needed: -a METHOD -b METHOD; montelux list integrators names them");
+  if (Status known = check_methods(arguments.contest.methods); !known) return complain(known.error());
+  arguments.load.threads = arguments.contest.threads;
+  arguments.contest.cache = !arguments.no_cache;
+  LoadResult loaded = load_scene(arguments.scene, arguments.load);
+  print_diagnostics(loaded.diagnostics, arguments.quiet);
+  if (!loaded.scene) return bad_input;
+
+  StopSignals signals;
+  StatusLine line(!arguments.quiet && !arguments.no_progress);
+  lab::ContestWatch watch;
+  watch.stop = [&] { return signals.received() != 0; };
+  watch.progress = [&](double fraction, double elapsed, const std::string& what) {
+    line.show(fraction, elapsed, [&] { return what; });
+  };
+  Result<Contest> contest = compare_methods(*loaded.scene, arguments.contest, watch);
+  line.finish();
+  if (!contest) return complain(contest.error());
+  if (!arguments.quiet)
+    for (const std::string& note : contest->notes) warn(note);
+  if (!contest->refusal.empty()) warn(contest->refusal);
+  if (contest->result.interrupted) warn("interrupted: the figures are of the repeats that were done");
+  if (arguments.json)
+    print_json(arguments, *contest);
+  else if (arguments.csv)
+    print_csv(*contest);
+  else
+    print_text(arguments, *contest);
+  if (contest->result.interrupted) return 128 + signals.received();
+  return contest->refusal.empty() ? done : differs;
+}
+
+void add_method_options(CLI::App& verb, ContestOptions& contest) {
+  const auto add = [&contest](const std::string& text) -> Status {
+    contest.methods.push_back(text);
+    return check_methods({text});
+  };
+  const char* help[] = {
+      "first method: an integrator with settings, as --integrator of render takes it; sampler=NAME too",
+      "second method"};
+  for (char letter = 'a'; letter <= 'f'; ++letter)
+    add_option(verb, {fmt::format("-{}", letter), "METHOD", letter <= 'b' ? help[letter - 'a'] : "and so on"}, add);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& chosen) {
+  auto arguments = std::make_shared<CompareArguments>();
+  ContestOptions& contest = arguments->contest;
+  CLI::App& verb = *app.add_subcommand("compare", "Compare integrators on a scene at equal time, with error bars");
+  verb.footer(examples);
+  add_scene_options(verb, arguments->scene, arguments->load);
+  add_method_options(verb, contest);
+  add_option(verb, {"--time", "TIME", "for each method, over all its repeats (500ms, 30s, 10m)"},
+             into(contest.seconds, parse_time));
+  add_option(verb, {"--spp", "N", "samples a pixel in each repeat instead (default 64)"},
+             into(contest.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 20); }));
+  verb.get_option("--time")->excludes("--spp");
+  add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8)"},
+             into(contest.repeats, [](const std::string& t) { return parse_whole(t, 2, 10000); }));
+  add_option(verb, {"--reference", "FILE", "picture to hold them against; default: made by the most efficient method"},
+             [&contest](const std::string& file) -> Status {
+               if (file != "auto") contest.reference = file;
+               return Done{};
+             });
+  add_option(verb, {"--confidence", "C", "of the intervals (default 0.95)"},
+             into(contest.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
+  add_option(verb, {"--seed", "S", "number of the realisation (default 0)"},
+             into(contest.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
+  add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
+             into(contest.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
+  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
+             into(contest.crop, parse_crop));
+  verb.add_flag("--no-cache", arguments->no_cache, "neither use nor keep a reference of an earlier comparison");
+  verb.add_flag("--json", arguments->json, "results as one JSON object");
+  verb.add_flag("--csv", arguments->csv, "every repeat as a line of CSV");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, no warnings but of the reference");
+  verb.add_flag("--no-progress", arguments->no_progress, "no progress");
+  verb.callback([arguments, &chosen] { chosen = [arguments] { return run_compare(*arguments); }; });
+}
+
+}  // namespace montelux::cli

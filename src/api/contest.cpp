@@ -1,0 +1,222 @@
+#include "api/contest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "api/compare.h"
+#include "api/parts.h"
+#include "api/render.h"
+#include "integrator/catalogue.h"
+
+namespace montelux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A method as it was typed: the integrator and the point set.
+struct MethodText {
+  ChoiceText integrator;
+  std::optional<PointSetKind> sampler;
+};
+
+Result<MethodText> read_method(const std::string& text) {
+  auto choice = parse_choice(text);
+  if (!choice) return choice.failure();
+  MethodText method{*choice, {}};
+  std::erase_if(method.integrator.settings, [](const Setting& s) { return s.first == "sampler"; });
+  for (const auto& [name, value] : choice->settings) {
+    if (name != "sampler") continue;
+    method.sampler = point_set_named(value);
+    if (method.sampler) continue;
+    std::vector<std::string_view> names;
+    for (const NamedPointSet& set : point_set_names) names.push_back(set.name);
+    return unknown_name("sampler", value, names);
+  }
+  if (Status known = check_integrator(method.integrator); !known) return known.failure();
+  return method;
+}
+
+// The methods of one comparison with all that they need.
+struct Field {
+  std::vector<ChosenIntegrator> integrators;
+  std::vector<lab::Contestant> contestants;
+};
+
+Result<Field> make_field(const LoadedScene::Parts& parts, const std::vector<std::string>& methods) {
+  Field field;
+  for (const std::string& text : methods) {
+    auto method = read_method(text);
+    if (!method) return method.failure();
+    auto chosen = choose_integrator(method->integrator, {parts.picture.max_depth, parts.picture.max_component},
+                                    parts.scene, *parts.accel);
+    if (!chosen) return Failure{text + ": " + chosen.error()};
+    field.integrators.push_back(*std::move(chosen));
+    lab::Contestant contestant;
+    contestant.label = std::string(1, char('a' + int(field.contestants.size())));
+    contestant.text = text;
+    contestant.integrator = field.integrators.back().integrator.get();
+    contestant.sampler = method->sampler.value_or(parts.picture.sampler);
+    contestant.biases = field.integrators.back().biases;
+    field.contestants.push_back(std::move(contestant));
+  }
+  return field;
+}
+
+// Who may make the reference: the unbiased methods; where there are none, all of them if their biases are alike.
+Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants) {
+  std::vector<std::size_t> unbiased, all;
+  bool alike = true;
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    all.push_back(i);
+    if (contestants[i].biases.empty()) unbiased.push_back(i);
+    alike = alike && contestants[i].biases == contestants.front().biases;
+  }
+  if (!unbiased.empty()) return unbiased;
+  if (alike) return all;
+  return Failure{
+      "every method is biased, each in another way, so none of them can make the reference; name one by --reference"};
+}
+
+Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& bounds) {
+  auto picture = read_estimate({file, {}, {}});
+  if (!picture) return picture.failure();
+  if (picture->color.width != bounds.width() || picture->color.height != bounds.height())
+    return Failure{fmt::format("{}: the reference has {} x {} pixels, the picture {} x {}", file.string(),
+                               picture->color.width, picture->color.height, bounds.width(), bounds.height())};
+  lab::Reference reference;
+  reference.mean = picture->color;
+  reference.variance = make_pixel_buffer(bounds.width(), bounds.height(), {"R", "G", "B"});
+  reference.origin = file.string();
+  reference.degrees_of_freedom = std::numeric_limits<double>::infinity();
+  if (picture->bars) {
+    for (std::size_t i = 0; i < reference.variance.values.size(); ++i)
+      reference.variance.values[i] = picture->bars->standard_error.values[i] * picture->bars->standard_error.values[i];
+    reference.degrees_of_freedom = picture->bars->degrees_of_freedom;
+  }
+  return reference;
+}
+
+// ---- the cache of references ----------------------------------------------------------------------------------------
+
+std::uint64_t hash(std::uint64_t h, std::string_view text) {
+  for (char c : text) h = (h ^ std::uint8_t(c)) * 0x100000001b3u;
+  return (h ^ 0xff) * 0x100000001b3u;
+}
+
+// Changes with any file beside the scene or below, with the size of the picture, and with what biases it.
+std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, const std::string& biases) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  std::vector<std::string> files;
+  std::error_code ignored;
+  const fs::path folder = fs::absolute(parts.info.file, ignored).parent_path();
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ignored)) {
+    if (!entry.is_regular_file(ignored)) continue;
+    files.push_back(fmt::format("{} {} {}", entry.path().string(), entry.file_size(ignored),
+                                entry.last_write_time(ignored).time_since_epoch().count()));
+    if (files.size() > 20000) break;
+  }
+  std::ranges::sort(files);
+  for (const std::string& file : files) h = hash(h, file);
+  h = hash(h, fmt::format("{} {} {} {} {} {} {}", parts.info.file, parts.picture.width, parts.picture.height, b.x0,
+                          b.y0, b.x1, b.y1));
+  return hash(h, version() + biases);
+}
+
+std::optional<fs::path> cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "montelux";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache/montelux";
+  return std::nullopt;
+}
+
+void keep_reference(const fs::path& file, const lab::Reference& reference) {
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) return;
+  PixelBuffer picture = reference.mean, bars = reference.variance;
+  for (float& v : bars.values) v = std::sqrt(v);
+  append_layer(picture, "stderr", bars);
+  // A cache that cannot be written only costs time later.
+  if (Status kept =
+          write_image(file, picture, {{{"montelux:passes", std::int32_t(reference.degrees_of_freedom) + 1}}, {}});
+      !kept)
+    return;
+}
+
+// The kept reference if it is as good as asked for.
+std::optional<lab::Reference> kept_reference(const fs::path& file, const PixelBounds& bounds) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  auto reference = read_reference(file, bounds);
+  if (!reference) return std::nullopt;
+  return *reference;
+}
+
+}  // namespace
+
+Status check_methods(const std::vector<std::string>& methods) {
+  for (const std::string& text : methods)
+    if (auto method = read_method(text); !method) return Failure{text + ": " + method.error()};
+  return Done{};
+}
+
+Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
+                                const lab::ContestWatch& watch) {
+  const LoadedScene::Parts& parts = scene.parts();
+  auto field = make_field(parts, options.methods);
+  if (!field) return field.failure();
+  lab::ContestSettings settings;
+  RenderSettings& r = settings.render;
+  r.width = parts.picture.width, r.height = parts.picture.height;
+  r.bounds = options.crop.value_or(parts.picture.crop);
+  const PixelBounds& b = r.bounds;
+  if (b.x0 < 0 || b.y0 < 0 || b.x1 > r.width || b.y1 > r.height || b.x0 >= b.x1 || b.y0 >= b.y1)
+    return Failure{fmt::format("the crop is not inside the picture of {} x {} pixels", r.width, r.height)};
+  r.seed = options.seed, r.threads = options.threads;
+  settings.seconds = options.seconds;
+  settings.samples = options.samples.value_or(settings.samples);
+  settings.repeats = options.repeats;
+  settings.confidence = options.confidence;
+
+  Contest contest;
+  std::optional<lab::Reference> reference;
+  if (options.reference) {
+    auto read = read_reference(*options.reference, b);
+    if (!read) return read.failure();
+    reference = *std::move(read);
+  } else {
+    auto serve = who_may_serve(field->contestants);
+    if (!serve) return serve.failure();
+    std::string biases;
+    for (const std::string& bias : field->contestants[serve->front()].biases) biases += bias + ";";
+    const auto folder = options.cache ? cache_folder() : std::nullopt;
+    const fs::path file =
+        folder ? *folder / fmt::format("reference-{:016x}.exr", scene_hash(parts, b, biases)) : fs::path();
+    constexpr double wanted_share = 0.05;
+    const double goal_mse = lab::expected_smallest_mse(field->contestants, settings, watch) * wanted_share;
+    if (folder) reference = kept_reference(file, b);
+    if (reference && lab::mean_value(reference->variance) > goal_mse) reference.reset();
+    if (!reference) {
+      reference = lab::make_reference(field->contestants, *serve, settings, goal_mse, watch);
+      if (folder && !(watch.stop && watch.stop())) keep_reference(file, *reference);
+    } else {
+      contest.notes.push_back("the reference was kept from an earlier comparison: " + file.string());
+    }
+  }
+  contest.result = lab::run_contest(field->contestants, *std::move(reference), settings, watch);
+  if (contest.result.reference_share > largest_reference_share)
+    contest.refusal = fmt::format(
+        "the reference's own variance is {:.0f} % of the smallest mean squared error (at most {:.0f} % is right): it "
+        "would decide the comparison; it needs {:.1f} times its samples",
+        100 * contest.result.reference_share, 100 * largest_reference_share,
+        contest.result.reference_share / largest_reference_share);
+  for (const lab::Contestant& c : field->contestants)
+    if (!c.biases.empty())
+      contest.notes.push_back(fmt::format("{} ({}) is biased: {}", c.label, c.text, fmt::join(c.biases, ", ")));
+  return contest;
+}
+
+}  // namespace montelux

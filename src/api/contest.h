@@ -1,0 +1,40 @@
+// Which integrator, with which settings and point set, is better on a scene: montelux compare.
+#pragma once
+#include "api/scene.h"
+#include "lab/compare/contest.h"
+#include "math/result.h"
+
+namespace montelux {
+
+// More than this share of the smallest mean squared error may not be the reference's own.
+inline constexpr double largest_reference_share = 0.25;
+
+struct ContestOptions {
+  // As --integrator takes them, with `sampler=NAME` among the settings if need be: "path:mis=balance,sampler=halton".
+  std::vector<std::string> methods;
+  std::optional<double> seconds;  // for each method, over all repeats
+  std::optional<int> samples;     // a pixel, in each repeat; default 64
+  int repeats = 8;
+  std::optional<std::filesystem::path> reference;  // a picture; none: made by the most efficient unbiased method
+  bool cache = true;                               // keep the reference that was made, and use it again
+  double confidence = 0.95;
+  std::uint32_t seed = 0;
+  int threads = 0;
+  std::optional<PixelBounds> crop;
+};
+
+// Everything that was found. `refusal` says why the verdicts do not count, where the reference is not good enough.
+struct Contest {
+  lab::ContestResult result;
+  std::string refusal;
+  std::vector<std::string> notes;
+};
+
+// Whether every method can be made; a scene is not needed to tell.
+Status check_methods(const std::vector<std::string>& methods);
+
+// Fails where a method does not fit the scene, or the reference cannot be read or has another size.
+Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
+                                const lab::ContestWatch& watch);
+
+}  // namespace montelux

@@ -1,0 +1,110 @@
+// Which estimator of a picture is better, by how much, and how sure that is: methods take turns on one scene in
+// independent repeats, and every figure has an error bar from these.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "image/pixel_buffer.h"
+#include "image/welch.h"
+#include "lab/compare/statistics.h"
+#include "render/render.h"
+
+namespace montelux::lab {
+
+// One method: an integrator with a point set. The integrator must outlive the contest.
+struct Contestant {
+  std::string label;  // "a"
+  std::string text;   // as it was asked for: "direct:strategy=ris,candidates=32"
+  const PixelIntegrator* integrator = nullptr;
+  PointSetKind sampler = PointSetKind::blue_noise;
+  std::vector<std::string> biases;
+};
+
+struct ContestSettings {
+  RenderSettings render;          // bounds, size, seed, threads; sampler and plan are the contestants' own
+  std::optional<double> seconds;  // for each method, over all repeats; else
+  int samples = 64;               // a pixel, in each repeat
+  int repeats = 8;
+  double confidence = 0.95;
+};
+
+// What the methods are held against. `variance` is that of the mean, by pixel and channel; zero where it is exact.
+struct Reference {
+  PixelBuffer mean, variance;  // R, G, B
+  double degrees_of_freedom = 0;
+  std::string origin;  // "path, 4096 samples a pixel", or a file
+};
+
+// One repeat of one method, held against the reference. The reference's own variance has been taken off the squared
+// errors, so that they estimate those against the truth without bias; a value may come out negative by chance.
+struct Repeat {
+  double seconds = 0, rays = 0, samples = 0;  // samples: a pixel
+  double mse = 0, relative_mse = 0, flip = 0;
+  double variance = 0;  // that the method's own error bars state, mean over pixels
+  double coverage = 0;  // share of pixels whose 95 % interval holds the reference
+  double image_mean[3] = {};
+};
+
+// The squared error of single passes of 1, 2, 4, ... samples.
+struct ConvergencePoint {
+  double samples = 0;
+  Measured mse, seconds;
+};
+
+struct MethodResult {
+  Contestant contestant;
+  std::vector<Repeat> repeats;
+  Measured seconds, rays, samples, mse, relative_mse, flip, variance, coverage;
+  Measured efficiency, relative_efficiency;  // 1 / (mse x seconds); 1 / (relative mse x seconds)
+  std::vector<ConvergencePoint> convergence;
+  Measured slope_by_samples, slope_by_time;  // of log mse
+  PixelBuffer mean, standard_error;          // over all repeats
+  PixelBuffer error;                         // one channel: mean squared error of one repeat, relative
+  WelchReport bias;                          // against the reference
+  double bias_squared = 0;                   // mean over pixels, the variances taken off
+  std::uint64_t non_finite = 0;
+};
+
+// The mean of the image or of a block of it is another than the reference's. Single pixels do not count: their tests
+// take pass means for normal, which those of a few samples are not.
+inline bool differs_from_reference(const MethodResult& m) { return m.bias.image.differs || m.bias.blocks.differs; }
+
+// How much more efficient `first` is than `second`.
+struct PairVerdict {
+  std::size_t first = 0, second = 0;
+  Measured ratio, relative_ratio;
+  bool decided = false;
+  double times_longer = 1;  // how many times the time would decide it, if the ratio is what it seems
+};
+
+struct ContestResult {
+  std::vector<MethodResult> methods;
+  std::vector<PairVerdict> verdicts;  // of every pair, by mse
+  Reference reference;
+  double reference_share = 0;  // the reference's variance over the smallest mse
+  bool interrupted = false;
+};
+
+// The mean of a picture over its pixels and channels.
+double mean_value(const PixelBuffer& image);
+
+// Told between slices; may ask to stop.
+struct ContestWatch {
+  std::function<bool()> stop;
+  std::function<void(double fraction, double elapsed, const std::string& what)> progress;
+};
+
+// The smallest mean squared error that the contest is going to see in one repeat, as short pilots say.
+double expected_smallest_mse(const std::vector<Contestant>& contestants, const ContestSettings& settings,
+                             const ContestWatch& watch);
+
+// A reference by the most efficient of the methods that `may_serve`, with a mean variance of `goal` at most (unless
+// that would take more than a million samples a pixel).
+Reference make_reference(const std::vector<Contestant>& contestants, const std::vector<std::size_t>& may_serve,
+                         const ContestSettings& settings, double goal, const ContestWatch& watch);
+
+ContestResult run_contest(const std::vector<Contestant>& contestants, Reference reference,
+                          const ContestSettings& settings, const ContestWatch& watch);
+
+}  // namespace montelux::lab

@@ -1,0 +1,47 @@
+#include "lab/compare/statistics.h"
+
+#include <cmath>
+#include <limits>
+
+#include "mc/confidence.h"
+
+namespace montelux::lab {
+
+Measured measured(const std::vector<double>& values, double confidence) {
+  Measured m;
+  m.count = int(values.size());
+  const double n = double(values.size()), infinite = std::numeric_limits<double>::infinity();
+  for (double v : values) m.mean += v / n;
+  if (values.size() < 2) return {m.mean, -infinite, infinite, infinite, m.count};
+  double squares = 0;
+  for (double v : values) squares += (v - m.mean) * (v - m.mean);
+  m.standard_error = std::sqrt(squares / (n - 1) / n);
+  const double half = student_t_quantile(0.5 + 0.5 * confidence, n - 1) * m.standard_error;
+  m.low = m.mean - half, m.high = m.mean + half;
+  return m;
+}
+
+Measured measured_ratio(const std::vector<double>& a, const std::vector<double>& b, double confidence) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    if (a[i] > 0 && b[i] > 0 && std::isfinite(a[i]) && std::isfinite(b[i])) logs.push_back(std::log(a[i] / b[i]));
+  const Measured m = measured(logs, confidence);
+  if (logs.empty()) return {std::nan(""), 0, std::numeric_limits<double>::infinity(), 0, 0};
+  return {std::exp(m.mean), std::exp(m.low), std::exp(m.high), m.standard_error, m.count};
+}
+
+double log_slope(const std::vector<double>& x, const std::vector<double>& y) {
+  double n = 0, mx = 0, my = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] > 0 && y[i] > 0) n += 1, mx += std::log(x[i]), my += std::log(y[i]);
+  if (n < 2) return std::nan("");
+  mx /= n, my /= n;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] > 0 && y[i] > 0) {
+      const double dx = std::log(x[i]) - mx;
+      xx += dx * dx, xy += dx * (std::log(y[i]) - my);
+    }
+  return xy / xx;
+}
+
+}  // namespace montelux::lab

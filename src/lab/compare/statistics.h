@@ -1,0 +1,22 @@
+// What can be said of a figure from a few independent repeats of it.
+#pragma once
+#include <vector>
+
+namespace montelux::lab {
+
+// A mean over repeats with its interval (Student's t). With one repeat the interval is infinite.
+struct Measured {
+  double mean = 0, low = 0, high = 0;
+  double standard_error = 0;
+  int count = 0;
+};
+Measured measured(const std::vector<double>& values, double confidence);
+
+// The geometric mean of paired ratios a[i] / b[i] of positive values, with its interval: the mean of the logarithms
+// and Student's t. Pairs that hold a value that is not positive are left out.
+Measured measured_ratio(const std::vector<double>& a, const std::vector<double>& b, double confidence);
+
+// The slope of log y against log x by least squares.
+double log_slope(const std::vector<double>& x, const std::vector<double>& y);
+
+}  // namespace montelux::lab

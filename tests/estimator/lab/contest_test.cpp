@@ -1,0 +1,149 @@
+// A contest of methods whose errors are known: what it measures, what it decides, and what it does not.
+#include "lab/compare/contest.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "mc/random.h"
+#include "statistics.h"
+
+namespace montelux::lab {
+namespace {
+
+using namespace montelux::test;
+
+// Every sample is `mean` plus noise of standard deviation `sigma`, uniform in distribution; a pass takes at least
+// `nanoseconds` a sample.
+class Noise final : public PixelIntegrator {
+ public:
+  Noise(float mean, float sigma, double nanoseconds = 50) : mean_(mean), sigma_(sigma), nanoseconds_(nanoseconds) {}
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t i = 0;
+    for (int y = pass.tile.y0; y < pass.tile.y1; ++y)
+      for (int x = pass.tile.x0; x < pass.tile.x1; ++x)
+        for (std::uint32_t k = 0; k < pass.points.samples_per_pass; ++k, ++i) {
+          const Sampler<float> sampler(
+              {PointSetKind::independent, pass.points.seed, pass.points.pass, pass.points.samples_per_pass},
+              std::uint32_t(x), std::uint32_t(y), k);
+          for (int c = 0; c < 3; ++c)
+            out[i].radiance[c] = mean_ + sigma_ * std::sqrt(12.0f) * (sampler.get1(std::uint32_t(c)) - 0.5f);
+        }
+    while (std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() <
+           nanoseconds_ * double(out.size())) {
+    }
+    return {};
+  }
+
+ private:
+  float mean_, sigma_;
+  double nanoseconds_;
+};
+
+ContestSettings settings(int samples, int repeats) {
+  ContestSettings s;
+  s.render.bounds = {0, 0, 32, 32}, s.render.width = s.render.height = 32, s.render.threads = 1;
+  s.samples = samples, s.repeats = repeats;
+  return s;
+}
+
+Contestant contestant(const char* label, const PixelIntegrator& integrator) {
+  return {label, label, &integrator, PointSetKind::independent, {}};
+}
+
+Reference exact(float value) {
+  Reference r;
+  r.mean = make_pixel_buffer(32, 32, {"R", "G", "B"}), r.variance = r.mean;
+  for (float& v : r.mean.values) v = value;
+  r.degrees_of_freedom = INFINITY, r.origin = "exact";
+  return r;
+}
+
+TEST(Contest, measures_the_squared_error_and_states_it_by_its_own_bars) {
+  const Noise one(1, 0.5f), two(1, 1);
+  const ContestResult r = run_contest({contestant("a", one), contestant("b", two)}, exact(1), settings(16, 12), {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const MethodResult& m = r.methods[i];
+    const double truth = (i == 0 ? 0.25 : 1.0) / 16;
+    // The mean over repeats of a mean over 3072 values is near normal.
+    EXPECT_LT(std::abs(m.mse.mean - truth) / m.mse.standard_error, student_t_quantile(1 - family_level / 8, 11));
+    EXPECT_LT(std::abs(m.variance.mean - truth) / m.variance.standard_error,
+              student_t_quantile(1 - family_level / 8, 11));
+    EXPECT_FALSE(differs_from_reference(m));
+    EXPECT_EQ(m.repeats.size(), 12u);
+    EXPECT_EQ(m.samples.mean, 16);
+    // Independent samples: the squared error falls with their number.
+    EXPECT_LT(std::abs(m.slope_by_samples.mean + 1) / m.slope_by_samples.standard_error,
+              student_t_quantile(1 - family_level / 8, 11));
+  }
+  // A planted fault: a truth 5 % off is seen.
+  EXPECT_GT(std::abs(r.methods[0].mse.mean - 1.05 * 0.25 / 16) / r.methods[0].mse.standard_error, 4);
+}
+
+TEST(Contest, decides_for_the_method_of_less_noise_at_the_same_cost) {
+  const Noise quiet(1, 0.5f, 400), loud(1, 1, 400);
+  const ContestResult r = run_contest({contestant("a", quiet), contestant("b", loud)}, exact(1), settings(16, 8), {});
+  ASSERT_EQ(r.verdicts.size(), 1u);
+  EXPECT_TRUE(r.verdicts[0].decided);
+  EXPECT_GT(r.verdicts[0].ratio.low, 1);
+}
+
+TEST(Contest, decides_for_the_cheaper_of_equal_noise) {
+  const Noise cheap(1, 1, 200), dear(1, 1, 2000);
+  const ContestResult r = run_contest({contestant("a", dear), contestant("b", cheap)}, exact(1), settings(16, 8), {});
+  EXPECT_TRUE(r.verdicts[0].decided);
+  EXPECT_LT(r.verdicts[0].ratio.high, 1);
+}
+
+TEST(Contest, finds_a_bias_and_its_size) {
+  const Noise right(1, 0.5f), wrong(1.02f, 0.5f);
+  const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(64, 8), {});
+  EXPECT_FALSE(differs_from_reference(r.methods[0]));
+  EXPECT_TRUE(differs_from_reference(r.methods[1]));
+  EXPECT_NEAR(r.methods[1].bias_squared, 0.0004, 0.00015);
+}
+
+TEST(Contest, makes_a_reference_that_is_good_enough) {
+  const Noise quiet(1, 0.5f), loud(1, 2);
+  const std::vector<Contestant> both{contestant("a", quiet), contestant("b", loud)};
+  const ContestSettings s = settings(16, 4);
+  const double goal = 0.05 * expected_smallest_mse(both, s, {});
+  const Reference r = make_reference(both, {0, 1}, s, goal, {});
+  EXPECT_LE(mean_value(r.variance), goal);
+  EXPECT_EQ(r.origin.substr(0, 2), "a,");
+  EXPECT_LT(run_contest(both, r, s, {}).reference_share, 0.25);
+}
+
+TEST(Contest, takes_the_reference_s_own_noise_off) {
+  const Noise one(1, 0.5f);
+  Reference noisy = exact(1);
+  RandomStream<float> random(5u, 6u);
+  // A reference of the variance that four times the samples have.
+  for (std::size_t i = 0; i < noisy.mean.values.size(); ++i) {
+    noisy.mean.values[i] += 0.5f / 8 * std::sqrt(12.0f) * (random.next() - 0.5f);
+    noisy.variance.values[i] = 0.25f / 64;
+  }
+  const ContestResult r = run_contest({contestant("a", one), contestant("b", one)}, noisy, settings(16, 12), {});
+  const double truth = 0.25 / 16, share = 0.25 / 64 / truth;
+  // The reference's noise is the same in every repeat: its mean square over 3072 values has this error of its own.
+  const double own = share * truth * std::sqrt(0.8 / 3072);
+  const double error = std::hypot(r.methods[0].mse.standard_error, own);
+  EXPECT_LT(std::abs(r.methods[0].mse.mean - truth) / error, 4);
+  EXPECT_GT(std::abs(r.methods[0].mse.mean - truth * (1 + share)) / error, 4);
+  EXPECT_NEAR(r.reference_share, share, 0.05);
+}
+
+TEST(Contest, stops_when_told) {
+  const Noise one(1, 0.5f);
+  std::atomic<int> asked{0};
+  ContestWatch watch;
+  watch.stop = [&] { return ++asked > 3; };
+  const ContestResult r = run_contest({contestant("a", one), contestant("b", one)}, exact(1), settings(16, 50), watch);
+  EXPECT_TRUE(r.interrupted);
+  EXPECT_LT(r.methods[0].repeats.size(), 50u);
+}
+
+}  // namespace
+}  // namespace montelux::lab
