@@ -13,17 +13,18 @@ namespace {
 
 constexpr std::uint32_t passes = 8;
 constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // no pass of a run has such a number
-constexpr double pilot_share = 0.05;
+constexpr double pilot_share = 0.03;
 // A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
 // less is not, where the training is long enough to be sure.
-constexpr double clear_gain = 3, no_gain = 1.5;
-constexpr std::uint64_t sure_samples = 16384, least_samples_to_try = 4096;
+constexpr double clear_gain = 6, likely_gain = 2.5, no_gain = 1.5;
+constexpr std::uint64_t sure_samples = 16384, least_samples_to_try = 32768;
 constexpr int first_steps = 4;
 
 // One candidate: its passes grow as long as it may still win.
 struct Pilot {
   Method method;
   double weight = 1;  // what a sample costs, in evaluations and what goes with them
+  double bonus = 0;   // off the logarithm of the variance: for a rate that pilots are too short to see
   std::unique_ptr<Technique> technique;
   std::vector<TermSums> sums = std::vector<TermSums>(passes);
   std::uint64_t length = 0;
@@ -54,8 +55,9 @@ struct Pilot {
       const double doublings = double(variances.size() - 1);
       decline = (usual * 1.5 + std::clamp(seen, slowest, fastest) * doublings) / (1.5 + doublings);
     }
+    if (method.kind != MethodKind::qmc) decline = 1;  // independent samples
     const double ratio = std::max(1.0, full / double(length) / weight);
-    predicted = std::log(variances.back()) - decline * std::log(ratio);
+    predicted = std::log(variances.back()) - decline * std::log(ratio) - bonus;
   }
 };
 
@@ -77,7 +79,7 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
   }
   // Too few samples for trials: what is best as a rule.
   if (samples < least_samples_to_try) {
-    const bool few_dimensions = dimension <= 4, adapt = gain >= no_gain;
+    const bool few_dimensions = dimension <= (gain >= likely_gain ? 3 : 6), adapt = gain >= likely_gain;
     methods = {few_dimensions ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt)};
   }
   Method given;
@@ -111,6 +113,9 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
   for (const Method& method : methods) {
     Pilot p;
     p.method = method, p.weight = trains(method) ? 1.2 : method.kind == MethodKind::qmc ? 1 : 2;
+    // Lattices with a periodic integrand gain more from more points than nets do, and most in few dimensions.
+    if (method.points == QmcPoints::lattice)
+      p.bonus = problem.integrand.dimension <= 3 ? 2 : problem.integrand.dimension <= 6 ? 1 : 0;
     p.technique = make_technique(problem, method, seed, &training);
     pilots.push_back(std::move(p));
   }

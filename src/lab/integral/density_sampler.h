@@ -18,6 +18,7 @@ class DensitySampler {
   // The density per unit volume at each point.
   void density(PointBatch points, std::span<double> values) const;
   DensitySampling sampling() const { return sampling_; }
+  double bound() const { return bound_; }  // of the density as given, for rejection
 
  private:
   void tabulate();

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "lab/integral/choose.h"
+#include "lab/integral/density_sampler.h"
 #include "lab/integral/sampled.h"
 #include "lab/integral/summary.h"
 #include "lab/integral/technique.h"
@@ -24,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t default_samples = 1u << 20;
 constexpr std::uint64_t most_samples_of_pass = std::uint64_t(1) << 31;
+constexpr std::uint64_t most_of_whole_pass = std::uint64_t(1) << 22;  // where a pass cannot be cut: a stop waits for it
 
 void check(const Problem& problem, const Budget& budget) {
   const auto fail = [](std::string message) { throw std::invalid_argument(std::move(message)); };
@@ -84,6 +86,43 @@ Start begin(const Problem& problem, const Method& method, const Budget& budget, 
     state.evaluations = state.training_evaluations;
   }
   return start;
+}
+
+// The part of the integral where what points are drawn by is 0: the bias that this causes.
+struct MissedRegion {
+  double integral = 0, standard_error = 0;
+  std::uint64_t points = 0;  // of the uniform ones that met it
+};
+constexpr std::uint64_t missed_samples = 4096;
+
+MissedRegion measure_missed(const Integrand& integrand, const BatchFunction& support, std::uint64_t seed,
+                            std::uint64_t samples) {
+  const std::size_t dimension = integrand.dimension, most = batch_size(dimension);
+  std::vector<double> points(dimension * most), p(most), f(most);
+  MissedRegion region;
+  Moments moments;
+  for (std::uint64_t done = 0; done < samples;) {
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(most, samples - done));
+    const PointBatch batch{std::span(points).first(dimension * n), dimension, n};
+    fill_independent(CubeKey::of(seed, ~0u).fork(0xdec1a7edu), {dimension, done, n, points.data()});
+    support(batch, std::span(p).first(n));
+    integrand.evaluate(batch, std::span(f).first(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool missed = p[i] == 0 && f[i] != 0;
+      region.points += missed ? 1 : 0;
+      moments.add(missed ? f[i] : 0);
+    }
+    done += n;
+  }
+  region.integral = moments.mean, region.standard_error = moments.standard_error();
+  return region;
+}
+
+IntegralWarning warning_of(const MissedRegion& region) {
+  return {IntegralWarning::Kind::missed_region,
+          fmt::format(
+              "the integrand is not 0 where the density it is sampled by is: the result lacks about {:.3g} +- {:.1g}",
+              region.integral, region.standard_error)};
 }
 
 // Grows a state by whole parts of passes: all of them, or none where it is stopped on the way.
@@ -153,6 +192,7 @@ class Runner {
     sums.samples = record->samples, sums.sum = record->sum, sums.m2 = record->m2;
     sums.merge(unit.sums);
     record->samples = sums.samples, record->sum = sums.sum, record->m2 = sums.m2;
+    record->own_variance += unit.sums.own_variance;
     record->control_sum += unit.sums.control_sum;
     record->control_squares += unit.sums.control_squares;
     record->control_products += unit.sums.control_products;
@@ -240,6 +280,7 @@ class Run {
     samples /= traits_.cost;
     const bool passes_given = state_.method.passes > 0 && passes_ == 0;
     std::uint64_t passes = passes_given ? state_.method.passes : traits_.passes;
+    if (traits_.unit == 0 && !passes_given) passes = std::max(passes, samples / most_of_whole_pass);
     if (passes_ == 0) length_ = std::max(traits_.least, technique_.fitting(std::max(traits_.least, samples / passes)));
     if (!passes_given) passes = std::max<std::uint64_t>(passes_ > 0 ? 1 : 2, samples / length_);
     const std::uint64_t length = length_;
@@ -269,7 +310,7 @@ class Run {
       observe(fraction());
       if (look()) return StopReason::target_error;
       const std::uint64_t cost = length_ * passes_;
-      if (affordable(cost) && length_ < most_samples_of_pass) {
+      if (affordable(cost) && length_ < (traits_.unit == 0 ? most_of_whole_pass : most_samples_of_pass)) {
         if (!add(0, passes_, length_, length_)) return StopReason::stopped;
         length_ *= 2;
         continue;
@@ -317,11 +358,14 @@ class Run {
   bool look() {
     if (!budget_.target_error) return false;
     confidence_ = confidence_of_look(budget_.confidence, ++state_.looks);
-    reached_ = estimate_of(state_).reach(confidence_) <= target();
+    const PassEstimate e = estimate_of(state_);
+    // No spread at all may be a constant, or a peak that no sample has found yet.
+    const bool seen_enough = e.standard_error > 0 || spent() >= trusted_without_spread;
+    reached_ = seen_enough && e.reach(confidence_) <= target();
     return reached_;
   }
 
-  static constexpr std::uint64_t first_look = 4096;
+  static constexpr std::uint64_t first_look = 4096, trusted_without_spread = 1u << 16;
 
   const Technique& technique_;
   TechniqueTraits traits_;
@@ -359,9 +403,16 @@ IntegralResult integrate(const Problem& problem, const Method& method, const Bud
   const Clock::time_point start = Clock::now();
   check(problem, budget);
   auto [state, technique, why] = begin(problem, method, budget, execution);
+  std::vector<IntegralWarning> missed;
+  if (const BatchFunction support = technique->support()) {
+    const MissedRegion region = measure_missed(problem.integrand, support, state.seed, missed_samples);
+    if (!execution.resume) state.training_evaluations += missed_samples, state.evaluations += missed_samples;
+    if (region.points > 0) missed.push_back(warning_of(region));
+  }
   Run run(*technique, budget, execution, state, start);
   const StopReason reason = run.go();
   IntegralResult result = result_of(state, budget.confidence);
+  for (IntegralWarning& w : missed) result.warnings.push_back(std::move(w));
   result.stopped_because = reason;
   result.why = why;
   result.target_reached = run.target_reached();
@@ -376,29 +427,39 @@ IntegralResult integrate(const Problem& problem, const Method& method, const Bud
   return result;
 }
 
-bool DensityReport::normalised() const { return std::abs(integral - 1) <= std::max(1e-3, 5 * standard_error); }
+bool DensityReport::normalised() const { return std::abs(integral - 1) <= std::max(1e-4, 5 * standard_error); }
 
 DensityReport inspect_density(const Problem& problem, std::size_t which, std::uint64_t samples, std::uint64_t seed) {
   const UserDensity& density = problem.densities.at(which);
-  const std::size_t dimension = problem.integrand.dimension;
+  const std::size_t dimension = problem.integrand.dimension, most = batch_size(dimension);
+  constexpr std::uint32_t passes = 16;
   DensityReport report;
-  Moments integral, missed;
-  const std::size_t most = batch_size(dimension);
-  std::vector<double> points(dimension * most), p(most), f(most);
-  for (std::uint64_t done = 0; done < samples; done += most) {
-    const PointBatch batch{points, dimension, most};
-    fill_independent(CubeKey::of(seed, 0xdec1a7edu), {dimension, done, most, points.data()});
-    density.density(batch, p);
-    problem.integrand.evaluate(batch, f);
-    for (std::size_t i = 0; i < most; ++i) {
-      integral.add(p[i] * density.scale);
-      missed.add(p[i] == 0 ? f[i] : 0.0);
-      report.negative |= p[i] < 0;
+  Moments over_passes;
+  std::vector<double> points(dimension * most), p(most);
+  const std::uint64_t length = std::bit_ceil(std::max<std::uint64_t>(samples / passes, most));
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    Moments inside;
+    for (std::uint64_t done = 0; done < length;) {
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(most, length - done));
+      fill_sobol(CubeKey::of(seed, ~0u).fork(pass), {dimension, done, n, points.data()});
+      density.density({std::span(points).first(dimension * n), dimension, n}, std::span(p).first(n));
+      for (std::size_t i = 0; i < n; ++i) {
+        inside.add(p[i] * density.scale);
+        report.negative |= p[i] < 0;
+      }
+      done += n;
     }
+    over_passes.add(inside.mean);
+    report.non_finite += inside.non_finite;
   }
-  report.integral = integral.mean, report.standard_error = integral.standard_error();
-  report.non_finite = integral.non_finite;
-  report.missed = missed.mean, report.missed_error = missed.standard_error();
+  report.integral = over_passes.mean, report.standard_error = over_passes.standard_error();
+  const MissedRegion region = measure_missed(problem.integrand, density.density, seed, samples);
+  report.missed = region.integral, report.missed_error = region.standard_error;
+  if (!report.negative && report.non_finite == 0 && report.integral > 0) {
+    const DensitySampler sampler(density, dimension);
+    if (sampler.sampling() == DensitySampling::rejection)
+      report.acceptance = report.integral / (sampler.bound() * density.scale);
+  }
   return report;
 }
 

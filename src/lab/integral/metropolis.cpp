@@ -19,25 +19,26 @@ class Metropolis final : public Technique {
 
   TechniqueTraits traits() const override {
     TechniqueTraits t;
-    t.passes = 32, t.unit = 0, t.least = 4;
+    t.passes = 32, t.unit = 0, t.least = 8;
     return t;
   }
 
+  BatchFunction support() const override { return target_ ? *target_ : BatchFunction{}; }
+
   TermSums run(const PassPart& part) const override {
     const CubeKey key = part.key.fork(std::uint32_t(part.block_first));
-    const std::size_t chains = std::size_t(std::clamp<std::uint64_t>(part.count / 256, 1, 64));
+    const std::size_t chains =
+        std::size_t(std::clamp<std::uint64_t>(part.count / 128, std::min<std::uint64_t>(4, part.count / 4), 64));
     const std::uint64_t each = std::max<std::uint64_t>(2, part.count / chains), starts = each / 2,
                         steps = each - starts;
     TermSums sums;
+    // The terms are those of the starts, target over uniform density; the chains have none of their own.
     std::vector<Chain> state = start(key, chains, std::size_t(starts), sums);
     for (std::uint64_t k = 0; k < steps; ++k) step(key, k, state, sums);
 
     Moments over_chains;
     for (const Chain& c : state) over_chains.add(c.weight * c.sum / double(steps));
-    TermSums result = sums_of_estimate(over_chains.mean, over_chains.variance() / double(chains), part.count);
-    result.evaluations = sums.evaluations, result.non_finite = sums.non_finite;
-    result.proposed = sums.proposed, result.accepted = sums.accepted, result.largest = sums.largest;
-    return result;
+    return sums_of_estimate(over_chains.mean, over_chains.variance() / double(chains), part.count, sums);
   }
 
  private:
@@ -86,7 +87,8 @@ class Metropolis final : public Technique {
       for (std::size_t d = 0; d < dimension; ++d) state[c].x.push_back(points[d * candidates + chosen]);
       state[c].target = v.targets[chosen], state[c].ratio = v.ratios[chosen];
       state[c].weight = total / double(candidates);
-      sums.largest.add(v.targets);
+      std::vector<double> terms = v.targets;
+      sums.add(terms);
     }
     return state;
   }

@@ -15,15 +15,15 @@ class Miser final : public Technique {
     return t;
   }
   TermSums run(const PassPart& part) const override {
-    LargestTerms largest;
+    TermSums terms;
     const CubeFunction f = [&](std::span<const double> points, std::span<double> values) {
       integrand_.evaluate({points, integrand_.dimension, values.size()}, values);
-      largest.add(values);
+      terms.add(values);
     };
-    const RegionEstimate e = miser(f, integrand_.dimension, part.count, part.key.fork(std::uint32_t(part.block_first)));
-    TermSums sums = sums_of_estimate(e.mean, e.variance, part.count);
-    sums.evaluations = e.samples, sums.non_finite = e.non_finite, sums.largest = largest;
-    return sums;
+    const CubeKey key = part.key.fork(std::uint32_t(part.block_first));
+    const RegionEstimate e = miser(f, integrand_.dimension, part.count, key);
+    terms.evaluations = e.samples;
+    return sums_of_estimate(e.mean, e.variance, part.count, terms);
   }
 
  private:
@@ -32,10 +32,12 @@ class Miser final : public Technique {
 
 }  // namespace
 
-TermSums sums_of_estimate(double mean, double variance, std::uint64_t samples) {
-  TermSums sums;
+TermSums sums_of_estimate(double mean, double variance, std::uint64_t samples, const TermSums& terms) {
+  TermSums sums = terms;
   const double n = double(samples);
-  sums.samples = samples, sums.sum = mean * n, sums.m2 = samples > 1 ? variance * n * (n - 1) : 0;
+  sums.samples = samples, sums.sum = mean * n;
+  sums.m2 = terms.samples > 0 ? terms.m2 * n / double(terms.samples) : 0;
+  sums.own_variance = variance * n * n;
   return sums;
 }
 

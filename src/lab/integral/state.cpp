@@ -14,12 +14,14 @@ using Json = nlohmann::json;
 constexpr int format_version = 1;
 
 Json to_value(const PassRecord& p) {
-  return {p.seed, p.index, p.samples, p.sum, p.m2, p.control_sum, p.control_squares, p.control_products};
+  return {p.seed,        p.index,           p.samples,         p.sum, p.m2, p.own_variance,
+          p.control_sum, p.control_squares, p.control_products};
 }
 PassRecord pass_from(const Json& j) {
   PassRecord p;
   p.seed = j.at(0), p.index = j.at(1), p.samples = j.at(2), p.sum = j.at(3), p.m2 = j.at(4);
-  p.control_sum = j.at(5), p.control_squares = j.at(6), p.control_products = j.at(7);
+  p.own_variance = j.at(5);
+  p.control_sum = j.at(6), p.control_squares = j.at(7), p.control_products = j.at(8);
   return p;
 }
 
@@ -42,7 +44,8 @@ std::string to_json(const IntegralState& s) {
       {"looks", s.looks},
       {"proposed", s.proposed},
       {"accepted", s.accepted},
-      {"pass_fields", {"seed", "index", "samples", "sum", "m2", "control_sum", "control_squares", "control_products"}},
+      {"pass_fields",
+       {"seed", "index", "samples", "sum", "m2", "own_variance", "control_sum", "control_squares", "control_products"}},
       {"passes", passes},
       {"largest_terms", s.largest.sorted()}};
   return j.dump(1);

@@ -17,6 +17,8 @@ struct PassRecord {
   std::uint32_t index = 0;  // its number there
   std::uint64_t samples = 0;
   double sum = 0, m2 = 0;  // of the terms; of their squared deviations from their mean
+  // The pass's own estimate of the variance of its mean, times the square of its samples; 0 where it has none.
+  double own_variance = 0;
   // Of the control variate less its integral, of its square, and of its product with the term.
   double control_sum = 0, control_squares = 0, control_products = 0;
   double mean() const { return samples == 0 ? 0 : sum / double(samples); }

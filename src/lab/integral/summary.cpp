@@ -69,7 +69,7 @@ TailDiagnosis diagnose(const IntegralState& state, double m2, double mean, doubl
   }
   // Hill's estimate from 100 terms has a relative deviation of a tenth; a tail that is only seen in many samples
   // counts.
-  const bool infinite_variance = samples >= 1000 && tail.hill_index < 2.2 && tail.largest_share > 10 / samples;
+  const bool infinite_variance = samples >= 1000 && tail.hill_index < 2.2 && tail.largest_share > 0.01;
   tail.heavy = infinite_variance || (samples >= 100 && tail.largest_share > 0.1);
   return tail;
 }
@@ -123,9 +123,15 @@ IntegralResult result_of(const IntegralState& state, double confidence) {
   for (const PassRecord& p : state.passes) among += double(p.samples) * (p.mean() - mean) * (p.mean() - mean);
   const double dof_inside = samples - double(r.passes), dof_among = double(r.passes) - 1;
   if (samples > 1) r.variance_of_one_sample = (inside + among) / (samples - 1);
-  if (dof_among > 0 && dof_inside > 0 && inside > 0) {
-    r.chi2_per_dof = among / dof_among / (inside / dof_inside);
-    r.q = special::chi_square_tail(r.chi2_per_dof * dof_among, dof_among);
+  if (dof_among > 0) {
+    // By the variance that the passes state of themselves, taken together; else by that of independent terms.
+    double own = 0, chi2 = 0;
+    for (const PassRecord& p : state.passes)
+      own += p.samples > 0 ? p.own_variance / double(p.samples) / double(r.passes) : 0;
+    const double of_sample = own > 0 ? own : dof_inside > 0 ? inside / dof_inside : 0;
+    if (of_sample > 0) chi2 = among / of_sample;
+    r.chi2_per_dof = chi2 / dof_among;
+    r.q = special::chi_square_tail(chi2, dof_among);
   }
   r.tail = diagnose(state, inside + among, mean, samples);
   r.method = state.method;

@@ -82,6 +82,7 @@ void TermSums::merge(const TermSums& other) {
   m2 = merged_m2(double(samples), sum, m2, double(other.samples), other.sum, other.m2);
   sum += other.sum;
   samples += other.samples, evaluations += other.evaluations, non_finite += other.non_finite;
+  own_variance += other.own_variance;
   proposed += other.proposed, accepted += other.accepted;
   control_sum += other.control_sum, control_squares += other.control_squares;
   control_products += other.control_products;

@@ -10,7 +10,7 @@ namespace montelux::lab {
 // Sums over the terms of a part of a pass.
 struct TermSums {
   std::uint64_t samples = 0, evaluations = 0, non_finite = 0, proposed = 0, accepted = 0;
-  double sum = 0, m2 = 0;
+  double sum = 0, m2 = 0, own_variance = 0;  // as in PassRecord
   double control_sum = 0, control_squares = 0, control_products = 0;
   LargestTerms largest;
 
@@ -43,6 +43,8 @@ class Technique {
   // The largest number of samples, not above this one, that suits a pass; 0 where there is none.
   virtual std::uint64_t fitting(std::uint64_t samples) const { return samples; }
   virtual TermSums run(const PassPart& part) const = 0;
+  // What must not be 0 where the integrand is not: the density that points are drawn by. Empty: it is nowhere 0.
+  virtual BatchFunction support() const { return {}; }
 };
 
 class MapTraining;

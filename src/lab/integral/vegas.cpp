@@ -56,9 +56,7 @@ class Vegas final : public Technique {
     const double volume = 1 / double(boxes.size());
     for (std::size_t b = 0; b < boxes.size(); ++b)
       mean += volume * boxes[b].mean, variance += volume * volume * boxes[b].variance / double(samples[b]);
-    TermSums result = sums_of_estimate(mean, variance, part.count);
-    result.evaluations = sums.evaluations, result.non_finite = sums.non_finite, result.largest = sums.largest;
-    return result;
+    return sums_of_estimate(mean, variance, part.count, sums);
   }
 
  private:

@@ -18,6 +18,9 @@ class Importance final : public Technique {
       : integrand_(problem.integrand), sampler_(problem.densities.front(), problem.integrand.dimension) {}
 
   TechniqueTraits traits() const override { return {}; }
+  BatchFunction support() const override {
+    return [this](PointBatch points, std::span<double> values) { sampler_.density(points, values); };
+  }
   TermSums run(const PassPart& part) const override {
     const std::size_t dimension = integrand_.dimension, most = batch_size(dimension);
     std::vector<double> points(dimension * most), values(most), density(most);
@@ -58,6 +61,17 @@ class MultipleImportance final : public Technique {
     return t;
   }
   std::uint64_t fitting(std::uint64_t samples) const override { return samples / samplers_.size() * samplers_.size(); }
+
+  BatchFunction support() const override {
+    return [this](PointBatch points, std::span<double> values) {
+      std::vector<double> own(values.size());
+      std::fill(values.begin(), values.end(), 0.0);
+      for (const DensitySampler& sampler : samplers_) {
+        sampler.density(points, own);
+        for (std::size_t i = 0; i < own.size(); ++i) values[i] += own[i];
+      }
+    };
+  }
 
   TermSums run(const PassPart& part) const override {
     const std::uint64_t techniques = samplers_.size(), rounds = part.count / techniques;
@@ -112,6 +126,16 @@ class Resampled final : public Technique {
     t.cost = target_ ? candidates_ + resamples_ : candidates_;
     t.unit = std::max<std::uint64_t>(1, t.unit / candidates_);
     return t;
+  }
+  BatchFunction support() const override {
+    if (!target_ && !source_) return {};
+    return [this](PointBatch points, std::span<double> values) {
+      std::vector<double> density(values.size(), 1.0);
+      std::fill(values.begin(), values.end(), 1.0);
+      if (target_) (*target_)(points, values);
+      if (source_) source_->density(points, density);
+      for (std::size_t i = 0; i < density.size(); ++i) values[i] *= density[i];
+    };
   }
   TermSums run(const PassPart& part) const override {
     const std::uint64_t most = std::max<std::uint64_t>(1, batch_size(integrand_.dimension) / candidates_);

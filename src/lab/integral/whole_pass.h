@@ -8,8 +8,8 @@ std::unique_ptr<Technique> make_vegas(const Problem& problem, std::uint64_t seed
 std::unique_ptr<Technique> make_miser(const Problem& problem);
 std::unique_ptr<Technique> make_metropolis(const Problem& problem, const Method& method);
 
-// The sums of a part that is known by its estimate alone: as if it were `samples` terms with this mean, whose variance
-// over their number is `variance`.
-TermSums sums_of_estimate(double mean, double variance, std::uint64_t samples);
+// The sums of a part of `samples` samples that is known by its estimate and the estimate's variance; `terms` holds the
+// single terms that went into it, and the counts.
+TermSums sums_of_estimate(double mean, double variance, std::uint64_t samples, const TermSums& terms);
 
 }  // namespace montelux::lab
