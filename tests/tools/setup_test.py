@@ -63,6 +63,14 @@ class Setup(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertEqual(log.splitlines()[-1].split("recommends")[1].split(), ["zlib1g-dev", "npm"])
 
+    def test_what_only_tests_need_can_be_left_out(self):
+        self.debian([])
+        self.assertIn("chromium", self.run_tool("--dry-run")[1])
+        status, output, _ = self.run_tool("--no-tests", "--dry-run")
+        self.assertEqual(status, 0, output)
+        self.assertNotIn("chromium", output)
+        self.assertIn("libembree-dev", output)
+
     def test_a_dry_run_installs_nothing(self):
         self.debian([])
         status, output, log = self.run_tool("--dry-run")

@@ -12,7 +12,7 @@ import { linearTicks, logTicks, rangeOf } from "./ticks";
 
 type Range = [number, number];
 
-const seriesColor = (curve: Curve, i: number): string => color(`--series-${paletteIndex(curve, i)}`);
+const seriesColor = (curve: Curve): string => color(`--series-${paletteIndex(curve)}`);
 const finite = (values: (number | null)[] | undefined): number[] => (values ?? []).filter((v): v is number => v !== null);
 const barStep = (curve: Curve): number => (curve.x.length > 1 ? curve.x[1]! - curve.x[0]! : 1);
 
@@ -73,15 +73,15 @@ function barPath(curve: Curve): uPlot.Series.PathBuilder {
   };
 }
 
-function seriesOptions(curve: Curve, i: number): uPlot.Series {
-  const stroke = (): string => seriesColor(curve, i);
+function seriesOptions(curve: Curve): uPlot.Series {
+  const stroke = (): string => seriesColor(curve);
   const many = curve.x.length > 150;
   const shared: uPlot.Series = { label: curve.name, scale: "y", stroke, spanGaps: true };
   switch (curve.mark) {
     case "points":
       return { ...shared, paths: () => null, points: { show: true, size: many ? 3.5 : 7, width: 0, fill: stroke, stroke } };
     case "bars":
-      return { ...shared, paths: barPath(curve), fill: () => `${seriesColor(curve, i)}73`, width: 0, points: { show: false } };
+      return { ...shared, paths: barPath(curve), fill: () => `${seriesColor(curve)}73`, width: 0, points: { show: false } };
     case "steps":
       return { ...shared, paths: uPlot.paths.stepped!({ align: 1 }), width: 1.6, points: { show: false } };
     default:
@@ -151,8 +151,8 @@ function drawSpread(u: uPlot, curves: Curve[], bands: boolean): void {
     if (!curve.low || !curve.high || !u.series[i + 1]!.show) return;
     const onPoints = curve.mark === "points" || curve.mark === "bars";
     if (onPoints === bands) return;
-    if (bands) drawBand(u, curve, seriesColor(curve, i));
-    else drawErrorBars(u, curve, seriesColor(curve, i));
+    if (bands) drawBand(u, curve, seriesColor(curve));
+    else drawErrorBars(u, curve, seriesColor(curve));
   });
 }
 
@@ -175,7 +175,7 @@ function plotOptions(figure: FigureSection, joined: Joined, host: HTMLElement): 
       y: { distr: figure.y.log ? 3 : 1, range: () => full.y },
     },
     axes: [axisOptions(figure.x, 2), axisOptions(figure.y, 3)],
-    series: [{}, ...figure.curves.map(seriesOptions)],
+    series: [{}, ...figure.curves.map((curve) => seriesOptions(curve))],
     cursor: {
       drag: { x: true, y: true, uni: 24 },
       points: { show: false },
@@ -194,7 +194,7 @@ function legend(figure: FigureSection, plot: () => uPlot | undefined): HTMLEleme
   const made = element("div", { class: "legend" });
   figure.curves.forEach((curve, i) => {
     if (!curve.name) return;
-    const key = element("i", { class: `key ${curve.mark}`, style: `--key: var(--series-${paletteIndex(curve, i)})` });
+    const key = element("i", { class: `key ${curve.mark}`, style: `--key: var(--series-${paletteIndex(curve)})` });
     const button = element("button", { type: "button", "aria-pressed": "true" }, key, rich(curve.name));
     button.addEventListener("click", () => {
       const shown = button.getAttribute("aria-pressed") !== "true";

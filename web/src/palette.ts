@@ -1,4 +1,4 @@
 import type { Curve } from "./report";
 
 // The place of a curve's colour among those of the style sheet, from 1 on.
-export const paletteIndex = (curve: Curve, i: number): number => ((curve.color ?? i) % 8) + 1;
+export const paletteIndex = (curve: Curve): number => (curve.color % 8) + 1;

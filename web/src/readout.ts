@@ -6,7 +6,7 @@ import type { Joined } from "./join";
 import type { Curve, FigureSection } from "./report";
 import { readable, rich } from "./text";
 
-interface Found { curve: Curve; i: number; point: number; distance: number }
+interface Found { curve: Curve; point: number; distance: number }
 
 const reach = 40; // pixels
 
@@ -25,15 +25,15 @@ function nearest(u: uPlot, figure: FigureSection): Found[] {
       const dy = Math.abs(u.valToPos(y, "y") - top);
       const scattered = curve.mark === "points" && curve.x.length > 150;
       const distance = scattered ? Math.hypot(dx, dy) : dx + 1e-3 * dy;
-      if (distance <= reach && (!best || distance < best.distance)) best = { curve, i, point, distance };
+      if (distance <= reach && (!best || distance < best.distance)) best = { curve, point, distance };
     });
     if (best) found.push(best);
   });
   return found;
 }
 
-function lineOf({ curve, i, point }: Found, withX: boolean): HTMLElement {
-  const key = element("i", { class: `key ${curve.mark}`, style: `--key: var(--series-${paletteIndex(curve, i)})` });
+function lineOf({ curve, point }: Found, withX: boolean): HTMLElement {
+  const key = element("i", { class: `key ${curve.mark}`, style: `--key: var(--series-${paletteIndex(curve)})` });
   const spread =
     curve.low?.[point] != null ? ` (${readable(curve.low[point]!)} … ${readable(curve.high![point]!)})` : "";
   const place = withX ? `${readable(curve.x[point]!)}, ` : "";

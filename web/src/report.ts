@@ -10,7 +10,7 @@ export interface Curve {
   y: Value[];
   low?: Value[];
   high?: Value[];
-  color?: number;
+  color: number; // counted through the palette
 }
 
 export interface Axis {

@@ -135,8 +135,7 @@ Curve function_curve(std::string name, Mark mark, const std::function<double(dou
 }
 
 void add_expected(Figure& figure, Curve expected) {
-  const Curve& before = figure.curves.back();
-  expected.color = before.color < 0 ? int(figure.curves.size()) - 1 : before.color;
+  expected.color = color_of(figure, figure.curves.size() - 1);
   expected.name.clear();
   figure.curves.push_back(std::move(expected));
 }

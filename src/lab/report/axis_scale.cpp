@@ -45,7 +45,7 @@ std::vector<Tick> linear_ticks(double low, double high) {
   const double step = unit * (raw / unit < 1.5 ? 1 : raw / unit < 3.5 ? 2 : raw / unit < 7.5 ? 5 : 10);
   std::vector<Tick> ticks;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1)
-    ticks.push_back({k * step, fmt::format("{:.6g}", k == 0 ? 0.0 : k * step)});
+    ticks.push_back({k * step, (k < 0 ? "−" : "") + fmt::format("{:.6g}", std::abs(k * step))});
   return ticks;
 }
 

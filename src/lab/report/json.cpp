@@ -29,11 +29,11 @@ Json to_json(const Axis& axis) {
   return json;
 }
 
-Json to_json(const Curve& curve) {
+Json to_json(const Curve& curve, int color) {
   constexpr const char* marks[] = {"line", "dashes", "points", "bars", "steps"};
   Json json{{"name", curve.name}, {"mark", marks[std::size_t(curve.mark)]}};
   json["x"] = numbers(curve.x), json["y"] = numbers(curve.y);
-  if (curve.color >= 0) json["color"] = curve.color;
+  json["color"] = color;
   if (!curve.low.empty()) json["low"] = numbers(curve.low), json["high"] = numbers(curve.high);
   return json;
 }
@@ -63,7 +63,8 @@ struct SectionWriter {
     Json json{{"kind", "figure"}, {"name", figure.name}, {"caption", figure.caption}};
     json["x"] = to_json(figure.x), json["y"] = to_json(figure.y), json["square"] = figure.square;
     json["curves"] = Json::array();
-    for (const Curve& curve : figure.curves) json["curves"].push_back(to_json(curve));
+    for (std::size_t i = 0; i < figure.curves.size(); ++i)
+      json["curves"].push_back(to_json(figure.curves[i], color_of(figure, i)));
     return json;
   }
   Json operator()(const Images& images) const {
@@ -83,12 +84,6 @@ struct SectionWriter {
 };
 
 }  // namespace
-
-bool Report::passed() const {
-  for (const Section& section : sections)
-    if (const auto* verdict = std::get_if<Verdict>(&section); verdict && !verdict->passed) return false;
-  return true;
-}
 
 std::string to_json(const ReportSet& set, bool with_pictures) {
   Json json{{"title", set.title}, {"subtitle", set.subtitle}, {"reports", Json::array()}};

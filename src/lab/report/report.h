@@ -1,5 +1,6 @@
 // A report as plain data: what a page, a table of numbers and a figure for a paper are made from.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@ enum class Mark : std::uint8_t { line, dashes, points, bars, steps };
 
 // y over x, of one size. `low` and `high`, both empty or of that size, bound an error band (lines) or error bars
 // (points, bars). The x of all but points ascend. Bars stand at their middle, steps begin at x. A curve without a name
-// is not in the legend. `color` counts through the palette; where it is negative, the curve has that of its place.
+// is not in the legend. `color` counts through the palette; where it is negative, the curve has the next one.
 struct Curve {
   std::string name;
   Mark mark = Mark::line;
@@ -37,6 +38,9 @@ struct Figure {
   std::vector<Curve> curves;
   bool square = false;
 };
+
+// The colour of a curve, counted through the palette.
+int color_of(const Figure& figure, std::size_t curve);
 
 // ---- pictures -------------------------------------------------------------------------------------------------------
 

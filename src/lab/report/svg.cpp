@@ -78,10 +78,7 @@ class Drawing {
   double px(double x) const { return left_ + width_ * x_.place(x); }
   // Far outside of the frame rather than endless, so that every reader of SVG clips it.
   double py(double y) const { return top_ + height_ - height_ * std::clamp(y_.place(y), -2.0, 3.0); }
-  const char* color_of(std::size_t i) const {
-    const int chosen = figure_.curves[i].color;
-    return colors[(chosen < 0 ? i : std::size_t(chosen)) % colors.size()];
-  }
+  const char* color_of(std::size_t i) const { return colors[std::size_t(lab::color_of(figure_, i)) % colors.size()]; }
   static bool good(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
 
   void axes() {
@@ -177,7 +174,7 @@ class Drawing {
     double x = left_;
     int line = 0;
     for (const Curve& curve : figure_.curves) {
-      const double width = curve.name.empty() ? 0 : 30 + 6.6 * double(letters(plain_text(curve.name)));
+      const double width = curve.name.empty() ? 0 : 34 + 6.8 * double(letters(plain_text(curve.name)));
       if (x > left_ && x + width > left_ + width_ + 10) x = left_, ++line;
       places.emplace_back(x, line);
       x += width;
