@@ -38,12 +38,14 @@ export interface FigureSection {
   square: boolean;
   curves: Curve[];
 }
+export type ImagesView = "grid" | "slider" | "flip";
 export interface Picture { caption: string; width: number; height: number; src: string }
 export interface ImagesSection {
   kind: "images";
   name: string;
   caption: string;
   columns: number;
+  view: ImagesView;
   pictures: Picture[];
 }
 export interface VerdictSection { kind: "verdict"; claim: string; detail: string; passed: boolean }

@@ -4,12 +4,14 @@ export interface Place { scale: number; x: number; y: number } // x, y: shift in
 
 export class SharedZoom {
   private place: Place = { scale: 1, x: 0, y: 0 };
+  private readonly frames: HTMLElement[] = [];
   private readonly views: HTMLElement[] = [];
 
-  // `view` is moved inside of `frame`, which takes the gestures: drag to pan, control and wheel to zoom, double click
-  // to go in and, with shift, back.
-  add(frame: HTMLElement, view: HTMLElement): void {
-    this.views.push(view);
+  // The views are moved inside of `frame`, which takes the gestures: drag to pan, control and wheel to zoom, double
+  // click to go in and, with shift, back.
+  add(frame: HTMLElement, ...views: HTMLElement[]): void {
+    this.frames.push(frame);
+    this.views.push(...views);
     frame.addEventListener(
       "wheel",
       (event) => {
@@ -58,9 +60,7 @@ export class SharedZoom {
     const held = (value: number): number => Math.min(0, Math.max(least, value));
     this.place = { scale: place.scale, x: held(place.x), y: held(place.y) };
     const { scale, x, y } = this.place;
-    for (const view of this.views) {
-      view.style.transform = `translate(${x * 100}%, ${y * 100}%) scale(${scale})`;
-      view.parentElement?.classList.toggle("zoomed", scale > 1);
-    }
+    for (const view of this.views) view.style.transform = `translate(${x * 100}%, ${y * 100}%) scale(${scale})`;
+    for (const frame of this.frames) frame.classList.toggle("zoomed", scale > 1);
   }
 }

@@ -104,6 +104,21 @@ try {
     expect(/scale\(2\.5\)/.test(shown), "pictures zoom together");
     await frames.first().dblclick({ modifiers: ["Shift"] });
     if (shots) await page.screenshot({ path: join(shots, "pictures.png") });
+    const views = page.locator("figure:has(.stage)").first();
+    await views.locator(".switcher button", { hasText: "Slider" }).click();
+    const stage = views.locator(".stage .frame");
+    const place = await stage.boundingBox();
+    await stage.scrollIntoViewIfNeeded();
+    await stage.hover({ position: { x: 0.25 * place.width, y: 40 } });
+    const shown25 = await views.locator(".curtain").evaluate((curtain) => curtain.style.clipPath);
+    expect(/inset\(0(px)? 7[45]/.test(shown25), `a slider parts two pictures (${shown25})`);
+    if (shots) await page.screenshot({ path: join(shots, "slider.png") });
+    await views.locator(".switcher button", { hasText: "Flip" }).click();
+    const curtain = () => views.locator(".curtain").evaluate((element) => element.style.clipPath);
+    const one = await curtain();
+    await views.locator(".choose button").click();
+    expect(one !== (await curtain()), "a flip shows the other picture");
+    await views.locator(".switcher button", { hasText: "Side by side" }).click();
   }
 
   const light = await ground(page);

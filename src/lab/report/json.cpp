@@ -69,6 +69,8 @@ struct SectionWriter {
   }
   Json operator()(const Images& images) const {
     Json json{{"kind", "images"}, {"name", images.name}, {"caption", images.caption}, {"columns", images.columns}};
+    constexpr const char* views[] = {"grid", "slider", "flip"};
+    json["view"] = views[std::size_t(images.view)];
     json["pictures"] = Json::array();
     for (const Picture& picture : images.pictures) {
       Json one{{"caption", picture.caption}, {"width", picture.width}, {"height", picture.height}};

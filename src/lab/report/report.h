@@ -51,11 +51,16 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
-// Pictures in a grid; all of one size zoom and pan together.
+// How pictures are first shown. The reader can change it: side by side, two with a slider between them, or one after
+// the other at one place.
+enum class ImagesView : std::uint8_t { grid, slider, flip };
+
+// Pictures that are compared: they zoom and pan together, and so should be of one size.
 struct Images {
   std::string name, caption;
   int columns = 4;
   std::vector<Picture> pictures;
+  ImagesView view = ImagesView::grid;
 };
 
 // ---- the rest -------------------------------------------------------------------------------------------------------
