@@ -168,6 +168,7 @@ function plotOptions(figure: FigureSection, joined: Joined, host: HTMLElement): 
   return {
     width,
     height: figure.square ? width - 28 : Math.round(Math.max(260, width * 0.5)),
+    pxAlign: false,
     padding: [10, 14, 0, 0],
     legend: { show: false },
     scales: {
