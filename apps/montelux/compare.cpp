@@ -26,12 +26,13 @@ struct CompareArguments {
   std::string scene;
   LoadOptions load;
   ContestOptions contest;
+  std::optional<std::string> report;
   bool json = false, csv = false, quiet = false, no_progress = false, no_cache = false;
 };
 
 constexpr const char* examples = R"(Examples:
   montelux compare room.pbrt -a path -b 'direct:strategy=ris,candidates=32' --spp 64
-  montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12
+  montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12 -o report.html
   montelux compare room.pbrt -a path:sampler=halton -b path:sampler=blue-noise --reference truth.exr --json
 
 Each method is run in independent repeats, the methods taking turns, so every figure has an error bar. Efficiency is
@@ -71,7 +72,7 @@ Json to_json(const MethodResult& m) {
   json["slope_by_samples"] = to_json(m.slope_by_samples);
   json["slope_by_time"] = to_json(m.slope_by_time);
   json["differs_from_reference"] = lab::differs_from_reference(m);
-  json["bias_squared"] = m.bias_squared;
+  json["bias_squared"] = to_json(m.bias_squared);
   json["bias"] = {
       {"image", to_json(m.bias.image)}, {"blocks", to_json(m.bias.blocks)}, {"pixels", to_json(m.bias.pixels)}};
   json["non_finite"] = m.non_finite;
@@ -121,26 +122,6 @@ void print_csv(const Contest& contest) {
     }
 }
 
-// "a is 2.31 times as efficient as b (95 % between 2.10 and 2.55)", or that nothing is decided.
-std::string sentence(const Contest& contest, const lab::PairVerdict& v, double confidence) {
-  const std::string& a = contest.result.methods[v.first].contestant.label;
-  const std::string& b = contest.result.methods[v.second].contestant.label;
-  const bool first_wins = v.ratio.mean >= 1;
-  const double factor = first_wins ? v.ratio.mean : 1 / v.ratio.mean;
-  const double low = first_wins ? v.ratio.low : 1 / v.ratio.high, high = first_wins ? v.ratio.high : 1 / v.ratio.low;
-  const std::string interval = fmt::format("{:g} % between {:.3g} and {:.3g}", 100 * confidence, low, high);
-  if (!contest.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", a, b);
-  if (v.ratio.count < 2) return fmt::format("{} and {}: not decided, there are too few repeats", a, b);
-  if (!v.decided)
-    return fmt::format(
-        "{} and {}: not decided: the ratio of efficiencies is {:.3g} ({}); {} times the time may decide it", a, b,
-        factor, interval, std::isfinite(v.times_longer) ? fmt::format("{:.2g}", v.times_longer) : "many");
-  const bool biased = lab::differs_from_reference(contest.result.methods[v.first]) ||
-                      lab::differs_from_reference(contest.result.methods[v.second]);
-  return fmt::format("{} is {:.3g} times as efficient as {} ({}){}", first_wins ? a : b, factor, first_wins ? b : a,
-                     interval, biased ? "; one of them is biased, so this holds for this time alone" : "");
-}
-
 void print_text(const CompareArguments& arguments, const Contest& contest) {
   const lab::ContestResult& r = contest.result;
   for (const MethodResult& m : r.methods) {
@@ -151,12 +132,27 @@ void print_text(const CompareArguments& arguments, const Contest& contest) {
                m.samples.mean, m.rays.mean);
     fmt::print("   efficiency {}   slope by samples {}   error bars hold {:.1f} %\n", spread(m.efficiency),
                s.count >= 2 ? spread(s) : "-", 100 * m.coverage.mean);
-    fmt::print("   mean {} the reference (image {}, blocks p {:.2g})\n",
+    fmt::print("   mean {} the reference (image {}, squared bias {})\n",
                lab::differs_from_reference(m) ? "differs from" : "agrees with",
-               fmt::format("{:+.1f} standard errors", m.bias.image.t), m.bias.blocks.smallest_p);
+               fmt::format("{:+.1f} standard errors", m.bias.image.t), spread(m.bias_squared));
   }
   fmt::print("reference  {} ({:.2g} of the smallest mse)\n", r.reference.origin, r.reference_share);
-  for (const lab::PairVerdict& v : r.verdicts) fmt::print("{}\n", sentence(contest, v, arguments.contest.confidence));
+  for (const lab::PairVerdict& v : r.verdicts)
+    fmt::print("{}\n", sentence_of(contest, v, arguments.contest.confidence));
+}
+
+// The command line that makes the comparison again.
+std::string repeat_command(const CompareArguments& arguments) {
+  const ContestOptions& c = arguments.contest;
+  std::string line = fmt::format("montelux compare {}", arguments.scene);
+  for (std::size_t i = 0; i < c.methods.size(); ++i) line += fmt::format(" -{} '{}'", char('a' + int(i)), c.methods[i]);
+  if (c.seconds) line += fmt::format(" --time {}s", *c.seconds);
+  if (c.samples) line += fmt::format(" --spp {}", *c.samples);
+  if (c.reference) line += fmt::format(" --reference {}", c.reference->string());
+  if (arguments.load.resolution)
+    line += fmt::format(" --resolution {}x{}", arguments.load.resolution->first, arguments.load.resolution->second);
+  if (c.crop) line += fmt::format(" --crop {},{},{},{}", c.crop->x0, c.crop->y0, c.crop->x1, c.crop->y1);
+  return line + fmt::format(" --repeats {} --seed {} -o {}", c.repeats, c.seed, *arguments.report);
 }
 
 int run_compare(CompareArguments& arguments) {
@@ -183,6 +179,13 @@ int run_compare(CompareArguments& arguments) {
     for (const std::string& note : contest->notes) warn(note);
   if (!contest->refusal.empty()) warn(contest->refusal);
   if (contest->result.interrupted) warn("interrupted: the figures are of the repeats that were done");
+  if (arguments.report)
+    if (Status written = write_contest(*arguments.report, *contest, arguments.scene, arguments.contest.confidence,
+                                       {repeat_command(arguments)});
+        !written) {
+      complain(written.error());
+      return failed;
+    }
   if (arguments.json)
     print_json(arguments, *contest);
   else if (arguments.csv)
@@ -214,6 +217,11 @@ void add_compare(CLI::App& app, Action& chosen) {
   verb.footer(examples);
   add_scene_options(verb, arguments->scene, arguments->load);
   add_method_options(verb, contest);
+  add_option(verb, {"-o,--output", "FILE", "write the report, one HTML page that needs no network"},
+             [arguments](const std::string& file) -> Status {
+               arguments->report = file;
+               return Done{};
+             });
   add_option(verb, {"--time", "TIME", "for each method, over all its repeats (500ms, 30s, 10m)"},
              into(contest.seconds, parse_time));
   add_option(verb, {"--spp", "N", "samples a pixel in each repeat instead (default 64)"},

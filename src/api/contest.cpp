@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "api/compare.h"
 #include "api/parts.h"
 #include "api/render.h"
+#include "image/replace_file.h"
 #include "integrator/catalogue.h"
+#include "lab/compare/report.h"
+#include "lab/report/write.h"
 
 namespace montelux {
 
@@ -156,6 +161,46 @@ std::optional<lab::Reference> kept_reference(const fs::path& file, const PixelBo
 }
 
 }  // namespace
+
+// "a is 2.31 times as efficient as b (95 % between 2.10 and 2.55)", or that nothing is decided.
+std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, double confidence) {
+  const std::string& a = contest.result.methods[v.first].contestant.label;
+  const std::string& b = contest.result.methods[v.second].contestant.label;
+  const bool first_wins = v.ratio.mean >= 1;
+  const double factor = first_wins ? v.ratio.mean : 1 / v.ratio.mean;
+  const double low = first_wins ? v.ratio.low : 1 / v.ratio.high, high = first_wins ? v.ratio.high : 1 / v.ratio.low;
+  const std::string interval = fmt::format("{:g} % between {:.3g} and {:.3g}", 100 * confidence, low, high);
+  if (!contest.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", a, b);
+  if (v.ratio.count < 2) return fmt::format("{} and {}: not decided, there are too few repeats", a, b);
+  if (!v.decided)
+    return fmt::format(
+        "{} and {}: not decided: the ratio of efficiencies is {:.3g} ({}); {} times the time may decide it", a, b,
+        factor, interval, std::isfinite(v.times_longer) ? fmt::format("{:.2g}", v.times_longer) : "many");
+  const bool biased = lab::differs_from_reference(contest.result.methods[v.first]) ||
+                      lab::differs_from_reference(contest.result.methods[v.second]);
+  return fmt::format("{} is {:.3g} times as efficient as {} ({}){}", first_wins ? a : b, factor, first_wins ? b : a,
+                     interval, biased ? "; one of them is biased, so this holds for this time alone" : "");
+}
+
+Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
+                     double confidence, const std::vector<std::string>& commands) {
+  lab::ContestWords words;
+  words.scene = "`" + scene + "`";
+  for (const lab::PairVerdict& v : contest.result.verdicts)
+    words.sentences.push_back(sentence_of(contest, v, confidence));
+  if (!contest.refusal.empty()) words.notes.push_back(contest.refusal);
+  words.notes.insert(words.notes.end(), contest.notes.begin(), contest.notes.end());
+  words.commands = commands;
+  Result<std::string> page = lab::to_html(lab::report_of(contest.result, words));
+  if (!page) return page.failure();
+  return replace_file(file, [&](const std::string& temporary) -> Status {
+    std::ofstream out(temporary, std::ios::binary);
+    out << *page;
+    out.close();
+    if (!out) return Failure{"cannot write " + file.string()};
+    return Done{};
+  });
+}
 
 Status check_methods(const std::vector<std::string>& methods) {
   for (const std::string& text : methods)

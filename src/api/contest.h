@@ -30,6 +30,14 @@ struct Contest {
   std::vector<std::string> notes;
 };
 
+// What the verdict says, in a sentence.
+std::string sentence_of(const Contest& contest, const lab::PairVerdict& verdict, double confidence);
+
+// Writes the report, one HTML page that needs no network. `commands` are those that make it again. Fails where the file
+// cannot be written or the program was built without the page.
+Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
+                     double confidence, const std::vector<std::string>& commands);
+
 // Whether every method can be made; a scene is not needed to tell.
 Status check_methods(const std::vector<std::string>& methods);
 

@@ -48,6 +48,17 @@ export interface ImagesSection {
   view: ImagesView;
   pictures: Picture[];
 }
+// Values are 16-bit floats, little end first, in base 64: three a pixel (mean, error) or one (repeats).
+export interface MeasuredPicture {
+  name: string;
+  width: number;
+  height: number;
+  samples: Value;
+  mean: string;
+  error: string;
+  repeats: string[];
+}
+export interface ComparisonSection { kind: "comparison"; name: string; caption: string; pictures: MeasuredPicture[] }
 export interface VerdictSection { kind: "verdict"; claim: string; detail: string; passed: boolean }
 export interface CommandsSection { kind: "commands"; lines: string[] }
 
@@ -57,6 +68,7 @@ export type Section =
   | TableSection
   | FigureSection
   | ImagesSection
+  | ComparisonSection
   | VerdictSection
   | CommandsSection;
 

@@ -1,4 +1,5 @@
 // One view for each kind of section.
+import { comparisonView } from "./comparison";
 import { element } from "./dom";
 import { figureView } from "./figure";
 import { imagesView } from "./images";
@@ -47,6 +48,8 @@ export function sectionView(section: Section): HTMLElement {
       return figureView(section);
     case "images":
       return imagesView(section);
+    case "comparison":
+      return comparisonView(section);
     case "verdict":
       return verdictView(section);
     case "commands":

@@ -140,12 +140,45 @@ void summarize(MethodResult& m, double confidence) {
   m.relative_efficiency = of(relative_efficiency_of);
 }
 
+// The mean over pixels of the squared bias. The errors of two repeats are independent, so their product has the squared
+// bias for its mean, and the reference's variance, which is taken off. The jackknife over repeats gives its error.
+Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Reference& reference, double confidence) {
+  const double n = double(repeats.size());
+  if (n < 3) return measured({}, confidence);
+  constexpr double weights[] = {0.2126, 0.7152, 0.0722};
+  const std::size_t pixels = reference.mean.pixel_count();
+  std::vector<double> own(repeats.size()), with_sum(repeats.size());
+  double all = 0, known = 0;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    double truth = 0, deviation = 0, sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      truth += weights[c] * double(reference.mean.values[3 * p + c]);
+      deviation += weights[c] * std::sqrt(double(reference.variance.values[3 * p + c]));
+    }
+    for (const auto& repeat : repeats) sum += double(repeat[p]) - truth;
+    for (std::size_t r = 0; r < repeats.size(); ++r) {
+      const double off = double(repeats[r][p]) - truth;
+      own[r] += off * off / double(pixels), with_sum[r] += off * sum / double(pixels);
+    }
+    all += sum * sum / double(pixels), known += deviation * deviation / double(pixels);
+  }
+  double squares = 0;
+  for (double x : own) squares += x;
+  const double whole = (all - squares) / (n * (n - 1)) - known;
+  // Without repeat r: the sum of the others' errors, and their squares.
+  std::vector<double> pseudo;
+  for (std::size_t r = 0; r < repeats.size(); ++r) {
+    const double rest = all - 2 * with_sum[r] + own[r] - (squares - own[r]);
+    pseudo.push_back(n * whole - (n - 1) * (rest / ((n - 1) * (n - 2)) - known));
+  }
+  return measured(pseudo, confidence);
+}
+
 // The film of all repeats against the reference: is the mean another?
 void summarize_film(const Film& film, const Reference& reference, MethodResult& m) {
   m.mean = mean_of(film);
   m.standard_error = variance_of(film);
-  const double own = mean_value(m.standard_error);
-  m.bias_squared = squared_error(m.mean, reference) - own;
+  m.bias_squared = squared_bias(m.luminance, reference, 0.95);
   for (float& v : m.standard_error.values) v = std::sqrt(v);
   PixelBuffer reference_error = reference.variance;
   for (float& v : reference_error.values) v = std::sqrt(v);
@@ -171,6 +204,12 @@ PairVerdict judge(const ContestResult& result, std::size_t a, std::size_t b, dou
 }
 
 }  // namespace
+
+bool differs_from_reference(const MethodResult& m) {
+  const Measured& b = m.bias_squared;
+  const bool by_pixel = b.count >= 3 && b.mean > student_t_quantile(0.9995, b.count - 1.0) * b.standard_error;
+  return m.bias.image.differs || by_pixel;
+}
 
 double expected_smallest_mse(const std::vector<Contestant>& contestants, const ContestSettings& settings,
                              const ContestWatch& watch) {
@@ -255,15 +294,10 @@ ContestResult run_contest(const std::vector<Contestant>& contestants, Reference 
       repeat.seconds = turn.result.seconds, repeat.rays = double(turn.result.rays.all());
       result.methods[i].repeats.push_back(repeat);
 
-      // The map of where a repeat errs, over all of them.
-      PixelBuffer& map = result.methods[i].error;
-      if (map.values.empty()) map = make_pixel_buffer(b.width(), b.height(), {"error"});
       const PixelBuffer mean = mean_of(film);
-      for (std::size_t p = 0; p < map.values.size(); ++p)
-        for (std::size_t c = 0; c < 3; ++c) {
-          const float truth = result.reference.mean.values[3 * p + c], off = mean.values[3 * p + c] - truth;
-          map.values[p] += off * off / (truth * truth + 0.01f) / float(3 * settings.repeats);
-        }
+      std::vector<float>& shown = result.methods[i].luminance.emplace_back();
+      for (std::size_t p = 0; p < mean.pixel_count(); ++p)
+        shown.push_back(luminance(Rgb{{mean.values[3 * p], mean.values[3 * p + 1], mean.values[3 * p + 2]}}));
       const auto longest = int(std::clamp(repeat.samples / 2, 4.0, 1024.0));
       convergence[i].push_back(run_convergence(contestants[i], settings, result.reference, longest, round, watch));
       films[i].merge(film);

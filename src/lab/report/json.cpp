@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lab/report/axis_scale.h"
 #include "lab/report/base64.h"
 #include "lab/report/write.h"
+#include "texture/texel_image.h"
 
 namespace montelux::lab {
 
@@ -36,6 +38,17 @@ Json to_json(const Curve& curve, int color) {
   json["color"] = color;
   if (!curve.low.empty()) json["low"] = numbers(curve.low), json["high"] = numbers(curve.high);
   return json;
+}
+
+// Values as 16-bit floats, little end first, in 64 letters.
+std::string packed(const std::vector<float>& values) {
+  std::string bytes;
+  bytes.reserve(2 * values.size());
+  for (float x : values) {
+    const std::uint16_t half = float_to_half(std::clamp(x, -65504.0f, 65504.0f));
+    bytes += char(half & 0xff), bytes += char(half >> 8);
+  }
+  return base64(bytes);
 }
 
 // One section, by its kind.
@@ -75,6 +88,23 @@ struct SectionWriter {
     for (const Picture& picture : images.pictures) {
       Json one{{"caption", picture.caption}, {"width", picture.width}, {"height", picture.height}};
       if (with_pictures) one["src"] = "data:image/png;base64," + base64(to_png(picture));
+      json["pictures"].push_back(std::move(one));
+    }
+    return json;
+  }
+  Json operator()(const Comparison& comparison) const {
+    Json json{{"kind", "comparison"}, {"name", comparison.name}, {"caption", comparison.caption}};
+    json["pictures"] = Json::array();
+    for (const MeasuredPicture& picture : comparison.pictures) {
+      Json one{{"name", picture.name},
+               {"width", picture.width},
+               {"height", picture.height},
+               {"samples", number(picture.samples)}};
+      if (with_pictures) {
+        one["mean"] = packed(picture.mean), one["error"] = packed(picture.error);
+        one["repeats"] = Json::array();
+        for (const std::vector<float>& repeat : picture.repeats) one["repeats"].push_back(packed(repeat));
+      }
       json["pictures"].push_back(std::move(one));
     }
     return json;

@@ -63,6 +63,22 @@ struct Images {
   ImagesView view = ImagesView::grid;
 };
 
+// A picture in linear values, as an estimate: three components a pixel, the top row first.
+struct MeasuredPicture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<float> mean;
+  std::vector<float> error;                 // standard error of the mean; empty: exact
+  std::vector<std::vector<float>> repeats;  // luminance by repeat, one a pixel; may be empty
+  double samples = 0;                       // a pixel, in each repeat
+};
+
+// Pictures of one size to be held side by side, over each other, and read out by pixel. The first is the reference.
+struct Comparison {
+  std::string name, caption;
+  std::vector<MeasuredPicture> pictures;
+};
+
 // ---- the rest -------------------------------------------------------------------------------------------------------
 
 // A paragraph. Formulas stand in dollars, code in backticks.
@@ -88,7 +104,7 @@ struct Commands {
   std::vector<std::string> lines;
 };
 
-using Section = std::variant<Text, Formula, Table, Figure, Images, Verdict, Commands>;
+using Section = std::variant<Text, Formula, Table, Figure, Images, Comparison, Verdict, Commands>;
 
 // `name` is good for a file and for a link; `group` gathers the reports of a page.
 struct Report {

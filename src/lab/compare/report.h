@@ -1,0 +1,18 @@
+// A contest as a report.
+#pragma once
+#include "lab/compare/contest.h"
+#include "lab/report/report.h"
+
+namespace montelux::lab {
+
+// What the report says beside the figures.
+struct ContestWords {
+  std::string scene;
+  std::vector<std::string> sentences;  // one a verdict
+  std::vector<std::string> notes;      // what the reader must know
+  std::vector<std::string> commands;   // that make it again
+};
+
+ReportSet report_of(const ContestResult& result, const ContestWords& words);
+
+}  // namespace montelux::lab
