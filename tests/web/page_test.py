@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""usage: page_test.py MONTELUX WEB_BUILD_FOLDER
+"""usage: page_test.py MONTELUX WEB_BUILD_FOLDER [page|comparison]
 
-Makes a report and opens it in headless Chromium (web/test/page.mjs). Skipped, with a message and the exit status 77,
+Makes a report and opens it in headless Chromium (web/test/page.mjs or comparison.mjs). Skipped, with a message and the exit status 77,
 where the page was not built or no Chromium is there.
 """
 import os
@@ -20,15 +20,22 @@ def main():
     if not node or not (build / "node_modules" / "playwright-core").is_dir():
         print("skipped: the page of reports was not built (node and npm are needed)")
         return SKIPPED
-    source = Path(__file__).resolve().parents[2] / "web" / "test" / "page.mjs"
+    kind = sys.argv[3] if len(sys.argv) > 3 else "page"
+    root = Path(__file__).resolve().parents[2]
     with tempfile.TemporaryDirectory() as folder:
         # Beside the packages it imports.
-        script = build / "page_test.mjs"
-        script.write_text(source.read_text())
-        subprocess.run([program, "lab", "run", "all", "-q", "-o", folder], check=True, stdout=subprocess.DEVNULL)
-        shots = os.environ.get("MONTELUX_SCREENSHOTS", "")
-        return subprocess.run([node, script, Path(folder) / "report.html", *([shots] if shots else [])],
-                              check=False).returncode
+        script = build / f"{kind}_test.mjs"
+        script.write_text((root / "web" / "test" / f"{kind}.mjs").read_text())
+        report = Path(folder) / "report.html"
+        if kind == "page":
+            make = [program, "lab", "run", "all", "-q", "-o", folder]
+        else:
+            scene = root / "scenes" / "first-light" / "first-light.pbrt"
+            make = [program, "compare", scene, "--resolution", "64x48", "--spp", "4", "--repeats", "4", "-a", "path",
+                    "-b", "path:mis=balance", "--no-cache", "--quiet", "-o", report]
+        subprocess.run(make, check=True, stdout=subprocess.DEVNULL)
+        shots = os.environ.get("MONTELUX_SCREENSHOTS", "") if kind == "page" else ""
+        return subprocess.run([node, script, report, *([shots] if shots else [])], check=False).returncode
 
 
 if __name__ == "__main__":
