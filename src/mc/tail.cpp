@@ -7,31 +7,39 @@
 
 namespace montelux {
 
+void LargestTerms::drop_least() {
+  std::nth_element(kept_.begin(), kept_.begin() + capacity - 1, kept_.end(), std::greater<>());
+  kept_.resize(capacity);
+  threshold_ = kept_.back();
+}
+
 void LargestTerms::add(double magnitude) {
-  if (heap_.size() < capacity) {
-    heap_.push_back(magnitude);
-    if (heap_.size() == capacity) std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
-  } else if (magnitude > heap_.front()) {
-    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-    heap_.back() = magnitude;
-    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-  }
+  if (!(magnitude > threshold_)) return;
+  if (kept_.empty()) kept_.reserve(2 * capacity);
+  kept_.push_back(magnitude);
+  if (kept_.size() == 2 * capacity) drop_least();
 }
 
 void LargestTerms::add(std::span<const double> terms) {
-  for (double x : terms) {
-    const double magnitude = std::abs(x);
-    if (heap_.size() < capacity || magnitude > heap_.front()) add(magnitude);
+  constexpr std::size_t width = 16;
+  std::size_t i = 0;
+  for (; i + width <= terms.size(); i += width) {
+    bool some = false;
+    for (std::size_t k = 0; k < width; ++k) some |= std::abs(terms[i + k]) > threshold_;
+    if (!some) continue;
+    for (std::size_t k = 0; k < width; ++k) add(std::abs(terms[i + k]));
   }
+  for (; i < terms.size(); ++i) add(std::abs(terms[i]));
 }
 
 void LargestTerms::merge(const LargestTerms& other) {
-  for (double magnitude : other.heap_) add(magnitude);
+  for (double magnitude : other.kept_) add(magnitude);
 }
 
 std::vector<double> LargestTerms::sorted() const {
-  std::vector<double> result = heap_;
+  std::vector<double> result = kept_;
   std::sort(result.begin(), result.end(), std::greater<>());
+  result.resize(std::min(result.size(), capacity));
   return result;
 }
 

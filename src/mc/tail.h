@@ -6,10 +6,10 @@
 
 namespace montelux {
 
-// The magnitudes of the largest terms seen, at most `capacity` of them.
+// The magnitudes of the largest terms seen, `capacity` of them once there were as many.
 class LargestTerms {
  public:
-  static constexpr std::size_t capacity = 100;
+  static constexpr std::size_t capacity = 64;
 
   void add(double magnitude);
   void add(std::span<const double> terms);  // their magnitudes
@@ -19,7 +19,11 @@ class LargestTerms {
   static LargestTerms from(std::span<const double> magnitudes);
 
  private:
-  std::vector<double> heap_;  // the least of them in front, once it is full
+  // Twice the capacity is gathered before the lesser half is dropped, so that a term costs little.
+  void drop_least();
+
+  std::vector<double> kept_;
+  double threshold_ = -1;  // what is not above it is not among the largest
 };
 
 // Hill's estimate of the tail index: P(|X| > x) falls like x^-index. `largest` in falling order, k of them above the

@@ -16,7 +16,7 @@ constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // no pass of a run has
 constexpr double pilot_share = 0.03;
 // A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
 // less is not, where the training is long enough to be sure.
-constexpr double clear_gain = 6, likely_gain = 2.5, no_gain = 1.5;
+constexpr double clear_gain = 4, no_gain = 1.5;
 constexpr std::uint64_t sure_samples = 16384, least_samples_to_try = 32768;
 constexpr int first_steps = 4;
 
@@ -79,7 +79,7 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
   }
   // Too few samples for trials: what is best as a rule.
   if (samples < least_samples_to_try) {
-    const bool few_dimensions = dimension <= (gain >= likely_gain ? 3 : 6), adapt = gain >= likely_gain;
+    const bool few_dimensions = dimension <= (gain >= clear_gain ? 3 : 6), adapt = gain >= clear_gain;
     methods = {few_dimensions ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt)};
   }
   Method given;
@@ -104,6 +104,10 @@ std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double 
 }  // namespace
 
 Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
+  // So few samples teach a map nothing.
+  const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
+                       problem.densities.empty();
+  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples to try anything", 0};
   training.go_to(first_steps);
   const double gain = training.gain();
   const std::vector<Method> methods = plausible(problem, samples, gain);
@@ -114,8 +118,7 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
     Pilot p;
     p.method = method, p.weight = trains(method) ? 1.2 : method.kind == MethodKind::qmc ? 1 : 2;
     // Lattices with a periodic integrand gain more from more points than nets do, and most in few dimensions.
-    if (method.points == QmcPoints::lattice)
-      p.bonus = problem.integrand.dimension <= 3 ? 2 : problem.integrand.dimension <= 6 ? 1 : 0;
+    if (method.points == QmcPoints::lattice) p.bonus = problem.integrand.dimension > 6 ? -1 : trains(method) ? 0.5 : 2;
     p.technique = make_technique(problem, method, seed, &training);
     pilots.push_back(std::move(p));
   }
