@@ -1,4 +1,6 @@
 // B: rates of quasi-Monte Carlo in 1 to 8 dimensions.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "lab/experiments/statistics.h"
@@ -29,70 +31,79 @@ double mean_of_pass(PointSet set, std::uint32_t dimensions) {
   return sum / set.samples_per_pass;
 }
 
-Findings run(const Setup& setup) {
+// How one kind of points does in one dimension after another.
+struct Rates {
+  Curve exponents;
+  std::vector<Curve> errors;  // in each dimension, against the number of points
+  std::vector<double> z_mean, z_slope;
+  double flattest = -2, flattest_error = 0;
+};
+
+Rates measure(const Setup& setup, const Points& points) {
   const std::uint32_t passes = std::max(8u, setup.count("passes")), most = setup.count("samples");
+  // The planted fault takes independent points under every name.
+  const PointSetKind kind = setup.fault() ? PointSetKind::independent : points.kind;
+  Rates rates;
+  rates.exponents = {points.name, Mark::points, {}, {}, {}, {}};
+  for (std::uint32_t d = 1; d <= 8; ++d) {
+    Curve curve{fmt::format("{}, {}-dimensional", points.name, d), Mark::line, {}, {}, {}, {}};
+    std::vector<double> variances, spreads;
+    for (std::uint32_t n = 16; n <= most; n *= 4) {
+      std::vector<double> means;
+      for (std::uint32_t pass = 0; pass < passes; ++pass)
+        means.push_back(mean_of_pass({kind, setup.seed() + 31 * n + d, pass, n}, d));
+      const Spread s = spread_of(means);
+      curve.x.push_back(n), curve.y.push_back(std::sqrt(s.variance));
+      variances.push_back(s.variance), spreads.push_back(s.variance * std::sqrt(2.0 / (passes - 1)));
+      rates.z_mean.push_back((s.mean - 1) / s.mean_error);
+    }
+    const LineFit fit = fit_power_law(curve.x, variances, spreads);
+    const double slope = 0.5 * fit.slope, error = 0.5 * fit.slope_error;
+    rates.exponents.x.push_back(d), rates.exponents.y.push_back(slope);
+    rates.exponents.low.push_back(slope - error), rates.exponents.high.push_back(slope + error);
+    rates.z_slope.push_back((slope + 0.5) / error);
+    if (slope > rates.flattest) rates.flattest = slope, rates.flattest_error = error;
+    rates.errors.push_back(curve);
+  }
+  return rates;
+}
+
+Findings run(const Setup& setup) {
   Figure errors{"errors",
                 "Root mean square error against the number of points: independent, and scrambled Sobol'.",
                 {"points $N$", true, {}, {}},
                 {"rms error", true, {}, {}},
                 {},
                 false};
-  Figure rates{"rates",
-               "The fitted exponent of the error in 1 to 8 dimensions.",
-               {"dimensions", false, 0.5, 8.5},
-               {"exponent", false, -1.8, 0},
-               {},
-               false};
+  Figure exponents{"rates",
+                   "The fitted exponent of the error in 1 to 8 dimensions.",
+                   {"dimensions", false, 0.5, 8.5},
+                   {"exponent", false, -1.8, 0},
+                   {},
+                   false};
   Findings findings;
   for (const Points& points : kinds) {
-    Curve rate{points.name, Mark::points, {}, {}, {}, {}};
-    std::vector<double> z_mean, z_slope;
-    double steepest = 0, flattest = -2, flattest_error = 0;
-    for (std::uint32_t d = 1; d <= 8; ++d) {
-      Curve curve{std::string(points.name) + ", " + std::to_string(d) + "-dimensional", Mark::line, {}, {}, {}, {}};
-      std::vector<double> variances, spreads;
-      for (std::uint32_t n = 16; n <= most; n *= 4) {
-        std::vector<double> means;
-        for (std::uint32_t pass = 0; pass < passes; ++pass) {
-          // The planted fault takes independent points for all sets.
-          const PointSetKind kind = setup.fault() ? PointSetKind::independent : points.kind;
-          means.push_back(mean_of_pass({kind, setup.seed() + 31 * n + d, pass, n}, d));
-        }
-        const Spread s = spread_of(means);
-        curve.x.push_back(n), curve.y.push_back(std::sqrt(s.variance));
-        variances.push_back(s.variance), spreads.push_back(s.variance * std::sqrt(2.0 / (passes - 1)));
-        z_mean.push_back((s.mean - 1) / s.mean_error);
-      }
-      const LineFit fit = fit_power_law(curve.x, variances, spreads);
-      const double slope = 0.5 * fit.slope, error = 0.5 * fit.slope_error;
-      rate.x.push_back(d), rate.y.push_back(slope), rate.low.push_back(slope - error),
-          rate.high.push_back(slope + error);
-      z_slope.push_back((slope + 0.5) / error);
-      steepest = std::min(steepest, slope);
-      if (slope > flattest) flattest = slope, flattest_error = error;
-      if ((d == 1 || d == 4 || d == 8) && points.kind != PointSetKind::halton) errors.curves.push_back(curve);
-    }
-    rates.curves.push_back(rate);
+    const Rates rates = measure(setup, points);
+    exponents.curves.push_back(rates.exponents);
+    if (points.kind != PointSetKind::halton)
+      for (std::size_t d : {1u, 4u, 8u}) errors.curves.push_back(rates.errors[d - 1]);
     const std::string name = points.name;
     // A few passes are not quite normal: their squared deviations are summed as Student's, of variance n / (n - 2).
     double sum = 0;
-    const double degrees = passes - 1;
-    for (double z : z_mean) sum += z * z * (degrees - 2) / degrees;
+    const double degrees = std::max(8u, setup.count("passes")) - 1;
+    for (double z : rates.z_mean) sum += z * z * (degrees - 2) / degrees;
     findings.checks.push_back(
-        chi_square_check("Unbiased in every dimension: " + name + ".", sum, double(z_mean.size())));
-    if (points.kind == PointSetKind::independent) {
-      findings.checks.push_back(
-          deviations_check("Independent points have the exponent $-1/2$ in every dimension.", z_slope));
-    } else {
-      findings.checks.push_back(rejected(z_check("Faster than $N^{-1/2}$ in all of 1 to 8 dimensions: " + name + ".",
-                                                 flattest, flattest_error, -0.5)));
-    }
+        chi_square_check("Unbiased in every dimension: " + name + ".", sum, double(rates.z_mean.size())));
+    findings.checks.push_back(
+        points.kind == PointSetKind::independent
+            ? deviations_check("Independent points have the exponent $-1/2$ in every dimension.", rates.z_slope)
+            : rejected(z_check("Faster than $N^{-1/2}$ in all of 1 to 8 dimensions: " + name + ".", rates.flattest,
+                               rates.flattest_error, -0.5)));
   }
-  rates.curves.push_back(function_curve(
-      "$N^{-1/2}$", Mark::dashes, [](double) { return -0.5; }, 0.5, 8.5, false, 2));
-  rates.curves.push_back(function_curve(
-      "$N^{-3/2}$", Mark::dashes, [](double) { return -1.5; }, 0.5, 8.5, false, 2));
-  findings.sections = {errors, rates};
+  for (const auto& [name, exponent] : {std::pair{"$N^{-1/2}$", -0.5}, std::pair{"$N^{-3/2}$", -1.5}})
+    exponents.curves.push_back(function_curve(
+        name, Mark::dashes, [e = exponent](double) { return e; }, 0.5, 8.5, false, 2));
+  findings.sections = {errors, exponents};
   return findings;
 }
 

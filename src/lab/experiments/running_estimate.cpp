@@ -85,8 +85,6 @@ Findings run(const Setup& setup) {
              {variance, function_curve(
                             "$9/(7N)$", Mark::line, [](double n) { return variance_of_one / n; }, 1, samples, true, 2)},
              false});
-  findings.sections.push_back(
-      Text{"The line fitted to the variances has the slope " + with_error(fit.slope, fit.slope_error) + "."});
   findings.checks = {deviations_check("The mean of the estimators is 1 for every $N$.", z_mean),
                      deviations_check("Their variance is $9/(7N)$ for every $N$.", z_variance),
                      z_check("The slope of the logarithms is $-1$.", fit.slope, fit.slope_error, -1)};

@@ -107,10 +107,7 @@ Findings run(const Setup& setup) {
                               {"samples $N$", true, {}, {}},
                               {"variance", true, {}, {}},
                               {edge_plain.curve, edge.curve},
-                              false},
-                       Text{"Fitted slopes: " + with_error(smooth.slope, smooth.slope_error) +
-                            " for the smooth integrand from 16 strata on, " + with_error(fit.slope, fit.slope_error) +
-                            " for the edge."}};
+                              false}};
   findings.checks = {
       deviations_check("Plain sampling has the variance $9/(7N)$.", random.z),
       deviations_check("Stratified sampling has the variance $\\frac1{N^2}\\sum_k\\sigma_k^2$.", one.z),
