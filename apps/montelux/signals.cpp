@@ -3,16 +3,18 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+
 namespace montelux::cli {
 
 namespace {
 
-// A handler can speak to the program by such a flag alone.
-volatile sig_atomic_t stop_signal = 0;
+// The handler runs on any thread and is asked from others: a lock-free atomic serves both.
+std::atomic<int> stop_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void note_stop(int signal) {
-  if (stop_signal != 0) _exit(128 + signal);
-  stop_signal = signal;
+  if (stop_signal.exchange(signal) != 0) _exit(128 + signal);
 }
 
 void handle(int signal, void (*handler)(int)) {
