@@ -178,8 +178,11 @@ std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, doubl
         factor, interval, std::isfinite(v.times_longer) ? fmt::format("{:.2g}", v.times_longer) : "many");
   const bool biased = lab::differs_from_reference(contest.result.methods[v.first]) ||
                       lab::differs_from_reference(contest.result.methods[v.second]);
-  return fmt::format("{} is {:.3g} times as efficient as {} ({}){}", first_wins ? a : b, factor, first_wins ? b : a,
-                     interval, biased ? "; one of them is biased, so this holds for this time alone" : "");
+  const lab::Measured& relative = v.relative_ratio;
+  const double by_relative = first_wins ? relative.mean : 1 / relative.mean;
+  return fmt::format("{} is {:.3g} times as efficient as {} ({}), by relMSE {:.3g} times{}", first_wins ? a : b, factor,
+                     first_wins ? b : a, interval, by_relative,
+                     biased ? "; one of them is biased, so this holds for this time alone" : "");
 }
 
 Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
