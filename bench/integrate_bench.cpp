@@ -106,8 +106,8 @@ struct Rung {
   double samples, seconds, error, claimed;
 };
 struct Limits {
-  int repeats = 16;
-  double cap = 1;  // seconds of one run
+  int repeats = 8;
+  double cap = 0.02;  // seconds of one run
   std::uint64_t most = std::uint64_t(1) << 27;
 };
 
