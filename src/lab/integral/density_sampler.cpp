@@ -70,15 +70,37 @@ void DensitySampler::tabulate() {
   for (double& c : cumulated_) c /= sum;
 }
 
+// The largest density found from a point by searching along one axis after the other.
+double DensitySampler::climb(std::vector<double> top) const {
+  constexpr std::size_t steps = 65, sweeps = 3;
+  std::vector<double> line(dimension_ * steps), values(steps);
+  double largest = 0;
+  for (std::size_t turn = 0; turn < sweeps * dimension_; ++turn) {
+    const std::size_t axis = turn % dimension_;
+    for (std::size_t d = 0; d < dimension_; ++d)
+      for (std::size_t i = 0; i < steps; ++i)
+        line[d * steps + i] = d == axis ? std::clamp(double(i) / double(steps - 1), 1e-9, 1 - 1e-9) : top[d];
+    user_.density({line, dimension_, steps}, values);
+    const std::size_t best = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
+    if (!(checked(values[best]) > largest)) continue;
+    largest = values[best];
+    top[axis] = line[axis * steps + best];
+  }
+  return largest;
+}
+
 void DensitySampler::find_bound() {
   constexpr std::size_t tried = 1u << 14;
   std::vector<double> points(dimension_ * tried), values(tried);
   fill_sobol(CubeKey::of(bound_purpose, 0), {dimension_, 0, tried, points.data()});
   user_.density({points, dimension_, tried}, values);
-  double largest = 0;
-  for (double p : values) largest = std::max(largest, checked(p));
+  for (double p : values) checked(p);
+  const std::size_t best = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
+  std::vector<double> top(dimension_);
+  for (std::size_t d = 0; d < dimension_; ++d) top[d] = points[d * tried + best];
+  const double largest = std::max(values[best], climb(std::move(top)));
   if (!(largest > 0)) throw std::invalid_argument("a density is 0 wherever it was tried");
-  bound_ = user_.bound.value_or(1.5 * largest);
+  bound_ = user_.bound.value_or(1.2 * largest);
 }
 
 DensitySampler::Drawn DensitySampler::sample(CubeKey key, std::uint64_t first, std::size_t count,

@@ -23,6 +23,7 @@ class DensitySampler {
  private:
   void tabulate();
   void find_bound();
+  double climb(std::vector<double> top) const;
   Drawn sample_by_table(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
   Drawn sample_by_rejection(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
 

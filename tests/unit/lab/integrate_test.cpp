@@ -187,6 +187,18 @@ TEST(Diagnosis, rejection_reports_its_acceptance_and_refuses_a_bound_that_is_too
   EXPECT_THROW(integrate(p, method_named("importance"), {.samples = 1u << 14}), std::invalid_argument);
 }
 
+TEST(Diagnosis, the_bound_of_rejection_is_found_in_a_far_corner) {
+  // The product of 2 x_d over 8 axes has its maximum 2^8 in one corner of 2^8.
+  Problem p{.integrand = {8, pointwise([](const double* x) { return x[0] + x[7]; })}};
+  p.densities.push_back({.density = pointwise([](const double* x) {
+                           double product = 1;
+                           for (int d = 0; d < 8; ++d) product *= 2 * x[d];
+                           return product;
+                         })});
+  const IntegralResult r = integrate(p, method_named("importance"), {.samples = 1u << 14});
+  EXPECT_NEAR(*r.acceptance, 1 / (1.2 * 256), 0.1 / 256);
+}
+
 TEST(Budget, a_target_stops_the_run_and_a_budget_that_ends_first_is_said) {
   const IntegralResult reached = integrate(peak(), method_named("qmc"), {.target_error = 1e-3});
   EXPECT_TRUE(reached.target_reached);
