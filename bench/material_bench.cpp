@@ -49,8 +49,10 @@ BsdfRow bench_row(BsdfKind kind) {
 template <class F>
 void vertex(benchmark::State& state) {
   const auto kind = BsdfKind(state.range(0));
-  const std::vector<BsdfRow> rows(std::size_t(lanes_of<F>), bench_row(kind));
-  const BsdfLanes<F> lanes{Uint<F>(std::uint32_t(kind)), rows.data(), Mask<F>(true)};
+  const BsdfRow row = bench_row(kind);
+  BsdfSlots<F> slots;
+  for (int i = 0; i < bsdf_row_size; ++i) slots.v[i] = F(row.v[i]);
+  const BsdfLanes<F> lanes{Uint<F>(std::uint32_t(kind)), &slots, Mask<F>(true)};
   RandomStream<F> stream(lane_index<F>(), Uint<F>(7u));
   for (auto _ : state) {
     const Vec3<F> wo = direction_at(F(0.1f) + 0.9f * stream.next(), stream.next());

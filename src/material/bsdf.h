@@ -12,21 +12,20 @@ namespace montelux {
 
 // The parameters of a BSDF at one point, already looked up: which slot means what is the model's own affair.
 inline constexpr int bsdf_row_size = 24;
-struct alignas(32) BsdfRow {
-  float v[bsdf_row_size] = {};
+template <class F>
+struct BsdfSlots {
+  F v[bsdf_row_size];
+};
+struct alignas(32) BsdfRow : BsdfSlots<float> {
+  BsdfRow() : BsdfSlots<float>{} {}
 };
 
-// The rows of all lanes, one behind the other. A model that holds another gives it the slots from `first` on.
+// The slots of all lanes. A model that holds another gives it the slots from `first` on.
 template <class F>
 struct BsdfRows {
-  const BsdfRow* rows;
+  const BsdfSlots<F>* slots;
   int first = 0;
-  MONTELUX_INLINE F number(int slot) const {
-    if constexpr (lanes_of<F> == 1)
-      return rows[0].v[first + slot];
-    else
-      return gather(rows[0].v + first + slot, Uint<F>(lane_index<F>() * std::uint32_t(bsdf_row_size)));
-  }
+  MONTELUX_INLINE F number(int slot) const { return slots->v[first + slot]; }
   MONTELUX_INLINE Spectrum<F> spectrum(int slot) const {
     Spectrum<F> s;
     for (int i = 0; i < spectrum_size; ++i) s.c[i] = number(slot + i);

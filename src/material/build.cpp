@@ -5,22 +5,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/internal_reflectance.h"
+
 namespace montelux {
 
 namespace {
 
-float encoded(float x, const RowBinding& binding) {
+template <class F>
+F encoded(F x, const RowBinding& binding) {
   switch (binding.encoding) {
     case RowEncoding::plain:
       break;
     case RowEncoding::unit:
       return clamp(x * binding.scale, 0.0f, 1.0f);
     case RowEncoding::roughness:
-      x = std::sqrt(std::max(x, 0.0f));
+      x = safe_sqrt(x);
       break;
     case RowEncoding::reflectance_to_k: {
-      float r = clamp(x, 0.0f, 0.9999f);
-      x = 2 * std::sqrt(r / (1 - r));
+      F r = clamp(x, 0.0f, 0.9999f);
+      x = 2.0f * sqrt(r / (1.0f - r));
     }
   }
   return x * binding.scale;
@@ -120,6 +123,17 @@ void layers(RowBuilder& b, const Entity& entity, const std::string& prefix) {
   b.put(Slots::samples, float(entity.parameters.integer("nsamples", 1)));
 }
 
+// Where coat and layer are the same everywhere and nothing scatters under the coat, its walks can be summed.
+void sum_reflections(Material& material) {
+  using Slots = CoatedDiffuseSlots;
+  float* v = material.row.v;
+  for (const RowBinding& binding : material.bindings)
+    if (binding.slot < Slots::max_depth) return;
+  if (v[Slots::albedo] > 0 || v[Slots::albedo + 1] > 0 || v[Slots::albedo + 2] > 0) return;
+  v[Slots::internal] =
+      internal_reflectance({{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]});
+}
+
 void fill_mixture(RowBuilder& b, const Entity& entity, const MaterialInputs& inputs) {
   const auto& names = entity.parameters.array<std::string>("materials");
   if (names.size() != 2) {
@@ -167,6 +181,7 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
        [](RowBuilder& b, const Entity& entity) {
          layers(b, entity, "");
          b.spectrum(CoatedDiffuseSlots::reflectance, "reflectance", gray(0.5f));
+         sum_reflections(b.material());
        }},
       {"coatedconductor", BsdfKind::coated_conductor,
        [](RowBuilder& b, const Entity& entity) {
@@ -237,22 +252,43 @@ bool uses_parameters(const Material& material) {
   }
 }
 
-BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {
-  BsdfRow row = material.row;
+template <class F>
+void look_up_slots(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on,
+                   BsdfSlots<F>& slots) {
+  const auto put = [&](int slot, F value, const RowBinding& binding) {
+    slots.v[slot] = select(on, encoded(value, binding), slots.v[slot]);
+  };
   for (const RowBinding& binding : material.bindings) {
     if (!binding.is_spectrum) {
-      row.v[binding.slot] = encoded(textures.number(NumberTextureId(binding.texture), point), binding);
+      put(binding.slot, textures.number(NumberTextureId(binding.texture), points, on), binding);
       continue;
     }
-    Rgb value = textures.spectrum(SpectrumTextureId(binding.texture), point);
-    for (int i = 0; i < spectrum_size; ++i) row.v[binding.slot + i] = encoded(value.c[i], binding);
+    const Spectrum<F> value = textures.spectrum(SpectrumTextureId(binding.texture), points, on);
+    for (int i = 0; i < spectrum_size; ++i) put(binding.slot + i, value.c[i], binding);
   }
+}
+
+BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {
+  BsdfRow row = material.row;
+  look_up_slots<float>(material, textures, {point.uv, point.p, point.n}, true, row);
   return row;
 }
 
-Vec3f mapped_normal(const Material& material, Vec2f uv) {
-  Rgb c = material.normal_map->bilinear({uv.x, 1 - uv.y}, Wrap::repeat);
-  return {2 * c.c[0] - 1, 2 * c.c[1] - 1, 2 * c.c[2] - 1};
+template <class F>
+Vec3<F> mapped_normal(const Material& material, const Vec2<F>& uv, Mask<F> on) {
+  const Vec2<F> st{uv.x, 1.0f - uv.y};
+  Spectrum<F> c;
+  if constexpr (lanes_of<F> == 1)
+    c = material.normal_map->bilinear(st, Wrap::repeat);
+  else
+    c = material.normal_map->bilinear(st, Wrap::repeat, on);
+  return {2.0f * c.c[0] - 1.0f, 2.0f * c.c[1] - 1.0f, 2.0f * c.c[2] - 1.0f};
 }
+
+template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<float>&, bool, BsdfSlots<float>&);
+template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&, Mask<NativeFloats>,
+                            BsdfSlots<NativeFloats>&);
+template Vec3f mapped_normal(const Material&, const Vec2f&, bool);
+template Vec3<NativeFloats> mapped_normal(const Material&, const Vec2<NativeFloats>&, Mask<NativeFloats>);
 
 }  // namespace montelux

@@ -62,9 +62,14 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs);
 
 // Whether it matters how a surface of this material is parametrised.
 bool uses_parameters(const Material& material);
-// The parameters at a point.
+// Writes what textures say into the slots, in the lanes that are on; the others are kept.
+template <class F>
+void look_up_slots(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on,
+                   BsdfSlots<F>& slots);
+// All parameters at a point.
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point);
 // The normal of the map at uv in the tangent frame, not unit. Only where there is a map.
-Vec3f mapped_normal(const Material& material, Vec2f uv);
+template <class F>
+Vec3<F> mapped_normal(const Material& material, const Vec2<F>& uv, Mask<F> on);
 
 }  // namespace montelux

@@ -7,13 +7,129 @@ namespace montelux {
 
 struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int reflectance = base + DiffuseSlots::reflectance;
+  // What internal_reflectance() says of the coat; 0: not known, or there are scatterers under the coat.
+  static constexpr int internal = reflectance + spectrum_size;
 };
 
+// Where the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law forgets
+// where light came from, so after n reflections at the base, between which the coat sends back the part K, there is
+// r (r K)^(n - 1) of what entered, distributed by the cosine. What remains to be drawn is one facet for the way in and
+// one for the way out, each an unbiased estimate of a transmittance. Directions come from the coat's facets or from a
+// cosine lobe, so that the density is exact. Elsewhere it is a random walk.
 template <class F>
 class CoatedDiffuse : public Layered<F, Diffuse<F>> {
  public:
   static constexpr std::string_view name = "coateddiffuse";
-  using Layered<F, Diffuse<F>>::Layered;
+
+  explicit CoatedDiffuse(const BsdfRows<F>& rows)
+      : Layered<F, Diffuse<F>>(rows),
+        reflectance_(rows.spectrum(CoatedDiffuseSlots::reflectance)),
+        internal_(rows.number(CoatedDiffuseSlots::internal)) {}
+
+  BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
+  BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+
+ private:
+  using Walk = Layered<F, Diffuse<F>>;
+  using Walk::coat_, Walk::medium_, Walk::max_depth_;
+
+  // Both directions above the surface.
+  BsdfValue<F> value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>& context, LayerPurpose purpose) const;
+  BsdfValue<F> summed_value(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
+  BsdfSample<F> summed_sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+  // The part of light from w that arrives at the base, or the other way, by one facet.
+  F passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const;
+  // Over all numbers of reflections at the base: sum of r^n K^(n - 1), without entry and exit.
+  Spectrum<F> reflections() const;
+  // The probability with which sample() takes a facet of the coat.
+  F coat_share(Vec3<F> o) const;
+
+  Spectrum<F> reflectance_;
+  F internal_;
 };
+
+template <class F>
+BsdfValue<F> CoatedDiffuse<F>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+  const Mask<F> summed = internal_ > F(0.0f), walks = context.on & !summed;
+  if (!any(walks)) return summed_value(wo, wi, context);
+  const BsdfValue<F> walked = Walk::evaluate(wo, wi, {context.mode, context.random, walks});
+  if (!any(context.on & summed)) return walked;
+  const BsdfValue<F> s = summed_value(wo, wi, context);
+  return {select(walks, walked.f_cos, s.f_cos), {select(walks, walked.density.value, s.density.value)}};
+}
+
+template <class F>
+BsdfSample<F> CoatedDiffuse<F>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+  const Mask<F> summed = internal_ > F(0.0f), walks = context.on & !summed;
+  if (!any(walks)) return summed_sample(wo, u, u2, context);
+  const BsdfSample<F> walked = Walk::sample(wo, u, u2, {context.mode, context.random, walks});
+  if (!any(context.on & summed)) return walked;
+  const BsdfSample<F> s = summed_sample(wo, u, u2, context);
+  const Mask<F> valid = (walked.valid & walks) | (s.valid & summed);
+  const Mask<F> delta = (walked.delta & walks) | (s.delta & summed);
+  return {select(walks, walked.wi, s.wi),
+          select(walks, walked.weight, s.weight),
+          {select(walks, walked.density.value, s.density.value)},
+          F(1.0f),
+          valid,
+          delta};
+}
+
+template <class F>
+F CoatedDiffuse<F>::passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const {
+  const auto s = coat_.template sample_lobes<Lobes::transmission>(w, F(0.0f), u, mode);
+  return select(s.valid, s.weight * medium_.transmittance(medium_.thickness, s.wi), F(0.0f));
+}
+
+template <class F>
+Spectrum<F> CoatedDiffuse<F>::reflections() const {
+  // Of max_depth events every other one is at the base, the first among them.
+  const F count = floor((max_depth_ + F(1.0f)) * 0.5f);
+  return per_component(
+      [&](F r) {
+        const F ratio = r * internal_;
+        return r * (F(1.0f) - pow(ratio, count)) / max(F(1.0f) - ratio, F(1e-6f));
+      },
+      reflectance_);
+}
+
+template <class F>
+F CoatedDiffuse<F>::coat_share(Vec3<F> o) const {
+  const F reflected = fresnel_dielectric(o.z, coat_.eta());
+  const F base = (F(1.0f) - reflected) * (F(1.0f) - internal_) * max_component(reflections());
+  return reflected / max(reflected + base, F(1e-30f));
+}
+
+template <class F>
+BsdfValue<F> CoatedDiffuse<F>::value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>& context, LayerPurpose purpose) const {
+  const auto coat = coat_.template evaluate_lobes<Lobes::reflection>(o, i, context.mode);
+  const WalkDraws<F> draws{context.random.fork(Uint<F>(std::uint32_t(purpose)))};
+  const F in = passes(o, draws.pair(0), context.mode), out = passes(i, draws.pair(2), adjoint(context.mode));
+  const F cosine = cosine_density(i), share = coat_share(o);
+  return {gray(coat.f_cos) + reflections() * (in * out * cosine), {lerp(share, cosine, coat.density)}};
+}
+
+template <class F>
+BsdfValue<F> CoatedDiffuse<F>::summed_value(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+  const F side = copysign(F(1.0f), wo.z);
+  const Mask<F> same = same_side(wo, wi), on = context.on & same;
+  const BsdfValue<F> v = value(wo * side, wi * side, context, evaluation_walk);
+  return {select(on, v.f_cos, gray(F(0.0f))), {select(on, v.density.value, F(0.0f))}};
+}
+
+template <class F>
+BsdfSample<F> CoatedDiffuse<F>::summed_sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+  const F side = copysign(F(1.0f), wo.z);
+  const Vec3<F> o = wo * side;
+  const F share = coat_share(o);
+  const Mask<F> by_coat = u < share, delta = by_coat & coat_.is_delta();
+  const auto facet = coat_.template sample_lobes<Lobes::reflection>(o, F(0.0f), u2, context.mode);
+  const Vec3<F> i = select(by_coat, facet.wi, sample_cosine_hemisphere(u2));
+  const BsdfValue<F> v = value(o, i, context, sampling_walk);
+  const Mask<F> valid = context.on & (i.z > F(0.0f)) & (delta | (v.density.value > F(0.0f))) & (facet.valid | !by_coat);
+  const Spectrum<F> weight =
+      select(delta, gray(facet.weight / max(share, F(1e-30f))), v.f_cos * (F(1.0f) / max(v.density.value, F(1e-30f))));
+  return {i * side, weight, v.density, F(1.0f), valid, delta};
+}
 
 }  // namespace montelux

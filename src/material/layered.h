@@ -30,7 +30,7 @@ class Layered {
 
   explicit Layered(const BsdfRows<F>& rows)
       : coat_({rows.number(LayeredSlots::alpha_x), rows.number(LayeredSlots::alpha_y)}, rows.number(LayeredSlots::eta)),
-        base_(BsdfRows<F>{rows.rows, rows.first + LayeredSlots::base}),
+        base_(BsdfRows<F>{rows.slots, rows.first + LayeredSlots::base}),
         medium_{rows.number(LayeredSlots::thickness), rows.number(LayeredSlots::g),
                 rows.spectrum(LayeredSlots::albedo)},
         max_depth_(rows.number(LayeredSlots::max_depth)),
@@ -43,7 +43,7 @@ class Layered {
   BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
 
- private:
+ protected:
   using CoatSample = typename Dielectric<F>::LobeSample;
   using CoatValue = typename Dielectric<F>::LobeValue;
 

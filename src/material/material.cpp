@@ -34,7 +34,7 @@ template <class Model, class F>
 __attribute__((noinline)) void scatter_model(const BsdfLanes<F>& lanes, const ScatterQuery<F>& query,
                                              BsdfContext<F> context, Scattering<F>& all) {
   Mask<F> mask = context.on;
-  Model model(BsdfRows<F>{lanes.rows});
+  Model model(BsdfRows<F>{lanes.slots});
   merge(all.next, model.sample(query.wo, query.u, query.u2, context), mask);
   context.on = mask & query.light_wanted;
   if (any(context.on)) merge(all.toward_light, model.evaluate(query.wo, query.wi_light, context), context.on);
@@ -56,7 +56,7 @@ BsdfValue<F> evaluate(const BsdfLanes<F>& lanes, Vec3<F> wo, Vec3<F> wi, const B
   BsdfValue<F> all = no_value<F>();
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
     const BsdfContext<F> part{context.mode, context.random, mask};
-    merge(all, Model(BsdfRows<F>{lanes.rows}).evaluate(wo, wi, part), mask);
+    merge(all, Model(BsdfRows<F>{lanes.slots}).evaluate(wo, wi, part), mask);
   });
   return all;
 }
@@ -66,7 +66,7 @@ BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, c
   BsdfSample<F> all = no_sample<F>();
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
     const BsdfContext<F> part{context.mode, context.random, mask};
-    merge(all, Model(BsdfRows<F>{lanes.rows}).sample(wo, u3.x, Vec2<F>{u3.y, u3.z}, part), mask);
+    merge(all, Model(BsdfRows<F>{lanes.slots}).sample(wo, u3.x, Vec2<F>{u3.y, u3.z}, part), mask);
   });
   return all;
 }
@@ -75,7 +75,7 @@ template <class F>
 Mask<F> is_delta(const BsdfLanes<F>& lanes) {
   Mask<F> all = Mask<F>(false);
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
-    Mask<F> delta = Model(BsdfRows<F>{lanes.rows}).is_delta();
+    Mask<F> delta = Model(BsdfRows<F>{lanes.slots}).is_delta();
     all = all | (mask & delta);
   });
   return all;

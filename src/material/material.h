@@ -60,9 +60,9 @@ MONTELUX_INLINE void for_each_present_model(Uint<F> kind, Mask<F> on, Visitor&& 
 // What the points of all lanes are made of.
 template <class F>
 struct BsdfLanes {
-  Uint<F> kind;         // a BsdfKind in each lane
-  const BsdfRow* rows;  // one per lane, in idle lanes too (their content does not matter)
-  Mask<F> on;           // the lanes to serve; results are zero and invalid in the others
+  Uint<F> kind;               // a BsdfKind in each lane
+  const BsdfSlots<F>* slots;  // idle lanes may hold anything
+  Mask<F> on;                 // the lanes to serve; results are zero and invalid in the others
 };
 
 // The questions of one vertex: how much comes from wi_light, where `light_wanted`, and where does the path go on?

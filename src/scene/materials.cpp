@@ -6,79 +6,116 @@ namespace montelux {
 
 namespace {
 
-Frame<float> lane_of(const auto& frame, int k) { return {lane(frame.s, k), lane(frame.t, k), lane(frame.n, k)}; }
-
-template <class F>
-void set_frame(Frame<F>& frame, int k, const Frame<float>& x) {
-  set_lane(frame.s, k, x.s), set_lane(frame.t, k, x.t), set_lane(frame.n, k, x.n);
+// How many slots a model reads, from the first on.
+std::uint32_t slots_of(BsdfKind kind) {
+  constexpr auto spectrum = std::uint32_t(spectrum_size);
+  switch (kind) {
+    case BsdfKind::diffuse:
+      return DiffuseSlots::reflectance + spectrum;
+    case BsdfKind::conductor:
+      return ConductorSlots::k + spectrum;
+    case BsdfKind::dielectric:
+      return DielectricSlots::eta + 1;
+    case BsdfKind::coated_diffuse:
+      return CoatedDiffuseSlots::internal + 1;
+    case BsdfKind::thin_dielectric:
+      return ThinDielectricSlots::eta + 1;
+    case BsdfKind::diffuse_transmission:
+      return DiffuseTransmissionSlots::transmittance + spectrum;
+    case BsdfKind::phong:
+      return PhongSlots::exponent + 1;
+    case BsdfKind::coated_conductor:
+      break;
+  }
+  return std::uint32_t(bsdf_row_size);
 }
 
+// The frame turned by a tangent-space normal (components in [-1, 1], z outward); the map keeps the side of the surface.
 template <class F>
-SurfacePoint<float> point_of(const SurfacePoint<F>& s, int k) {
-  return {lane(s.p, k), lane(s.p_error, k), lane(s.ng, k), lane(s.ns, k), lane(s.dpdu, k), lane(s.uv, k)};
+Frame<F> with_normal(const Frame<F>& frame, const Vec3<F>& dpdu, const Vec3<F>& tangent_normal) {
+  Vec3<F> n = frame.to_world(tangent_normal);
+  const Mask<F> proper = dot(n, n) > F(0.0f);
+  n = normalize(select<F>(proper, n, frame.n));
+  const Frame<F> turned = Frame<F>::from_normal_tangent(select<F>(dot(n, frame.n) < F(0.0f), -n, n), dpdu);
+  return {select<F>(proper, turned.s, frame.s), select<F>(proper, turned.t, frame.t),
+          select<F>(proper, turned.n, frame.n)};
 }
 
-// The frame turned by a tangent-space normal (components in [-1, 1], z outward).
-Frame<float> with_normal(const Frame<float>& frame, const Vec3f& dpdu, Vec3f tangent_normal) {
-  Vec3f n = frame.to_world(tangent_normal);
-  if (!(dot(n, n) > 0)) return frame;
-  n = normalize(n);
-  // The map keeps the side of the surface.
-  return Frame<float>::from_normal_tangent(dot(n, frame.n) < 0 ? -n : n, dpdu);
+// Calls f(number, lanes) for each material among the lanes.
+template <class F, class Function>
+void for_each_material(Uint<F> material, Mask<F> on, Function f) {
+  while (any(on)) {
+    const std::uint32_t number = lane(material, std::countr_zero(bits(on)));
+    const Mask<F> same = on & (material == Uint<F>(number));
+    f(number, same);
+    on = on & !same;
+  }
 }
 
 }  // namespace
 
 MaterialSet::MaterialSet(std::vector<Material> materials, const TextureSet* textures)
     : materials_(std::move(materials)), textures_(textures) {
-  for (const Material& material : materials_) {
-    kinds_.push_back(std::uint32_t(material.kind));
-    plain_.push_back(material.is_plain() ? 1u : 0u);
+  for (const Material& m : materials_) {
+    kinds_.push_back(std::uint32_t(m.kind));
+    traits_.push_back((m.bindings.empty() && !m.normal_map ? 0u : needs_look_up) | (m.mixture ? is_mixture : 0u) |
+                      (m.is_interface ? is_interface : 0u) | slots_of(m.kind) << slots_shift);
+    rows_.push_back(m.row);
+    has_mixtures_ = has_mixtures_ || m.mixture;
   }
   for (std::size_t kind = 0; kind < bsdf_kind_count; ++kind) two_sided_[kind] = transmits(BsdfKind(kind)) ? 1u : 0u;
 }
 
-MaterialSet::PointScattering MaterialSet::look_up(std::uint32_t number, const SurfacePoint<float>& at, float u,
-                                                  BsdfRow& row, Frame<float>& frame) const {
-  const TexturePoint point{at.uv, at.p, at.ns};
-  const Material* material = &materials_[number];
-  while (material->mixture) {
-    const float amount = clamp(textures_->number(material->mixture->amount, point), 0.0f, 1.0f);
-    // The part of u below or above the amount is uniform again, for a mixture in the mixture.
-    const bool second = u < amount;
-    u = second ? u / amount : (u - amount) / (1 - amount);
-    material = &materials_[material->mixture->children[second ? 1 : 0]];
-  }
-  if (material->is_interface) return {BsdfKind::diffuse, true};
-  row = material_row(*material, *textures_, point);
-  if (material->normal_map) frame = with_normal(frame, at.dpdu, mapped_normal(*material, at.uv));
-  return {material->kind, false};
+template <class F>
+Uint<F> MaterialSet::settle_mixtures(Uint<F> material, const TexturePoints<F>& points, Mask<F> on, F u) const {
+  using U = Uint<F>;
+  const auto mixed_lanes = [&]() -> Mask<F> {
+    const U trait = gather(traits_.data(), material) & U(std::uint32_t(is_mixture));
+    return on & (trait != U(0u));
+  };
+  for (Mask<F> mixed = mixed_lanes(); any(mixed); mixed = mixed_lanes())
+    for_each_material<F>(material, mixed, [&](std::uint32_t number, Mask<F> same) {
+      const Mixture& mixture = *materials_[number].mixture;
+      const F amount = clamp(textures_->number(mixture.amount, points, same), 0.0f, 1.0f);
+      // The part of u below or above the amount is uniform again, for a mixture in the mixture.
+      const Mask<F> second = u < amount;
+      const F rest = select(second, u, u - amount) / select(second, amount, F(1.0f) - amount);
+      u = select(same, rest, u);
+      material = select(same, select(second, U(mixture.children[1]), U(mixture.children[0])), material);
+    });
+  return material;
+}
+
+template <class F>
+void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, const TexturePoints<F>& points,
+                          Mask<F> on, SurfaceScattering<F>& s) const {
+  look_up_slots<F>(material, *textures_, points, on, s.slots);
+  if (!material.normal_map) return;
+  const Frame<F> turned = with_normal<F>(s.frame, at.dpdu, mapped_normal<F>(material, at.uv, on));
+  s.frame = {select<F>(on, turned.s, s.frame.s), select<F>(on, turned.t, s.frame.t),
+             select<F>(on, turned.n, s.frame.n)};
 }
 
 template <class F>
 SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3<F>& d, Mask<F> on,
                                              RandomStream<F> random) const {
   using U = Uint<F>;
-  SurfaceScattering<F> s;
-  const U material = select(on, at.material, U(0u));
-  s.kind = gather(kinds_.data(), material);
-  s.frame = Frame<F>::from_normal_tangent(at.point.ns, at.point.dpdu);
-  s.is_interface = Mask<F>(false);
-  for_each_lane(on, [&](int k) { s.storage[k] = materials_[lane(material, k)].row; });
+  const TexturePoints<F> points{at.point.uv, at.point.p, at.point.ns};
+  U material = select(on, at.material, U(0u));
+  if (has_mixtures_) material = settle_mixtures<F>(material, points, on, random.fork(U(0u)).next());
 
-  const Mask<F> special = on & (gather(plain_.data(), material) == U(0u));
-  if (any(special)) {
-    const F u = random.fork(U(0u)).next();
-    U passes = U(0u);
-    for_each_lane(special, [&](int k) {
-      Frame<float> frame = lane_of(s.frame, k);
-      PointScattering found = look_up(lane(material, k), point_of(at.point, k), lane(u, k), s.storage[k], frame);
-      set_frame(s.frame, k, frame);
-      set_lane(s.kind, k, std::uint32_t(found.kind));
-      set_lane(passes, k, found.is_interface ? 1u : 0u);
-    });
-    s.is_interface = special & (passes != U(0u));
-  }
+  SurfaceScattering<F> s;
+  const U trait = gather(traits_.data(), material);
+  s.kind = gather(kinds_.data(), material);
+  s.is_interface = on & ((trait & U(std::uint32_t(is_interface))) != U(0u));
+  s.frame = Frame<F>::from_normal_tangent(at.point.ns, at.point.dpdu);
+  const U slots = trait >> int(slots_shift), row = material * U(std::uint32_t(sizeof(BsdfRow) / sizeof(float)));
+  for (int i = 0; i < bsdf_row_size && any(on & (slots > U(std::uint32_t(i)))); ++i)
+    s.slots.v[i] = gather(rows_.data()->v + i, row);
+  for_each_material<F>(
+      material, on & ((trait & U(std::uint32_t(needs_look_up))) != U(0u)),
+      [&](std::uint32_t number, Mask<F> same) { look_up<F>(materials_[number], at.point, points, same, s); });
+
   s.is_delta = is_delta<F>(s.lanes(on));
   const Mask<F> both_sides = on & (gather(two_sided_.data(), s.kind) != U(0u));
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};

@@ -13,14 +13,14 @@ namespace montelux {
 // A vertex ready to scatter: for every lane the model, its parameters, and the frame in which it works.
 template <class F>
 struct SurfaceScattering {
-  alignas(64) BsdfRow storage[lanes_of<F>];
+  BsdfSlots<F> slots;    // the parameters that the models of the lanes have
   Uint<F> kind;          // of BsdfKind
   Frame<F> frame;        // z: the shading normal, normal map applied
   Vec3<F> light_normal;  // unit, on the side of wo; zero where light of both sides counts. For the choice of a light
   Mask<F> is_interface;  // nothing scatters: the path goes straight on
   Mask<F> is_delta;      // no direction toward a light can scatter
 
-  BsdfLanes<F> lanes(Mask<F> on) const { return {kind, storage, on}; }
+  BsdfLanes<F> lanes(Mask<F> on) const { return {kind, &slots, on}; }
 };
 
 class MaterialSet {
@@ -37,18 +37,23 @@ class MaterialSet {
   const Material& operator[](std::size_t i) const { return materials_[i]; }
 
  private:
-  // One point by itself: textures, mixtures, normal maps. Writes the row, and changes the frame where a map says so.
-  struct PointScattering {
-    BsdfKind kind;
-    bool is_interface;
-  };
-  PointScattering look_up(std::uint32_t material, const SurfacePoint<float>& at, float u, BsdfRow& row,
-                          Frame<float>& frame) const;
+  // What packs gather of each material.
+  enum Trait : std::uint32_t { needs_look_up = 1, is_mixture = 2, is_interface = 4, slots_shift = 8 };
+
+  // Chooses among the parts of mixtures, as often as mixtures hold mixtures.
+  template <class F>
+  Uint<F> settle_mixtures(Uint<F> material, const TexturePoints<F>& points, Mask<F> on, F u) const;
+  // Textures and normal maps of the lanes that have one material.
+  template <class F>
+  void look_up(const Material& material, const SurfacePoint<F>& at, const TexturePoints<F>& points, Mask<F> on,
+               SurfaceScattering<F>& s) const;
 
   std::vector<Material> materials_;
   const TextureSet* textures_ = nullptr;
-  // What packs gather, a word each a material.
-  std::vector<std::uint32_t> kinds_, plain_;
+  // A word, or a row, each a material.
+  std::vector<std::uint32_t> kinds_, traits_;
+  std::vector<BsdfRow> rows_;
+  bool has_mixtures_ = false;
   std::array<std::uint32_t, bsdf_kind_count> two_sided_{};  // by BsdfKind
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/byte_gather.h"
+
 namespace montelux {
 
 std::optional<Wrap> parse_wrap(std::string_view name) {
@@ -80,9 +82,28 @@ Place wrapped(int x, int y, int width, int height, Wrap wrap) {
 }
 
 // s in texels, bounded so that it fits an integer whatever s is (not a number included).
-float in_texels(float s, int size, Wrap wrap) {
-  if (wrap == Wrap::repeat) s -= std::floor(s);
+template <class F>
+F in_texels(F s, int size, Wrap wrap) {
+  if (wrap == Wrap::repeat) return clamp((s - floor(s)) * float(size), 0.0f, float(size));
   return clamp(s * float(size), -float(size), 2.0f * float(size));
+}
+
+// The two texels between which x lies along one axis, and whether they are inside of the image.
+struct Neighbours {
+  Uint<NativeFloats> first, second;
+  Mask<NativeFloats> first_inside, second_inside;
+};
+Neighbours neighbours(NativeFloats first, int size, Wrap wrap) {
+  using F = NativeFloats;
+  const F n(static_cast<float>(size)), zero(0.0f);
+  F second = first + 1.0f;
+  const Mask<F> first_inside = (first >= zero) & (first < n), second_inside = (second >= zero) & (second < n);
+  if (wrap == Wrap::repeat) {
+    first = select(first < zero, first + n, first);
+    second = select(second >= n, second - n, second);
+  }
+  return {to_uint(clamp(first, 0.0f, float(size - 1))), to_uint(clamp(second, 0.0f, float(size - 1))), first_inside,
+          second_inside};
 }
 
 }  // namespace
@@ -103,8 +124,10 @@ Result<TexelImage> TexelImage::read(const std::filesystem::path& path, std::opti
   image.color_channels_ = int(selection.channels.size()) - int(selection.alpha);
   if (file->stored == SampleType::uint8) {
     for (int i = 0; i < 256; ++i) image.decoded_[i] = decode(code, float(i) / 255.0f);
-    image.texels_ = packed<std::uint8_t>(
+    auto codes = packed<std::uint8_t>(
         pixels, selection, [](float x, bool) { return std::uint8_t(std::clamp(std::lround(x * 255.0f), 0l, 255l)); });
+    codes.insert(codes.end(), 3, 0);
+    image.texels_ = std::move(codes);
   } else if (file->stored == SampleType::half) {
     image.texels_ = packed<std::uint16_t>(pixels, selection, [](float x, bool) { return float_to_half(x); });
   } else {
@@ -126,7 +149,8 @@ TexelImage TexelImage::from(const PixelBuffer& pixels) {
 }
 
 std::size_t TexelImage::bytes() const {
-  return std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, texels_);
+  const std::size_t values = std::size_t(width_) * std::size_t(height_) * std::size_t(channels());
+  return std::visit([&](const auto& v) { return values * sizeof(v[0]); }, texels_);
 }
 
 float TexelImage::value(int x, int y, int channel) const {
@@ -190,6 +214,45 @@ float TexelImage::bilinear_number(Vec2f st, Wrap wrap) const {
 }
 float TexelImage::bilinear_alpha(Vec2f st, Wrap wrap) const {
   return bilinear_of(st, wrap, [this](int x, int y) { return alpha_texel(x, y); });
+}
+
+Spectrum<NativeFloats> TexelImage::texels(Uint<NativeFloats> number) const {
+  using U = Uint<NativeFloats>;
+  Spectrum<NativeFloats> r;
+  const U first = number * U(std::uint32_t(channels()));
+  if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&texels_)) {
+    const U word = gather_bytes(codes->data(), first);
+    for (int i = 0; i < spectrum_size; ++i)
+      r.c[i] = i > 0 && is_gray() ? r.c[0] : gather(decoded_.data(), (word >> (8 * i)) & U(0xffu));
+    return r;
+  }
+  const float* floats = std::get<std::vector<float>>(texels_).data();
+  for (int i = 0; i < spectrum_size; ++i) r.c[i] = i > 0 && is_gray() ? r.c[0] : gather(floats + i, first);
+  return r;
+}
+
+Spectrum<NativeFloats> TexelImage::bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const {
+  using F = NativeFloats;
+  const Spectrum<F> black = gray(F(0.0f));
+  const bool is_small = bytes() < (std::size_t(1) << 30);
+  if (!is_small || wrap == Wrap::octahedral || std::holds_alternative<std::vector<std::uint16_t>>(texels_)) {
+    Spectrum<F> r = black;
+    for_each_lane(on, [&](int k) { set_lane(r, k, bilinear(lane(st, k), wrap)); });
+    return r;
+  }
+  const F x = in_texels(st.x, width_, wrap) - 0.5f, y = in_texels(st.y, height_, wrap) - 0.5f;
+  const F x0 = floor(x), y0 = floor(y), tx = x - x0, ty = y - y0;
+  const Neighbours column = neighbours(x0, width_, wrap), row = neighbours(y0, height_, wrap);
+  const auto corner = [&](Uint<F> i, Mask<F> i_inside, Uint<F> j, Mask<F> j_inside) {
+    const Spectrum<F> t = texels(j * std::uint32_t(width_) + i);
+    return wrap == Wrap::black ? select(i_inside & j_inside, t, black) : t;
+  };
+  const Spectrum<F> t00 = corner(column.first, column.first_inside, row.first, row.first_inside);
+  const Spectrum<F> t10 = corner(column.second, column.second_inside, row.first, row.first_inside);
+  const Spectrum<F> t01 = corner(column.first, column.first_inside, row.second, row.second_inside);
+  const Spectrum<F> t11 = corner(column.second, column.second_inside, row.second, row.second_inside);
+  const F sx = 1.0f - tx, sy = 1.0f - ty;
+  return select(on, (t00 * sx + t10 * tx) * sy + (t01 * sx + t11 * tx) * ty, black);
 }
 
 Rgb TexelImage::average(int x0, int y0, int x1, int y1) const {

@@ -48,6 +48,8 @@ class TexelImage {
   float nearest_number(Vec2f st, Wrap wrap) const;
   float bilinear_number(Vec2f st, Wrap wrap) const;
   float bilinear_alpha(Vec2f st, Wrap wrap) const;
+  // bilinear() for a pack, to the last bit, with the look-ups of all lanes under way together. Zero in idle lanes.
+  Spectrum<NativeFloats> bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const;
 
   // The mean of the texels with x in [x0, x1) and y in [y0, y1), a part of the image that is not empty.
   Rgb average(int x0, int y0, int x1, int y1) const;
@@ -60,10 +62,13 @@ class TexelImage {
   auto nearest_of(Vec2f st, Wrap wrap, Texel texel) const;
   template <class Texel>
   auto bilinear_of(Vec2f st, Wrap wrap, Texel texel) const;
+  // The texels with these numbers, counted along rows. Not of halves.
+  Spectrum<NativeFloats> texels(Uint<NativeFloats> number) const;
 
   int width_ = 0, height_ = 0, color_channels_ = 1;
   bool has_alpha_ = false;
-  // 8-bit codes, bits of halves, or floats; interleaved.
+  // 8-bit codes (and behind the last three bytes of nothing, so that each can be read as a word), bits of halves, or
+  // floats; interleaved.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> texels_;
   std::array<float, 256> decoded_{};  // of the 8-bit colour codes
 };

@@ -6,6 +6,13 @@
 
 namespace montelux {
 
+// Where a texture is looked up, in every lane.
+template <class F>
+struct TexturePoints {
+  Vec2<F> uv;
+  Vec3<F> p, n;
+};
+
 class TextureSet {
  public:
   // A texture may link only to textures that were added before it.
@@ -17,6 +24,17 @@ class TextureSet {
   Rgb spectrum(SpectrumTextureId id, const TexturePoint& point) const;
   float value(NumberTextureId id, const TexturePoint& point) const { return number(id, point); }
   Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return spectrum(id, point); }
+
+  // The same at the points of a pack, to the last bit; idle lanes hold anything.
+  NativeFloats number(NumberTextureId id, const TexturePoints<NativeFloats>& points, Mask<NativeFloats> on) const;
+  Spectrum<NativeFloats> spectrum(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
+                                  Mask<NativeFloats> on) const;
+  float number(NumberTextureId id, const TexturePoints<float>& at, bool) const {
+    return number(id, TexturePoint{at.uv, at.p, at.n});
+  }
+  Rgb spectrum(SpectrumTextureId id, const TexturePoints<float>& at, bool) const {
+    return spectrum(id, TexturePoint{at.uv, at.p, at.n});
+  }
 
   // The value of a texture that is the same everywhere; nothing for one that may vary.
   std::optional<float> constant(NumberTextureId id) const;
@@ -39,32 +57,5 @@ class TextureSet {
   std::vector<SpectrumTexture> spectra_;
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const TexelImage>> images_;  // by path and encoding
 };
-
-// Where a texture is looked up, in every lane.
-template <class F>
-struct TexturePoints {
-  Vec2<F> uv;
-  Vec3<F> p, n;
-};
-
-// The textures number ids[k] at the points[k], in the lanes that are on; 0 in the others.
-template <class F>
-F numbers(const TextureSet& textures, Uint<F> ids, const TexturePoints<F>& points, Mask<F> on) {
-  F result(0.0f);
-  for_each_lane(on, [&](int k) {
-    TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
-    set_lane(result, k, textures.number(NumberTextureId(lane(ids, k)), point));
-  });
-  return result;
-}
-template <class F>
-Spectrum<F> spectra(const TextureSet& textures, Uint<F> ids, const TexturePoints<F>& points, Mask<F> on) {
-  Spectrum<F> result = gray(F(0.0f));
-  for_each_lane(on, [&](int k) {
-    TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
-    set_lane(result, k, textures.spectrum(SpectrumTextureId(lane(ids, k)), point));
-  });
-  return result;
-}
 
 }  // namespace montelux

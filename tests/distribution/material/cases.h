@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "material/internal_reflectance.h"
 #include "material/material.h"
 
 namespace montelux::test {
@@ -101,6 +102,13 @@ inline BsdfCase coated_diffuse_case(std::string label, const CoatCase& coat, flo
   put(c.row, CoatedDiffuseSlots::reflectance, {reflectance, 0.5f * reflectance, 0.25f * reflectance});
   return c;
 }
+// The same with its walks summed in closed form.
+inline BsdfCase summed_coat_case(std::string label, const CoatCase& coat, float reflectance) {
+  BsdfCase c = coated_diffuse_case(std::move(label), coat, reflectance);
+  put(c.row, CoatedDiffuseSlots::internal,
+      {internal_reflectance({{coat.alpha_x, coat.alpha_y}, coat.eta, coat.thickness})});
+  return c;
+}
 inline BsdfCase coated_conductor_case(std::string label, const CoatCase& coat, float alpha_x, float alpha_y) {
   BsdfCase c = conductor_case(std::move(label), alpha_x, alpha_y, LayeredSlots::base);
   put(c.row, coat);
@@ -117,7 +125,11 @@ struct CasesOf<BsdfKind::coated_diffuse> {
                                 {.alpha_x = 0.3f, .alpha_y = 0.3f, .thickness = 0.5f, .g = 0.5f, .albedo = 0.8f}, 0.6f),
             coated_diffuse_case("smooth coat, scattering medium, odd depth",
                                 {.thickness = 0.5f, .g = -0.3f, .albedo = 0.9f, .max_depth = 5}, 0.6f),
-            coated_diffuse_case("odd depth", {.alpha_x = 0.2f, .alpha_y = 0.2f, .max_depth = 3}, 0.9f)};
+            coated_diffuse_case("odd depth", {.alpha_x = 0.2f, .alpha_y = 0.2f, .max_depth = 3}, 0.9f),
+            summed_coat_case("smooth coat, summed", {}, 0.8f),
+            summed_coat_case("rough coat, summed", {.alpha_x = 0.4f, .alpha_y = 0.4f}, 0.8f),
+            summed_coat_case("anisotropic thick coat, summed, odd depth",
+                             {.alpha_x = 0.1f, .alpha_y = 0.5f, .thickness = 0.2f, .max_depth = 5}, 0.9f)};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "math/square_maps.h"
+#include "mc/random.h"
 
 namespace montelux {
 namespace {
@@ -122,6 +123,45 @@ TEST(TexelImage, places_that_are_huge_or_not_numbers_stay_inside_the_image) {
       image.nearest({s, s}, wrap);
       image.bilinear({s, -s}, wrap);
     }
+}
+
+// A pack of look-ups gives the bits of single ones, for each way to hold texels and beyond the edges.
+TEST(TexelImage, packs_find_what_single_look_ups_find) {
+  using F = NativeFloats;
+  RandomStream<float> random(3u, 4u);
+  const auto compare = [&](const TexelImage& image) {
+    for (Wrap wrap : {Wrap::repeat, Wrap::black, Wrap::clamp, Wrap::octahedral})
+      for (int round = 0; round < 200; ++round) {
+        Vec2<F> st;
+        for (int k = 0; k < native_lanes; ++k) {
+          Vec2f at{3 * random.next() - 1, 3 * random.next() - 1};
+          // On the edges, and far out, too.
+          if (round % 4 == 1) at = {std::round(at.x), std::round(at.y)};
+          if (round % 4 == 2) at = {k % 2 ? std::nanf("") : 1e30f, -INFINITY};
+          set_lane(st, k, at);
+        }
+        const Mask<F> on = mask_of_bits<F>(std::uint32_t(random.next() * 0x1p16f) | 1u);
+        const Spectrum<F> pack = image.bilinear(st, wrap, on);
+        for (int k = 0; k < native_lanes; ++k) {
+          const Rgb one = lane(on, k) ? image.bilinear(lane(st, k), wrap) : Rgb{};
+          for (int i = 0; i < spectrum_size; ++i) ASSERT_EQ(lane(pack.c[i], k), one.c[i]) << int(wrap) << round;
+        }
+      }
+  };
+  compare(three_by_two());
+  for (const int channels : {1, 3}) {
+    TemporaryFile file("pack" + std::to_string(channels) + ".png");
+    DisplayImage picture{13, 7, channels, {}};
+    for (int i = 0; i < 13 * 7 * channels; ++i) picture.values.push_back(std::uint8_t(i * 37));
+    ASSERT_TRUE(write_image(file.path(), picture));
+    compare(*TexelImage::read(file.path(), std::nullopt));
+  }
+  TemporaryFile file("pack.exr");
+  PixelBuffer pixels = make_pixel_buffer(5, 4, {"R", "G", "B"});
+  for (std::size_t i = 0; i < pixels.values.size(); ++i) pixels.values[i] = float(i) * 0.375f;
+  ASSERT_TRUE(write_image(file.path(), pixels, {{}, {"R", "G", "B"}}));
+  compare(*TexelImage::read(file.path(), std::nullopt));
+  compare(TexelImage::from(pixels));
 }
 
 TEST(TexelImage, octahedral_wrap_makes_an_image_of_the_sphere_continuous_across_its_edge) {

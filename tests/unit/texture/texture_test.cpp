@@ -305,23 +305,50 @@ TEST(TextureBuilder, builds_every_texture_of_the_table) {
 TEST(TextureSet, packs_and_threads_find_the_values_of_single_points) {
   using F = NativeFloats;
   Bench b;
-  NumberTextureId fbm = b.number_texture(entity("fbm"));
-  NumberTextureId board = b.number_texture(entity("checkerboard", {number("uscale", 8)}));
+  b.builder.add("board", false, entity("checkerboard", {number("uscale", 8)}), {});
+  b.builder.add("bilerp", true, entity("bilerp", {rgb("v00", {{1, 0, 0.5f}}), rgb("v11", {{0, 0, 4}})}), {});
+  b.builder.add("solid", true,
+                entity("checkerboard", {integer("dimension", 3), link("tex1", "bilerp"), rgb("tex2", {{0.1f, 1, 0}})}),
+                scale(0.2, 0.3, 0.4));
+  const NumberTextureId number_ids[] = {
+      b.number_texture(entity("fbm")), b.number_texture(entity("scale", {link("tex", "board"), number("scale", 0.7f)})),
+      b.number_texture(entity("bilerp", {text("mapping", "spherical"), number("v00", 1), number("v11", 3)})),
+      b.number_texture(entity("bilerp", {text("mapping", "planar"), number("v00", 1), number("v11", 3)})),
+      b.number_texture(entity("dots", {number("uscale", 5), number("inside", 2)}))};
+  const SpectrumTextureId spectrum_ids[] = {
+      b.spectrum_texture(entity("marble")),
+      b.spectrum_texture(entity("mix", {link("tex1", "solid"), link("tex2", "bilerp"), link("amount", "board")})),
+      b.spectrum_texture(entity("directionmix", {link("tex1", "solid"), vector("dir", {1, 2, 3})}))};
   auto check = [&](std::uint32_t seed) {
     RandomStream<float> random(seed, 7u);
     for (int round = 0; round < 100; ++round) {
       TexturePoints<F> points{};
-      Uint<F> ids;
       for (int k = 0; k < native_lanes; ++k) {
-        set_lane(ids, k, std::uint32_t(k % 2 == 0 ? fbm : board));
         set_lane(points.uv, k, random.next2());
         set_lane(points.p, k, Vec3f{random.next(), random.next(), random.next()});
+        set_lane(points.n, k, normalize(Vec3f{random.next(), random.next(), 0.1f}));
       }
-      F values = numbers(b.set, ids, points, mask_of_bits<F>(0x7u));
-      for (int k = 0; k < native_lanes; ++k) {
-        TexturePoint point{lane(points.uv, k), lane(points.p, k), {0, 0, 0}};
-        EXPECT_EQ(lane(values, k), k < 3 ? b.set.number(NumberTextureId(lane(ids, k)), point) : 0);
-      }
+      const auto on = mask_of_bits<F>(std::uint32_t(random.next() * 0x1p16f) | 1u);
+      const auto compare = [&](auto id) {
+        const auto pack = [&] {
+          if constexpr (std::is_same_v<decltype(id), NumberTextureId>)
+            return gray(b.set.number(id, points, on));
+          else
+            return b.set.spectrum(id, points, on);
+        }();
+        for_each_lane(on, [&](int k) {
+          const TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
+          const auto one = [&] {
+            if constexpr (std::is_same_v<decltype(id), NumberTextureId>)
+              return gray(b.set.number(id, point));
+            else
+              return b.set.spectrum(id, point);
+          }();
+          for (int i = 0; i < spectrum_size; ++i) EXPECT_EQ(lane(pack.c[i], k), one.c[i]) << int(id);
+        });
+      };
+      for (const NumberTextureId id : number_ids) compare(id);
+      for (const SpectrumTextureId id : spectrum_ids) compare(id);
     }
   };
   std::vector<std::thread> threads;
