@@ -115,6 +115,8 @@ Result<SavedIntegral> load_integral(const std::filesystem::path& file) {
   if (!in || !(text << in.rdbuf())) return Failure{fmt::format("{}: cannot be read", file.string())};
   try {
     return saved_from(Json::parse(text.str()));
+  } catch (const Json::parse_error&) {
+    return Failure{fmt::format("{}: it is not a file that montelux integrate --save wrote", file.string())};
   } catch (const Json::exception& error) {
     return Failure{fmt::format("{}: is no saved integral ({})", file.string(), error.what())};
   } catch (const std::invalid_argument& error) {

@@ -123,6 +123,13 @@ class Files(IntegrateTest):
                 return
             time.sleep(0.005)
 
+    def test_a_resumed_run_spends_its_time(self):
+        self.integrate("x", "--over", "x=0:1", "--method", "uniform", "--time", "300ms", "--save", "a.json")
+        before = json.loads(self.run_program("merge", "a.json", "--json").stdout)
+        after = self.result("--resume", "a.json", "--time", "200ms")
+        self.assertGreater(after["evaluations"], 1.05 * before["evaluations"])
+        self.assertLess(after["seconds"] - before["seconds"], 2)
+
     def test_an_interrupted_run_tells_what_it_has_and_goes_on_to_the_same_bits(self):
         integral = ("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform:passes=4096", "--samples", "33554432")
         process = self.start("integrate", *integral, "--save", "part.json", "--json")

@@ -337,8 +337,11 @@ class Run {
   bool affordable(std::uint64_t samples) const {
     if (budget_.samples && spent() + samples > most_samples()) return false;
     if (!budget_.seconds) return true;
+    // A run that goes on knows its speed from before.
+    const std::uint64_t all = spent() + evaluations_before_ / traits_.cost;
+    const double one = (seconds_before_ + elapsed()) / double(std::max<std::uint64_t>(1, all));
     const double left = *budget_.seconds - elapsed();
-    return left > 0 && double(samples) * elapsed() / double(std::max<std::uint64_t>(1, spent())) <= left;
+    return left > 0 && double(samples) * one <= left;
   }
   double fraction() const {
     double f = 0;
