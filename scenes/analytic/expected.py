@@ -128,7 +128,7 @@ SCENES = {
     "furnace-coated-eta1": (WHITE, ('reflectance" [ 1 1 1', 'reflectance" [ 0.99 0.99 0.99')),
     "furnace-coated": (WHITE, ('"integer maxdepth" [ 10000 ]', '"integer maxdepth" [ 4 ]')),
     "furnace-phong": ("0.4 + 0.35", ('ks" [ 0.35 0.35 0.35', 'ks" [ 0.36 0.36 0.36')),
-    "half-open-sheets": ("0.5 ** 2", ("[ 0.5 ]", "[ 0.52 ]")),
+    "half-open-sheets": ("0.9 ** 2", ("[ 0.9 ]", "[ 0.92 ]")),
     "furnace-mix": ("3/4 * 0.9 + 1/4 * 0.5", ("[ 0.25 ]", "[ 0.35 ]")),
     "mirror-normal": ("0.5", ("0.5 0.5 0.5", "0.505 0.505 0.505")),
     "metal-60": ("fresnel_metal(cos(radians(60)), 0.2, 3.9)", ("3.9 830 3.9", "3.8 830 3.8")),
