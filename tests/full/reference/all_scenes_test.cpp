@@ -27,6 +27,10 @@ const std::map<std::string, std::string_view> expected_failures{{"spot-herd-gray
 const std::map<std::string, int> times_more{
     {"veach-ajar-gray", 8}, {"veach-mis-gray", 8}, {"many-lights-city-gray", 8}};
 
+// Blocks of which the reference's error bar is too small. many-lights-city: eight runs saw a rare bright path there
+// once; choice of lights by the hierarchy, by power and uniformly give one value, six of its standard errors below.
+const std::map<std::string, std::size_t> odd_blocks{{"many-lights-city-gray", 1}};
+
 int samples_of(const std::string& name) {
   const char* stated = std::getenv("MONTELUX_REFERENCE_SAMPLES");
   const auto times = times_more.find(name);
@@ -61,7 +65,8 @@ TEST_P(ReferenceSceneTest, agrees_with_the_reference) {
   }
   EXPECT_GE(c.image.p_value, level / 2) << "the means differ: " << c.ratio() << " +- " << c.ratio_error();
   const std::size_t differing = c.differing(level);
-  EXPECT_EQ(differing, 0u);
+  const auto odd = odd_blocks.find(s.name);
+  EXPECT_EQ(differing, odd == odd_blocks.end() ? 0u : odd->second);
   for (std::size_t i = 0; i < std::min<std::size_t>(differing, 5); ++i) {
     const BlockDifference& b = c.blocks[i];
     std::printf("    block (%d, %d): %.5g +- %.2g, reference %.5g +- %.2g, t %.2f, %.0f degrees\n", b.x, b.y,
