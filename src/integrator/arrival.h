@@ -9,6 +9,8 @@ namespace montelux {
 
 // Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
 inline constexpr float shadow_shortening = 1e-4f;
+// Roulette lets no path live on with certainty, or one between white walls would never end.
+inline constexpr float most_survival = 0.97f;
 
 // The point from which rays leave, as the lights' densities take it.
 template <class F>

@@ -9,6 +9,9 @@
 
 namespace montelux {
 
+// Tells the numbers of resampling from those of the materials, which fork the same stream by small numbers.
+inline constexpr std::uint32_t resampling_stream = 0x9d2c5680u;
+
 // All that the shadow rays of one vertex share.
 template <class F, class Rays>
 struct DirectLight {
@@ -143,7 +146,7 @@ struct DirectLight {
     Chosen chosen{};
     chosen.value = gray(F(0.0f)), chosen.target = F(0.0f), chosen.light.valid = M(false);
     F sum = 0.0f;
-    RandomStream<F> stream = numbers.stream(ray, path_dimension::own).fork(U(1u));
+    RandomStream<F> stream = numbers.stream(ray, path_dimension::own).fork(U(resampling_stream));
     for (int i = 0; i < settings.candidates; ++i) {
       const F u_choice = stream.next();
       const Vec2<F> u = stream.next2();

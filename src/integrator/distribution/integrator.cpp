@@ -78,8 +78,8 @@ struct Tree {
     const Rgb onward = throughput * weight;
     // Where the tree has become a path, it ends by roulette.
     if (n.directions == 1 && depth >= 2) {
-      const Roulette<F> survival =
-          roulette(std::min(std::sqrt(max_component(onward)), 0.97f), numbers.get1(i, path_dimension::roulette));
+      const Roulette<F> survival = roulette(std::min(std::sqrt(max_component(onward)), most_survival),
+                                            numbers.get1(i, path_dimension::roulette));
       if (!survival.survives) return gray(0.0f);
       weight *= gray(survival.weight);
     }

@@ -9,9 +9,6 @@
 
 namespace montelux {
 
-// Roulette lets no path live on with certainty, or one between white walls would never end.
-inline constexpr float most_survival = 0.97f;
-
 // What the first vertex of a path shows goes to the feature layers.
 template <class F>
 void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const Spectrum<F>& albedo, Uint<F> object,

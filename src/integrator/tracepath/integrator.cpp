@@ -93,7 +93,7 @@ struct Recursion {
     const float u = random.next();
     if (!(max_component(weight) > 0)) return gray(0.0f);
     if (depth >= settings.roulette_depth) {
-      const Roulette<float> survival = roulette(std::min(max_component(throughput * weight), 0.97f), u);
+      const Roulette<float> survival = roulette(std::min(max_component(throughput * weight), most_survival), u);
       if (!survival.survives) return gray(0.0f);
       weight *= gray(survival.weight);
     }
