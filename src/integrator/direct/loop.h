@@ -4,13 +4,10 @@
 #include "integrator/branches.h"
 #include "integrator/direct/settings.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/resampled_light.h"
 #include "mc/hemisphere.h"
-#include "mc/resampling.h"
 
 namespace montelux {
-
-// Tells the numbers of resampling from those of the materials, which fork the same stream by small numbers.
-inline constexpr std::uint32_t resampling_stream = 0x9d2c5680u;
 
 // All that the shadow rays of one vertex share.
 template <class F, class Rays>
@@ -63,12 +60,12 @@ struct DirectLight {
     return evaluate<F>(at.bsdf.lanes(on), at.wo, at.bsdf.frame.to_local(wi), at.context);
   }
   // What is left of `light` behind what blocks the way.
-  Spectrum<F> unblocked(const LightSample<F>& sample, const Spectrum<F>& light, M on) const {
+  Spectrum<F> unblocked(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on) const {
     const M asks = on & (max_component(light) > F(0.0f));
     if (!any(asks)) return gray(F(0.0f));
     counts.shadow += std::uint64_t(count(asks));
-    const M blocked = rays.template occluded<F>(
-        {at.origin_toward(sample.wi), sample.wi, sample.distance * (1.0f - shadow_shortening)}, asks);
+    const M blocked =
+        rays.template occluded<F>({at.origin_toward(wi), wi, distance * (1.0f - shadow_shortening)}, asks);
     return select(asks & !blocked, light, gray(F(0.0f)));
   }
 
@@ -80,7 +77,7 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(light.wi, asks);
     F weight = F(1.0f) / light.density.value;
     if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density.value, value.density.value));
-    return unblocked(light, value.f_cos * light.radiance * weight, asks);
+    return unblocked(light.wi, light.distance, value.f_cos * light.radiance * weight, asks);
   }
 
   // Lights that no direction can meet by chance, where the strategy draws directions.
@@ -90,7 +87,7 @@ struct DirectLight {
         draw_light(numbers.get1(ray, path_dimension::light_choice), numbers.get2(ray, path_dimension::light_point),
                    LightMeasure::solid_angle, on);
     const M asks = on & light.valid & light.delta;
-    return unblocked(light, scattered(light.wi, asks).f_cos * light.radiance, asks);
+    return unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * light.radiance, asks);
   }
 
   // What a direction of the world brings; weight(density) as for arrive().
@@ -135,36 +132,12 @@ struct DirectLight {
     return select(goes, value.f_cos * light * (F(1.0f) / density), gray(F(0.0f)));
   }
 
-  // One out of many candidates on lights, in proportion to what each would bring if nothing were in the way: a shadow
-  // ray for that one alone (Talbot, Cline and Egbert 2005).
   Spectrum<F> resampled(std::uint32_t ray, M on) const {
-    struct Chosen {
-      LightSample<F> light;
-      Spectrum<F> value;
-      F target;
-    };
-    Chosen chosen{};
-    chosen.value = gray(F(0.0f)), chosen.target = F(0.0f), chosen.light.valid = M(false);
-    F sum = 0.0f;
-    RandomStream<F> stream = numbers.stream(ray, path_dimension::own).fork(U(resampling_stream));
-    for (int i = 0; i < settings.candidates; ++i) {
-      const F u_choice = stream.next();
-      const Vec2<F> u = stream.next2();
-      const F u_take = stream.next();
-      const LightSample<F> light = draw_light(u_choice, u, LightMeasure::solid_angle, on);
-      const M asks = on & light.valid;
-      const Spectrum<F> value = scattered(light.wi, asks).f_cos * light.radiance;
-      const F target = select(asks, average(value), F(0.0f));
-      const F weight = select(target > F(0.0f), target / light.density.value, F(0.0f));
-      sum = sum + weight;
-      const M taken = u_take * sum < weight;
-      chosen.light.wi = select(taken, light.wi, chosen.light.wi);
-      chosen.light.distance = select(taken, light.distance, chosen.light.distance);
-      chosen.value = select(taken, value, chosen.value);
-      chosen.target = select(taken, target, chosen.target);
-    }
-    const F factor = resampling_weight(sum, F(float(settings.candidates)), chosen.target);
-    return unblocked(chosen.light, chosen.value * factor, on);
+    const ResampledLight<F> chosen = resample_light<F>(
+        settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
+        [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
+        [&](const LightSample<F>& light, M asks) { return scattered(light.wi, asks).f_cos * light.radiance; });
+    return unblocked(chosen.wi, chosen.distance, chosen.value, on);
   }
 };
 

@@ -4,6 +4,7 @@
 #include "integrator/path/dimensions.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/settings.h"
+#include "integrator/resampled_light.h"
 #include "mc/mis.h"
 #include "mc/roulette.h"
 
@@ -56,6 +57,34 @@ MONTELUX_INLINE F survival_probability(const PathSettings& settings, const PathS
   return min(safe_sqrt(vigour), F(most_survival));
 }
 
+// A vertex that asks for light, as resampled_light takes it.
+template <class F>
+struct LitVertex {
+  Vec3<F> p;
+  const SurfaceScattering<F>& bsdf;
+  Vec3<F> wo;
+  const BsdfContext<F>& context;
+  Mask<F> on;
+};
+
+// Next-event estimation by resampling. The density of what resampling chooses has no closed form, so the share that
+// BSDF sampling has in a light is decided by the density of the candidates, which is known wherever a path may meet
+// the light: the weights of the two sum to 1 in every direction, and resampling estimates the integral of its own share
+// without bias whatever that is (Veach and Guibas 1995; Talbot, Cline and Egbert 2005, sec. 3).
+template <class F>
+ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& settings, const LitVertex<F>& at) {
+  return resample_light<F>(
+      settings.candidates, at.context.random.fork(Uint<F>(resampling_stream)), at.on,
+      [&](F u_choice, Vec2<F> u) { return lights.template sample<F>(at.p, at.bsdf.light_normal, u_choice, u, at.on); },
+      [&](const LightSample<F>& light, Mask<F> asks) {
+        const BsdfValue<F> value =
+            evaluate<F>(at.bsdf.lanes(asks), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
+        const F share =
+            select(light.delta, F(1.0f), weight_of_light_sample(settings, light.density.value, value.density.value));
+        return value.f_cos * light.radiance * share;
+      });
+}
+
 // A tile's paths, one a lane. A lane whose path ends takes the next of the first hits. `rays` answers trace and
 // occluded as Accel does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings ask.
 template <class F, class Rays>
@@ -98,7 +127,7 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     const M wants_light = scatters & !bsdf.is_delta;
     LightSample<F> light = lights.template sample<F>(
         x.point.p, bsdf.light_normal, sampler.get1(dimension + U(path_dimension::light_choice)),
-        sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
+        sampler.get2(dimension + U(path_dimension::light_point)), settings.candidates > 0 ? M(false) : wants_light);
     const M asks = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
     const Scattering<F> scattered =
         scatter<F>(bsdf.lanes(scatters),
@@ -116,6 +145,12 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     M shadow = asks & (max_component(direct) > F(0.0f));
+    if (settings.candidates > 0) {
+      const ResampledLight<F> chosen =
+          resampled_light<F>(lights, settings, {x.point.p, bsdf, wo, context, wants_light});
+      direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
+      shadow = wants_light & (max_component(direct) > F(0.0f));
+    }
     if (any(shadow)) {
       counts.shadow += std::uint64_t(count(shadow));
       Vec3<F> o = offset_origin(x.point.p, x.point.p_error, x.point.ng, light.wi);

@@ -34,6 +34,27 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
   return Done{};
 }
 
+// "uniform", "power", "bvh", or "ris:32".
+Status read_light_selection(const std::string& text, PathSettings& settings) {
+  constexpr std::string_view resampled = "ris:";
+  if (text.empty()) return Done{};
+  if (const auto at = std::ranges::find(light_selection_names, text); at != light_selection_names.end()) {
+    settings.light_selection = LightSelection(at - light_selection_names.begin());
+    return Done{};
+  }
+  if (text.starts_with(resampled)) {
+    const char *at = text.data() + resampled.size(), *end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(at, end, settings.candidates);
+    if (error != std::errc{} || next != end || settings.candidates < 1 || settings.candidates > 4096)
+      return Failure{fmt::format(
+          "light-selection ris takes a number of candidates from 1 to 4096, as ris:32; found \"{}\"", text)};
+    if (!settings.nee) return Failure{"light-selection=ris chooses lights for next-event estimation: nee must be on"};
+    settings.light_selection = LightSelection::bvh;
+    return Done{};
+  }
+  return Failure{fmt::format("light-selection takes uniform, power, bvh or ris:CANDIDATES; found \"{}\"", text)};
+}
+
 std::vector<ParameterSpec> common_parameters() {
   return {{"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
           {"roulette", {string}, "throughput, proportional, fixed:PROBABILITY or off; default throughput"},
@@ -50,10 +71,8 @@ EntitySpec path_spec() {
                    {"mis", {string}, "how the two share the light; default power", 0, 0, {"balance", "power", "off"}},
                    {"light-selection",
                     {string},
-                    "how lights are chosen; default: as the scene says",
-                    0,
-                    0,
-                    {light_selection_names.begin(), light_selection_names.end()}}}};
+                    "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one out of so many of bvh, by what "
+                    "each would bring); default: as the scene says"}}};
   for (ParameterSpec& more : common_parameters()) spec.parameters.push_back(std::move(more));
   return spec;
 }
@@ -70,9 +89,7 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
   s.mis = mis == "off" ? PathMis::off : mis == "balance" ? PathMis::balance : PathMis::power;
   if (Status read = read_roulette(list.string("roulette", "throughput"), s); !read) return read.failure();
   s.roulette_depth = list.integer("roulette-depth", s.roulette_depth);
-  if (const std::string selection = list.string("light-selection", ""); !selection.empty())
-    s.light_selection =
-        LightSelection(std::ranges::find(light_selection_names, selection) - light_selection_names.begin());
+  if (Status read = read_light_selection(list.string("light-selection", ""), s); !read) return read.failure();
   s.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
   if (s.roulette == PathRoulette::off && !s.max_depth)
     return Failure{"without roulette paths may never end: maxdepth must be set, too"};

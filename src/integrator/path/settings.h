@@ -28,6 +28,8 @@ struct PathSettings {
   float fixed_survival = 0.5f;  // of PathRoulette::fixed
   // How lights are chosen; none: as the scene says.
   std::optional<LightSelection> light_selection;
+  // Next-event estimation by one out of so many candidates, chosen by what they would bring; 0: by a single one.
+  int candidates = 0;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;

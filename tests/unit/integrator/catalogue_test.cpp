@@ -36,6 +36,15 @@ TEST(IntegratorCatalogue, names_the_nearest_of_what_it_does_not_know) {
   EXPECT_NE(failure_of(scene, "direct:shadowrays=2").find("did you mean \"shadow-rays\""), std::string::npos);
 }
 
+TEST(IntegratorCatalogue, says_how_lights_can_be_chosen) {
+  const TestScene scene(room);
+  EXPECT_EQ(failure_of(scene, "path:light-selection=ris:16"), "");
+  EXPECT_NE(failure_of(scene, "path:light-selection=nearest").find("uniform, power, bvh or ris:"), std::string::npos);
+  for (const char* bad : {"ris:", "ris:0", "ris:x", "ris:1e9", "ris:-3"})
+    EXPECT_NE(failure_of(scene, std::string("path:light-selection=") + bad).find("from 1 to 4096"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "path:light-selection=ris:8,nee=off").find("nee must be on"), std::string::npos);
+}
+
 TEST(IntegratorCatalogue, refuses_a_tree_that_never_ends) {
   const TestScene scene(room);
   EXPECT_NE(failure_of(scene, "distribution:branching=4/2").find("never ends"), std::string::npos);
