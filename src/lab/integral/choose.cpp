@@ -15,9 +15,9 @@ constexpr std::uint32_t passes = 8;
 constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // no pass of a run has such a number
 constexpr double pilot_share = 0.03;
 // A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
-// less is not, where the training is long enough to be sure.
+// less is not.
 constexpr double clear_gain = 4, no_gain = 1.5;
-constexpr std::uint64_t sure_samples = 16384, least_samples_to_try = 32768;
+constexpr std::uint64_t least_samples_to_try = 32768;
 constexpr int first_steps = 4;
 
 // One candidate: its passes grow as long as it may still win.
@@ -67,20 +67,26 @@ Method qmc(QmcPoints points, bool baker, bool adapt) {
   return m;
 }
 
+// Whether a run too short for trials takes the map. In few dimensions little training is enough, and a map that is
+// missed costs more than one that is taken in vain; in many the first steps fit noise.
+bool maps_without_trial(double gain, std::size_t dimension) { return gain >= (dimension <= 6 ? 1.75 : 3); }
+
+// The points that are best as a rule: lattices in few dimensions, and the more so without a map.
+Method by_rule(std::size_t dimension, bool adapt) {
+  return dimension <= (adapt ? 3 : 6) ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt);
+}
+
 // Which methods may win, by what the map has brought so far.
 std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, double gain) {
   const std::size_t dimension = problem.integrand.dimension;
-  const bool mapped = gain >= no_gain || samples < sure_samples, plain = gain < clear_gain;
   std::vector<Method> methods;
-  for (bool adapt : {false, true}) {
-    if (adapt ? !mapped : !plain) continue;
-    methods.push_back(qmc(QmcPoints::lattice, true, adapt));
-    methods.push_back(qmc(QmcPoints::sobol, false, adapt));
-  }
-  // Too few samples for trials: what is best as a rule.
   if (samples < least_samples_to_try) {
-    const bool few_dimensions = dimension <= (gain >= clear_gain ? 3 : 6), adapt = gain >= clear_gain;
-    methods = {few_dimensions ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt)};
+    methods.push_back(by_rule(dimension, maps_without_trial(gain, dimension)));
+  } else {
+    if (gain >= no_gain) methods.push_back(by_rule(dimension, true));
+    if (gain < clear_gain)
+      for (const bool lattice : {true, false})
+        methods.push_back(qmc(lattice ? QmcPoints::lattice : QmcPoints::sobol, lattice, false));
   }
   Method given;
   given.kind = MethodKind::control;
@@ -90,8 +96,16 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
   return methods;
 }
 
+// Lattices with a periodic integrand gain more from more points than nets do, and most in few dimensions; pilots are
+// too short to see it.
+double lattice_bonus(std::size_t dimension, bool mapped) {
+  if (dimension > 6) return -1;
+  return (mapped ? 0.5 : 2) + (dimension > 3 ? 0 : 1);
+}
+
 std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double gain) {
-  std::string text = fmt::format("an adaptive map divides the variance of a sample by {:.2g}; ", gain);
+  std::string text = gain == 1 ? "an adaptive map finds nothing to adapt to; "
+                               : fmt::format("an adaptive map divides the variance of a sample by {:.2g}; ", gain);
   if (pilots.size() < 2) return text + fmt::format("{} is best as a rule", to_text(best.method));
   std::vector<std::string> items;
   for (const Pilot& p : pilots)
@@ -117,8 +131,7 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
   for (const Method& method : methods) {
     Pilot p;
     p.method = method, p.weight = trains(method) ? 1.2 : method.kind == MethodKind::qmc ? 1 : 2;
-    // Lattices with a periodic integrand gain more from more points than nets do, and most in few dimensions.
-    if (method.points == QmcPoints::lattice) p.bonus = problem.integrand.dimension > 6 ? -1 : trains(method) ? 0.5 : 2;
+    if (method.points == QmcPoints::lattice) p.bonus = lattice_bonus(problem.integrand.dimension, trains(method));
     p.technique = make_technique(problem, method, seed, &training);
     pilots.push_back(std::move(p));
   }

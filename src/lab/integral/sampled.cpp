@@ -125,7 +125,8 @@ class Sampled final : public Technique {
 // One step of training: the squared terms in the bins of each axis, and the variances of a sample.
 struct StepSums {
   std::vector<double> squares;
-  double gain = 1;  // variance of a uniform sample over that of one through the map
+  double gain = 1;    // variance of a uniform sample over that of one through the map
+  bool flat = false;  // the terms do not vary: there is nothing to adapt to
 };
 StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, CubeKey key, std::uint64_t samples) {
   const std::size_t dimension = integrand.dimension, bins = map.bins();
@@ -154,7 +155,9 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
   const double n = double(samples);
   mean /= n;
   const double mapped = mapped_square / n - mean * mean, plain = plain_square / n - mean * mean;
-  return {sums, mapped > 0 ? plain / mapped : 1.0};
+  const double rounding = 1e-13 * mean * mean;  // what differences of squares leave of a constant
+  const bool flat = !(mapped > rounding);
+  return {sums, flat || !(plain > rounding) ? 1.0 : plain / mapped, flat};
 }
 
 // Later steps know better and get more.
@@ -184,7 +187,7 @@ void MapTraining::go_to(int step) {
     const StepSums sums = squares_in_bins(integrand_, map_, key, n);
     evaluations_ += n;
     gain_ = sums.gain;
-    map_.refine(sums.squares, bins_for(samples_of(step_ + 1)));
+    if (!sums.flat) map_.refine(sums.squares, bins_for(samples_of(step_ + 1)));
   }
 }
 

@@ -92,6 +92,15 @@ TEST(Integrate, every_method_gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+TEST(Integrate, auto_says_that_a_constant_has_nothing_to_adapt_to) {
+  Problem constant;
+  constant.integrand = {.dimension = 2,
+                        .evaluate = [](PointBatch, std::span<double> out) { std::fill(out.begin(), out.end(), 3.0); }};
+  const IntegralResult r = integrate(constant, method_named("auto"), {.samples = 1u << 16});
+  EXPECT_NE(r.why.find("nothing to adapt to"), std::string::npos) << r.why;
+  EXPECT_NEAR(r.mean, 3.0, 1e-14);
+}
+
 TEST(Integrate, every_method_goes_on_from_its_saved_state_as_if_it_had_not_stopped) {
   for (const char* text : one_of_each) {
     const IntegralResult first = integrate(peak(), method_named(text), {.samples = 1u << 14});
