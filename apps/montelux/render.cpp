@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -35,6 +36,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt -o room.exr -o room.png --tone aces --spp 256
   montelux render room.pbrt --time 10m --resolution 1920x1080
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
+  montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
 
 Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.
 )";
@@ -48,6 +50,24 @@ Json to_json(const double (&values)[n]) {
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+// The mean of each layer over the picture.
+Json layers_to_json(const Rendering& rendering) {
+  const LayerFilm& film = *rendering.result.film.layers();
+  const PixelBounds& b = rendering.result.film.bounds();
+  Json json = Json::object();
+  const std::vector<std::string> names = layer_names(*rendering.layers);
+  for (int i = 0; i < film.count(); ++i) {
+    double mean[spectrum_size] = {};
+    for (int c = 0; c < spectrum_size; ++c) {
+      for (int y = b.y0; y < b.y1; ++y)
+        for (int x = b.x0; x < b.x1; ++x) mean[c] += film.layer_mean(x, y, i, c);
+      mean[c] /= double(b.area());
+    }
+    json[names[std::size_t(i)]] = to_json(mean);
+  }
+  return json;
+}
 
 std::string header_text(const Rendering& rendering, std::string_view name) {
   for (const Attribute& attribute : rendering.header)
@@ -94,6 +114,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   if (rendering.result.rays.by_depth[0] > 0) json["rays_by_depth"] = rendering.result.rays.by_depth;
   json["rays_per_second"] = number_or_null(double(outcome.rays) / seconds);
   json["non_finite"] = outcome.non_finite;
+  if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
   fmt::print("{}\n", json.dump(2));
 }
@@ -129,6 +150,9 @@ int run_render(RenderArguments& arguments) {
   if (arguments.files.empty()) arguments.files = {std::filesystem::path(arguments.scene).stem().string() + ".exr"};
   for (const std::string& file : arguments.files)
     if (Status good = check_picture_file(file); !good) return complain(good.error());
+  const auto is_exr = [](const std::string& file) { return std::filesystem::path(file).extension() == ".exr"; };
+  if (arguments.render.layers && !arguments.json && std::ranges::none_of(arguments.files, is_exr))
+    return complain("layers need an .exr file: -o PICTURE.exr (or --json for their means)");
 
   arguments.load.threads = arguments.render.threads;
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
@@ -197,6 +221,12 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
   verb.get_option("--preset")->excludes("--integrator");
   add_option(verb, {"--sampler", alternatives(samplers), "point set; default: the scene's"},
              into(render.sampler, choice(samplers)));
+  add_option(
+      verb,
+      {"--layers", "bounces[:N],light-groups,errors",
+       "layers of light in the .exr: bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
+       "each \"string group\" of the scene's lights; with errors NAME_stderr, too"},
+      into(render.layers, parse_layers));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {
                auto setting = parse_setting(text);

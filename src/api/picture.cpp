@@ -43,6 +43,33 @@ std::string extension_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+namespace {
+
+// Of every layer of light its mean, and where it is known its standard error. The colour becomes the mean of all light
+// as the layers know it, so that they sum to it.
+void append_light(PixelBuffer& image, const LayerFilm& film, const PixelBounds& bounds,
+                  const std::vector<std::string>& names) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < spectrum_size; ++c)
+        image.at(x, y, Channel::r + c) = float(film.mean(bounds.x0 + x, bounds.y0 + y, c));
+  PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
+  const auto append = [&](const std::string& name, auto value) {
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(bounds.x0 + x, bounds.y0 + y, c));
+    append_layer(image, name, added);
+  };
+  for (int i = 0; i < film.count(); ++i) {
+    const std::string& name = names[std::size_t(i)];
+    append(name, [&](int x, int y, int c) { return film.layer_mean(x, y, i, c); });
+    if (film.has_spread())
+      append(name + "_stderr", [&](int x, int y, int c) { return std::sqrt(film.variance_of_mean(x, y, i, c)); });
+  }
+}
+
+}  // namespace
+
 PixelBuffer layers_of(const Rendering& rendering) {
   const Film& film = rendering.result.film;
   const PixelBounds& bounds = film.bounds();
@@ -67,6 +94,7 @@ PixelBuffer layers_of(const Rendering& rendering) {
       }
       set(Channel::z, feature.depth / feature.hits);
     }
+  if (rendering.layers) append_light(image, *film.layers(), bounds, layer_names(*rendering.layers));
   return image;
 }
 

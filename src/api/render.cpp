@@ -21,6 +21,27 @@ std::vector<std::string_view> views_of(const std::vector<std::pair<std::string, 
   return names;
 }
 
+// The layers that a scene has of those that were asked for.
+Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrator& chosen, const Scene& scene) {
+  if (!chosen.integrator->has_layers()) {
+    const bool clamped =
+        std::ranges::any_of(chosen.biases, [](const std::string& bias) { return bias.starts_with("maxcomponent="); });
+    if (clamped)
+      return Failure{
+          "samples that are scaled down to maxcomponent have no layers; --set maxcomponent=none lifts the bound"};
+    return Failure{
+        fmt::format("the integrator {} has no layers; path, naive, direct and distribution have them", chosen.name)};
+  }
+  LayerPlan plan;
+  plan.bounces = request.bounces;
+  plan.light_groups = request.light_groups;
+  plan.spread = request.errors;
+  plan.group_of_light = scene.lights.groups();
+  plan.group_names = scene.lights.group_names();
+  if (plan.group_names.empty()) plan.group_names = {"default"};
+  return plan;
+}
+
 // Everything that decides a render, checked.
 struct Plan {
   RenderSettings render;
@@ -44,6 +65,11 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component}, parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
+  if (options.layers) {
+    auto layers = plan_layers(*options.layers, plan.chosen, parts.scene);
+    if (!layers) return layers.failure();
+    plan.render.layers = *std::move(layers);
+  }
 
   RenderSettings& r = plan.render;
   r.sampler = picture.sampler;
@@ -118,7 +144,8 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   RenderResult result = render(integrator, plan.render, observer);
   result.seconds += pilot_seconds;
   std::vector<Attribute> header = header_of(parts, plan, result);
-  return Rendering{std::move(result), std::move(header), std::move(plan.chosen.notes), plan.render.plan};
+  return Rendering{std::move(result), std::move(header), std::move(plan.chosen.notes), plan.render.plan,
+                   std::move(plan.render.layers)};
 }
 
 Status check_integrator_text(const std::string& text) {

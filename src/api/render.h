@@ -1,5 +1,6 @@
 // Rendering a scene, and the picture with everything that is known of it.
 #pragma once
+#include "api/layers.h"
 #include "api/scene.h"
 #include "image/display.h"
 #include "image/image_file.h"
@@ -18,6 +19,7 @@ struct RenderOptions {
   std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
   std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
+  std::optional<LayerRequest> layers;                         // of an integrator that has them
 };
 
 // A rendered picture, its error and its layers.
@@ -26,13 +28,16 @@ struct Rendering {
   std::vector<Attribute> header;   // seed, passes, samples, biased options, non-finite count, version, ...
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
+  std::optional<LayerPlan> layers;
 };
 
-// Fails where an option does not fit the scene (an unknown integrator, setting or sampler, a crop outside the picture).
+// Fails where an option does not fit the scene (an unknown integrator, setting or sampler, a crop outside the picture,
+// layers of an integrator that has none).
 Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer);
 
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
-// P.X ...; Z; samples; id.
+// P.X ...; Z; samples; id. Then those of light, where they were asked for: bounce0.R ..., Combined_key.R ..., and with
+// errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding.
 PixelBuffer layers_of(const Rendering& rendering);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The

@@ -57,13 +57,16 @@ double PixelEstimate::variance_of_mean(int channel) const {
   return m2[channel] / (double(passes) - 1) / double(passes);
 }
 
-Film::Film(PixelBounds bounds)
+Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers)
     : bounds_(bounds),
       pixels_(std::size_t(bounds.area())),
       features_(std::size_t(bounds.area())),
-      tile_sums_(std::size_t(bounds.area())) {}
+      tile_sums_(std::size_t(bounds.area())) {
+  if (layers) layers_.emplace(bounds, layers->count(), layers->spread);
+}
 
-void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples) {
+void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
+                    std::span<const ExactRgb> sums) {
   PassSum tile_sum;
   const PixelSample* sample = samples.data();
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -80,18 +83,28 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
       }
       estimate.non_finite += std::uint32_t(samples_per_pixel - finite);
       if (finite == 0) continue;
+      if (layers_) {
+        const std::size_t stride = std::size_t(layers_->count()) + 1;
+        const auto own = sums.subspan(
+            std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
+        layers_->add(x, y, finite, own);
+        for (int i = 0; i < spectrum_size; ++i) mean[i] = own.front().c[i].value();
+      }
       for (double& m : mean) m /= finite;
       estimate.add(mean);
       for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
       ++tile_sum.pixels;
     }
-  auto& sums = tile_sums_[index(tile.x0, tile.y0)];
-  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
-  sums[std::size_t(pass)] = tile_sum;
+  auto& tile_sums = tile_sums_[index(tile.x0, tile.y0)];
+  if (tile_sums.size() <= std::size_t(pass)) tile_sums.resize(std::size_t(pass) + 1);
+  tile_sums[std::size_t(pass)] = tile_sum;
 }
 
 void Film::merge(const Film& other) {
   if (!(bounds_ == other.bounds_)) throw std::invalid_argument("films of different bounds cannot be merged");
+  if (layers_.has_value() != other.layers_.has_value())
+    throw std::invalid_argument("films of different layers cannot be merged");
+  if (layers_) layers_->merge(*other.layers_);
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     pixels_[i].merge(other.pixels_[i]);
     PixelFeatures& a = features_[i];

@@ -3,9 +3,11 @@
 // samples inside a pass.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "film/layer_film.h"
 #include "image/pixel_sample.h"
 
 namespace montelux {
@@ -45,16 +47,20 @@ struct ErrorEstimate {
 
 class Film {
  public:
-  explicit Film(PixelBounds bounds);
+  explicit Film(PixelBounds bounds, const std::optional<LayerPlan>& layers = {});
 
   const PixelBounds& bounds() const { return bounds_; }
+  // The layers, where the film was made with a plan of them. Then the pass means are those of their exact sums.
+  const std::optional<LayerFilm>& layers() const { return layers_; }
 
   // Adds one pass of a tile: samples in row-major pixel order, `samples_per_pixel` of one pixel behind each other.
   // Passes of one tile must be added in their order, for the sums to be the same bits in every run; tiles are
   // independent, so different tiles may be added by different threads at once.
-  void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples);
+  // `sums`: of a film with layers, as PixelIntegrator::trace_layers fills them.
+  void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
+                std::span<const ExactRgb> sums = {});
 
-  // The film of all passes of both; the same bounds are required. `other` holds the later passes.
+  // The film of all passes of both; the same bounds and layers are required. `other` holds the later passes.
   void merge(const Film& other);
 
   const PixelEstimate& pixel(int x, int y) const { return pixels_[index(x, y)]; }
@@ -81,6 +87,7 @@ class Film {
   // The sum of every pass over a tile, by the tile's first pixel and then by pass: threads write to different tiles,
   // and the sum over tiles is taken in their order.
   std::vector<std::vector<PassSum>> tile_sums_;
+  std::optional<LayerFilm> layers_;
 };
 
 }  // namespace montelux

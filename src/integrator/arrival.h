@@ -2,6 +2,7 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/tally.h"
 #include "mc/mis.h"
 #include "scene/scene.h"
 
@@ -44,23 +45,32 @@ Hit<F> select_hit(Mask<F> m, const Hit<F>& a, const Hit<F>& b) {
           select(m, a.instance, b.instance)};
 }
 
+// Is told of each light that a ray meets, weighted: in which lanes, how much, its number, and how it was found.
+struct NoWitness {
+  template <class... All>
+  MONTELUX_INLINE void operator()(const All&...) const {}
+};
+
 // The light from beyond the scene along d, each infinite light weighted by weight(density): the density, solid angle,
 // with which light sampling at `from` would have drawn d.
-template <class F, class Weight>
-Spectrum<F> sky_light(const Scene& scene, const Departure<F>& from, const Vec3<F>& d, Mask<F> on, Weight weight) {
+template <class F, class Weight, class Witness>
+Spectrum<F> sky_light(const Scene& scene, const Departure<F>& from, const Vec3<F>& d, Mask<F> on, Weight weight,
+                      Witness witness) {
   Spectrum<F> sum = gray(F(0.0f));
   for (int i = 0; i < scene.lights.infinite_count() && any(on); ++i) {
     const LightHit<F> sky = scene.lights.template escaped<F>(i, from.p, from.n, d, on);
-    sum += select(on, sky.radiance * weight(sky.density.value), gray(F(0.0f)));
+    const Spectrum<F> light = select(on, sky.radiance * weight(sky.density.value), gray(F(0.0f)));
+    sum += light;
+    witness(on, light, Uint<F>(std::uint32_t(scene.lights.infinite_light(i))), Technique::environment);
   }
   return sum;
 }
 
 // Follows rays that have met `hit` where `found`, straight on through interfaces, to a surface that scatters.
 // weight(density) is the weight of the light that is met, as for sky_light; `random` belongs to this vertex.
-template <class F, class Rays, class Weight>
+template <class F, class Rays, class Weight, class Witness = NoWitness>
 Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from, const Ray<F>& ray, Hit<F> hit,
-                  Mask<F> found, RandomStream<F> random, RayCounts& counts, Weight weight) {
+                  Mask<F> found, RandomStream<F> random, RayCounts& counts, Weight weight, Witness witness = {}) {
   using U = Uint<F>;
   Arrival<F> a{};
   a.d = ray.d, a.light = gray(F(0.0f));
@@ -77,7 +87,9 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
     if (const Mask<F> emits = open & (a.x.light != U(0u)); any(emits)) {
       const LightHit<F> light = scene.lights.template hit<F>(select(emits, a.x.light - U(1u), U(0u)), from.p, from.n,
                                                              a.x.point.p, a.x.point.ng, a.x.point.uv, ray.d, emits);
-      a.light += select(emits, light.radiance * weight(light.density.value), gray(F(0.0f)));
+      const Spectrum<F> met = select(emits, light.radiance * weight(light.density.value), gray(F(0.0f)));
+      a.light += met;
+      witness(emits, met, U(a.x.light - U(1u)), Technique::bsdf_sampling);
     }
     const Mask<F> passes = open & a.bsdf.is_interface;
     if (!any(passes)) break;
@@ -87,7 +99,7 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
     counts.scattered += std::uint64_t(count(passes));
     const auto [further, next] = rays.template trace<F>({o, ray.d, F(ray_infinity)}, passes);
     const Mask<F> left = passes & !further;
-    a.light += sky_light(scene, from, ray.d, left, weight);
+    a.light += sky_light(scene, from, ray.d, left, weight, witness);
     found = found & !left;
     open = passes & further;
     hit = select_hit(open, next, hit);
@@ -100,13 +112,14 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
 }
 
 // Traces the ray first. Lanes that are off come back with nothing.
-template <class F, class Rays, class Weight>
+template <class F, class Rays, class Weight, class Witness = NoWitness>
 Arrival<F> trace_to_arrival(const Scene& scene, const Rays& rays, const Departure<F>& from, const Ray<F>& ray,
-                            Mask<F> on, RandomStream<F> random, RayCounts& counts, Weight weight) {
+                            Mask<F> on, RandomStream<F> random, RayCounts& counts, Weight weight,
+                            Witness witness = {}) {
   counts.scattered += std::uint64_t(count(on));
   const auto [found, hit] = rays.template trace<F>(ray, on);
-  Arrival<F> a = arrive(scene, rays, from, ray, hit, found, random, counts, weight);
-  a.light += sky_light(scene, from, ray.d, Mask<F>(on & !found), weight);
+  Arrival<F> a = arrive(scene, rays, from, ray, hit, found, random, counts, weight, witness);
+  a.light += sky_light(scene, from, ray.d, Mask<F>(on & !found), weight, witness);
   return a;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 #include <array>
 #include <span>
+#include <stdexcept>
 
+#include "image/layers.h"
 #include "image/pixel_sample.h"
 #include "mc/point_set.h"
 
@@ -35,6 +37,14 @@ class PixelIntegrator {
   virtual ~PixelIntegrator() = default;
   // Fills `out`: pixels of the tile in row-major order, the samples of one pixel behind each other.
   virtual RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const = 0;
+
+  // Whether trace_layers() is there.
+  virtual bool has_layers() const { return false; }
+  // The same, and adds what the samples bring to sums: at each pixel of the tile plan.count() + 1 of them behind each
+  // other, all light and then the layers. Samples that are not finite are not in the sums.
+  virtual RayCounts trace_layers(const TilePass&, const LayerPlan&, std::span<PixelSample>, std::span<ExactRgb>) const {
+    throw std::logic_error("this integrator has no layers");
+  }
 };
 
 }  // namespace montelux

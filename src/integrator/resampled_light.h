@@ -16,6 +16,7 @@ struct ResampledLight {
   Vec3<F> wi;
   F distance;
   Spectrum<F> value;
+  F u_choice;  // that its light was chosen by
 };
 
 // draw(u_choice, u) gives a LightSample; value(light, mask) what it brings if nothing is in the way, not yet divided by
@@ -27,9 +28,10 @@ ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F>
     F distance;
     Spectrum<F> value;
     F target;
+    F u_choice;
   };
   const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
-  Chosen chosen{nowhere, F(0.0f), gray(F(0.0f)), F(0.0f)};
+  Chosen chosen{nowhere, F(0.0f), gray(F(0.0f)), F(0.0f), F(0.0f)};
   F sum = 0.0f;
   for (int i = 0; i < candidates; ++i) {
     const F u_choice = stream.next();
@@ -43,10 +45,11 @@ ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F>
     sum = sum + weight;
     const Mask<F> taken = u_take * sum < weight;
     chosen = {select(taken, light.wi, chosen.wi), select(taken, light.distance, chosen.distance),
-              select(taken, brings, chosen.value), select(taken, target, chosen.target)};
+              select(taken, brings, chosen.value), select(taken, target, chosen.target),
+              select(taken, u_choice, chosen.u_choice)};
   }
   const F factor = resampling_weight(sum, F(float(candidates)), chosen.target);
-  return {chosen.wi, chosen.distance, chosen.value * factor};
+  return {chosen.wi, chosen.distance, chosen.value * factor, chosen.u_choice};
 }
 
 }  // namespace montelux

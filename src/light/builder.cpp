@@ -38,8 +38,14 @@ LightId LightSetBuilder::add_row(LightKind kind, const LightRow& row, std::optio
   tables_.kinds.push_back(std::uint32_t(kind));
   tables_.bounds.push_back(bounds);
   tables_.powers.push_back(std::isfinite(power) && power > 0 ? power : 0.0f);
+  auto& names = tables_.group_names;
+  const auto found = std::find(names.begin(), names.end(), group_);
+  tables_.groups.push_back(std::uint32_t(found - names.begin()));
+  if (found == names.end()) names.push_back(group_);
   return id;
 }
+
+void LightSetBuilder::begin_group(const std::string& name) { group_ = name; }
 
 std::uint32_t LightSetBuilder::number_of(std::shared_ptr<const LightImage> image) {
   if (tables_.images.empty() || tables_.images.back() != image) {
@@ -55,6 +61,7 @@ std::uint32_t LightSetBuilder::number_of(const Transform& to_world) {
 }
 
 LightSetBuilder::Surface LightSetBuilder::surface(const Emission& emission, float area, bool flip) {
+  begin_group(emission.group);
   Surface s{};
   Rgb factor = emission.image ? gray(emission.scale) : emission.radiance * emission.scale;
   Rgb mean = emission.image ? emission.image->mean() : gray(1.0f);

@@ -15,6 +15,7 @@ struct Emission {
   std::optional<float> power{};               // of the whole shape, W: scales it so that L of luminance 1 emits that
   bool two_sided = false;                     // else on the side of the normal
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
+  std::string group = "default";              // of lights that share a layer of a picture
 };
 
 // Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.
@@ -50,6 +51,9 @@ struct CylinderShape {
   bool flip = false;
 };
 
+// The group that a light states. A name that no picture file could carry is an error.
+std::string light_group(const Entity& light, Diagnostics& diagnostics);
+
 // What the builder asks the scene for. A callback that cannot answer reports that itself and returns what is sensible.
 struct LightInputs {
   std::function<Rgb(const SpectrumValue&)> emission;  // of L, I, ...: a spectrum that is not an RGB has luminance 1
@@ -58,7 +62,7 @@ struct LightInputs {
 };
 
 // The emission that an area light states ("diffuse").
-Emission emission_of(const Entity& area_light, const LightInputs& inputs);
+Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics);
 
 class LightSetBuilder {
  public:
@@ -92,6 +96,8 @@ class LightSetBuilder {
 
  private:
   LightId add_row(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
+  // The lights that follow belong to this group.
+  void begin_group(const std::string& name);
   // What a surface of this area stores, and what the choice of lights needs of it.
   struct Surface {
     LightRow row;
@@ -105,6 +111,7 @@ class LightSetBuilder {
   std::uint32_t number_of(const Transform& to_world);
 
   LightTables tables_;
+  std::string group_ = "default";
 };
 
 }  // namespace montelux

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "light/bvh.h"
@@ -24,6 +25,8 @@ struct LightTables {
   std::vector<LightTransform> transforms;                                // by the number in a row; at least one
   std::vector<std::shared_ptr<const LightImage>> images;                 // by the number in a row
   std::vector<std::shared_ptr<const PiecewiseConstant2>> distributions;  // of each image; null: not needed
+  std::vector<std::uint32_t> groups;                                     // numbers in group_names
+  std::vector<std::string> group_names;
   Vec3f scene_centre{};
   float scene_radius = 1;
 };
@@ -46,6 +49,9 @@ class LightSet {
 
   std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
+  // The group of every light, for layers of a picture, and what the groups are called, in the order of their lights.
+  const std::vector<std::uint32_t>& groups() const { return tables_.groups; }
+  const std::vector<std::string>& group_names() const { return tables_.group_names; }
   const LightSettings& settings() const { return settings_; }
   float scene_radius() const { return tables_.scene_radius; }
   // Whether there are lights that no ray meets.

@@ -1,4 +1,5 @@
 // Lights as a scene file states them.
+#include <algorithm>
 #include <cmath>
 
 #include "light/builder.h"
@@ -120,9 +121,21 @@ std::optional<LightId> add_projection(LightSetBuilder& builder, const Reader& re
 
 }  // namespace
 
-Emission emission_of(const Entity& area_light, const LightInputs& inputs) {
+std::string light_group(const Entity& light, Diagnostics& diagnostics) {
+  const std::string name = light.parameters.string("group", "default");
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), plain)) return name;
+  diagnostics.error(light.where, "\"" + name + "\" cannot name a group of lights",
+                    "use up to 64 letters of the English alphabet, digits, _ and -");
+  return "default";
+}
+
+Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics) {
   const ParameterList& list = area_light.parameters;
   Emission e;
+  e.group = light_group(area_light, diagnostics);
   auto stated = list.spectrum("L");
   e.radiance = stated ? inputs.emission(*stated) : gray(1.0f);
   e.scale = list.number("scale", 1);
@@ -135,6 +148,7 @@ Emission emission_of(const Entity& area_light, const LightInputs& inputs) {
 std::optional<LightId> LightSetBuilder::add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
                                             Diagnostics& diagnostics) {
   Reader read{light, to_world, inputs, diagnostics};
+  begin_group(light_group(light, diagnostics));
   if (light.type == "point") {
     Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", 4 * pi));
     return add_point(to_world.point(read.from()), intensity);

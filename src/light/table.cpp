@@ -10,6 +10,9 @@ using List = std::vector<ParameterSpec>;
 constexpr double most = 1e30;
 
 ParameterSpec scale() { return {"scale", {number}, "factor of the emission; default 1", 0, most}; }
+ParameterSpec group() {
+  return {"group", {string}, "lights of one name share a layer (--layers); default \"default\""};
+}
 ParameterSpec power() {
   return {"power", {number}, "total power in watts that the light is scaled to; default: not", -1, most};
 }
@@ -25,7 +28,7 @@ std::vector<EntitySpec> lights() {
   return {
       {"point",
        "the same intensity in all directions",
-       {intensity(), {"from", {point3}, "position; default 0 0 0"}, power(), scale()}},
+       {intensity(), {"from", {point3}, "position; default 0 0 0"}, power(), scale(), group()}},
       {"spot",
        "a cone with a soft edge",
        {intensity(),
@@ -34,30 +37,34 @@ std::vector<EntitySpec> lights() {
         {"coneangle", {number}, "half-angle in degrees; default 30", 1e-3, 180},
         {"conedeltaangle", {number}, "width of the edge in degrees; default 5", 0, 180},
         power(),
-        scale()}},
+        scale(),
+        group()}},
       {"distant",
        "parallel rays",
        {{"L", {spectrum}, "radiance, that is irradiance at normal incidence; default 1", 0, most},
         {"from", {point3}, "the direction is from `from` to `to`; default 0 0 0"},
         {"to", {point3}, "default 0 0 1"},
         illuminance("illuminance at normal incidence in lux that the light is scaled to; default: not"),
-        scale()}},
+        scale(),
+        group()}},
       {"goniometric",
        "an intensity that an image gives by direction",
-       {intensity(), {"filename", {string}, "square equal-area image; default constant"}, power(), scale()}},
+       {intensity(), {"filename", {string}, "square equal-area image; default constant"}, power(), scale(), group()}},
       {"projection",
        "a slide projector along +z",
        {{"filename", {string}, "the slide"},
         {"I", {spectrum}, "factor of the slide; default 1", 0, most},
         {"fov", {number}, "field of view of the shorter side in degrees; default 90", 1e-3, 179.99},
         power(),
-        scale()}},
+        scale(),
+        group()}},
       {"infinite",
        "an environment",
        {{"L", {spectrum}, "radiance; default 1", 0, most},
         {"filename", {string}, "square equal-area image of the sphere, instead of L"},
         illuminance("illuminance of the upward plane in lux that the light is scaled to; default: not"),
         scale(),
+        group(),
         portal()}},
   };
 }
@@ -76,7 +83,8 @@ std::span<const EntitySpec> area_light_table() {
                                                {"filename", {string}, "image over (u, v), instead of L"},
                                                {"twosided", {boolean}, "emits on both sides; default false"},
                                                power(),
-                                               scale()}}};
+                                               scale(),
+                                               group()}}};
   return table;
 }
 

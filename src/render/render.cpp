@@ -53,17 +53,17 @@ class Job {
   Job(const PixelIntegrator& integrator, const RenderSettings& settings)
       : integrator_(integrator),
         settings_(settings),
-        film_(settings.bounds),
+        film_(settings.bounds, settings.layers),
         tiles_(cut_into_tiles(settings.bounds, tile_side(settings.plan.samples_per_pass))),
         units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
 
   void work() {
     FlushDenormals flush;
     RayCounts rays;
-    std::vector<PixelSample> samples;
+    Workspace space;
     try {
       for (std::uint64_t unit; !stop_ && (unit = next_unit_.fetch_add(1)) < units_;) {
-        rays += do_unit(unit, samples);
+        rays += do_unit(unit, space);
         units_done_.fetch_add(1);
       }
     } catch (...) {
@@ -101,18 +101,30 @@ class Job {
   RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, seconds_since(start_), interrupted}; }
 
  private:
-  RayCounts do_unit(std::uint64_t unit, std::vector<PixelSample>& samples) {
+  // What a thread keeps from one unit of work to the next.
+  struct Workspace {
+    std::vector<PixelSample> samples;
+    std::vector<ExactRgb> sums;
+  };
+
+  RayCounts trace(const TilePass& request, Workspace& space) {
+    if (!settings_.layers) return integrator_.trace(request, space.samples);
+    space.sums.assign(std::size_t(request.tile.area()) * (std::size_t(settings_.layers->count()) + 1), {});
+    return integrator_.trace_layers(request, *settings_.layers, space.samples, space.sums);
+  }
+
+  RayCounts do_unit(std::uint64_t unit, Workspace& space) {
     const int pass = int(unit / tiles_.size());
     TileState& tile = tiles_[unit % tiles_.size()];
     const int k = settings_.plan.samples_per_pass;
-    samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
+    space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds,
                      {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass), std::uint32_t(k),
                       std::uint32_t(settings_.width), std::uint32_t(settings_.height)}};
-    RayCounts rays = integrator_.trace(request, samples);
+    RayCounts rays = trace(request, space);
     std::unique_lock lock(tile.mutex);
     tile.added.wait(lock, [&] { return tile.passes_added == pass || failure_; });
-    film_.add_pass(tile.bounds, pass, k, samples);
+    film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
     ++tile.passes_added;
     tile.added.notify_all();
     return rays;

@@ -25,9 +25,10 @@ struct RenderSettings {
   PointSetKind sampler = PointSetKind::blue_noise;
   std::uint32_t seed = 0;
   PassPlan plan;
-  std::optional<double> seconds;  // stop at this time, with as many passes as fit; plan.passes is then a bound
-  int threads = 0;                // 0: all of the machine
-  int first_pass = 0;             // for a render that goes on
+  std::optional<double> seconds;    // stop at this time, with as many passes as fit; plan.passes is then a bound
+  int threads = 0;                  // 0: all of the machine
+  int first_pass = 0;               // for a render that goes on
+  std::optional<LayerPlan> layers;  // of an integrator that has them
 };
 
 struct Progress {

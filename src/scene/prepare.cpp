@@ -105,7 +105,7 @@ void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
 }
 
 GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
-  ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs()); },
+  ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs(), diagnostics_); },
                      [this](const Entity& shape) { return alpha_of(shape); },
                      [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
                      [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); }};

@@ -13,8 +13,13 @@ class DirectIntegrator final : public PixelIntegrator {
   DirectIntegrator(const Scene& scene, const Accel& accel, const DirectSettings& settings)
       : scene_(scene), accel_(accel), settings_(settings) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
+  bool has_layers() const override { return true; }
+  RayCounts trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
+                         std::span<ExactRgb> sums) const override;
 
  private:
+  template <class Tally>
+  RayCounts trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const;
   const Scene& scene_;
   const Accel& accel_;
   DirectSettings settings_;

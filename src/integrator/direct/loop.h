@@ -10,7 +10,7 @@
 namespace montelux {
 
 // All that the shadow rays of one vertex share.
-template <class F, class Rays>
+template <class F, class Rays, class Tally>
 struct DirectLight {
   using U = Uint<F>;
   using M = Mask<F>;
@@ -20,6 +20,8 @@ struct DirectLight {
   const Arrival<F>& at;
   const Branches<F>& numbers;
   RayCounts& counts;
+  Tally& tally;
+  F share;  // of one shadow ray's estimate in the pixel
 
   // One shadow ray's estimate of the light that the vertex sends on.
   Spectrum<F> estimate(std::uint32_t ray, M on) const {
@@ -52,6 +54,15 @@ struct DirectLight {
     const F products[2] = {own, other};
     return mis_weight<F>(settings.heuristic, products, 0);
   }
+  // A light that was chosen by u_choice brings `light`.
+  void record_sample(F u_choice, const Spectrum<F>& light, M on) const {
+    if constexpr (Tally::records) {
+      const Departure<F> from = at.departure();
+      tally.template add<F>(
+          on, light * share,
+          {U(1u), scene.lights.template choose<F>(from.p, from.n, u_choice, on).light, Technique::light_sampling});
+    }
+  }
   LightSample<F> draw_light(F u_choice, Vec2<F> u, LightMeasure measure, M on) const {
     const Departure<F> from = at.departure();
     return scene.lights.template sample<F>(from.p, from.n, u_choice, u, on, measure);
@@ -71,30 +82,41 @@ struct DirectLight {
 
   // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
   Spectrum<F> toward_light(std::uint32_t ray, M on, LightMeasure measure, bool shared) const {
-    const LightSample<F> light = draw_light(numbers.get1(ray, path_dimension::light_choice),
-                                            numbers.get2(ray, path_dimension::light_point), measure, on);
+    const F u_choice = numbers.get1(ray, path_dimension::light_choice);
+    const LightSample<F> light = draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), measure, on);
     const M asks = on & light.valid;
     const BsdfValue<F> value = scattered(light.wi, asks);
     F weight = F(1.0f) / light.density.value;
     if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density.value, value.density.value));
-    return unblocked(light.wi, light.distance, value.f_cos * light.radiance * weight, asks);
+    const Spectrum<F> brought = unblocked(light.wi, light.distance, value.f_cos * light.radiance * weight, asks);
+    record_sample(u_choice, brought, asks);
+    return brought;
   }
 
   // Lights that no direction can meet by chance, where the strategy draws directions.
   Spectrum<F> delta_lights(std::uint32_t ray, M on) const {
     if (!scene.lights.has_delta()) return gray(F(0.0f));
+    const F u_choice = numbers.get1(ray, path_dimension::light_choice);
     const LightSample<F> light =
-        draw_light(numbers.get1(ray, path_dimension::light_choice), numbers.get2(ray, path_dimension::light_point),
-                   LightMeasure::solid_angle, on);
+        draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), LightMeasure::solid_angle, on);
     const M asks = on & light.valid & light.delta;
-    return unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * light.radiance, asks);
+    const Spectrum<F> brought =
+        unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * light.radiance, asks);
+    record_sample(u_choice, brought, asks);
+    return brought;
   }
 
-  // What a direction of the world brings; weight(density) as for arrive().
+  // What a direction of the world brings; weight(density) as for arrive(). `factor` is what becomes of it in the end.
   template <class Weight>
-  Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, Weight weight) const {
+  Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
+                       Weight weight) const {
     return trace_to_arrival<F>(scene, rays, at.departure(), {at.origin_toward(wi), wi, F(ray_infinity)}, on,
-                               numbers.stream(ray, path_dimension::per_vertex), counts, weight)
+                               numbers.stream(ray, path_dimension::per_vertex), counts, weight,
+                               [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
+                                   [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
+                                 if constexpr (Tally::records)
+                                   tally.template add<F>(meets, light * factor * share, {U(1u), number, technique});
+                               })
         .light;
   }
 
@@ -104,7 +126,7 @@ struct DirectLight {
         sample<F>(at.bsdf.lanes(on), at.wo, Vec3<F>{numbers.get1(ray, path_dimension::lobe), u.x, u.y}, at.context);
     const M goes = on & next.valid & (max_component(next.weight) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light = incoming(at.bsdf.frame.to_world(next.wi), ray, goes, [&](F by_light) {
+    const Spectrum<F> light = incoming(at.bsdf.frame.to_world(next.wi), ray, goes, next.weight, [&](F by_light) {
       return shared ? select(next.delta, F(1.0f), heuristic(next.density.value, by_light)) : F(1.0f);
     });
     return select(goes, next.weight * light, gray(F(0.0f)));
@@ -128,7 +150,7 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(world, on);
     const M goes = on & (density > F(0.0f)) & (max_component(value.f_cos) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light = incoming(world, ray, goes, [](F) { return F(1.0f); });
+    const Spectrum<F> light = incoming(world, ray, goes, value.f_cos * (F(1.0f) / density), [](F) { return F(1.0f); });
     return select(goes, value.f_cos * light * (F(1.0f) / density), gray(F(0.0f)));
   }
 
@@ -137,16 +159,18 @@ struct DirectLight {
         settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
         [&](const LightSample<F>& light, M asks) { return scattered(light.wi, asks).f_cos * light.radiance; });
-    return unblocked(chosen.wi, chosen.distance, chosen.value, on);
+    const Spectrum<F> brought = unblocked(chosen.wi, chosen.distance, chosen.value, on);
+    record_sample(chosen.u_choice, brought, on & (max_component(brought) > F(0.0f)));
+    return brought;
   }
 };
 
-template <class F, class Rays>
+template <class F, class Rays, class Tally>
 RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSettings& settings, const TilePass& pass,
-                       std::span<PixelSample> out) {
+                       std::span<PixelSample> out, Tally& tally) {
   using U = Uint<F>;
   using M = Mask<F>;
-  FirstHits<F> first_hits(scene, rays, pass, out);
+  FirstHits<F> first_hits(scene, rays, pass, out, tally);
   RayCounts counts;
   counts.camera = first_hits.rays();
   PathState<F> path{};
@@ -157,18 +181,22 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const U first = U(path_dimension::first_vertex);
     const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-    const Arrival<F> at = arrive<F>(scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
-                                    sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
+    const Arrival<F> at = arrive<F>(
+        scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
+        sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); }, seen_directly(path, tally));
 
     const std::uint32_t points = settings.fixed ? 1u : n;
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), points, settings.pattern);
-    const DirectLight<F, Rays> direct{scene, rays, settings, at, numbers, counts};
+    const DirectLight<F, Rays, Tally> direct{scene,   rays,   settings, at,
+                                             numbers, counts, tally,    path.weight * (1.0f / float(n))};
     Spectrum<F> sum = gray(F(0.0f));
     for (std::uint32_t ray = 0; ray < n && any(at.found); ++ray)
       sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
     const Spectrum<F> reflected = select(at.found, sum * (1.0f / float(n)), gray(F(0.0f)));
     const Spectrum<F> radiance = (at.light + reflected) * path.weight;
     for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    if constexpr (Tally::records)
+      for_each_lane(on, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
 
     const Vec2<F> u = sampler.get2(first + U(path_dimension::direction));
     const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo,

@@ -18,7 +18,14 @@ int at_depth(const std::vector<int>& counts, U depth) {
   return counts[std::min<std::size_t>(depth, counts.size() - 1)];
 }
 
+// The way from the camera to a surface.
+struct Way {
+  Rgb throughput;  // as the roulette takes it: of one of the branches
+  Rgb share;       // of what the surface sends on in the pixel
+};
+
 // The tree of rays that grows from one camera ray.
+template <class Tally>
 struct Tree {
   const Scene& scene;
   const Accel& accel;
@@ -26,10 +33,10 @@ struct Tree {
   const TilePass& pass;
   PathSite<F> site;
   RayCounts& counts;
+  Tally& tally;
 
-  // Light that the surface sends back beside what it emits. `vertex` tells apart the surfaces of the tree;
-  // `throughput` is that of the way from the camera.
-  Rgb reflected(const Arrival<F>& at, U depth, U vertex, const Rgb& throughput) {
+  // Light that the surface sends back beside what it emits. `vertex` tells apart the surfaces of the tree.
+  Rgb reflected(const Arrival<F>& at, U depth, U vertex, const Way& way) {
     if (settings.max_depth && depth >= U(*settings.max_depth)) return gray(0.0f);
     const auto directions = U(at_depth(settings.branching, depth));
     // Lights that no ray can meet need a shadow ray.
@@ -39,10 +46,9 @@ struct Tree {
     const Branches<F> lights(pass, site, first, vertex, std::max(points, 1u));
     const Branches<F> numbers(pass, site, first, vertex, directions);
     Rgb sum = gray(0.0f);
-    for (U i = 0; i < points; ++i) sum += toward_light(at, lights, i, points, directions);
+    for (U i = 0; i < points; ++i) sum += toward_light(at, lights, i, {points, directions}, depth, way);
     for (U i = 0; i < directions; ++i)
-      sum +=
-          along_bsdf(at, numbers, i, {points, directions}, depth, mix_bits(vertex * 0x9e3779b9u + i + 1), throughput);
+      sum += along_bsdf(at, numbers, i, {points, directions}, depth, mix_bits(vertex * 0x9e3779b9u + i + 1), way);
     return sum;
   }
 
@@ -51,23 +57,30 @@ struct Tree {
     U points, directions;  // samples of each technique at a vertex
   };
 
-  Rgb toward_light(const Arrival<F>& at, const Branches<F>& numbers, U i, U points, U directions) {
+  Rgb toward_light(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, const Way& way) {
     const Departure<F> from = at.departure();
-    const LightSample<F> light = scene.lights.sample<F>(from.p, from.n, numbers.get1(i, path_dimension::light_choice),
-                                                        numbers.get2(i, path_dimension::light_point), true);
+    const F u_choice = numbers.get1(i, path_dimension::light_choice);
+    const LightSample<F> light =
+        scene.lights.sample<F>(from.p, from.n, u_choice, numbers.get2(i, path_dimension::light_point), true);
     if (!light.valid) return gray(0.0f);
     const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     const float weight =
-        light.delta ? 1.0f : power_weight(float(points) * light.density.value, float(directions) * value.density.value);
-    const Rgb direct = value.f_cos * light.radiance * (weight / (light.density.value * float(points)));
+        light.delta ? 1.0f
+                    : power_weight(float(n.points) * light.density.value, float(n.directions) * value.density.value);
+    const Rgb direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     ++counts.shadow;
     const Ray<F> ray{at.origin_toward(light.wi), light.wi, light.distance * (1.0f - shadow_shortening)};
-    return accel.occluded<F>(ray, true) ? gray(0.0f) : direct;
+    if (accel.occluded<F>(ray, true)) return gray(0.0f);
+    if constexpr (Tally::records)
+      tally.template add<F>(
+          true, direct * way.share,
+          {depth + 1, scene.lights.choose<F>(from.p, from.n, u_choice, true).light, Technique::light_sampling});
+    return direct;
   }
 
   Rgb along_bsdf(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, U vertex,
-                 const Rgb& throughput) {
+                 const Way& way) {
     const Vec2f u = numbers.get2(i, path_dimension::direction);
     BsdfContext<F> context = at.context;
     context.random = context.random.fork(i);
@@ -75,7 +88,7 @@ struct Tree {
         sample<F>(at.bsdf.lanes(true), at.wo, Vec3f{numbers.get1(i, path_dimension::lobe), u.x, u.y}, context);
     if (!next.valid || !(max_component(next.weight) > 0)) return gray(0.0f);
     Rgb weight = next.weight * (1.0f / float(n.directions));
-    const Rgb onward = throughput * weight;
+    const Rgb onward = way.throughput * weight;
     // Where the tree has become a path, it ends by roulette.
     if (n.directions == 1 && depth >= 2) {
       const Roulette<F> survival = roulette(std::min(std::sqrt(max_component(onward)), most_survival),
@@ -87,13 +100,21 @@ struct Tree {
     count_ray(depth + 1);
     const Arrival<F> there = trace_to_arrival<F>(
         scene, accel, at.departure(), {at.origin_toward(wi), wi, ray_infinity}, true,
-        numbers.stream(i, path_dimension::own).fork(vertex), counts, [&](float by_light) {
+        numbers.stream(i, path_dimension::own).fork(vertex), counts,
+        [&](float by_light) {
           return next.delta || n.points == 0
                      ? 1.0f
                      : power_weight(float(n.directions) * next.density.value, float(n.points) * by_light);
+        },
+        [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Rgb& light, [[maybe_unused]] U number,
+            [[maybe_unused]] Technique technique) {
+          if constexpr (Tally::records)
+            tally.template add<F>(meets, light * weight * way.share, {depth + 1, number, technique});
         });
     Rgb light = there.light;
-    if (there.found) light += reflected(there, depth + 1, vertex, throughput * weight * gray(float(n.directions)));
+    if (there.found)
+      light += reflected(there, depth + 1, vertex,
+                         {way.throughput * weight * gray(float(n.directions)), way.share * weight});
     return weight * light;
   }
 
@@ -102,9 +123,10 @@ struct Tree {
 
 }  // namespace
 
-RayCounts DistributionIntegrator::trace(const TilePass& pass, std::span<PixelSample> out) const {
+template <class Tally>
+RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
   std::fill(out.begin(), out.end(), PixelSample{});
-  FirstHits<F> first_hits(scene_, accel_, pass, out);
+  FirstHits<F> first_hits(scene_, accel_, pass, out, tally);
   RayCounts counts;
   counts.camera = first_hits.rays();
   counts.by_depth[0] = counts.camera;
@@ -112,20 +134,32 @@ RayCounts DistributionIntegrator::trace(const TilePass& pass, std::span<PixelSam
   const U first = path_dimension::first_vertex;
   while (first_hits.refill(path, false)) {
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
-    const Arrival<F> at = arrive<F>(scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity}, path.hit, true,
-                                    sampler.stream(first + path_dimension::own), counts, [](float) { return 1.0f; });
+    const Arrival<F> at = arrive<F>(
+        scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity}, path.hit, true,
+        sampler.stream(first + path_dimension::own), counts, [](float) { return 1.0f; }, seen_directly(path, tally));
     Rgb radiance = at.light;
     if (at.found) {
-      Tree tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts};
-      radiance += tree.reflected(at, 0, 0, gray(1.0f));
+      Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};
+      radiance += tree.reflected(at, 0, 0, {gray(1.0f), gray(path.weight)});
       const Vec2f u = sampler.get2(first + path_dimension::direction);
       const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo,
                                            Vec3f{sampler.get1(first + path_dimension::lobe), u.x, u.y}, at.context);
       write_features(at, next.valid ? next.weight : gray(0.0f), path.slot, true, out);
     }
     out[path.slot].radiance = radiance * path.weight;
+    if constexpr (Tally::records) tally.finish(0, path.slot, out[path.slot]);
   }
   return counts;
+}
+
+RayCounts DistributionIntegrator::trace(const TilePass& pass, std::span<PixelSample> out) const {
+  return trace_with(pass, out, no_tally);
+}
+
+RayCounts DistributionIntegrator::trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
+                                               std::span<ExactRgb> sums) const {
+  LayerTally tally(plan, pass.points.samples_per_pass, sums);
+  return trace_with(pass, out, tally);
 }
 
 }  // namespace montelux

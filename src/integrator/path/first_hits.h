@@ -7,6 +7,7 @@
 #include "integrator/integrator.h"
 #include "integrator/path/dimensions.h"
 #include "integrator/path/path_state.h"
+#include "integrator/tally.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -16,18 +17,35 @@ template <class F>
 class FirstHits {
  public:
   // `rays` answers trace as Accel does.
+  template <class Rays, class Tally>
+  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out, Tally& tally);
   template <class Rays>
-  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out);
+  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out)
+      : FirstHits(scene, rays, pass, out, no_tally) {}
 
   // Fills lanes that are off, as long as there are paths left; gives the lanes that are on now.
   Mask<F> refill(PathState<F>& state, Mask<F> on);
   std::uint64_t rays() const { return rays_; }
 
  private:
+  // The sky that a camera ray sees, light by light.
+  static void tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
+                        LayerTally& tally);
+
   std::vector<PathStart<float>> starts_;
   std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
 };
+
+// A witness of arrive() for light that the camera sees directly.
+template <class F, class Tally>
+auto seen_directly([[maybe_unused]] const PathState<F>& path, [[maybe_unused]] Tally& tally) {
+  return [&]([[maybe_unused]] Mask<F> on, [[maybe_unused]] const Spectrum<F>& light,
+             [[maybe_unused]] const Uint<F>& number, Technique) {
+    if constexpr (Tally::records)
+      tally.template add<F>(on, light * path.weight, {Uint<F>(0u), number, Technique::emission});
+  };
+}
 
 // Camera packets cover blocks of pixels as square as the lanes allow.
 template <class F>
@@ -49,8 +67,21 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, 
 }
 
 template <class F>
-template <class Rays>
-FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out) {
+void FirstHits<F>::tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
+                             LayerTally& tally) {
+  const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+  for (int i = 0; i < scene.lights.infinite_count(); ++i) {
+    const LightHit<F> sky = scene.lights.template escaped<F>(i, start.o, nowhere, start.d, left);
+    const Uint<F> light = Uint<F>(std::uint32_t(scene.lights.infinite_light(i)));
+    tally.add(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
+  }
+  for_each_lane(left, [&](int k) { tally.finish(k, lane(start.slot, k), out[lane(start.slot, k)]); });
+}
+
+template <class F>
+template <class Rays, class Tally>
+FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out,
+                        [[maybe_unused]] Tally& tally) {
   using U = Uint<F>;
   constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
   const PixelBounds& tile = pass.tile;
@@ -80,6 +111,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         if (any(left)) {
           Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
           for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = lane(sky, k); });
+          if constexpr (Tally::records) tally_sky(scene, state, left, out, tally);
         }
       }
 }

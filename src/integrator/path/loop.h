@@ -85,14 +85,22 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       });
 }
 
+// Light that a path gathers. `origin()` tells the tally where it comes from.
+template <class F, class Tally, class Origin>
+MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum<F>& light,
+                                  [[maybe_unused]] Tally& tally, [[maybe_unused]] Origin origin) {
+  path.radiance += select(on, light, gray(F(0.0f)));
+  if constexpr (Tally::records) tally.template add<F>(on, light * path.weight, origin());
+}
+
 // A tile's paths, one a lane. A lane whose path ends takes the next of the first hits. `rays` answers trace and
 // occluded as Accel does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings ask.
-template <class F, class Rays>
+template <class F, class Rays, class Tally>
 RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
-                      const TilePass& pass, std::span<PixelSample> out) {
+                      const TilePass& pass, std::span<PixelSample> out, Tally& tally) {
   using U = Uint<F>;
   using M = Mask<F>;
-  FirstHits<F> first_hits(scene, rays, pass, out);
+  FirstHits<F> first_hits(scene, rays, pass, out, tally);
   RayCounts counts;
   counts.camera = first_hits.rays();
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
@@ -109,7 +117,9 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
       LightHit<F> light = lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
                                                  x.point.ng, x.point.uv, path.d, emits);
       F weight = weight_of_light_hit(settings, path.density, light.density.value);
-      path.radiance += select(emits, path.throughput * light.radiance * weight, gray(F(0.0f)));
+      gather_light(path, emits, path.throughput * light.radiance * weight, tally, [&] {
+        return LightOrigin<F>{path.depth, x.light - U(1u), Technique::bsdf_sampling};
+      });
     }
     M scatters = on & (path.depth < max_depth);
 
@@ -125,9 +135,10 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
 
     // A direction toward a light, and one by the BSDF.
     const M wants_light = scatters & !bsdf.is_delta;
-    LightSample<F> light = lights.template sample<F>(
-        x.point.p, bsdf.light_normal, sampler.get1(dimension + U(path_dimension::light_choice)),
-        sampler.get2(dimension + U(path_dimension::light_point)), settings.candidates > 0 ? M(false) : wants_light);
+    F light_choice = sampler.get1(dimension + U(path_dimension::light_choice));
+    LightSample<F> light = lights.template sample<F>(x.point.p, bsdf.light_normal, light_choice,
+                                                     sampler.get2(dimension + U(path_dimension::light_point)),
+                                                     settings.candidates > 0 ? M(false) : wants_light);
     const M asks = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
     const Scattering<F> scattered =
         scatter<F>(bsdf.lanes(scatters),
@@ -149,13 +160,18 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
       const ResampledLight<F> chosen =
           resampled_light<F>(lights, settings, {x.point.p, bsdf, wo, context, wants_light});
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
+      light_choice = chosen.u_choice;
       shadow = wants_light & (max_component(direct) > F(0.0f));
     }
     if (any(shadow)) {
       counts.shadow += std::uint64_t(count(shadow));
       Vec3<F> o = offset_origin(x.point.p, x.point.p_error, x.point.ng, light.wi);
       M blocked = rays.template occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening)}, shadow);
-      path.radiance += select(shadow & !blocked, direct, gray(F(0.0f)));
+      gather_light(path, shadow & !blocked, direct, tally, [&] {
+        // The choice is made once more: the same numbers give the same light.
+        const U chosen = lights.template choose<F>(x.point.p, bsdf.light_normal, light_choice, wants_light).light;
+        return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};
+      });
     }
 
     // Scatter; roulette.
@@ -188,15 +204,24 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     for (int i = 0; i < lights.infinite_count() && any(left); ++i) {
       LightHit<F> sky = lights.template escaped<F>(i, path.p, path.n, path.d, left);
       F weight = weight_of_light_hit(settings, path.density, sky.density.value);
-      path.radiance += select(left, path.throughput * sky.radiance * weight, gray(F(0.0f)));
+      gather_light(path, left, path.throughput * sky.radiance * weight, tally, [&] {
+        return LightOrigin<F>{path.depth, U(std::uint32_t(lights.infinite_light(i))), Technique::environment};
+      });
     }
     const M ended = on & !found;
     if (any(ended)) {
       const Spectrum<F> radiance = path.radiance * path.weight;
       for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+      if constexpr (Tally::records)
+        for_each_lane(ended, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
     }
     on = on & found;
   }
+}
+template <class F, class Rays>
+RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
+                      const TilePass& pass, std::span<PixelSample> out) {
+  return trace_paths<F>(scene, lights, rays, settings, pass, out, no_tally);
 }
 
 }  // namespace montelux

@@ -14,8 +14,13 @@ class PathTracer final : public PixelIntegrator {
   PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings);
 
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
+  bool has_layers() const override { return true; }
+  RayCounts trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
+                         std::span<ExactRgb> sums) const override;
 
  private:
+  template <class Tally>
+  RayCounts trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const;
   const Scene& scene_;
   const Accel& accel_;
   PathSettings settings_;

@@ -1,0 +1,52 @@
+#include "api/layers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+
+namespace montelux {
+
+namespace {
+
+constexpr int default_bounces = 4, most_bounces = 64;
+
+Status read_word(std::string_view word, LayerRequest& request) {
+  constexpr std::string_view counted = "bounces:";
+  if (word == "bounces") {
+    request.bounces = default_bounces;
+  } else if (word.starts_with(counted)) {
+    int bounces = 0;
+    const char *at = word.data() + counted.size(), *end = word.data() + word.size();
+    const auto [next, error] = std::from_chars(at, end, bounces);
+    if (error != std::errc{} || next != end || bounces < 0 || bounces > most_bounces)
+      return Failure{
+          fmt::format("bounces takes a whole number from 0 to {}, as bounces:3; found \"{}\"", most_bounces, word)};
+    request.bounces = bounces;
+  } else if (word == "light-groups") {
+    request.light_groups = true;
+  } else if (word == "errors") {
+    request.errors = true;
+  } else {
+    return Failure{fmt::format("there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors", word)};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<LayerRequest> parse_layers(const std::string& text) {
+  LayerRequest request;
+  std::string_view rest = text;
+  for (bool more = true; more;) {
+    const std::size_t comma = rest.find(',');
+    if (Status read = read_word(rest.substr(0, comma), request); !read) return read.failure();
+    more = comma != std::string_view::npos;
+    if (more) rest = rest.substr(comma + 1);
+  }
+  if (!request.bounces && !request.light_groups)
+    return Failure{"errors are those of layers: bounces, light-groups, or both must be asked for, too"};
+  return request;
+}
+
+}  // namespace montelux

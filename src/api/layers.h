@@ -1,0 +1,20 @@
+// Which layers of light a picture is asked for.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "image/layers.h"
+#include "math/result.h"
+
+namespace montelux {
+
+struct LayerRequest {
+  std::optional<int> bounces;  // told apart up to this one
+  bool light_groups = false;
+  bool errors = false;  // the standard error of each layer, too
+};
+
+// "bounces:3,light-groups,errors". Fails where a word is unknown or nothing is asked for.
+Result<LayerRequest> parse_layers(const std::string& text);
+
+}  // namespace montelux

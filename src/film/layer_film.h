@@ -1,0 +1,69 @@
+// The layers of a film. Their sums are exact, so at every pixel those of each family sum to that of all light, bit for
+// bit, whatever was merged with what and in which order.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "image/layers.h"
+#include "image/pixel_sample.h"
+
+namespace montelux {
+
+// How the pass means of one layer spread, and how they go with those of all light, by channel.
+struct LayerSpread {
+  double mean[spectrum_size] = {};
+  double m2[spectrum_size] = {};         // sum of squared deviations
+  double co_moment[spectrum_size] = {};  // sum of products with the deviations of all light
+};
+
+class LayerFilm {
+ public:
+  // `spread`: keep that of each layer, too.
+  LayerFilm(PixelBounds bounds, int count, bool spread);
+
+  int count() const { return count_; }
+  bool has_spread() const { return !spreads_.empty(); }
+
+  // One pass of a pixel: the sums over its finite samples, of which there is one at least; all light first.
+  void add(int x, int y, int samples, std::span<const ExactRgb> sums);
+  // Fails where bounds, count or spread differ. `other` holds the later passes.
+  void merge(const LayerFilm& other);
+
+  // Over all finite samples of the pixel.
+  const ExactRgb& all_light(int x, int y) const { return sums_[first_sum(x, y)]; }
+  const ExactRgb& layer(int x, int y, int layer) const { return sums_[first_sum(x, y) + std::size_t(layer) + 1]; }
+  // Those sums over the number of samples; 0 where there is none.
+  double mean(int x, int y, int channel) const { return over_samples(x, y, all_light(x, y).c[channel]); }
+  double layer_mean(int x, int y, int number, int channel) const {
+    return over_samples(x, y, layer(x, y, number).c[channel]);
+  }
+  int passes(int x, int y) const { return counts_[index(x, y)].passes; }
+  // Only where has_spread(). Number -1 is all light, whose co-moment is its m2.
+  const LayerSpread& spread(int x, int y, int number) const {
+    return spreads_[first_sum(x, y) + std::size_t(number + 1)];
+  }
+  // Variance of a layer's mean, infinite below two passes.
+  double variance_of_mean(int x, int y, int number, int channel) const;
+
+ private:
+  struct Counts {
+    std::uint64_t samples = 0;
+    int passes = 0;
+  };
+  std::size_t index(int x, int y) const {
+    return std::size_t(y - bounds_.y0) * std::size_t(bounds_.width()) + std::size_t(x - bounds_.x0);
+  }
+  std::size_t first_sum(int x, int y) const { return index(x, y) * (std::size_t(count_) + 1); }
+  double over_samples(int x, int y, const ExactSum& sum) const {
+    const std::uint64_t n = counts_[index(x, y)].samples;
+    return n > 0 ? sum.value() / double(n) : 0;
+  }
+
+  PixelBounds bounds_;
+  int count_;
+  std::vector<Counts> counts_;        // by pixel
+  std::vector<ExactRgb> sums_;        // by pixel, all light and the layers behind each other
+  std::vector<LayerSpread> spreads_;  // likewise
+};
+
+}  // namespace montelux
