@@ -70,6 +70,33 @@ class Render(ProgramTest):
         self.assertGreater(told["seconds"], 0)
         self.assertFalse(told["interrupted"])
 
+    def test_layers_sum_to_the_picture(self):
+        told = json.loads(self.render("--spp", "8", "--layers", "bounces:2,light-groups,errors", "--json", "-o",
+                                      "room.exr").stdout)
+        names = ["bounce0", "bounce1", "bounce2", "bounce_rest", "Combined_default"]
+        self.assertEqual(list(told["layers"]), names)
+        for family in "bounce", "Combined":
+            for channel in range(3):
+                total = sum(mean[channel] for name, mean in told["layers"].items() if name.startswith(family))
+                self.assertAlmostEqual(total, told["mean"][channel], delta=1e-12)
+        header = (self.folder / "room.exr").read_bytes()[:4096]
+        for name in names:
+            self.assertIn(f"{name}.R\0".encode(), header)
+            self.assertIn(f"{name}_stderr.B\0".encode(), header)
+
+    def test_layers_that_cannot_be_had_are_refused(self):
+        for options, reason in (
+            (["--layers", "bounce"], 'no layers "bounce"; valid: bounces'),
+            (["--layers", "bounces:x"], "whole number from 0 to 64"),
+            (["--layers", "errors"], "must be asked for"),
+            (["--layers", "bounces", "-o", "room.png"], "need an .exr file"),
+            (["--layers", "bounces", "--integrator", "tracepath"], "the integrator tracepath has no layers"),
+            (["--layers", "bounces", "--set", "maxcomponent=2"], "maxcomponent=none"),
+        ):
+            with self.subTest(options=options):
+                result = self.render(*options, status=2)
+                self.assertIn(reason, result.stderr)
+
 
 class Signals(ProgramTest):
     def interrupted_by(self, number):

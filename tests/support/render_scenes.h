@@ -52,6 +52,7 @@ class TestScene {
   TestScene(const TestScene&) = delete;
 
   const PictureSettings& picture() const { return prepared_->picture; }
+  const Scene& scene() const { return prepared_->scene; }
   PathTracer tracer(Lanes lanes = Lanes::native) const {
     PathSettings settings;
     settings.max_depth = prepared_->picture.max_depth;

@@ -116,6 +116,22 @@ TEST(LightParameters, images_of_directions_must_be_square_and_readable) {
   EXPECT_FALSE(make(entity("lamp", {})).id);
 }
 
+TEST(LightParameters, lights_belong_to_the_group_that_they_state) {
+  LightSetBuilder b;
+  Diagnostics diagnostics;
+  const LightInputs inputs{};
+  b.add(entity("point", {text("group", "key")}), Transform(), inputs, diagnostics);
+  b.add(entity("point", {}), Transform(), inputs, diagnostics);
+  b.add(TriangleShape{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {.radiance = gray(1.0f), .group = "key"});
+  b.add(entity("distant", {text("group", "far_2")}), Transform(), inputs, diagnostics);
+  const LightSet lights = alone(std::move(b));
+  EXPECT_EQ(lights.group_names(), (std::vector<std::string>{"key", "default", "far_2"}));
+  EXPECT_EQ(lights.groups(), (std::vector<std::uint32_t>{0, 1, 0, 2}));
+  EXPECT_FALSE(diagnostics.has_errors());
+  for (const char* name : {"", "two words", "a.b", "\n"})
+    EXPECT_TRUE(make(entity("point", {text("group", name)})).diagnostics.has_errors()) << name;
+}
+
 TEST(LightParameters, power_of_a_surface_is_what_it_emits_in_all) {
   for (bool two_sided : {false, true}) {
     LightSetBuilder b;
