@@ -11,6 +11,7 @@ namespace {
 const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/analytic";
 const std::vector<std::string> layered_ways{"path",
                                             "path:lanes=one,mis=off",
+                                            "path:light-selection=ris:4",
                                             "naive",
                                             "direct",
                                             "direct:strategy=ris,candidates=3",
@@ -219,7 +220,8 @@ TEST(Layers, of_a_light_group_are_the_picture_with_the_other_lights_removed) {
                {"Combined_default", replaced(replaced(all, key, no_key), sky, "")}};
   const TestScene scene(all);
   const LayerPlan plan = all_layers(scene.scene(), 1);
-  for (const std::string way : {"path", "naive", "direct", "distribution:branching=2/1,shadow-rays=1"}) {
+  for (const std::string way :
+       {"path", "path:light-selection=ris:4", "naive", "direct", "distribution:branching=2/1,shadow-rays=1"}) {
     const Film film = render_layers(scene, *scene.integrator(way).integrator, plan, {8, 32}).film;
     LayerPicture before;
     for (const auto& [group, text] : alone) {
@@ -230,12 +232,12 @@ TEST(Layers, of_a_light_group_are_the_picture_with_the_other_lights_removed) {
       const ChosenIntegrator other = lone.integrator(way);
       const LayerPicture truth = layer_picture(render(*other.integrator, settings, silent).film, -1);
       const LayerPicture layer = layer_picture(film, layer_number(plan, group));
-      const WelchReport report = welch_test(layer.estimate(), truth.estimate(), family_level / 12);
+      const WelchReport report = welch_test(layer.estimate(), truth.estimate(), family_level / 15);
       EXPECT_FALSE(report.image.differs) << way << " " << group << " t = " << report.image.t;
       EXPECT_FALSE(report.blocks.differs) << way << " " << group << " p = " << report.blocks.smallest_p;
       // Another group's light is not it.
       if (before.passes > 0) {
-        EXPECT_TRUE(welch_test(before.estimate(), truth.estimate(), family_level / 12).image.differs) << way << group;
+        EXPECT_TRUE(welch_test(before.estimate(), truth.estimate(), family_level / 15).image.differs) << way << group;
       }
       before = layer;
     }
