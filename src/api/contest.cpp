@@ -37,7 +37,8 @@ Result<MethodText> read_method(const std::string& text) {
     method.sampler = point_set_named(value);
     if (method.sampler) continue;
     std::vector<std::string_view> names;
-    for (const NamedPointSet& set : point_set_names) names.push_back(set.name);
+    const auto samplers = sampler_names();
+    for (const auto& [known, description] : samplers) names.push_back(known);
     return unknown_name("sampler", value, names);
   }
   if (Status known = check_integrator(method.integrator); !known) return known.failure();
@@ -58,12 +59,14 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const std::vector<std:
     auto chosen = choose_integrator(method->integrator, {parts.picture.max_depth, parts.picture.max_component},
                                     parts.scene, *parts.accel);
     if (!chosen) return Failure{text + ": " + chosen.error()};
+    const PointSetKind sampler = method->sampler.value_or(parts.picture.sampler);
+    note_sampler(*chosen, sampler);
     field.integrators.push_back(*std::move(chosen));
     lab::Contestant contestant;
     contestant.label = std::string(1, char('a' + int(field.contestants.size())));
     contestant.text = text;
     contestant.integrator = field.integrators.back().integrator.get();
-    contestant.sampler = method->sampler.value_or(parts.picture.sampler);
+    contestant.sampler = sampler;
     contestant.biases = field.integrators.back().biases;
     field.contestants.push_back(std::move(contestant));
   }

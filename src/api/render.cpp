@@ -79,6 +79,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     if (!kind) return unknown_name("sampler", *options.sampler, views_of(samplers));
     r.sampler = *kind;
   }
+  note_sampler(plan.chosen, r.sampler);
   r.width = picture.width, r.height = picture.height;
   r.bounds = options.crop.value_or(picture.crop);
   const PixelBounds& b = r.bounds;
@@ -163,6 +164,7 @@ std::vector<std::pair<std::string, std::string>> integrator_names() {
 std::vector<std::pair<std::string, std::string>> sampler_names() {
   std::vector<std::pair<std::string, std::string>> names;
   for (const NamedPointSet& set : point_set_names) names.emplace_back(set.name, set.description);
+  for (const NamedPointSet& set : fixed_point_set_names) names.emplace_back(set.name, set.description);
   return names;
 }
 

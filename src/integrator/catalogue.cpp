@@ -148,6 +148,15 @@ std::span<const EntitySpec> integrator_catalogue() {
   return specs;
 }
 
+void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
+  if (!is_fixed(kind)) return;
+  chosen.biases.push_back(fmt::format("sampler={}", name_of(kind)));
+  chosen.notes.push_back(
+      fmt::format("sampler {} takes the same points in every pixel and every pass: the picture is biased, and nothing "
+                  "states its error",
+                  name_of(kind)));
+}
+
 Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const IntegratorDefaults& defaults,
                                            const Scene& scene, const Accel& accel) {
   auto read = read_choice(choice);

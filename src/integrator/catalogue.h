@@ -28,6 +28,9 @@ struct ChosenIntegrator {
   std::vector<std::string> notes;               // the same for people, in sentences
 };
 
+// Adds to the biases and notes what the render's point set brings: nothing, but for fixed patterns.
+void note_sampler(ChosenIntegrator& chosen, PointSetKind kind);
+
 // Whether name and settings are in the catalogue, for a message before the scene is read.
 Status check_integrator(const ChoiceText& choice);
 

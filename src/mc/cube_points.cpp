@@ -5,6 +5,7 @@
 
 #include "mc/halton.h"
 #include "mc/lattice.h"
+#include "mc/pmj02.h"
 #include "mc/sobol.h"
 
 namespace montelux {
@@ -123,7 +124,22 @@ void fill_lattice(CubeKey key, CubeBlock block) {
     const std::uint32_t z = lattice_generator[d];
     fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
       const Words index = Words(std::uint32_t(block.first + i)) + lanes;
-      return unit_doubles(reverse_bits(index) * Words(z) + Words(own.high), Words(own.low));
+      return unit_doubles(lattice_word(index, Words(z), Words(own.high)), Words(own.low));
+    });
+  }
+}
+
+void fill_pmj02(CubeKey key, CubeBlock block) {
+  const Words lanes = lane_index<NativeFloats>();
+  const int bits = int(std::bit_width(block.first + block.count - 1));
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey pair = key.fork(std::uint32_t(d / 2)), own = pair.fork(std::uint32_t(1 + d % 2));
+    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+      const Words index = Words(std::uint32_t(block.first + i)) + lanes;
+      const Words first = pmj02_order(index, Words(pair.high));
+      const Words place = d % 2 == 0 ? first : multiply_by_pascal(first);
+      const Words digits = pmj02_digits(place, bits, Words(own.low));
+      return unit_doubles(reverse_bits(digits), mix_bits(Words(place ^ Words(own.high))));
     });
   }
 }

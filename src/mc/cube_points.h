@@ -35,6 +35,8 @@ void fill_antithetic(CubeKey key, CubeBlock block);
 // The Sobol' sequence, Owen-scrambled by a hash and shifted digit by digit, so that each point is exactly uniform.
 // Indices below 2^32, dimensions up to sobol_dimensions.
 void fill_sobol(CubeKey key, CubeBlock block);
+// Progressive multi-jittered (0,2)-sequences (mc/pmj02.h), one for each pair of dimensions. Indices below 2^32.
+void fill_pmj02(CubeKey key, CubeBlock block);
 // The Halton sequence with nested random digits. Indices below 2^32, dimensions up to halton_dimensions.
 void fill_halton(CubeKey key, CubeBlock block);
 // A lattice sequence with a random shift: the first 2^m points are a rank-1 lattice, and so are those after them, for

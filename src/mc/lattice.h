@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mc/digital.h"
+
 namespace montelux {
 
 inline constexpr std::size_t lattice_dimensions = 64;
@@ -11,6 +13,12 @@ inline constexpr std::size_t lattice_dimensions = 64;
 // A generating vector for lattices of 2^m points, all m at once: point i of the sequence is the i-th radical inverse in
 // base 2 times the vector, modulo 1 (Hickernell, Hong, L'Ecuyer and Lemieux 2000). It was found by construct_lattice.
 extern const std::array<std::uint32_t, lattice_dimensions> lattice_generator;
+
+// One coordinate of the point `index` of the sequence whose vector has `z` there, shifted modulo 1: in units of 2^-32.
+template <class U>
+MONTELUX_INLINE U lattice_word(U index, U z, U shift) {
+  return reverse_bits(index) * z + shift;
+}
 
 // The squared worst-case error, mean over shifts, of the first 2^m points in the weighted Korobov space of smoothness 1
 // with product weights 1 / j (Kuo 2003): 2^-m sum over points of prod_j (1 + 2 pi^2 / j B_2(x_j)), less 1.

@@ -2,6 +2,8 @@
 
 #include "mc/digital.h"
 #include "mc/halton.h"
+#include "mc/lattice.h"
+#include "mc/pmj02.h"
 #include "mc/sobol.h"
 
 namespace montelux {
@@ -10,6 +12,12 @@ std::string_view name_of(PointSetKind kind) {
   for (const NamedPointSet& entry : fixed_point_set_names)
     if (entry.kind == kind) return entry.name;
   return point_set_names[std::size_t(kind)].name;
+}
+
+bool is_fixed(PointSetKind kind) {
+  for (const NamedPointSet& entry : fixed_point_set_names)
+    if (entry.kind == kind) return true;
+  return false;
 }
 
 std::optional<PointSetKind> point_set_named(std::string_view name) {
@@ -86,6 +94,30 @@ Uint<F> padded_index(Uint<F> index, const RandomStream<F>& keys, Uint<F> d) {
   return shuffle_index(index, keys.bits_at(Uint<F>(d ^ Uint<F>(0x80000000u))));
 }
 
+template <class F>
+Vec2<F> multi_jittered(Uint<F> index, int bits, const RandomStream<F>& keys, Uint<F> d) {
+  using U = Uint<F>;
+  const U first = pmj02_order(index, keys.bits_at(U(d ^ U(0x80000000u))));
+  const U second = multiply_by_pascal(first);
+  return {fraction_of_reversed<F>(pmj02_digits(first, bits, keys.bits_at(d))),
+          fraction_of_reversed<F>(pmj02_digits(second, bits, keys.bits_at(U(d + U(1u)))))};
+}
+
+// ---- lattices -------------------------------------------------------------------------------------------------------
+
+// One lattice for all the dimensions that the generating vector has, beyond them one lattice in the plane for each
+// pair, in an order of its own. `component`: 0 or 1 within the pair.
+template <class F>
+F shifted_lattice(Uint<F> index, const RandomStream<F>& keys, Uint<F> d, std::uint32_t component) {
+  using U = Uint<F>;
+  const U dimension = d + U(component);
+  const Mask<F> inside = dimension < U(std::uint32_t(lattice_dimensions));
+  U place = index;
+  if (!all(inside)) place = select(inside, index, padded_index<F>(index, keys, d));
+  const U z = gather(lattice_generator.data(), select(inside, dimension, U(component)));
+  return unit_float<F>(lattice_word(place, z, keys.bits_at(dimension)));
+}
+
 // ---- Z curve --------------------------------------------------------------------------------------------------------
 
 // A zero bit before each of the lower 16 bits.
@@ -135,6 +167,7 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
   own_ = shared_.fork(U(index + U(0x3c6ef372u)));
   // A fixed pattern takes its order of strata from no site and no pass.
   if (set.kind == PointSetKind::uniform_grid) shared_ = RandomStream<F>(U(0x452821e6u), U(0x38d01377u));
+  if (set.kind == PointSetKind::pmj02) index_bits_ = int(std::bit_width(set.samples_per_pass - 1u));
   if (set.kind != PointSetKind::blue_noise) return;
   // One sequence for the grid: the bits of the site's place on the Z curve above those of the index. Where 32 bits do
   // not hold all of them, the grid falls into squares with a randomisation each.
@@ -180,6 +213,12 @@ F Sampler<F>::get1(Uint<F> dimension) const {
       U place = shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u))));
       return fraction_of_reversed<F>(scramble_upwards(place, shared_.bits_at(d)));
     }
+    case PointSetKind::pmj02: {
+      U place = pmj02_order(index_, shared_.bits_at(U(d ^ U(0x80000000u))));
+      return fraction_of_reversed<F>(pmj02_digits(place, index_bits_, shared_.bits_at(d)));
+    }
+    case PointSetKind::lattice:
+      return shifted_lattice<F>(index_, shared_, d, 0);
   }
   return own_.at(d);
 }
@@ -207,6 +246,10 @@ Vec2<F> Sampler<F>::get2(Uint<F> dimension) const {
     case PointSetKind::blue_noise:
       return scrambled_02<F>(shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u)))), shared_,
                              d);
+    case PointSetKind::pmj02:
+      return multi_jittered<F>(index_, index_bits_, shared_, d);
+    case PointSetKind::lattice:
+      return {shifted_lattice<F>(index_, shared_, d, 0), shifted_lattice<F>(index_, shared_, d, 1)};
     case PointSetKind::independent:
       break;
   }

@@ -17,6 +17,8 @@ enum class PointSetKind : std::uint8_t {
   sobol,
   padded_sobol,
   blue_noise,
+  pmj02,
+  lattice,
   uniform_grid
 };
 
@@ -26,7 +28,7 @@ struct NamedPointSet {
   std::string_view description;
 };
 
-inline constexpr std::array<NamedPointSet, 6> point_set_names{{
+inline constexpr std::array<NamedPointSet, 8> point_set_names{{
     {"independent", PointSetKind::independent, "independent random numbers"},
     {"stratified", PointSetKind::stratified, "jittered strata of equal size, shuffled in each dimension"},
     {"halton", PointSetKind::halton, "radical inverses in prime bases with nested random digits"},
@@ -35,6 +37,8 @@ inline constexpr std::array<NamedPointSet, 6> point_set_names{{
      "(0,2)-sequences, Owen-scrambled and shuffled in each pair of dimensions"},
     {"blue-noise", PointSetKind::blue_noise,
      "one (0,2)-sequence along a shuffled Z curve: the error is blue over the grid"},
+    {"pmj02", PointSetKind::pmj02, "progressive multi-jittered (0,2)-sequences, one for each pair of dimensions"},
+    {"lattice", PointSetKind::lattice, "a rank-1 lattice sequence, shifted at random"},
 }};
 
 // Patterns for comparison alone: the same points in every pass, so they are biased and their spread is no error bar.
@@ -44,6 +48,8 @@ inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
 }};
 
 std::string_view name_of(PointSetKind kind);
+// Whether the points are the same in every pass, so that what is estimated by them is biased.
+bool is_fixed(PointSetKind kind);
 std::optional<PointSetKind> point_set_named(std::string_view name);
 
 // The points of one pass over a grid of sites, of a picture or the only site (0, 0) of a single integral.
@@ -74,7 +80,7 @@ class Sampler {
   RandomStream<F> shared_;  // the randomisation that the points of a set share
   RandomStream<F> own_;     // of this point alone
   Uint<F> index_;           // the point's number in its set
-  int index_bits_;          // bits of index_ that count (blue_noise)
+  int index_bits_;          // bits of index_ that count (blue_noise, pmj02)
 };
 
 extern template class Sampler<float>;

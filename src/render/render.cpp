@@ -179,6 +179,8 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   // Beyond this a unit of work takes so long that a stop would have to wait for it.
   constexpr int longest_pass = 1024;
   const int replicates = samples >= 256 ? enough_replicates : bare_replicates;
+  // The same points once more would tell nothing: one pass, and so no error bar.
+  if (is_fixed(kind) && samples <= longest_pass) return {samples, 1};
   int k = 1;
   if (kind == PointSetKind::independent) {
     while (samples / (2 * k) >= 64 && k < longest_pass) k *= 2;

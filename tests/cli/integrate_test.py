@@ -203,7 +203,7 @@ class Densities(IntegrateTest):
 
     def test_every_method_finds_the_integral_the_same_with_any_number_of_threads(self):
         methods = ["uniform", "stratified", "stratified:strata=latin", "antithetic", "qmc", "qmc:points=halton",
-                   "qmc:points=lattice", "vegas", "miser", "ris", "metropolis", "auto"]
+                   "qmc:points=lattice", "qmc:points=pmj02", "vegas", "miser", "ris", "metropolis", "auto"]
         arguments = ["exp(-x*y)", "--over", "x=0:1,y=0:2", "--target", "1+0*x", "--samples", "1e5"]
         for method in methods:
             arguments += ["--method", method]

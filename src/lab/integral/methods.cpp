@@ -12,7 +12,7 @@ namespace {
 using enum ParameterType;
 
 constexpr std::array<std::string_view, 2> strata_names{"grid", "latin"};
-constexpr std::array<std::string_view, 3> points_names{"sobol", "halton", "lattice"};
+constexpr std::array<std::string_view, 4> points_names{"sobol", "halton", "lattice", "pmj02"};
 
 // "max" is the short name of the heuristic that mc calls maximum.
 std::vector<std::string_view> heuristic_names() {
@@ -46,14 +46,15 @@ std::vector<EntitySpec> make_table() {
       {"mis", "points of several densities, weighted by a heuristic",
        with_passes({{"heuristic", {string}, "default balance", -1e30, 1e30, heuristic_names()}})},
       {"qmc", "randomised quasi-Monte Carlo",
-       with_passes({{"points",
-                     {string},
-                     "Owen-scrambled Sobol' or Halton points, or a shifted lattice; default sobol",
-                     -1e30,
-                     1e30,
-                     {points_names.begin(), points_names.end()}},
-                    {"baker", {boolean}, "fold each coordinate, which makes the integrand periodic; default false"},
-                    {"adapt", {boolean}, "through an adaptive map of each coordinate; default false"}})},
+       with_passes(
+           {{"points",
+             {string},
+             "Owen-scrambled Sobol' or Halton points, a shifted lattice, or multi-jittered pairs; default sobol",
+             -1e30,
+             1e30,
+             {points_names.begin(), points_names.end()}},
+            {"baker", {boolean}, "fold each coordinate, which makes the integrand periodic; default false"},
+            {"adapt", {boolean}, "through an adaptive map of each coordinate; default false"}})},
       {"vegas", "adaptive map of each coordinate and adaptive stratification (Lepage 2021)", with_passes()},
       {"miser", "recursive stratification (Press and Farrar 1990)", with_passes()},
       {"ris", "importance resampling by a target that need not be normalised",

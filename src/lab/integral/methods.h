@@ -26,7 +26,7 @@ enum class MethodKind : std::uint8_t {
   automatic
 };
 enum class Strata : std::uint8_t { grid, latin };
-enum class QmcPoints : std::uint8_t { sobol, halton, lattice };
+enum class QmcPoints : std::uint8_t { sobol, halton, lattice, pmj02 };
 
 // A method with its parameters; those of other methods are ignored.
 struct Method {

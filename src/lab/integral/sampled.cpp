@@ -80,6 +80,7 @@ class Sampled final : public Technique {
         if (method_.points == QmcPoints::sobol) fill_sobol(part.key, block);
         if (method_.points == QmcPoints::halton) fill_halton(part.key, block);
         if (method_.points == QmcPoints::lattice) fill_lattice(part.key, block);
+        if (method_.points == QmcPoints::pmj02) fill_pmj02(part.key, block);
         if (method_.baker) fold({block.out, block.dimension * block.count});
         return;
       default:

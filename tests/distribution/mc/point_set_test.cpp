@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mc/digital.h"
 #include "statistics.h"
 
 namespace montelux {
@@ -10,7 +11,7 @@ namespace {
 using namespace test;
 
 // The tests of this file that give a p-value: per kind uniformity (2), correlation (3), bias (3), decay (2), and a few.
-constexpr double tests_of_the_suite = 6 * 10 + 8;
+constexpr double tests_of_the_suite = double(point_set_names.size()) * 10 + 8;
 const double level = sidak_level(family_level, tests_of_the_suite);
 
 // One point of each of many realisations: whatever the correlation inside a set, these are independent.
@@ -55,6 +56,17 @@ TEST(PointSet, points_are_uniform_over_passes_pixels_and_indices) {
 
 TEST(PointSet, uniformity_test_rejects_a_coordinate_bent_by_five_percent) {
   TestResult r = uniformity(PointSetKind::independent, 2, [](Vec2f u) { return Vec2f{std::pow(u.x, 1.05f), u.y}; });
+  EXPECT_LT(r.p_value, level);
+}
+
+TEST(PointSet, uniformity_test_rejects_points_whose_scramble_is_missing) {
+  std::uint32_t n = 0;
+  TestResult r = chi_square_square(
+      [&](RandomStream<float>&) {
+        const std::uint32_t index = n++ % 16;
+        return Vec2f{fraction_of_reversed<float>(index), fraction_of_reversed<float>(multiply_by_pascal(index))};
+      },
+      [](double, double) { return 1.0; }, {16, 16}, 64000, 1);
   EXPECT_LT(r.p_value, level);
 }
 

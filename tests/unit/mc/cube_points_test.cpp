@@ -24,6 +24,7 @@ const std::vector<std::pair<const char*, Fill>> fills{
     {"sobol", fill_sobol},
     {"halton", fill_halton},
     {"lattice", fill_lattice},
+    {"pmj02", fill_pmj02},
     {"latin", [](CubeKey key, CubeBlock block) { fill_latin(key, n, block); }},
     {"grid", [](CubeKey key, CubeBlock block) { fill_grid(key, GridShape::of(dimension, n), block); }},
 };
@@ -72,7 +73,7 @@ TEST(CubePoints, other_seeds_give_other_points) {
 TEST(CubePoints, nets_lattices_and_latin_hypercubes_have_one_point_in_each_part_of_every_axis) {
   for (const auto& [name, fill] : fills) {
     const std::string_view who = name;
-    const bool promised = who == "sobol" || who == "lattice" || who == "latin";
+    const bool promised = who == "sobol" || who == "lattice" || who == "pmj02" || who == "latin";
     if (promised) {
       EXPECT_TRUE(one_in_each_part(points_of(fill, 5), n)) << name;
     }
@@ -81,7 +82,7 @@ TEST(CubePoints, nets_lattices_and_latin_hypercubes_have_one_point_in_each_part_
     }
   }
   // Of the sequences also every later aligned block.
-  for (const Fill& fill : {Fill(fill_sobol), Fill(fill_lattice)}) {
+  for (const Fill& fill : {Fill(fill_sobol), Fill(fill_lattice), Fill(fill_pmj02)}) {
     EXPECT_TRUE(one_in_each_part(points_of(fill, 5, 1024, 1024), 1024));
     EXPECT_TRUE(one_in_each_part(points_of(fill, 5, 512, 256), 256));
   }
