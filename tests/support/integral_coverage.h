@@ -67,7 +67,7 @@ inline Coverage coverage_of(const lab::Problem& problem, double truth, std::stri
   return c;
 }
 
-inline constexpr std::array<std::string_view, 17> covered_methods{"uniform",
+inline constexpr std::array<std::string_view, 18> covered_methods{"uniform",
                                                                   "stratified",
                                                                   "stratified:strata=latin",
                                                                   "antithetic",
