@@ -69,11 +69,16 @@ Method qmc(QmcPoints points, bool baker, bool adapt) {
 
 // Whether a run too short for trials takes the map. In few dimensions little training is enough, and a map that is
 // missed costs more than one that is taken in vain; in many the first steps fit noise.
-bool maps_without_trial(double gain, std::size_t dimension) { return gain >= (dimension <= 6 ? 1.75 : 3); }
+bool maps_without_trial(double gain, std::size_t dimension) { return gain >= (dimension <= 6 ? 1.25 : 3); }
 
 // The points that are best as a rule: lattices in few dimensions, and the more so without a map.
 Method by_rule(std::size_t dimension, bool adapt) {
   return dimension <= (adapt ? 3 : 6) ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt);
+}
+
+Method other_points(const Method& m) {
+  return m.points == QmcPoints::lattice ? qmc(QmcPoints::sobol, false, m.adapt)
+                                        : qmc(QmcPoints::lattice, true, m.adapt);
 }
 
 // Which methods may win, by what the map has brought so far.
@@ -84,9 +89,10 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
     methods.push_back(by_rule(dimension, maps_without_trial(gain, dimension)));
   } else {
     if (gain >= no_gain) methods.push_back(by_rule(dimension, true));
-    if (gain < clear_gain)
-      for (const bool lattice : {true, false})
-        methods.push_back(qmc(lattice ? QmcPoints::lattice : QmcPoints::sobol, lattice, false));
+    if (gain < clear_gain) {
+      methods.push_back(by_rule(dimension, false));
+      if (dimension > 3) methods.push_back(other_points(methods.back()));
+    }
   }
   Method given;
   given.kind = MethodKind::control;
@@ -100,7 +106,7 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
 // too short to see it.
 double lattice_bonus(std::size_t dimension, bool mapped) {
   if (dimension > 6) return -1;
-  return (mapped ? 0.5 : 2) + (dimension > 3 ? 0 : 1);
+  return mapped ? 0.5 : 3;
 }
 
 std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double gain) {
