@@ -7,7 +7,8 @@ namespace {
 Ray<float> ray_of(RTCRayN* rays, unsigned n, unsigned i) {
   return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
           {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
-          RTCRayN_tfar(rays, n, i)};
+          RTCRayN_tfar(rays, n, i),
+          RTCRayN_time(rays, n, i)};
 }
 
 const GeometryContext& context_of(void* user) { return *static_cast<const GeometryContext*>(user); }
@@ -72,8 +73,13 @@ void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
 
 RTCGeometry make_triangles(RTCDevice device, const GeometryStore& store, const GeometryRow& row) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, store.positions.data(), 0,
-                             sizeof(Vec3f), store.positions.size() - 1);
+  // The poses of a mesh that changes its form lie behind each other: buffers that begin ever later.
+  if (row.poses > 1) rtcSetGeometryTimeStepCount(geometry, row.poses);
+  const std::size_t behind_first = std::size_t(row.poses - 1) * row.pose_vertices;
+  for (std::uint32_t pose = 0; pose < row.poses; ++pose)
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, pose, RTC_FORMAT_FLOAT3, store.positions.data(),
+                               std::size_t(pose) * row.pose_vertices * sizeof(Vec3f), sizeof(Vec3f),
+                               store.positions.size() - 1 - behind_first);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, store.triangles.data(),
                              std::size_t(row.first) * sizeof(store.triangles[0]), sizeof(store.triangles[0]),
                              row.count);

@@ -2,6 +2,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 
@@ -53,7 +54,12 @@ struct Accel::Kernel {
     for (std::size_t i = 0; i < instances.size(); ++i) {
       RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, objects[instances[i].object].get());
-      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instances[i].object_to_world.rows().data());
+      const PlacedObject& placed = instances[i];
+      if (placed.keys.count > 1) rtcSetGeometryTimeStepCount(geometry, placed.keys.count);
+      for (std::uint32_t key = 0; key < std::max(placed.keys.count, 1u); ++key)
+        rtcSetGeometryTransform(geometry, key, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                                placed.keys.count > 1 ? store.instance_keys[placed.keys.first + key].data()
+                                                      : placed.object_to_world.rows().data());
       rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(scene.get(), geometry, range.count + std::uint32_t(i));
       rtcReleaseGeometry(geometry);

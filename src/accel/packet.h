@@ -26,7 +26,7 @@ void put_ray(RTCRayNt<lanes_of<F>>& to, const Ray<F>& ray) {
   using U = Uint<F>;
   store_lanes(to.org_x, ray.o.x), store_lanes(to.org_y, ray.o.y), store_lanes(to.org_z, ray.o.z);
   store_lanes(to.dir_x, ray.d.x), store_lanes(to.dir_y, ray.d.y), store_lanes(to.dir_z, ray.d.z);
-  store_lanes(to.tnear, F(0.0f)), store_lanes(to.tfar, ray.t_max), store_lanes(to.time, F(0.0f));
+  store_lanes(to.tnear, F(0.0f)), store_lanes(to.tfar, ray.t_max), store_lanes(to.time, ray.time);
   store_lanes(to.mask, U(~0u)), store_lanes(to.id, U(0u)), store_lanes(to.flags, U(0u));
 }
 

@@ -62,7 +62,15 @@ ThinLens thin_lens(const Entity& entity, const CameraSpace& space, Diagnostics& 
     diagnostics.error(entity.where, "focaldistance must be positive");
     return {};
   }
-  return {space.direction(radius, 0, 0), space.direction(0, radius, 0), 1.0f / distance, true};
+  const int blades = entity.parameters.integer("apertureblades", 0);
+  if (blades != 0 && blades < 3) {
+    diagnostics.error(entity.where, "apertureblades must be 0, for a round aperture, or at least 3");
+    return {};
+  }
+  if (blades == 0) return {space.direction(radius, 0, 0), space.direction(0, radius, 0), 1.0f / distance, true};
+  const double turn = double(entity.parameters.number("aperturerotation", 0.0f)) * std::numbers::pi / 180;
+  const double x = double(radius) * std::cos(turn), y = double(radius) * std::sin(turn);
+  return {space.direction(x, y, 0), space.direction(-y, x, 0), 1.0f / distance, true, blades};
 }
 
 PerspectiveCamera build_perspective(const Entity& entity, const CameraSpace& space, int width, int height,

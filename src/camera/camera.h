@@ -1,12 +1,14 @@
 // Cameras: from a place on the picture and a place on the lens to a ray in the world. Camera space is left-handed, with
 // x to the right, y up and the view along +z; raster y runs down.
 #pragma once
+#include <optional>
 #include <variant>
 
 #include "geometry/ray.h"
+#include "math/motion.h"
 #include "math/square_maps.h"
 #include "math/transform.h"
-#include "mc/disk.h"
+#include "mc/regular_polygon.h"
 #include "parameter/value.h"
 
 namespace montelux {
@@ -35,11 +37,12 @@ struct ThinLens {
   Vec3f x{0, 0, 0}, y{0, 0, 0};  // its radii along the axes of camera space, in world space
   float inverse_distance = 0;    // of the plane in focus, along z of camera space
   bool open = false;             // false: a pinhole
+  int blades = 0;                // corners of the aperture, the first one at x; 0: it is round
 
   template <class F>
   MONTELUX_INLINE CameraRay<F> through(Vec3<F> o, Vec3<F> d, Vec2<F> u) const {
     if (open) {
-      Vec2<F> disk = sample_disk_concentric(u);
+      Vec2<F> disk = blades == 0 ? sample_disk_concentric(u) : sample_regular_polygon(u, blades);
       Vec3<F> offset = splat<F>(x) * disk.x + splat<F>(y) * disk.y;
       o = o + offset;
       // d reaches the plane z = 1: all rays of the lens meet on it where it is scaled to the plane in focus.
@@ -103,20 +106,37 @@ class Camera {
   Camera(Variant camera) : camera_(std::move(camera)) {}
 
   // raster: in pixels, continuous, (0, 0) the upper left corner of the picture, (width, height) the lower right one.
-  // lens_u in [0, 1)^2. To compile a loop for one camera, std::visit on variant() outside it.
+  // lens_u in [0, 1)^2; time in [0, 1], for cameras that move. To compile a loop for one camera, std::visit on
+  // variant() outside it.
   template <class F>
-  CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
-    return std::visit([&](const auto& camera) { return camera.generate(raster, lens_u); }, camera_);
+  CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u, F time = F(0.0f)) const {
+    CameraRay<F> made = std::visit([&](const auto& camera) { return camera.generate(raster, lens_u); }, camera_);
+    made.ray.time = time;
+    if (motion_) {
+      const Affine<F> to_world = motion_->at(time);
+      made.ray.o = to_world.point(made.ray.o);
+      made.ray.d = normalize(to_world.direction(made.ray.d));
+    }
+    return made;
   }
+  // As the camera is in its own space, where it moves.
   const Variant& variant() const { return camera_; }
+
+  // A camera that stands in its own space, which moves through the world.
+  Camera moved(const Motion& camera_to_world) && {
+    motion_ = camera_to_world;
+    return std::move(*this);
+  }
+  bool moves() const { return motion_.has_value(); }
 
  private:
   Variant camera_;
+  std::optional<Motion> motion_;
 };
 
 // The camera for a picture of width x height pixels (the whole, not a crop). Parameters: fov (degrees, of the shorter
-// axis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius, focaldistance; mapping. Values
-// that make no camera are reported, and the usual ones taken in their place.
+// axis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius, focaldistance, apertureblades,
+// aperturerotation; mapping. Values that make no camera are reported, and the usual ones taken in their place.
 Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
                     Diagnostics& diagnostics);
 

@@ -24,7 +24,18 @@ List lens(List more) {
              {},
              true},
             {"lensradius", {number}, "radius of the aperture; default 0", 0, most},
-            {"focaldistance", {number}, "distance in focus; default 1e6", 1e-30, most}};
+            {"focaldistance", {number}, "distance in focus; default 1e6", 1e-30, most},
+            {"apertureblades",
+             {integer},
+             "corners of the aperture, on the circle of lensradius; default 0, a round one (Montelux alone)",
+             0,
+             64},
+            {"aperturerotation",
+             {number},
+             "degrees by which the first corner is turned from the right of the picture upward; default 0 (Montelux "
+             "alone)",
+             -most,
+             most}};
   for (const List& part : {more, shutter()}) list.insert(list.end(), part.begin(), part.end());
   return list;
 }

@@ -4,11 +4,13 @@
 
 namespace montelux {
 
-// Points o + t d for t in [0, t_max]; d need not be unit unless stated.
+// Points o + t d for t in [0, t_max]; d need not be unit unless stated. time: in [0, 1], on the way from the start to
+// the end of the transforms that move; scenes that stand still do not ask for it.
 template <class F>
 struct Ray {
   Vec3<F> o, d;
   F t_max;
+  F time = F(0.0f);
 };
 
 // A distance that ends beyond every scene.

@@ -31,9 +31,16 @@ std::vector<EntitySpec> meshes() {
        with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
                    array("S", vector3, "tangents, one a vertex"),
                    array("uv", point2, "texture coordinates, one a vertex"),
-                   array("indices", integer, "three a triangle; default 0 1 2", 0), face_indices})},
+                   array("indices", integer, "three a triangle; default 0 1 2", 0),
+                   array("P1", point3,
+                         "vertices at later moments, all of one moment behind all of another, evenly spaced to the end "
+                         "of TransformTimes (Montelux alone)"),
+                   array("N1", normal, "the normals at the same moments (Montelux alone)"), face_indices})},
       {"plymesh", "triangles and quadrilaterals of a PLY file",
        with_alpha({{"filename", {string}, "the file"},
+                   array("filename1", string,
+                         "files with the same vertices at later moments, evenly spaced to the end of TransformTimes "
+                         "(Montelux alone)"),
                    later({"displacement", {number, texture}, "height of displacement; default none"}),
                    later({"edgelength", {number}, "edge length of displaced triangles; default 1", positive, most})})},
       {"bilinearmesh", "bilinear patches",

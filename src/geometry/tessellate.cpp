@@ -128,9 +128,13 @@ RepairedMesh drop_degenerate_triangles(const Mesh& mesh) {
 WorldMesh to_world(const Mesh& mesh, const Transform& object_to_world, bool reverse_orientation) {
   WorldMesh r{mesh, reverse_orientation != object_to_world.swaps_handedness()};
   const Matrix4 &m = object_to_world.matrix(), &inverse = object_to_world.inverse_matrix();
-  for (Vec3f& p : r.mesh.positions) p = to_float(transform_point(m, to_double(p)));
-  for (Vec3f& n : r.mesh.normals)
-    n = to_float(unit(transform_normal(inverse, to_double(n))) * (reverse_orientation ? -1.0 : 1.0));
+  auto place = [&](std::vector<Vec3f>& positions, std::vector<Vec3f>& normals) {
+    for (Vec3f& p : positions) p = to_float(transform_point(m, to_double(p)));
+    for (Vec3f& n : normals)
+      n = to_float(unit(transform_normal(inverse, to_double(n))) * (reverse_orientation ? -1.0 : 1.0));
+  };
+  place(r.mesh.positions, r.mesh.normals);
+  for (MeshPose& pose : r.mesh.later) place(pose.positions, pose.normals);
   for (Vec3f& t : r.mesh.tangents) t = to_float(transform_direction(m, to_double(t)));
   return r;
 }

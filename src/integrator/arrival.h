@@ -24,6 +24,7 @@ template <class F>
 struct Arrival {
   Mask<F> found;
   Vec3<F> d;          // in which the ray came
+  F time;             // at which it came, and at which all rays leave
   F distance;         // from the ray's origin
   Spectrum<F> light;  // emitted toward the origin by the surface, by interfaces on the way and by the sky, weighted
   SurfaceHit<F> x;
@@ -32,6 +33,8 @@ struct Arrival {
   BsdfContext<F> context;
 
   Departure<F> departure() const { return {x.point.p, bsdf.light_normal}; }
+  // From the surface toward wi, as far as t_max.
+  Ray<F> ray_toward(const Vec3<F>& wi, F t_max) const { return {origin_toward(wi), wi, t_max, time}; }
   Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(x.point.p, x.point.p_error, x.point.ng, wi); }
 };
 
@@ -73,11 +76,11 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
                   Mask<F> found, RandomStream<F> random, RayCounts& counts, Weight weight, Witness witness = {}) {
   using U = Uint<F>;
   Arrival<F> a{};
-  a.d = ray.d, a.light = gray(F(0.0f));
+  a.d = ray.d, a.time = ray.time, a.light = gray(F(0.0f));
   Vec3<F> o = ray.o;
   U crossings = U(0u);
   const auto meet_surface = [&](Mask<F> on) {
-    a.x = surface<F>(scene.geometry, o, ray.d, hit, on);
+    a.x = surface<F>(scene.geometry, {o, ray.d, hit.t, ray.time}, hit, on);
     a.context = {TransportMode::radiance, random.fork(crossings)};
     a.bsdf = scene.materials.template scattering<F>(a.x, ray.d, on, a.context.random);
   };
@@ -97,7 +100,7 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
     o = select(passes, a.origin_toward(ray.d), o);
     crossings = crossings + select(passes, U(1u), U(0u));
     counts.scattered += std::uint64_t(count(passes));
-    const auto [further, next] = rays.template trace<F>({o, ray.d, F(ray_infinity)}, passes);
+    const auto [further, next] = rays.template trace<F>({o, ray.d, F(ray_infinity), ray.time}, passes);
     const Mask<F> left = passes & !further;
     a.light += sky_light(scene, from, ray.d, left, weight, witness);
     found = found & !left;

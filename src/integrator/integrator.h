@@ -1,9 +1,11 @@
 // What the scheduler asks of an integrator. Integrators know no threads, no film and no files.
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
+#include "camera/shutter.h"
 #include "image/layers.h"
 #include "image/pixel_sample.h"
 #include "mc/point_set.h"
@@ -14,6 +16,7 @@ namespace montelux {
 struct TilePass {
   PixelBounds tile;
   PointSet points;
+  std::optional<Shutter> shutter{};  // instead of the scene's
 };
 
 // Rays that were traced, for statistics.

@@ -40,12 +40,17 @@ std::size_t keep_faces(std::vector<std::uint32_t>& indices, std::size_t size, Ke
 }  // namespace
 
 DroppedFaces drop_degenerate_faces(Mesh& mesh) {
-  const std::vector<Vec3f>& p = mesh.positions;
+  const auto triangle_has_area = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const std::vector<Vec3f>& p = mesh.positions;
+    return has_area(p[a], p[b], p[c]) || std::any_of(mesh.later.begin(), mesh.later.end(), [&](const MeshPose& pose) {
+             return has_area(pose.positions[a], pose.positions[b], pose.positions[c]);
+           });
+  };
   DroppedFaces dropped;
   dropped.triangles =
-      keep_faces(mesh.triangles, 3, [&](const std::uint32_t* i) { return has_area(p[i[0]], p[i[1]], p[i[2]]); });
+      keep_faces(mesh.triangles, 3, [&](const std::uint32_t* i) { return triangle_has_area(i[0], i[1], i[2]); });
   dropped.quads = keep_faces(mesh.quads, 4, [&](const std::uint32_t* i) {
-    return has_area(p[i[0]], p[i[1]], p[i[2]]) || has_area(p[i[1]], p[i[3]], p[i[2]]);
+    return triangle_has_area(i[0], i[1], i[2]) || triangle_has_area(i[1], i[3], i[2]);
   });
   return dropped;
 }

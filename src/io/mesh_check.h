@@ -11,7 +11,8 @@ struct DroppedFaces {
   std::size_t total() const { return triangles + quads; }
 };
 
-// Removes the triangles without area and the quadrilaterals of which both halves have none. Indices must be in range.
+// Removes the triangles without area and the quadrilaterals of which both halves have none, in every
+// pose of the mesh. Indices must be in range.
 DroppedFaces drop_degenerate_faces(Mesh& mesh);
 
 }  // namespace montelux

@@ -86,6 +86,14 @@ std::string transform_text(const Transform& transform) {
   return text + " ]\n";
 }
 
+std::string moving_transform_text(const Transform& start, const std::optional<Transform>& end) {
+  if (!end) return transform_text(start);
+  // The transform before may be another one at either end.
+  const auto whole = [](const Transform& t) { return t.is_identity() ? std::string("Identity\n") : transform_text(t); };
+  return "ActiveTransform StartTime\n" + whole(start) + "ActiveTransform EndTime\n" + whole(*end) +
+         "ActiveTransform All\n";
+}
+
 class Writer {
  public:
   explicit Writer(const SceneDesc& scene) : scene_(scene) { name_materials(); }
@@ -107,7 +115,8 @@ class Writer {
     for (const ShapeDesc& shape : scene_.shapes) write_shape(shape);
     for (const InstanceDesc& instance : scene_.instances)
       write_block(instance.object_to_world,
-                  "ObjectInstance " + quoted(scene_.objects[static_cast<std::size_t>(instance.object)].name));
+                  "ObjectInstance " + quoted(scene_.objects[static_cast<std::size_t>(instance.object)].name),
+                  instance.object_to_world_at_end);
     return std::move(text_);
   }
 
@@ -148,8 +157,9 @@ class Writer {
           }
   }
 
-  void write_block(const Transform& transform, const std::string& content) {
-    text_ += "AttributeBegin\n" + transform_text(transform) + content + "\nAttributeEnd\n";
+  void write_block(const Transform& transform, const std::string& content,
+                   const std::optional<Transform>& at_end = std::nullopt) {
+    text_ += "AttributeBegin\n" + moving_transform_text(transform, at_end) + content + "\nAttributeEnd\n";
   }
 
   void write_options() {
@@ -159,7 +169,9 @@ class Writer {
     text_ += "Sampler " + entity_text(scene_.sampler) + "\n";
     text_ += "Integrator " + entity_text(scene_.integrator) + "\n";
     text_ += "Accelerator " + entity_text(scene_.accelerator) + "\n";
-    text_ += transform_text(scene_.world_to_camera);
+    if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
+      text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
+    text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_at_end);
     text_ += "Camera " + entity_text(scene_.camera) + "\n";
   }
 
@@ -186,6 +198,13 @@ class Writer {
     if (!mesh.normals.empty()) text += array_text("normal N", mesh.normals);
     if (!mesh.tangents.empty()) text += array_text("vector3 S", mesh.tangents);
     if (!mesh.uvs.empty()) text += array_text("point2 uv", mesh.uvs);
+    std::vector<Vec3f> positions, normals;
+    for (const MeshPose& pose : mesh.later) {
+      positions.insert(positions.end(), pose.positions.begin(), pose.positions.end());
+      normals.insert(normals.end(), pose.normals.begin(), pose.normals.end());
+    }
+    if (!positions.empty()) text += array_text("point3 P1", positions);
+    if (!normals.empty()) text += array_text("normal N1", normals);
     return text + array_text("integer indices", mesh.quads.empty() ? mesh.triangles : mesh.quads);
   }
 
@@ -199,7 +218,7 @@ class Writer {
     text += "Shape " + entity_text(shape.entity);
     // The mesh of a file stays there.
     if (shape.mesh && shape.entity.type != "plymesh") text += mesh_text(*shape.mesh);
-    write_block(shape.object_to_world, text);
+    write_block(shape.object_to_world, text, shape.object_to_world_at_end);
   }
 
   const SceneDesc& scene_;

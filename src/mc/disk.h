@@ -18,16 +18,31 @@ MONTELUX_INLINE Vec2<F> invert_disk_polar(Vec2<F> p) {
   return {min(p.x * p.x + p.y * p.y, F(one_minus_epsilon)), min(turn, F(one_minus_epsilon))};
 }
 
-// Uniform on the unit disk by squares: neighbours in the square stay neighbours (Shirley and Chiu 1997).
+// A place by its distance from the centre (which may be negative: on the other side) and its azimuth in turns, from
+// 7/8 to 11/8.
 template <class F>
-MONTELUX_INLINE Vec2<F> sample_disk_concentric(Vec2<F> u) {
+struct PolarPlace {
+  F r, turns;
+};
+
+// Rings of the square about its centre -> rings of the disk: r^2 and the azimuth of the place are uniform and
+// independent, and neighbours in the square stay neighbours (Shirley and Chiu 1997).
+template <class F>
+MONTELUX_INLINE PolarPlace<F> concentric_place(Vec2<F> u) {
   F a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;
   Mask<F> wide = abs(a) > abs(b);
   F r = select(wide, a, b);
   F ratio = select(wide, b, a) / select(r == F(0.0f), F(1.0f), r);
   // Azimuth in turns: an eighth of a turn for the ratio 1, measured from the x axis or from the y axis.
-  SinCos<F> azimuth = sin_cos_two_pi(select(wide, 0.125f * ratio, F(0.25f) - 0.125f * ratio) + 1.0f);
-  return {r * azimuth.cos, r * azimuth.sin};
+  return {r, select(wide, 0.125f * ratio, F(0.25f) - 0.125f * ratio) + 1.0f};
+}
+
+// Uniform on the unit disk.
+template <class F>
+MONTELUX_INLINE Vec2<F> sample_disk_concentric(Vec2<F> u) {
+  const PolarPlace<F> place = concentric_place(u);
+  SinCos<F> azimuth = sin_cos_two_pi(place.turns);
+  return {place.r * azimuth.cos, place.r * azimuth.sin};
 }
 template <class F>
 MONTELUX_INLINE Vec2<F> invert_disk_concentric(Vec2<F> p) {

@@ -120,7 +120,8 @@ class Job {
     space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds,
                      {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass), std::uint32_t(k),
-                      std::uint32_t(settings_.width), std::uint32_t(settings_.height)}};
+                      std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
+                     settings_.shutter};
     RayCounts rays = trace(request, space);
     std::unique_lock lock(tile.mutex);
     tile.added.wait(lock, [&] { return tile.passes_added == pass || failure_; });

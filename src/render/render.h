@@ -29,6 +29,7 @@ struct RenderSettings {
   int threads = 0;                  // 0: all of the machine
   int first_pass = 0;               // for a render that goes on
   std::optional<LayerPlan> layers;  // of an integrator that has them
+  std::optional<Shutter> shutter;   // instead of the scene's
 };
 
 struct Progress {

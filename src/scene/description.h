@@ -34,6 +34,7 @@ struct ShapeDesc {
   std::optional<Entity> area_light;
   // Vertices in object space, for trianglemesh, plymesh (already read), and the control mesh of loopsubdiv.
   std::shared_ptr<const Mesh> mesh;
+  std::optional<Transform> object_to_world_at_end;  // where it moves; object_to_world is that of the start
 };
 
 struct LightDesc {
@@ -51,6 +52,7 @@ struct InstanceDesc {
   ObjectDescId object{};
   Transform object_to_world;
   SourceLocation where;
+  std::optional<Transform> object_to_world_at_end;  // where it moves
 };
 
 struct SceneDesc {
@@ -58,6 +60,8 @@ struct SceneDesc {
   std::string folder;  // absolute or relative to the working directory
   Entity camera{"perspective", {}, {}};
   Transform world_to_camera;
+  std::optional<Transform> world_to_camera_at_end;  // where the camera moves
+  double transforms_start = 0, transforms_end = 1;  // the time from the one to the other
   Entity film{"rgb", {}, {}};
   Entity filter{"gaussian", {}, {}};
   Entity sampler{"zsobol", {}, {}};

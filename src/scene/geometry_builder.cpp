@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/tessellate.h"
+#include "math/affine.h"
 
 namespace montelux {
 
@@ -81,19 +82,62 @@ CurveDesc curve_of(const ShapeDesc& shape) {
 
 }  // namespace
 
-void GeometryBuilder::add_object(const ObjectDesc& object) {
+void GeometryBuilder::add_world_shape(const ShapeDesc& shape) {
+  if (shape.object_to_world_at_end)
+    moving_.push_back(&shape);
+  else
+    add_shape(shape, true);
+}
+
+std::uint32_t GeometryBuilder::add_store_object(const std::function<void()>& add_shapes) {
   if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());
   in_object_ = true;
   object_bounds_.emplace_back();
   auto first = std::uint32_t(store_.rows.size());
-  for (const ShapeDesc& shape : object.shapes) add_shape(shape, false);
+  add_shapes();
   store_.objects.push_back({first, std::uint32_t(store_.rows.size()) - first});
+  return std::uint32_t(store_.objects.size() - 1);
+}
+
+// The shape as it is in its own space: its motion places it.
+std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
+  ShapeDesc still = moving;
+  still.object_to_world = Transform();
+  still.object_to_world_at_end.reset();
+  // Normals of quadrics turn round with a map that mirrors; those of meshes and curves go with it.
+  if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
+    still.reverse_orientation = !moving.reverse_orientation;
+  return add_store_object([&] { add_shape(still, false); });
+}
+
+void GeometryBuilder::add_object(const ObjectDesc& object) {
+  ObjectParts parts{};
+  parts.still = add_store_object([&] {
+    for (const ShapeDesc& shape : object.shapes)
+      if (!shape.object_to_world_at_end) add_shape(shape, false);
+  });
+  for (const ShapeDesc& shape : object.shapes)
+    if (shape.object_to_world_at_end)
+      parts.moving.emplace_back(add_object_of(shape), Motion(shape.object_to_world, *shape.object_to_world_at_end));
+  objects_.push_back(std::move(parts));
 }
 
 void GeometryBuilder::add_instance(const InstanceDesc& instance) {
-  auto object = std::uint32_t(instance.object);
-  const Transform& t = instance.object_to_world;
-  store_.instances.push_back({object, t});
+  const ObjectParts& parts = objects_[std::size_t(instance.object)];
+  const Transform& start = instance.object_to_world;
+  const Motion motion(start, instance.object_to_world_at_end.value_or(start));
+  if (motion.moves())
+    place_moving(parts.still, {[&](double t) { return motion.at(t); }, motion.steps()});
+  else
+    place(parts.still, start);
+  // Two motions, one within the other, bend even where neither turns.
+  for (const auto& [object, within] : parts.moving)
+    place_moving(object, {[&](double t) { return motion.at(t) * within.at(t); },
+                          motion.moves() ? std::max({motion.steps(), within.steps(), 64}) : within.steps()});
+}
+
+void GeometryBuilder::place(std::uint32_t object, const Transform& t) {
+  store_.instances.push_back({object, t, {}});
   std::array<float, 24> row;
   std::copy(t.rows().begin(), t.rows().end(), row.begin());
   std::copy(t.inverse_rows().begin(), t.inverse_rows().end(), row.begin() + 12);
@@ -105,8 +149,35 @@ void GeometryBuilder::add_instance(const InstanceDesc& instance) {
                                           corner & 4 ? box.high.z : box.low.z}));
 }
 
-GeometryStore GeometryBuilder::take() && {
+void GeometryBuilder::place_moving(std::uint32_t object, const Placing& placing) {
+  const auto number = store_.instances.size();
+  const KeyRange keys{std::uint32_t(store_.instance_keys.size()), std::uint32_t(placing.steps) + 1};
+  for (int key = 0; key <= placing.steps; ++key)
+    store_.instance_keys.push_back(placing.at(double(key) / placing.steps).rows());
+  place(object, placing.at(0));
+  store_.instances.back().keys = keys;
+  store_.instance_motion.resize(number);
+  store_.instance_motion.push_back(keys);
+  // Points go on straight lines from key to key: the box of the corners at all keys holds them.
+  const Bounds3& box = object_bounds_[object];
+  if (box.is_empty()) return;
+  for (std::uint32_t key = 0; key < keys.count; ++key) {
+    const auto& m = store_.instance_keys[keys.first + key];
+    Affine<float> map;
+    std::copy(m.begin(), m.end(), map.m);
+    for (int corner = 0; corner < 8; ++corner)
+      bounds_ = join(bounds_, map.point(Vec3f{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                                              corner & 4 ? box.high.z : box.low.z}));
+  }
+}
+
+GeometryStore GeometryBuilder::take() {
+  for (const ShapeDesc* shape : moving_) {
+    const Motion motion(shape->object_to_world, *shape->object_to_world_at_end);
+    place_moving(add_object_of(*shape), {[&](double t) { return motion.at(t); }, motion.steps()});
+  }
   if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());
+  if (!store_.instance_keys.empty()) store_.instance_motion.resize(store_.instances.size());
   store_.positions.push_back({0, 0, 0});  // so that the last vertex can be read as four floats
   // Idle lanes gather element 0 of every array.
   if (store_.normals.empty()) store_.normals.push_back({0, 0, 1});
@@ -148,7 +219,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
 void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const GeometryRow& row,
                                const std::optional<Emission>& emission) {
   WorldMesh world = to_world(mesh, shape.object_to_world, shape.reverse_orientation);
-  if (world.mesh.quads.empty()) {
+  if (world.mesh.quads.empty() || !world.mesh.later.empty()) {
     add_triangles(world.mesh, world.flip_normal, row, emission);
     return;
   }
@@ -178,6 +249,7 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow ro
     store_.uvs.insert(store_.uvs.end(), world.uvs.begin(), world.uvs.end());
   }
   store_.positions.insert(store_.positions.end(), world.positions.begin(), world.positions.end());
+  add_later_poses(world, row);
   store_.triangles.reserve(store_.triangles.size() + count);
   for (std::size_t i = 0; i < world.triangles.size(); i += 3)
     store_.triangles.push_back(
@@ -198,6 +270,19 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow ro
       if (i == 0) row.first_light = std::uint32_t(light) + 1;
     }
   store_.rows.push_back(row);
+}
+
+// The poses after the first lie behind it, positions and normals alike.
+void GeometryBuilder::add_later_poses(const Mesh& world, GeometryRow& row) {
+  if (world.later.empty()) return;
+  row.poses = std::uint32_t(world.later.size()) + 1;
+  row.pose_vertices = std::uint32_t(world.positions.size());
+  store_.deforms = true;
+  for (const MeshPose& pose : world.later) {
+    store_.positions.insert(store_.positions.end(), pose.positions.begin(), pose.positions.end());
+    if (!world.normals.empty()) store_.normals.insert(store_.normals.end(), pose.normals.begin(), pose.normals.end());
+    grow(bounds_of(pose.positions));
+  }
 }
 
 void GeometryBuilder::add_patches(const Mesh& world, bool flip, GeometryRow row,

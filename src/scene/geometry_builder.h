@@ -5,6 +5,7 @@
 
 #include "geometry/bounds.h"
 #include "light/builder.h"
+#include "math/motion.h"
 #include "scene/description.h"
 #include "scene/geometry_store.h"
 
@@ -27,20 +28,37 @@ class GeometryBuilder {
   GeometryBuilder(const ShapeInputs& inputs, LightSetBuilder& lights, Diagnostics& diagnostics)
       : inputs_(inputs), lights_(lights), diagnostics_(diagnostics) {}
 
-  // Shapes of the world must all be added before the first object.
-  void add_world_shape(const ShapeDesc& shape) { add_shape(shape, true); }
+  // Shapes of the world must all be added before the first object, and must outlive the builder: those that move are
+  // placed last, as instances of their own.
+  void add_world_shape(const ShapeDesc& shape);
   void add_object(const ObjectDesc& object);
   void add_instance(const InstanceDesc& instance);
 
-  // Box of the world's shapes and of all instances.
+  // Ends the building. The box of the world's shapes and of all instances is whole then.
+  GeometryStore take();
   Bounds3 bounds() const { return bounds_; }
-  GeometryStore take() &&;
 
  private:
+  // A motion, and the number of its keys less one.
+  struct Placing {
+    std::function<Transform(double)> at;
+    int steps;
+  };
+  // An object of the description: what stands still in it, and each shape that moves in it, as objects of the store.
+  struct ObjectParts {
+    std::uint32_t still;
+    std::vector<std::pair<std::uint32_t, Motion>> moving;
+  };
+
   void add_shape(const ShapeDesc& shape, bool in_world);
+  std::uint32_t add_store_object(const std::function<void()>& add_shapes);
+  std::uint32_t add_object_of(const ShapeDesc& moving);
+  void place(std::uint32_t object, const Transform& object_to_world);
+  void place_moving(std::uint32_t object, const Placing& placing);
   void add_mesh(const Mesh& mesh, const ShapeDesc& shape, const GeometryRow& row,
                 const std::optional<Emission>& emission);
   void add_triangles(const Mesh& world, bool flip, GeometryRow row, const std::optional<Emission>& emission);
+  void add_later_poses(const Mesh& world, GeometryRow& row);
   void add_patches(const Mesh& world, bool flip, GeometryRow row, const std::optional<Emission>& emission);
   void add_single(Shape shape, GeometryRow row, const std::optional<Emission>& emission);
   void add_curves(const ShapeDesc& shape, GeometryRow row);
@@ -54,6 +72,8 @@ class GeometryBuilder {
   GeometryStore store_;
   Bounds3 bounds_;
   std::vector<Bounds3> object_bounds_;
+  std::vector<ObjectParts> objects_;  // of the description
+  std::vector<const ShapeDesc*> moving_;
   bool in_object_ = false;
   std::uint32_t next_object_number_ = 1;
 };

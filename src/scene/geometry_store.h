@@ -23,10 +23,12 @@ struct alignas(64) GeometryRow {
   std::uint32_t uv_shift = 0;      // the same for uv
   std::uint32_t flags = 0;
   std::uint32_t material = 0;
-  std::uint32_t first_light = 0;  // 1 + the light of primitive 0, the others following; 0: emits nothing
-  std::uint32_t alpha = 0;        // 1 + number of a number texture; 0: opaque
-  std::uint32_t object = 0;       // number of the object from 1, for the id layer
-  std::uint32_t unused[6] = {};
+  std::uint32_t first_light = 0;    // 1 + the light of primitive 0, the others following; 0: emits nothing
+  std::uint32_t alpha = 0;          // 1 + number of a number texture; 0: opaque
+  std::uint32_t object = 0;         // number of the object from 1, for the id layer
+  std::uint32_t poses = 1;          // of a mesh that changes its form: how many, evenly spaced over time
+  std::uint32_t pose_vertices = 0;  // vertices of one pose, each pose behind the other; 0: one pose alone
+  std::uint32_t unused[4] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8;
 };
@@ -37,9 +39,15 @@ struct ObjectRange {
   std::uint32_t first = 0, count = 0;
 };
 
+// Some of GeometryStore::instance_keys; none for an instance that stands still.
+struct KeyRange {
+  std::uint32_t first = 0, count = 0;
+};
+
 struct PlacedObject {
   std::uint32_t object = 0;
-  Transform object_to_world;
+  Transform object_to_world;  // at the start, where it moves
+  KeyRange keys;
 };
 
 struct GeometryStore {
@@ -54,6 +62,13 @@ struct GeometryStore {
   std::vector<ObjectRange> objects;
   std::vector<PlacedObject> instances;
   std::vector<std::array<float, 24>> instance_rows;  // object to world, then world to object, three rows of four each
+  // Object to world at moments evenly spaced from the start to the end: between them the kernel, and surface(), take
+  // the matrices entry by entry on straight lines. Empty where no instance moves.
+  std::vector<std::array<float, 12>> instance_keys;
+  std::vector<KeyRange> instance_motion;  // of each instance; empty where none moves
+  bool deforms = false;                   // some mesh has more than one pose
+
+  bool moves() const { return deforms || !instance_keys.empty(); }
 };
 
 // Where a ray met the scene. `geometry` is a row number; `instance` is 1 + an instance's number, or 0.

@@ -43,8 +43,10 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.height = resolution ? resolution->second : film.integer("yresolution", s.height);
   s.crop = crop_of(scene.film, s.width, s.height, resolution.has_value(), diagnostics);
   if (float clamp = film.number("maxcomponentvalue", ray_infinity); clamp < ray_infinity) s.max_component = clamp;
-  float exposure_time =
-      scene.camera.parameters.number("shutterclose", 1) - scene.camera.parameters.number("shutteropen", 0);
+  const float open = scene.camera.parameters.number("shutteropen", 0),
+              close = scene.camera.parameters.number("shutterclose", 1), exposure_time = close - open;
+  s.transforms_start = scene.transforms_start, s.transforms_end = scene.transforms_end;
+  s.shutter_open = double(open), s.shutter_close = double(close);
   s.imaging_ratio = exposure_time * film.number("iso", 100) / 100;
 
   const ParameterList& sampler = scene.sampler.parameters;

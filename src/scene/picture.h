@@ -21,7 +21,9 @@ struct PictureSettings {
   std::optional<int> max_depth;        // where the file sets it
   std::optional<float> max_component;  // clamp of a sample's components, where the file sets it: biased
   LightSelection light_selection = LightSelection::bvh;
-  float imaging_ratio = 1;  // of the film's reading to radiance: exposure time x ISO / 100
+  double transforms_start = 0, transforms_end = 1;  // the time in which what moves goes its way
+  double shutter_open = 0, shutter_close = 1;       // in the same unit
+  float imaging_ratio = 1;                          // of the film's reading to radiance: exposure time x ISO / 100
 };
 
 // `resolution` takes the place of the film's. Notes say what serves a name that Montelux lacks.

@@ -34,21 +34,24 @@ class Preparation {
     float radius = length(bounds_.high - centre);
     if (bounds_.is_empty()) centre = {0, 0, 0}, radius = 1;
 
-    Scene scene{std::move(geometry),
-                std::move(textures_),
-                {},
-                std::move(lights).build({picture_.light_selection}, centre, radius),
-                build_camera(desc_.camera, desc_.world_to_camera, picture_.width, picture_.height, diagnostics_),
-                Filter::build(desc_.filter),
-                picture_.imaging_ratio,
-                bounds_,
-                {}};
+    Scene scene{
+        std::move(geometry),
+        std::move(textures_),
+        {},
+        std::move(lights).build({picture_.light_selection}, centre, radius),
+        make_camera(),
+        Filter::build(desc_.filter),
+        picture_.imaging_ratio,
+        bounds_,
+        {},
+        shutter_of(picture_.shutter_open, picture_.shutter_close, picture_.transforms_start, picture_.transforms_end)};
     scene.materials = MaterialSet(std::move(materials), scene.textures.get());
     return {std::move(scene), picture_};
   }
 
  private:
   std::vector<Material> make_materials();
+  Camera make_camera();
   void break_mixture_cycles(std::vector<Material>& materials);
   GeometryStore make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights);
   void add_light(const LightDesc& light, LightSetBuilder& lights);
@@ -85,6 +88,14 @@ std::vector<Material> Preparation::make_materials() {
   return materials;
 }
 
+Camera Preparation::make_camera() {
+  auto built = [&](const Transform& place) {
+    return build_camera(desc_.camera, place, picture_.width, picture_.height, diagnostics_);
+  };
+  if (!desc_.world_to_camera_at_end) return built(desc_.world_to_camera);
+  return built(Transform()).moved({desc_.world_to_camera.inverted(), desc_.world_to_camera_at_end->inverted()});
+}
+
 // A mixture that leads to itself has no value: it is reported, and stands as a diffuse surface.
 void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
   enum class Visit { none, open, done };
@@ -113,8 +124,9 @@ GeometryStore Preparation::make_geometry(const std::vector<Material>& materials,
   for (const ShapeDesc& shape : desc_.shapes) builder.add_world_shape(shape);
   for (const ObjectDesc& object : desc_.objects) builder.add_object(object);
   for (const InstanceDesc& instance : desc_.instances) builder.add_instance(instance);
+  GeometryStore store = builder.take();
   bounds_ = builder.bounds();
-  return std::move(builder).take();
+  return store;
 }
 
 std::optional<std::uint32_t> Preparation::alpha_of(const Entity& shape) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "camera/shutter.h"
 #include "filter/filter.h"
 #include "geometry/bounds.h"
 #include "light/light_set.h"
@@ -25,6 +26,10 @@ struct Scene {
   float imaging_ratio = 1;                // of the film's reading to radiance
   Bounds3 bounds;                         // of all surfaces, world space
   std::vector<std::string> object_names;  // of object number i + 1
+  Shutter shutter;
+
+  // Whether anything but light moves: only then a path needs a moment of its own.
+  bool moves() const { return geometry.moves() || camera.moves(); }
 
   // Whether a surface with an alpha mask is there for this ray.
   bool is_opaque(const Hit<float>& hit, const Ray<float>& ray) const;

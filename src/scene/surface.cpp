@@ -1,5 +1,7 @@
 #include "scene/surface.h"
 
+#include "math/affine.h"
+
 namespace montelux {
 
 namespace {
@@ -17,9 +19,12 @@ enum RowWord : std::uint32_t {
   material,
   first_light,
   alpha,
-  object
+  object,
+  poses,
+  pose_vertices
 };
 static_assert(offsetof(GeometryRow, object) == 4 * RowWord::object &&
+              offsetof(GeometryRow, pose_vertices) == 4 * RowWord::pose_vertices &&
               offsetof(GeometryRow, flags) == 4 * RowWord::flags);
 
 const std::uint32_t* words_of(const GeometryStore& store) {
@@ -43,8 +48,58 @@ std::array<Uint<F>, 3> corner_numbers(const GeometryStore& store, Uint<F> triang
   return {gather(index, i), gather(index + 1, i), gather(index + 2, i)};
 }
 
+// Where a time lies between moments evenly spaced over [0, 1].
 template <class F>
-SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, Uint<F> row, Mask<F> on) {
+struct TimeStep {
+  Uint<F> first;  // the moment before
+  F fraction;     // of the way to the next
+};
+// `moments` >= 2. The kernel reckons in the same way.
+template <class F>
+TimeStep<F> time_step(F time, Uint<F> moments) {
+  const F steps = to_float(Uint<F>(moments - Uint<F>(1u)));
+  const F scaled = time * steps;
+  const F first = min(max(floor(scaled), F(0.0f)), steps - F(1.0f));
+  return {to_uint(first), scaled - first};
+}
+
+// The poses of meshes between which a time lies, as offsets to the numbers of vertices; both 0 for meshes of one form.
+template <class F>
+struct PosePair {
+  Uint<F> before, after;
+  F fraction;
+};
+template <class F>
+PosePair<F> pose_pair(const std::uint32_t* words, Uint<F> row, F time) {
+  using U = Uint<F>;
+  const U poses = gather(words + RowWord::poses, row), stride = gather(words + RowWord::pose_vertices, row);
+  const TimeStep<F> step = time_step<F>(time, select(poses > U(1u), poses, U(2u)));
+  const U before = step.first * stride;
+  return {before, before + stride, step.fraction};
+}
+
+// Corners and normals at their time. Only scenes with meshes that change their form come here.
+template <class F>
+void pose_triangles(const GeometryStore& store, const std::array<Uint<F>, 3>& corner, const PosePair<F>& pose,
+                    Uint<F> normal_shift, TriangleCorners<F>& corners, TriangleNormals<F>& normals) {
+  using U = Uint<F>;
+  const auto between = [&](const std::vector<Vec3f>& from, U i) {
+    return gather_vec3<F>(from, U(i + pose.before)) * (F(1.0f) - pose.fraction) +
+           gather_vec3<F>(from, U(i + pose.after)) * pose.fraction;
+  };
+  corners.p0 = between(store.positions, corner[0]), corners.p1 = between(store.positions, corner[1]);
+  corners.p2 = between(store.positions, corner[2]);
+  if (!any(normals.present)) return;
+  const auto normal = [&](U i) {
+    const auto at = [&](U offset) { return select(normals.present, i + normal_shift + offset, U(0u)); };
+    return gather_vec3<F>(store.normals, at(pose.before)) * (F(1.0f) - pose.fraction) +
+           gather_vec3<F>(store.normals, at(pose.after)) * pose.fraction;
+  };
+  normals.n0 = normal(corner[0]), normals.n1 = normal(corner[1]), normals.n2 = normal(corner[2]);
+}
+
+template <class F>
+SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F time, Uint<F> row, Mask<F> on) {
   using U = Uint<F>;
   const std::uint32_t* words = words_of(store);
   const U triangle = select(on, gather(words + RowWord::first, row) + hit.primitive, U(0u));
@@ -67,57 +122,99 @@ SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, U
     auto normal = [&](U i) { return gather_vec3<F>(store.normals, select(normals.present, i + shift, U(0u))); };
     normals.n0 = normal(i0), normals.n1 = normal(i1), normals.n2 = normal(i2);
   }
-  return triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
+  if (!store.deforms) return triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
+  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(words, select(on, row, U(0u)), time),
+                    gather(words + RowWord::normal_shift, row), corners, normals);
+  SurfacePoint<F> s = triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
+  // The corners are rounded, too.
+  s.p_error = s.p_error * 2.0f;
+  return s;
 }
 
-// Rows of three floats and an offset: as Transform applies them, in every lane.
 template <class F>
-struct GatheredTransform {
-  F m[12];
-  GatheredTransform(const float* base, Uint<F> at) {
-    for (int i = 0; i < 12; ++i) m[i] = gather(base + i, at);
-  }
-  Vec3<F> direction(const Vec3<F>& d) const {
-    return {m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
-            m[8] * d.x + m[9] * d.y + m[10] * d.z};
-  }
-  Vec3<F> transposed(const Vec3<F>& n) const {
-    return {m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
-            m[2] * n.x + m[6] * n.y + m[10] * n.z};
-  }
-  Vec3<F> offset() const { return {m[3], m[7], m[11]}; }
-  Vec3<F> absolute(const Vec3<F>& d) const {
-    return {abs(m[0]) * d.x + abs(m[1]) * d.y + abs(m[2]) * d.z, abs(m[4]) * d.x + abs(m[5]) * d.y + abs(m[6]) * d.z,
-            abs(m[8]) * d.x + abs(m[9]) * d.y + abs(m[10]) * d.z};
-  }
-};
+Affine<F> gather_affine(const float* base, Uint<F> at) {
+  Affine<F> r;
+  for (int i = 0; i < 12; ++i) r.m[i] = gather(base + i, at);
+  return r;
+}
 
 // A point of an instanced object, brought to the world.
 template <class F>
-void place_instances(const GeometryStore& store, const Hit<F>& hit, SurfacePoint<F>& s, Mask<F> on) {
+struct Placing {
+  Affine<F> to_world;
+  F rounding;  // of an entry of to_world, as a part of it
+};
+
+// Rounding of the product and its sums adds to the error that the point brings (Pharr et al. 2023, eq. 6.30), and so
+// does that of the map itself where it moves.
+template <class F>
+void place_point(const Placing<F>& placing, SurfacePoint<F>& s, Mask<F> placed) {
+  const Affine<F>& to_world = placing.to_world;
+  Vec3<F> p = to_world.point(s.p);
+  Vec3<F> error = to_world.absolute(s.p_error) * (F(1.0f) + placing.rounding) +
+                  (to_world.absolute(abs(s.p)) + abs(to_world.offset())) * placing.rounding;
+  s.p = select<F>(placed, p, s.p);
+  s.p_error = select<F>(placed, error, s.p_error);
+  s.dpdu = select<F>(placed, to_world.direction(s.dpdu), s.dpdu);
+}
+
+constexpr float gamma(int n) { return float(n) * 0x1p-24f / (1 - float(n) * 0x1p-24f); }
+
+// The map of each lane's instance at its time.
+template <class F>
+Placing<F> moving_place(const GeometryStore& store, Uint<F> instance, F time) {
+  using U = Uint<F>;
+  const std::uint32_t* ranges = &store.instance_motion.data()->first;
+  const U range = instance * U(2u);
+  const U first = gather(ranges, range), count = gather(ranges + 1, range);
+  const Mask<F> moves = count > U(1u);
+  const TimeStep<F> step = time_step<F>(time, select(moves, count, U(2u)));
+  const float* keys = store.instance_keys.data()->data();
+  const U at = select(moves, first + step.first, U(0u)) * U(12u);
+  const Affine<F> moved =
+      lerp(step.fraction, gather_affine<F>(keys, at), gather_affine<F>(keys, select(moves, at + U(12u), U(0u))));
+  const Affine<F> still = gather_affine<F>(store.instance_rows.data()->data(), instance * U(24u));
+  Placing<F> r{still, select(moves, F(gamma(12)), F(gamma(3)))};
+  for (int i = 0; i < 12; ++i) r.to_world.m[i] = select(moves, moved.m[i], still.m[i]);
+  return r;
+}
+
+template <class F>
+void place_instances(const GeometryStore& store, const Hit<F>& hit, F time, SurfacePoint<F>& s, Mask<F> on) {
   using U = Uint<F>;
   const Mask<F> placed = on & (hit.instance != U(0u));
   if (!any(placed)) return;
+  const U instance = select(placed, hit.instance - U(1u), U(0u));
+  if (!store.instance_keys.empty()) {
+    const Placing<F> placing = moving_place<F>(store, instance, time);
+    place_point(placing, s, placed);
+    s.ng = select<F>(placed, normalize(placing.to_world.normal(s.ng)), s.ng);
+    s.ns = select<F>(placed, normalize(placing.to_world.normal(s.ns)), s.ns);
+    return;
+  }
   const float* table = store.instance_rows.data()->data();
-  const U at = select(placed, hit.instance - U(1u), U(0u)) * U(24u);
-  const GatheredTransform<F> to_world(table, at), to_object(table + 12, at);
-  // Rounding of the product and its sums adds to the error that the point brings (Pharr et al. 2023, eq. 6.30).
-  constexpr float gamma3 = 3 * 0x1p-24f / (1 - 3 * 0x1p-24f);
-  Vec3<F> p = to_world.direction(s.p) + to_world.offset();
-  Vec3<F> error =
-      to_world.absolute(s.p_error) * (1.0f + gamma3) + (to_world.absolute(abs(s.p)) + abs(to_world.offset())) * gamma3;
-  s.p = select<F>(placed, p, s.p);
-  s.p_error = select<F>(placed, error, s.p_error);
+  const U at = instance * U(24u);
+  const Affine<F> to_object = gather_affine<F>(table + 12, at);
+  place_point<F>({gather_affine<F>(table, at), F(gamma(3))}, s, placed);
   s.ng = select<F>(placed, normalize(to_object.transposed(s.ng)), s.ng);
   s.ns = select<F>(placed, normalize(to_object.transposed(s.ns)), s.ns);
-  s.dpdu = select<F>(placed, to_world.direction(s.dpdu), s.dpdu);
+}
+
+// The map of an instance at a time.
+Transform place_at(const GeometryStore& store, std::uint32_t instance, float time) {
+  const PlacedObject& placed = store.instances[instance];
+  if (placed.keys.count < 2) return placed.object_to_world;
+  const Affine<float> map = moving_place<float>(store, instance, time).to_world;
+  Matrix4 m;
+  for (std::size_t i = 0; i < 12; ++i) m.m[i / 4][i % 4] = double(map.m[i]);
+  return from_matrix(m).value_or(placed.object_to_world);
 }
 
 // A ray as the instance's own space sees it.
 Ray<float> to_object_space(const GeometryStore& store, std::uint32_t instance, Ray<float> ray) {
   if (instance == 0) return ray;
-  Transform to_object = store.instances[instance - 1].object_to_world.inverted();
-  return {to_object.point(ray.o), to_object.direction(ray.d), ray.t_max};
+  const Transform to_object = place_at(store, instance - 1, ray.time).inverted();
+  return {to_object.point(ray.o), to_object.direction(ray.d), ray.t_max, ray.time};
 }
 
 SurfacePoint<float> other_point(const GeometryStore& store, const Hit<float>& hit, const Ray<float>& ray) {
@@ -137,22 +234,22 @@ void set_lane(SurfacePoint<F>& s, int k, const SurfacePoint<float>& x) {
 }  // namespace
 
 template <class F>
-SurfaceHit<F> surface(const GeometryStore& store, const Vec3<F>& o, const Vec3<F>& d, const Hit<F>& hit, Mask<F> on) {
+SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on) {
   using U = Uint<F>;
   const std::uint32_t* words = words_of(store);
   const U row = select(on, hit.geometry, U(0u)) * U(row_words);
   const Mask<F> triangles = on & (gather(words + RowWord::kind, row) == U(std::uint32_t(GeometryKind::triangles)));
   SurfaceHit<F> s;
   if (any(triangles))
-    s.point = triangles_point<F>(store, hit, row, triangles);
+    s.point = triangles_point<F>(store, hit, ray.time, row, triangles);
   else
     s.point = {};
   for_each_lane(on & !triangles, [&](int k) {
     Hit<float> one{lane(hit.t, k),        lane(hit.u, k),         lane(hit.v, k),
                    lane(hit.geometry, k), lane(hit.primitive, k), lane(hit.instance, k)};
-    set_lane(s.point, k, other_point(store, one, {lane(o, k), lane(d, k), one.t}));
+    set_lane(s.point, k, other_point(store, one, {lane(ray.o, k), lane(ray.d, k), one.t, lane(ray.time, k)}));
   });
-  place_instances<F>(store, hit, s.point, on);
+  place_instances<F>(store, hit, ray.time, s.point, on);
   s.material = gather(words + RowWord::material, row);
   U first_light = gather(words + RowWord::first_light, row);
   s.light = select(on & (first_light != U(0u)), first_light + hit.primitive, U(0u));
@@ -171,8 +268,8 @@ Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit) {
   return uv[0] * (1.0f - hit.u - hit.v) + uv[1] * hit.u + uv[2] * hit.v;
 }
 
-template SurfaceHit<float> surface(const GeometryStore&, const Vec3f&, const Vec3f&, const Hit<float>&, bool);
-template SurfaceHit<NativeFloats> surface(const GeometryStore&, const Vec3<NativeFloats>&, const Vec3<NativeFloats>&,
-                                          const Hit<NativeFloats>&, Mask<NativeFloats>);
+template SurfaceHit<float> surface(const GeometryStore&, const Ray<float>&, const Hit<float>&, bool);
+template SurfaceHit<NativeFloats> surface(const GeometryStore&, const Ray<NativeFloats>&, const Hit<NativeFloats>&,
+                                          Mask<NativeFloats>);
 
 }  // namespace montelux

@@ -13,9 +13,9 @@ struct SurfaceHit {
   Uint<F> object;  // number of the object, from 1
 };
 
-// The surface where rays with directions d (and origins o) met the scene.
+// The surface where rays met the scene, at their time.
 template <class F>
-SurfaceHit<F> surface(const GeometryStore& store, const Vec3<F>& o, const Vec3<F>& d, const Hit<F>& hit, Mask<F> on);
+SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on);
 
 // Surface parameters of a hit, for alpha masks: uv alone, one ray.
 Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit);

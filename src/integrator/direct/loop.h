@@ -75,8 +75,7 @@ struct DirectLight {
     const M asks = on & (max_component(light) > F(0.0f));
     if (!any(asks)) return gray(F(0.0f));
     counts.shadow += std::uint64_t(count(asks));
-    const M blocked =
-        rays.template occluded<F>({at.origin_toward(wi), wi, distance * (1.0f - shadow_shortening)}, asks);
+    const M blocked = rays.template occluded<F>(at.ray_toward(wi, distance * (1.0f - shadow_shortening)), asks);
     return select(asks & !blocked, light, gray(F(0.0f)));
   }
 
@@ -110,7 +109,7 @@ struct DirectLight {
   template <class Weight>
   Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
                        Weight weight) const {
-    return trace_to_arrival<F>(scene, rays, at.departure(), {at.origin_toward(wi), wi, F(ray_infinity)}, on,
+    return trace_to_arrival<F>(scene, rays, at.departure(), at.ray_toward(wi, F(ray_infinity)), on,
                                numbers.stream(ray, path_dimension::per_vertex), counts, weight,
                                [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
                                    [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
@@ -182,7 +181,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     const U first = U(path_dimension::first_vertex);
     const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
     const Arrival<F> at = arrive<F>(
-        scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
+        scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
         sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); }, seen_directly(path, tally));
 
     const std::uint32_t points = settings.fixed ? 1u : n;

@@ -70,7 +70,7 @@ struct Tree {
     const Rgb direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     ++counts.shadow;
-    const Ray<F> ray{at.origin_toward(light.wi), light.wi, light.distance * (1.0f - shadow_shortening)};
+    const Ray<F> ray = at.ray_toward(light.wi, light.distance * (1.0f - shadow_shortening));
     if (accel.occluded<F>(ray, true)) return gray(0.0f);
     if constexpr (Tally::records)
       tally.template add<F>(
@@ -99,7 +99,7 @@ struct Tree {
     const Vec3f wi = at.bsdf.frame.to_world(next.wi);
     count_ray(depth + 1);
     const Arrival<F> there = trace_to_arrival<F>(
-        scene, accel, at.departure(), {at.origin_toward(wi), wi, ray_infinity}, true,
+        scene, accel, at.departure(), at.ray_toward(wi, ray_infinity), true,
         numbers.stream(i, path_dimension::own).fork(vertex), counts,
         [&](float by_light) {
           return next.delta || n.points == 0
@@ -135,7 +135,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
   while (first_hits.refill(path, false)) {
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const Arrival<F> at = arrive<F>(
-        scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity}, path.hit, true,
+        scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
         sampler.stream(first + path_dimension::own), counts, [](float) { return 1.0f; }, seen_directly(path, tally));
     Rgb radiance = at.light;
     if (at.found) {

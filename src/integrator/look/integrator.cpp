@@ -27,7 +27,7 @@ struct View {
 
   M blocked(const Vec3<F>& wi, F distance, M on) const {
     counts.shadow += std::uint64_t(count(on));
-    return accel.occluded<F>({at.origin_toward(wi), wi, distance}, on);
+    return accel.occluded<F>(at.ray_toward(wi, distance), on);
   }
 
   Spectrum<F> openness(std::uint32_t sample) const {
@@ -89,8 +89,9 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
     if (!any(on)) return counts;
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-    const Arrival<F> at = arrive<F>(scene_, accel_, {path.o, zero}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
-                                    sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
+    const Arrival<F> at =
+        arrive<F>(scene_, accel_, {path.o, zero}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
+                  sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), n);
     const View view{scene_, accel_, settings_, at, numbers, counts};
     Spectrum<F> sum = gray(F(0.0f));

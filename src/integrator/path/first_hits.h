@@ -58,10 +58,13 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, 
   Sampler<F> sampler(pass.points, x, y, index);
   FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
   Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
-  CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)));
+  F time = 0.0f;
+  if (scene.moves()) time = pass.shutter.value_or(scene.shutter).time(sampler.get1(Uint<F>(path_dimension::time)));
+  CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)), time);
   PathStart<F> state;
   state.o = camera.ray.o, state.d = camera.ray.d;
   state.weight = camera.weight * filtered.weight * scene.imaging_ratio;
+  state.time = time;
   state.x = x, state.y = y, state.index = index;
   return state;
 }
@@ -102,7 +105,8 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +
             U(sample);
-        auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity)}, on, Coherence::coherent);
+        auto [found, hit] =
+            rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, Coherence::coherent);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
         for_each_lane(found, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });

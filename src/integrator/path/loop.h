@@ -111,7 +111,7 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     if (!any(on)) return counts;
 
     // The vertex, and the light that it sends back by itself.
-    const SurfaceHit<F> x = surface<F>(scene.geometry, path.o, path.d, path.hit, on);
+    const SurfaceHit<F> x = surface<F>(scene.geometry, {path.o, path.d, path.hit.t, path.time}, path.hit, on);
     const M emits = on & (x.light != U(0u));
     if (any(emits)) {
       LightHit<F> light = lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
@@ -166,7 +166,8 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     if (any(shadow)) {
       counts.shadow += std::uint64_t(count(shadow));
       Vec3<F> o = offset_origin(x.point.p, x.point.p_error, x.point.ng, light.wi);
-      M blocked = rays.template occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening)}, shadow);
+      M blocked =
+          rays.template occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening), path.time}, shadow);
       gather_light(path, shadow & !blocked, direct, tally, [&] {
         // The choice is made once more: the same numbers give the same light.
         const U chosen = lights.template choose<F>(x.point.p, bsdf.light_normal, light_choice, wants_light).light;
@@ -198,7 +199,7 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
     path.crossings = path.crossings + select(passes, U(1u), U(0u));
     counts.scattered += std::uint64_t(count(moves));
-    auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity)}, moves);
+    auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
     const M left = moves & !found;
     for (int i = 0; i < lights.infinite_count() && any(left); ++i) {

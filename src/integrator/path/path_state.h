@@ -16,6 +16,7 @@ struct PathState {
   Vec3<F> p, n;            // the previous vertex and its normal, as the lights' densities take them
   F density;            // of the direction d at the previous vertex, solid angle; 0: no other technique could draw it
   F weight;             // of the camera and the filter (which may be negative), for the result
+  F time;               // at which the camera looked
   F eta_scale;          // squared relative indices of refraction crossed; roulette takes it out
   Uint<F> depth;        // scattering events so far
   Uint<F> crossings;    // interfaces gone through so far
@@ -28,7 +29,7 @@ template <class F>
 struct PathStart {
   Vec3<F> o, d;
   Hit<F> hit;
-  F weight;
+  F weight, time;
   Uint<F> x, y, index;
   Uint<F> slot;
 };
@@ -63,6 +64,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
   put(path.p, start.o), put(path.n, zero);
   put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
+  put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.slot, start.slot);
 }

@@ -98,9 +98,8 @@ struct Recursion {
       weight *= gray(survival.weight);
     }
     const RandomStream<float> branch = own_stream(random);
-    const Arrival<float> there =
-        trace_to_arrival<float>(scene, accel, at.departure(), {at.origin_toward(wi), wi, ray_infinity}, true,
-                                branch.fork(1u), counts, [](float) { return 1.0f; });
+    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure(), at.ray_toward(wi, ray_infinity),
+                                                         true, branch.fork(1u), counts, [](float) { return 1.0f; });
     return weight * radiance(there, branch.fork(2u), depth + 1, throughput * weight);
   }
 
@@ -114,7 +113,7 @@ struct Recursion {
     const BsdfValue<float> value =
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     ++counts.shadow;
-    const Ray<float> ray{at.origin_toward(light.wi), light.wi, light.distance * (1.0f - shadow_shortening)};
+    const Ray<float> ray = at.ray_toward(light.wi, light.distance * (1.0f - shadow_shortening));
     return accel.occluded<float>(ray, true) ? gray(0.0f) : value.f_cos * light.radiance;
   }
 
@@ -146,8 +145,9 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
   while (first_hits.refill(path, false)) {
     const Sampler<float> sampler(pass.points, path.x, path.y, path.index);
     const RandomStream<float> random = sampler.stream(path_dimension::first_vertex + path_dimension::own);
-    const Arrival<float> at = arrive<float>(scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity}, path.hit,
-                                            true, random.fork(1u), counts, [](float) { return 1.0f; });
+    const Arrival<float> at =
+        arrive<float>(scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
+                      random.fork(1u), counts, [](float) { return 1.0f; });
     out[path.slot].radiance = recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight;
     if (at.found) {
       RandomStream<float> own = random.fork(3u);

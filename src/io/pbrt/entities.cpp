@@ -86,7 +86,8 @@ void Parser::directive_camera() {
   bool outside = !in_world_;
   stated_option(Family::camera, scene_.camera);
   if (!outside) return;
-  scene_.world_to_camera = still_transform("camera");
+  scene_.world_to_camera = state_.transform.start;
+  scene_.world_to_camera_at_end = transform_at_end("camera");
   coordinate_systems_["camera"] = {state_.transform.start.inverted(), state_.transform.end.inverted()};
 }
 

@@ -142,15 +142,16 @@ void check_texture(const Entity& tex, Reporter& report) {
 
 // Files that are read must be there.
 void check_files(const Entity& entity, const CheckContext& context) {
-  for (std::string_view name : {"filename", "normalmap", "lensfile", "emissionfilename"}) {
+  for (std::string_view name : {"filename", "filename1", "normalmap", "lensfile", "emissionfilename"}) {
     const Parameter* p = entity.parameters.find(name);
     if (!p) continue;
-    std::string file = entity.parameters.string(name, "");
-    if (file.empty())
-      context.report.error(p->where, "'" + std::string(name) + "' is empty");
-    else if (!is_regular_file(resolve_path(context.folder, file)))
-      context.report.error(p->where, "there is no file '" + printable(file) + "'",
-                           "it is looked for as '" + printable(resolve_path(context.folder, file)) + "'");
+    for (const std::string& file : entity.parameters.array<std::string>(name)) {
+      if (file.empty())
+        context.report.error(p->where, "'" + std::string(name) + "' is empty");
+      else if (!is_regular_file(resolve_path(context.folder, file)))
+        context.report.error(p->where, "there is no file '" + printable(file) + "'",
+                             "it is looked for as '" + printable(resolve_path(context.folder, file)) + "'");
+    }
   }
 }
 

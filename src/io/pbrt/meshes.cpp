@@ -1,5 +1,6 @@
 #include "io/pbrt/meshes.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "io/mesh_check.h"
@@ -52,10 +53,38 @@ std::optional<std::vector<std::uint32_t>> face_indices(const Entity& shape, std:
   return indices;
 }
 
+// The later poses of a mesh, from arrays that hold them one behind the other; false after an error.
+bool take_later_poses(const Entity& shape, Mesh& mesh, Reporter& report) {
+  constexpr std::size_t most_poses = 128;  // after the first, as the ray-tracing kernel takes them
+  const std::vector<Vec3f>&p = shape.parameters.array<Vec3f>("P1"), &n = shape.parameters.array<Vec3f>("N1");
+  const std::size_t vertices = mesh.positions.size(), poses = p.size() / vertices;
+  if (p.empty() && n.empty()) return true;
+  if (p.empty() || p.size() % vertices != 0 || poses > most_poses) {
+    report.error(place_of(shape, p.empty() ? "N1" : "P1"),
+                 "'P1' takes the " + std::to_string(vertices) + " vertices once for each later moment (at most " +
+                     std::to_string(most_poses) + "); there are " + std::to_string(p.size()) + " values");
+    return false;
+  }
+  if (n.size() != (mesh.normals.empty() ? 0 : p.size())) {
+    report.error(place_of(shape, n.empty() ? "P1" : "N1"),
+                 "'N1' takes a normal for each vertex of 'P1' where there is 'N', and none else; there are " +
+                     std::to_string(n.size()) + " for " + std::to_string(p.size()));
+    return false;
+  }
+  const auto part = [vertices](const std::vector<Vec3f>& all, std::size_t pose) {
+    const auto first = all.begin() + std::ptrdiff_t(pose * vertices);
+    return std::vector<Vec3f>(first, first + std::ptrdiff_t(vertices));
+  };
+  for (std::size_t pose = 0; pose < poses; ++pose)
+    mesh.later.push_back({part(p, pose), n.empty() ? std::vector<Vec3f>{} : part(n, pose)});
+  return true;
+}
+
 void remove_arrays(Entity& shape) {
   ParameterList rest;
   for (const Parameter& p : shape.parameters.all()) {
-    bool taken = p.name == "P" || p.name == "N" || p.name == "S" || p.name == "uv" || p.name == "indices";
+    constexpr std::string_view arrays[] = {"P", "N", "S", "uv", "indices", "P1", "N1"};
+    bool taken = std::ranges::find(arrays, p.name) != std::end(arrays);
     if (!taken) rest.add(p);
   }
   shape.parameters = std::move(rest);
@@ -87,6 +116,7 @@ std::optional<Mesh> take_mesh(Entity& shape, Reporter& report) {
   bool good = fits_vertices(shape, "N", mesh.normals.size(), vertices, report);
   good &= fits_vertices(shape, "S", mesh.tangents.size(), vertices, report);
   good &= fits_vertices(shape, "uv", mesh.uvs.size(), vertices, report);
+  good &= take_later_poses(shape, mesh, report);
   bool is_bilinear = shape.type == "bilinearmesh";
   auto indices = face_indices(shape, is_bilinear ? 4 : 3, vertices, report);
   if (!indices || !good) return std::nullopt;

@@ -106,6 +106,7 @@ class Parser {
   std::optional<Matrix4> matrix_argument();
   void set_transform(const Transform& transform, bool concatenate);
   Transform still_transform(std::string_view owner);
+  std::optional<Transform> transform_at_end(std::string_view owner);
 
   // entities.cpp
   ParameterList parameters();
@@ -148,6 +149,8 @@ class Parser {
   void directive_object_instance();
   std::shared_ptr<const Mesh> mesh_of(Entity& shape);
   std::shared_ptr<const Mesh> ply_mesh(const Entity& shape);
+  std::shared_ptr<const Mesh> one_ply_mesh(const std::string& file, const SourceLocation& where);
+  std::shared_ptr<const Mesh> posed_ply_mesh(const Mesh& first, const Parameter& later);
 
   // resolve.cpp
   void resolve_textures();

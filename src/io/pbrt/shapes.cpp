@@ -6,19 +6,65 @@
 
 namespace montelux::pbrt {
 
+namespace {
+
+// Quadrilaterals as two triangles each.
+void split_quads(Mesh& mesh) {
+  for (std::size_t i = 0; i + 3 < mesh.quads.size(); i += 4) {
+    const std::uint32_t *q = &mesh.quads[i], halves[] = {q[0], q[1], q[3], q[0], q[3], q[2]};
+    mesh.triangles.insert(mesh.triangles.end(), std::begin(halves), std::end(halves));
+  }
+  mesh.quads.clear();
+}
+
+}  // namespace
+
 // The mesh of a file, which is read once however often it is placed.
-std::shared_ptr<const Mesh> Parser::ply_mesh(const Entity& shape) {
-  const Parameter* file = shape.parameters.find("filename");
-  if (!file) return nullptr;
-  std::string path = resolve_path(scene_.folder, shape.parameters.string("filename", ""));
+std::shared_ptr<const Mesh> Parser::one_ply_mesh(const std::string& file, const SourceLocation& where) {
+  std::string path = resolve_path(scene_.folder, file);
   if (!is_regular_file(path)) return nullptr;  // reported with the other files
   auto [entry, is_new] = meshes_.try_emplace(path);
   if (!is_new) return entry->second;
   Diagnostics found;
-  auto mesh = read_ply(path, file->where, found);
+  auto mesh = read_ply(path, where, found);
   for (const Diagnostic& diagnostic : found.all()) report_.add(diagnostic);
   if (mesh) entry->second = std::make_shared<const Mesh>(std::move(*mesh));
   return entry->second;
+}
+
+// The faces of the first file with the vertices of the others at later moments.
+std::shared_ptr<const Mesh> Parser::posed_ply_mesh(const Mesh& first, const Parameter& later) {
+  auto mesh = std::make_shared<Mesh>(first);
+  if (!mesh->quads.empty())
+    report_.note(later.where, "the quadrilaterals of a mesh that changes its form are split into triangles");
+  split_quads(*mesh);
+  const auto& files = std::get<std::vector<std::string>>(later.values);
+  constexpr std::size_t most_poses = 128;
+  if (files.size() > most_poses) {
+    report_.error(later.where, "'filename1' takes at most " + std::to_string(most_poses) + " files");
+    return nullptr;
+  }
+  for (const std::string& file : files) {
+    const std::shared_ptr<const Mesh> pose = one_ply_mesh(file, later.where);
+    if (!pose) return nullptr;
+    if (pose->positions.size() != first.positions.size() || pose->normals.size() != first.normals.size()) {
+      report_.error(later.where, "'" + printable(file) + "' has " + std::to_string(pose->positions.size()) +
+                                     " vertices and " + std::to_string(pose->normals.size()) +
+                                     " normals; the first file has " + std::to_string(first.positions.size()) +
+                                     " and " + std::to_string(first.normals.size()));
+      return nullptr;
+    }
+    mesh->later.push_back({pose->positions, pose->normals});
+  }
+  return mesh;
+}
+
+std::shared_ptr<const Mesh> Parser::ply_mesh(const Entity& shape) {
+  const Parameter* file = shape.parameters.find("filename");
+  if (!file) return nullptr;
+  std::shared_ptr<const Mesh> mesh = one_ply_mesh(shape.parameters.string("filename", ""), file->where);
+  const Parameter* later = shape.parameters.find("filename1");
+  return mesh && later ? posed_ply_mesh(*mesh, *later) : mesh;
 }
 
 std::shared_ptr<const Mesh> Parser::mesh_of(Entity& shape) {
@@ -31,14 +77,27 @@ void Parser::directive_shape() {
   auto stated = stated_entity(Family::shape);
   if (!is_in_world(true) || !stated) return;
   note_texture_uses(*stated);
-  ShapeDesc shape{std::move(stated->entity),  still_transform("shape"),
-                  state_.reverse_orientation, static_cast<MaterialDescId>(state_.material),
-                  state_.area_light,          nullptr};
+  // Light that is sampled stays where it is.
+  const bool shines = state_.area_light && !open_object_;
+  ShapeDesc shape{std::move(stated->entity),
+                  shines ? still_transform("shape, which emits light,") : state_.transform.start,
+                  state_.reverse_orientation,
+                  static_cast<MaterialDescId>(state_.material),
+                  state_.area_light,
+                  nullptr,
+                  shines ? std::nullopt : transform_at_end("shape")};
   const std::string& type = shape.entity.type;
   if (type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv") {
     shape.mesh = mesh_of(shape.entity);
     // A mesh that has lost all of its faces is no shape.
     if (!shape.mesh || (shape.mesh->triangles.empty() && shape.mesh->quads.empty())) return;
+    if (shines && !shape.mesh->later.empty()) {
+      report_.tolerable(here(), "this shape, which emits light, changes its form; only shapes that emit none can",
+                        report_.lenient() ? "it keeps its first form" : "lenient reading keeps its first form");
+      auto first_form = std::make_shared<Mesh>(*shape.mesh);
+      first_form->later.clear();
+      shape.mesh = std::move(first_form);
+    }
   }
   if (!open_object_) {
     scene_.shapes.push_back(std::move(shape));
@@ -83,7 +142,7 @@ void Parser::directive_object_instance() {
   auto name = quoted_argument("the name of an object");
   if (!name || !is_in_world(true)) return;
   if (open_object_) return report_.error(here(), "ObjectInstance inside of ObjectBegin");
-  scene_.instances.push_back({ObjectDescId{}, still_transform("instance"), here()});
+  scene_.instances.push_back({ObjectDescId{}, state_.transform.start, here(), transform_at_end("instance")});
   instance_uses_.push_back({std::move(*name), where});
 }
 

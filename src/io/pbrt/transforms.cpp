@@ -30,12 +30,24 @@ void Parser::set_transform(const Transform& transform, bool concatenate) {
   if (state_.change_end) current.end = end;
 }
 
-// The current transform of something that cannot move yet.
+// The current transform of something that cannot move.
 Transform Parser::still_transform(std::string_view owner) {
   if (state_.transform.moves())
-    report_.tolerable(here(), "this " + std::string(owner) + " moves while the shutter is open; motion comes later",
+    report_.tolerable(here(), "this " + std::string(owner) + " moves; only cameras, shapes and instances can",
                       report_.lenient() ? "it stays where it starts" : "lenient reading leaves it where it starts");
   return state_.transform.start;
+}
+
+// Where something that can move is at the end, if it moves.
+std::optional<Transform> Parser::transform_at_end(std::string_view owner) {
+  const MovingTransform& t = state_.transform;
+  if (!t.moves()) return std::nullopt;
+  if (t.start.swaps_handedness() != t.end.swaps_handedness()) {
+    report_.error(here(), "this " + std::string(owner) + " turns into its mirror image on its way",
+                  "the transform mirrors at one end and not at the other");
+    return std::nullopt;
+  }
+  return t.end;
 }
 
 void Parser::directive_identity() { set_transform(Transform(), false); }
@@ -124,7 +136,8 @@ void Parser::directive_active_transform() {
 void Parser::directive_transform_times() {
   std::array<double, 2> times;
   if (!numbers(times) || !is_in_world(false)) return;
-  if (times[0] > times[1]) report_.error(here(), "TransformTimes takes a start and a later end");
+  if (times[0] > times[1]) return report_.error(here(), "TransformTimes takes a start and a later end");
+  scene_.transforms_start = times[0], scene_.transforms_end = times[1];
 }
 
 void Parser::directive_transform_end() {
