@@ -186,7 +186,7 @@ SCENES = {
     "motion-rotation": ("1 - 0.8 * 2/pi", ("Rotate 90 0", "Rotate 88 0")),
     "motion-scale": ("1 - pi/16 * (1 + 1/4 + 1/16)/3", ("Scale 0.25 0.25", "Scale 0.35 0.35")),
     "motion-within": ("1 - 1/2", ("Translate -1 0 0\n    ActiveTransform All\n    Shape", "Translate -1.1 0 0\n    ActiveTransform All\n    Shape")),
-    "motion-camera": ("1 - (1/4 + 3/4)/2", ("LookAt 1 0 -5", "LookAt 1.05 0 -5")),
+    "motion-camera": ("1 - (1/4 + 3/4)/2", ("LookAt 1 0 -5   1 0 0", "LookAt 1.1 0 -5   1.1 0 0")),
     "motion-shadow": ("0.6/pi * (3 * point(1, 2, 0.5) + 5 * 3/5 * point(-2, 2, 0))", ("Translate -1.2", "Translate -1.3")),
     "motion-deform": ("1 - (0.4 + 2*1.2 + 1.6)/4 / 2", ("0.2 -1 0   0.2 1 0", "0.23 -1 0   0.23 1 0")),
     "motion-furnace": (WHITE, ("reflectance\" [ 1 1 1 ]", "reflectance\" [ 0.97 0.97 0.97 ]")),

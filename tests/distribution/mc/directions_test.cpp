@@ -6,6 +6,7 @@
 #include "mc/hemisphere.h"
 #include "mc/microfacet.h"
 #include "mc/phong_lobe.h"
+#include "mc/regular_polygon.h"
 #include "mc/rejection.h"
 #include "mc/spherical_rectangle.h"
 #include "mc/spherical_triangle.h"
@@ -330,6 +331,62 @@ TEST(Disk, samples_match_density) {
       concentric, [](Vec2f p) { return invert_disk_concentric(p); }, 1e-4);
   expect_lanes_equal_floats(polar);
   expect_lanes_equal_floats(concentric);
+}
+
+// The polygon's chart: squared share of the way to the rim, and the place on the rim. It keeps area.
+SpherePoint polygon_chart(Vec2f p, int n) {
+  const double turns = std::atan2(double(p.y), double(p.x)) / (2 * std::numbers::pi), sector = 1.0 / n;
+  const double side = std::floor((turns - std::floor(turns)) / sector),
+               middle = 2 * std::numbers::pi * (side + 0.5) * sector;
+  const double x = double(p.x) * std::cos(middle) + double(p.y) * std::sin(middle);
+  const double y = double(p.y) * std::cos(middle) - double(p.x) * std::sin(middle);
+  const double share = x / std::cos(std::numbers::pi * sector);
+  const double along = (y / (std::max(share, 1e-30) * std::sin(std::numbers::pi * sector)) + 1) / 2;
+  return {std::clamp(share * share, 0.0, 1 - 1e-9), std::clamp((side + along) * sector, 0.0, 1 - 1e-9)};
+}
+
+TEST(RegularPolygon, samples_match_density) {
+  for (const int n : {3, 5, 6, 8}) {
+    const auto sample = [n](auto u) { return sample_regular_polygon(u, n); };
+    const double area = n * std::sin(2 * std::numbers::pi / n) / 2;
+    const auto density = [&](double x, double y) {
+      const double side = std::floor(y * n), w = y * n - side, r = std::sqrt(x), step = 2 * std::numbers::pi / n;
+      const Vec2f p{float(r * ((1 - w) * std::cos(step * side) + w * std::cos(step * (side + 1)))),
+                    float(r * ((1 - w) * std::sin(step * side) + w * std::sin(step * (side + 1))))};
+      return area * double(regular_polygon_density(p * 0.9999f, n).value);
+    };
+    const auto p_value = [&](auto draw) {
+      double least = 1;
+      for (Grid grid : {coarse_grid, fine_grid})
+        least = std::min(
+            least,
+            chi_square_square([&](auto& s) { return polygon_chart(draw(s), n); }, density, grid, samples, 1).p_value);
+      return least;
+    };
+    EXPECT_GT(p_value([&](auto& s) { return sample(s.next2()); }), level) << n;
+    EXPECT_LT(p_value([&](auto& s) { return sample(bent(s.next2())); }), level) << n;
+    // The disk is no polygon.
+    EXPECT_LT(p_value([&](auto& s) { return sample_disk_concentric(s.next2()); }), level) << n;
+    EXPECT_EQ(regular_polygon_density(Vec2f{-1.01f, 0.0f}, n).value, 0.0f);
+    expect_round_trip(
+        sample, [n](Vec2f p) { return invert_regular_polygon(p, n); }, 2e-4);
+    expect_lanes_equal_floats(sample);
+  }
+}
+
+// Squares of a grid become parts of equal area that hang together: their corners stay close.
+TEST(RegularPolygon, neighbours_in_the_square_stay_neighbours) {
+  constexpr int n = 64;
+  for (const int corners : {3, 6})
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j + 1 < n; ++j) {
+        const auto at = [&](int x, int y) {
+          return sample_regular_polygon(Vec2f{(float(x) + 0.5f) / n, (float(y) + 0.5f) / n}, corners);
+        };
+        const Vec2f across = at(j + 1, i) - at(j, i), up = at(i, j + 1) - at(i, j);
+        ASSERT_LT(std::hypot(across.x, across.y), 6.0f / n);
+        ASSERT_LT(std::hypot(up.x, up.y), 6.0f / n);
+      }
 }
 
 TEST(Disk, rejection_matches_density_with_the_efficiency_of_the_areas) {

@@ -189,6 +189,46 @@ TEST(Camera, a_lane_gives_the_bits_of_a_float) {
   }
 }
 
+TEST(Camera, in_motion_is_the_camera_that_stands_there_at_each_end_and_half_way_between) {
+  const Entity e = entity("perspective", {number("fov", 40), number("lensradius", 0.3f), number("focaldistance", 4)});
+  const Transform start = *look_at({1, 2, 3}, {0, 0, 0}, {0, 1, 0});
+  const Transform turn = rotate(60, 1, 2, 3), shift = translate(4, 0, 0);
+  const Transform end = start * (shift * turn).inverted();
+  const Camera moving = built(e, {}, 64, 48).moved({start.inverted(), end.inverted()});
+  ASSERT_TRUE(moving.moves());
+  const Transform middle = start * rotate(30, 1, 2, 3).inverted();
+  for (auto [time, place] : {std::pair{0.0f, start}, {1.0f, end}}) {
+    const Ray<float> a = moving.generate(Vec2f{10, 40}, Vec2f{0.2f, 0.9f}, time).ray;
+    const Ray<float> b = ray(built(e, place, 64, 48), 10, 40, {0.2f, 0.9f});
+    expect_near(a.o, b.o), expect_near(a.d, b.d);
+    EXPECT_EQ(a.time, time);
+  }
+  // The direction turns by the half; the eye goes straight.
+  expect_near(moving.generate(Vec2f{32, 24}, Vec2f{0.5f, 0.5f}, 0.5f).ray.d, ray(built(e, middle, 64, 48), 32, 24).d);
+  const Vec3f eyes = start.inverted().point(Vec3f{0, 0, 0}) + end.inverted().point(Vec3f{0, 0, 0});
+  expect_near(moving.generate(Vec2f{32, 24}, Vec2f{0.5f, 0.5f}, 0.5f).ray.o, eyes * 0.5f);
+}
+
+TEST(Camera, blades_make_a_polygon_of_the_lens_with_its_first_corner_turned) {
+  Entity e =
+      entity("orthographic", {number("lensradius", 2), number("focaldistance", 5), number("aperturerotation", 30)});
+  e.parameters.add({"apertureblades", ParameterType::integer, std::vector<int>{5}, {}});
+  const Camera camera = built(e, {}, 10, 10);
+  // Places next to the rim of the square go next to that of the polygon, whose corners are at distance 2.
+  float farthest = 0, nearest = 9;
+  Vec3f corner{0, 0, 0};
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3f o = ray(camera, 5, 5, {1e-6f, (float(i) + 0.5f) / 4000}).o;
+    const float distance = length(o);
+    if (distance > farthest) farthest = distance, corner = o;
+    nearest = std::min(nearest, distance);
+  }
+  EXPECT_NEAR(farthest, 2, 1e-3f);
+  EXPECT_NEAR(nearest, 2 * std::cos(pi / 5), 1e-3f);
+  const float turns = (std::atan2(corner.y, corner.x) * 180 / pi - 30) / 72;
+  EXPECT_NEAR(turns, std::round(turns), 1e-2f);
+}
+
 TEST(Camera, values_that_make_no_camera_are_reported) {
   for (const Entity& e : {entity("perspective", {number("fov", 180)}), entity("fisheye"),
                           entity("orthographic", {number("lensradius", 1), number("focaldistance", 0)}),

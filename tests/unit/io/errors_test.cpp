@@ -169,7 +169,22 @@ INSTANTIATE_TEST_SUITE_P(
         world("singular_matrix", "Transform [ 1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1 ]", 1, "singular"),
         world("vanishing_scale", "Scale 1e-20 1 1 Scale 1e-20 1 1", 17, "range of numbers"),
         world("active_transform", "ActiveTransform Begin", 17, "StartTime, EndTime, All"),
-        world("motion", "ActiveTransform EndTime Translate 1 0 0 Shape \"sphere\"", 41, "motion comes later")),
+        world("moving_lamp", "AreaLightSource \"diffuse\" ActiveTransform EndTime Translate 1 0 0 Shape \"sphere\"", 67,
+              "which emits light, moves"),
+        world("moving_light", "ActiveTransform EndTime Translate 1 0 0 LightSource \"point\"", 41, "this light moves"),
+        world("turned_inside_out", "ActiveTransform EndTime Scale -1 1 1 Shape \"sphere\"", 38, "mirror image"),
+        head("times_backward", "TransformTimes 2 1", 1, "a later end"),
+        world("lamp_of_many_forms",
+              "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] "
+              "\"point3 P1\" [ 0 0 1 1 0 0 0 1 0 ]",
+              27, "changes its form"),
+        world("form_too_short",
+              "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"point3 P1\" [ 0 0 1 1 0 0 ]", 55,
+              "'P1' takes the 3 vertices"),
+        world("form_without_normals",
+              "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"normal N\" [ 0 0 1 0 0 1 0 0 1 ] "
+              "\"point3 P1\" [ 0 0 1 1 0 0 0 1 0 ]",
+              88, "'N1' takes a normal")),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(
