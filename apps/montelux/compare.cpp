@@ -26,14 +26,17 @@ struct CompareArguments {
   std::string scene;
   LoadOptions load;
   ContestOptions contest;
-  std::optional<std::string> report;
-  bool json = false, csv = false, quiet = false, no_progress = false, no_cache = false;
+  std::optional<std::string> report, save, resume;
+  std::optional<int> repeats;  // as typed
+  bool json = false, csv = false, quiet = false, no_progress = false, no_cache = false, no_attribution = false;
 };
 
 constexpr const char* examples = R"(Examples:
   montelux compare room.pbrt -a path -b 'direct:strategy=ris,candidates=32' --spp 64
   montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12 -o report.html
   montelux compare room.pbrt -a path:sampler=halton -b path:sampler=blue-noise --reference truth.exr --json
+  montelux compare room.pbrt -a path -b naive --time 20s --save run.json
+  montelux compare --resume run.json --time 60s --save run.json -o report.html
 
 Each method is run in independent repeats, the methods taking turns, so every figure has an error bar. Efficiency is
 1 / (mean squared error x seconds). Where the interval of a ratio holds one, nothing is decided.
@@ -50,6 +53,14 @@ Json to_json(const Measured& m) {
 
 Json to_json(const WelchScale& scale) {
   return {{"tests", scale.tests}, {"smallest_p", scale.smallest_p}, {"t", number(scale.t)}, {"differs", scale.differs}};
+}
+
+// The shares of the variance by family and layer.
+Json to_json(const lab::Attribution& attribution) {
+  Json json = Json::object();
+  for (const lab::FamilyShares& family : attribution.families)
+    for (const lab::LayerShare& layer : family.layers) json[family.name][layer.name] = to_json(layer.share);
+  return json;
 }
 
 Json to_json(const MethodResult& m) {
@@ -80,6 +91,7 @@ Json to_json(const MethodResult& m) {
   for (const lab::ConvergencePoint& p : m.convergence)
     curve.push_back({{"samples", p.samples}, {"mse", to_json(p.mse)}, {"seconds", to_json(p.seconds)}});
   json["convergence"] = curve;
+  json["attribution"] = m.attribution ? to_json(*m.attribution) : Json();
   return json;
 }
 
@@ -112,14 +124,43 @@ std::string spread(const Measured& m) {
 }
 
 void print_csv(const Contest& contest) {
-  fmt::print("label,method,repeat,seconds,samples,rays,mse,relative_mse,flip,variance,coverage\n");
+  fmt::print("label,method,repeat,seconds,samples,rays,mse,relative_mse,flip,variance,coverage");
+  // The layers are those of the scene, so all methods that have them have the same.
+  std::vector<std::string> layers;
   for (const MethodResult& m : contest.result.methods)
+    if (layers.empty() && m.contestant.layers) layers = layer_names(*m.contestant.layers);
+  for (const std::string& name : layers) fmt::print(",share_{}", name);
+  fmt::print("\n");
+  for (std::size_t k = 0; k < contest.result.methods.size(); ++k) {
+    const MethodResult& m = contest.result.methods[k];
+    const std::vector<lab::AttributionRound>& attribution = contest.saved.state.methods[k].attribution;
     for (std::size_t i = 0; i < m.repeats.size(); ++i) {
       const lab::Repeat& r = m.repeats[i];
-      fmt::print("{},\"{}\",{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", m.contestant.label,
+      fmt::print("{},\"{}\",{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", m.contestant.label,
                  m.contestant.text, i, r.seconds, r.samples, r.rays, r.mse, r.relative_mse, r.flip, r.variance,
                  r.coverage);
+      for (std::size_t layer = 0; layer < layers.size(); ++layer)
+        fmt::print(",{}", attribution.empty()
+                              ? std::string()
+                              : fmt::format("{:.9g}", attribution[i].layers[layer] / attribution[i].all));
+      fmt::print("\n");
     }
+  }
+}
+
+// "variance by bounces: bounce1 62 ± 3 %, ..."; what has less than half a percent is left out.
+void print_attribution(const lab::Attribution& attribution) {
+  for (const lab::FamilyShares& family : attribution.families) {
+    std::string line;
+    for (const lab::LayerShare& layer : family.layers) {
+      const Measured& share = layer.share;
+      if (std::abs(share.mean) < 0.005) continue;
+      line += fmt::format("{}{} {:.0f}", line.empty() ? "" : ", ", layer.name, 100 * share.mean);
+      if (share.count >= 2) line += fmt::format(" ± {:.1g}", 100 * (share.high - share.mean));
+      line += " %";
+    }
+    fmt::print("   variance by {}: {}\n", family.name, line.empty() ? "there is none" : line);
+  }
 }
 
 void print_text(const CompareArguments& arguments, const Contest& contest) {
@@ -135,6 +176,7 @@ void print_text(const CompareArguments& arguments, const Contest& contest) {
     fmt::print("   mean {} the reference (image {}, squared bias {})\n",
                lab::differs_from_reference(m) ? "differs from" : "agrees with",
                fmt::format("{:+.1f} standard errors", m.bias.image.t), spread(m.bias_squared));
+    if (m.attribution) print_attribution(*m.attribution);
   }
   fmt::print("reference  {} ({:.2g} of the smallest mse)\n", r.reference.origin, r.reference_share);
   for (const lab::PairVerdict& v : r.verdicts)
@@ -142,25 +184,59 @@ void print_text(const CompareArguments& arguments, const Contest& contest) {
 }
 
 // The command line that makes the comparison again.
-std::string repeat_command(const CompareArguments& arguments) {
+std::string repeat_command(const CompareArguments& arguments, std::size_t repeats) {
   const ContestOptions& c = arguments.contest;
   std::string line = fmt::format("montelux compare {}", arguments.scene);
   for (std::size_t i = 0; i < c.methods.size(); ++i) line += fmt::format(" -{} '{}'", char('a' + int(i)), c.methods[i]);
-  if (c.seconds) line += fmt::format(" --time {}s", *c.seconds);
+  if (c.seconds) line += fmt::format(" --time {}s", *c.seconds * double(repeats) / c.repeats);
   if (c.samples) line += fmt::format(" --spp {}", *c.samples);
   if (c.reference) line += fmt::format(" --reference {}", c.reference->string());
   if (arguments.load.resolution)
     line += fmt::format(" --resolution {}x{}", arguments.load.resolution->first, arguments.load.resolution->second);
   if (c.crop) line += fmt::format(" --crop {},{},{},{}", c.crop->x0, c.crop->y0, c.crop->x1, c.crop->y1);
-  return line + fmt::format(" --repeats {} --seed {} -o {}", c.repeats, c.seed, *arguments.report);
+  if (!c.attribution) line += " --no-attribution";
+  return line + fmt::format(" --repeats {} --seed {} -o {}", repeats, c.seed, *arguments.report);
+}
+
+// The comparison of a file, to be gone on with: everything but the budget is the file's.
+Result<SavedContest> resumed(CompareArguments& arguments) {
+  ContestOptions& now = arguments.contest;
+  if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
+      arguments.load.resolution || arguments.load.lenient || now.confidence != ContestOptions{}.confidence ||
+      arguments.no_attribution)
+    return Failure{
+        "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "
+        "--repeats) may be given"};
+  Result<SavedContest> saved = load_contest(*arguments.resume);
+  if (!saved) return saved;
+  saved->options.threads = now.threads;
+  saved->load.threads = now.threads;
+  arguments.scene = saved->scene.string(), arguments.load = saved->load;
+  return saved;
 }
 
 int run_compare(CompareArguments& arguments) {
-  if (arguments.contest.methods.size() < 2)
-    return complain("at least two methods are needed: -a METHOD -b METHOD; montelux list integrators names them");
-  if (Status known = check_methods(arguments.contest.methods); !known) return complain(known.error());
-  arguments.load.threads = arguments.contest.threads;
-  arguments.contest.cache = !arguments.no_cache;
+  for (const auto& file : {arguments.save, arguments.report})
+    if (file)
+      if (Status good = check_folder_of(*file); !good) return complain(good.error());
+  std::optional<SavedContest> saved;
+  const ContestBudget more{arguments.repeats, arguments.contest.seconds};
+  if (arguments.resume) {
+    Result<SavedContest> found = resumed(arguments);
+    if (!found) return complain(found.error());
+    saved = *std::move(found);
+    arguments.contest = saved->options;
+  } else {
+    if (arguments.scene.empty()) return complain("a scene is missing: montelux compare SCENE -a METHOD -b METHOD");
+    if (arguments.contest.methods.size() < 2)
+      return complain("at least two methods are needed: -a METHOD -b METHOD; montelux list integrators names them");
+    if (Status known = check_methods(arguments.contest.methods); !known) return complain(known.error());
+    if (arguments.repeats && *arguments.repeats < 2) return complain("at least two repeats are needed: --repeats 2");
+    arguments.contest.repeats = arguments.repeats.value_or(arguments.contest.repeats);
+    arguments.contest.cache = !arguments.no_cache;
+    arguments.contest.attribution = !arguments.no_attribution;
+    arguments.load.threads = arguments.contest.threads;
+  }
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
@@ -172,16 +248,26 @@ int run_compare(CompareArguments& arguments) {
   watch.progress = [&](double fraction, double elapsed, const std::string& what) {
     line.show(fraction, elapsed, [&] { return what; });
   };
-  Result<Contest> contest = compare_methods(*loaded.scene, arguments.contest, watch);
+  Result<Contest> contest = saved ? continue_contest(*loaded.scene, *std::move(saved), more, watch)
+                                  : compare_methods(*loaded.scene, arguments.contest, watch);
   line.finish();
   if (!contest) return complain(contest.error());
+  if (arguments.save) {
+    contest->saved.scene = std::filesystem::absolute(arguments.scene);
+    contest->saved.load = arguments.load;
+    contest->saved.fingerprint = scene_fingerprint(arguments.scene);
+    if (Status written = save_contest(*arguments.save, contest->saved); !written) {
+      complain(written.error());
+      return failed;
+    }
+  }
   if (!arguments.quiet)
     for (const std::string& note : contest->notes) warn(note);
   if (!contest->refusal.empty()) warn(contest->refusal);
   if (contest->result.interrupted) warn("interrupted: the figures are of the repeats that were done");
   if (arguments.report)
     if (Status written = write_contest(*arguments.report, *contest, arguments.scene, arguments.contest.confidence,
-                                       {repeat_command(arguments)});
+                                       {repeat_command(arguments, contest->result.methods.front().repeats.size())});
         !written) {
       complain(written.error());
       return failed;
@@ -216,6 +302,7 @@ void add_compare(CLI::App& app, Action& chosen) {
   CLI::App& verb = *app.add_subcommand("compare", "Compare integrators on a scene at equal time, with error bars");
   verb.footer(examples);
   add_scene_options(verb, arguments->scene, arguments->load);
+  verb.get_option("SCENE")->required(false);
   add_method_options(verb, contest);
   add_option(verb, {"-o,--output", "FILE", "write the report, one HTML page that needs no network"},
              [arguments](const std::string& file) -> Status {
@@ -227,8 +314,8 @@ void add_compare(CLI::App& app, Action& chosen) {
   add_option(verb, {"--spp", "N", "samples a pixel in each repeat instead (default 64)"},
              into(contest.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 20); }));
   verb.get_option("--time")->excludes("--spp");
-  add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8)"},
-             into(contest.repeats, [](const std::string& t) { return parse_whole(t, 2, 10000); }));
+  add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8); with --resume: that many more"},
+             into(arguments->repeats, [](const std::string& t) { return parse_whole(t, 1, 10000); }));
   add_option(verb, {"--reference", "FILE", "picture to hold them against; default: made by the most efficient method"},
              [&contest](const std::string& file) -> Status {
                if (file != "auto") contest.reference = file;
@@ -242,6 +329,18 @@ void add_compare(CLI::App& app, Action& chosen) {
              into(contest.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
              into(contest.crop, parse_crop));
+  add_option(verb, {"--save", "FILE", "keep everything that was gathered, to be resumed"},
+             [arguments](const std::string& file) -> Status {
+               arguments->save = file;
+               return Done{};
+             });
+  add_option(verb, {"--resume", "FILE", "go on with a saved comparison, by --time or --repeats more"},
+             [arguments](const std::string& file) -> Status {
+               arguments->resume = file;
+               return Done{};
+             });
+  verb.add_flag("--no-attribution", arguments->no_attribution,
+                "do not tell which layers of light the variance comes from (saves a fifth of the time)");
   verb.add_flag("--no-cache", arguments->no_cache, "neither use nor keep a reference of an earlier comparison");
   verb.add_flag("--json", arguments->json, "results as one JSON object");
   verb.add_flag("--csv", arguments->csv, "every repeat as a line of CSV");

@@ -145,14 +145,6 @@ int complain_of_all(const std::vector<std::string>& mistakes) {
   return bad_input;
 }
 
-// Before the work: a file that cannot be written afterwards would be a pity.
-Status check_folder_of(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  if (std::filesystem::is_directory(folder) && !std::filesystem::is_directory(file)) return Done{};
-  return Failure{fmt::format("cannot write '{}': {}", file,
-                             std::filesystem::is_directory(file) ? "it is a folder" : "there is no such folder")};
-}
-
 int run_integrate(IntegrateArguments& arguments) {
   if (arguments.save)
     if (Status good = check_folder_of(*arguments.save); !good) return complain(good.error());

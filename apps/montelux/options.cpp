@@ -117,6 +117,13 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set) {
     option->expected(1);
 }
 
+Status check_folder_of(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  if (std::filesystem::is_directory(folder) && !std::filesystem::is_directory(file)) return Done{};
+  return Failure{fmt::format("cannot write '{}': {}", file,
+                             std::filesystem::is_directory(file) ? "it is a folder" : "there is no such folder")};
+}
+
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {
   verb.add_option("SCENE", file, "scene file (pbrt-v4)")->required()->type_name("FILE");
   add_option(verb, {"--resolution", "WxH", "size of the picture in pixels, instead of the file's"},

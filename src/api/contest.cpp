@@ -45,15 +45,26 @@ Result<MethodText> read_method(const std::string& text) {
   return method;
 }
 
+// The families of layers that variance is attributed to.
+LayerPlan attribution_layers(const Scene& scene) {
+  LayerPlan plan;
+  plan.bounces = 4;
+  plan.techniques = true;
+  plan.group_of_light = scene.lights.groups();
+  plan.group_names = scene.lights.group_names();
+  plan.light_groups = !plan.group_names.empty();
+  return plan;
+}
+
 // The methods of one comparison with all that they need.
 struct Field {
   std::vector<ChosenIntegrator> integrators;
   std::vector<lab::Contestant> contestants;
 };
 
-Result<Field> make_field(const LoadedScene::Parts& parts, const std::vector<std::string>& methods) {
+Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& options) {
   Field field;
-  for (const std::string& text : methods) {
+  for (const std::string& text : options.methods) {
     auto method = read_method(text);
     if (!method) return method.failure();
     auto chosen = choose_integrator(method->integrator, {parts.picture.max_depth, parts.picture.max_component},
@@ -68,6 +79,7 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const std::vector<std:
     contestant.integrator = field.integrators.back().integrator.get();
     contestant.sampler = sampler;
     contestant.biases = field.integrators.back().biases;
+    if (options.attribution && contestant.integrator->has_layers()) contestant.layers = attribution_layers(parts.scene);
     field.contestants.push_back(std::move(contestant));
   }
   return field;
@@ -214,11 +226,9 @@ Status check_methods(const std::vector<std::string>& methods) {
   return Done{};
 }
 
-Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
-                                const lab::ContestWatch& watch) {
-  const LoadedScene::Parts& parts = scene.parts();
-  auto field = make_field(parts, options.methods);
-  if (!field) return field.failure();
+namespace {
+
+Result<lab::ContestSettings> settings_of(const LoadedScene::Parts& parts, const ContestOptions& options) {
   lab::ContestSettings settings;
   RenderSettings& r = settings.render;
   r.width = parts.picture.width, r.height = parts.picture.height;
@@ -231,42 +241,106 @@ Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& 
   settings.samples = options.samples.value_or(settings.samples);
   settings.repeats = options.repeats;
   settings.confidence = options.confidence;
+  return settings;
+}
 
-  Contest contest;
-  std::optional<lab::Reference> reference;
-  if (options.reference) {
-    auto read = read_reference(*options.reference, b);
-    if (!read) return read.failure();
-    reference = *std::move(read);
-  } else {
-    auto serve = who_may_serve(field->contestants);
-    if (!serve) return serve.failure();
-    std::string biases;
-    for (const std::string& bias : field->contestants[serve->front()].biases) biases += bias + ";";
-    const auto folder = options.cache ? cache_folder() : std::nullopt;
-    const fs::path file =
-        folder ? *folder / fmt::format("reference-{:016x}.exr", scene_hash(parts, b, biases)) : fs::path();
-    constexpr double wanted_share = 0.05;
-    const double goal_mse = lab::expected_smallest_mse(field->contestants, settings, watch) * wanted_share;
-    if (folder) reference = kept_reference(file, b);
-    if (reference && lab::mean_value(reference->variance) > goal_mse) reference.reset();
-    if (!reference) {
-      reference = lab::make_reference(field->contestants, *serve, settings, goal_mse, watch);
-      if (folder && !(watch.stop && watch.stop())) keep_reference(file, *reference);
-    } else {
-      contest.notes.push_back("the reference was kept from an earlier comparison: " + file.string());
+// The reference that was named, or kept, or one that is made now. What is to be said of it goes to `notes`.
+Result<lab::Reference> find_reference(const LoadedScene::Parts& parts, const ContestOptions& options,
+                                      const std::vector<lab::Contestant>& contestants,
+                                      const lab::ContestSettings& settings, const lab::ContestWatch& watch,
+                                      std::vector<std::string>& notes) {
+  const PixelBounds& b = settings.render.bounds;
+  if (options.reference) return read_reference(*options.reference, b);
+  auto serve = who_may_serve(contestants);
+  if (!serve) return serve.failure();
+  std::string biases;
+  for (const std::string& bias : contestants[serve->front()].biases) biases += bias + ";";
+  const auto folder = options.cache ? cache_folder() : std::nullopt;
+  const fs::path file =
+      folder ? *folder / fmt::format("reference-{:016x}.exr", scene_hash(parts, b, biases)) : fs::path();
+  constexpr double wanted_share = 0.05;
+  const double goal_mse = lab::expected_smallest_mse(contestants, settings, watch) * wanted_share;
+  if (folder)
+    if (auto kept = kept_reference(file, b); kept && lab::mean_value(kept->variance) <= goal_mse) {
+      notes.push_back("the reference was kept from an earlier comparison: " + file.string());
+      return *std::move(kept);
     }
-  }
-  contest.result = lab::run_contest(field->contestants, *std::move(reference), settings, watch);
+  lab::Reference made = lab::make_reference(contestants, *serve, settings, goal_mse, watch);
+  if (folder && !(watch.stop && watch.stop())) keep_reference(file, made);
+  return made;
+}
+
+// What is to be said once all rounds are done.
+void conclude(Contest& contest, const std::vector<lab::Contestant>& contestants, const lab::ContestSettings& settings,
+              bool interrupted) {
+  contest.result = lab::result_of(contestants, contest.saved.state, settings);
+  contest.result.interrupted = interrupted;
+  contest.notes = contest.saved.notes;
   if (contest.result.reference_share > largest_reference_share)
     contest.refusal = fmt::format(
         "the reference's own variance is {:.0f} % of the smallest mean squared error (at most {:.0f} % is right): it "
         "would decide the comparison; it needs {:.1f} times its samples",
         100 * contest.result.reference_share, 100 * largest_reference_share,
         contest.result.reference_share / largest_reference_share);
-  for (const lab::Contestant& c : field->contestants)
+  for (const lab::Contestant& c : contestants)
     if (!c.biases.empty())
       contest.notes.push_back(fmt::format("{} ({}) is biased: {}", c.label, c.text, fmt::join(c.biases, ", ")));
+  for (const lab::Contestant& c : contestants)
+    if (contest.saved.options.attribution && !c.layers)
+      contest.notes.push_back(fmt::format(
+          "{} ({}) does not part its light into layers, so its variance is not attributed", c.label, c.text));
+}
+
+// Seconds of one repeat of one method.
+double seconds_of_repeat(const lab::ContestState& state, const lab::ContestSettings& settings) {
+  if (settings.seconds) return *settings.seconds / settings.repeats;
+  double sum = 0, repeats = 0;
+  for (const lab::MethodState& m : state.methods)
+    for (const lab::Repeat& r : m.repeats) sum += r.seconds, repeats += 1;
+  return sum / repeats;
+}
+
+}  // namespace
+
+Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
+                                const lab::ContestWatch& watch) {
+  auto field = make_field(scene.parts(), options);
+  if (!field) return field.failure();
+  auto settings = settings_of(scene.parts(), options);
+  if (!settings) return settings.failure();
+  Contest contest;
+  contest.saved.options = options;
+  auto reference = find_reference(scene.parts(), options, field->contestants, *settings, watch, contest.saved.notes);
+  if (!reference) return reference.failure();
+  contest.saved.state = lab::begin_contest(field->contestants, *std::move(reference), *settings);
+  const bool whole = lab::run_rounds(field->contestants, *settings, settings->repeats, watch, contest.saved.state);
+  conclude(contest, field->contestants, *settings, !whole);
+  return contest;
+}
+
+Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, const ContestBudget& more,
+                                 const lab::ContestWatch& watch) {
+  auto field = make_field(scene.parts(), saved.options);
+  if (!field) return field.failure();
+  auto settings = settings_of(scene.parts(), saved.options);
+  if (!settings) return settings.failure();
+  const PixelBounds& b = settings->render.bounds;
+  if (saved.state.reference.mean.width != b.width() || saved.state.reference.mean.height != b.height() ||
+      saved.state.methods.size() != field->contestants.size())
+    return Failure{"the saved comparison does not fit the scene: it has other sizes"};
+  for (std::size_t i = 0; i < field->contestants.size(); ++i) {
+    const auto& layers = field->contestants[i].layers;
+    const auto& shares = saved.state.methods[i].pixel_shares;
+    if (!shares.empty() && (!layers || shares.size() != std::size_t(layers->count()) + 1))
+      return Failure{"the saved comparison does not fit the scene: its variance was attributed to other layers"};
+  }
+  int rounds = more.repeats.value_or(settings->repeats);
+  if (more.seconds)
+    rounds = int(std::clamp(std::round(*more.seconds / seconds_of_repeat(saved.state, *settings)), 1.0, 1e6));
+  Contest contest;
+  contest.saved = std::move(saved);
+  const bool whole = lab::run_rounds(field->contestants, *settings, rounds, watch, contest.saved.state);
+  conclude(contest, field->contestants, *settings, !whole);
   return contest;
 }
 

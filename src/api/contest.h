@@ -21,6 +21,24 @@ struct ContestOptions {
   std::uint32_t seed = 0;
   int threads = 0;
   std::optional<PixelBounds> crop;
+  bool attribution = true;  // tell which layers of light the variance of each method comes from
+};
+
+// A contest in a file: what it is of, and all that it has gathered. `fingerprint` is of the scene's files.
+struct SavedContest {
+  std::filesystem::path scene;
+  LoadOptions load;
+  std::uint64_t fingerprint = 0;
+  ContestOptions options;
+  std::vector<std::string> notes;  // of the reference
+  lab::ContestState state;
+};
+
+// How much more, where a contest goes on: so many repeats, or as many as fit in this time for each method; by default
+// as many as it was first asked for.
+struct ContestBudget {
+  std::optional<int> repeats;
+  std::optional<double> seconds;
 };
 
 // Everything that was found. `refusal` says why the verdicts do not count, where the reference is not good enough.
@@ -28,6 +46,7 @@ struct Contest {
   lab::ContestResult result;
   std::string refusal;
   std::vector<std::string> notes;
+  SavedContest saved;  // but for the scene, how it was loaded, and its fingerprint
 };
 
 // What the verdict says, in a sentence.
@@ -44,5 +63,16 @@ Status check_methods(const std::vector<std::string>& methods);
 // Fails where a method does not fit the scene, or the reference cannot be read or has another size.
 Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
                                 const lab::ContestWatch& watch);
+// Goes on with a contest: its repeats and those that follow are as those of one contest. Fails where its methods or its
+// size do not fit the scene.
+Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, const ContestBudget& more,
+                                 const lab::ContestWatch& watch);
+
+// Changes with the content of the scene's file and of every file beside it or below that its text, or that of a text it
+// includes, names.
+std::uint64_t scene_fingerprint(const std::filesystem::path& scene);
+Status save_contest(const std::filesystem::path& file, const SavedContest& contest);
+// Fails where the file cannot be read, is of another kind or version, or its scene has changed.
+Result<SavedContest> load_contest(const std::filesystem::path& file);
 
 }  // namespace montelux

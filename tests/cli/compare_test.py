@@ -35,6 +35,52 @@ class Compare(ProgramTest):
     def test_csv_has_a_line_for_every_repeat(self):
         lines = self.compare("-a", "path", "-b", "path:mis=balance", "--csv", "--quiet").stdout.splitlines()
         self.assertEqual(len(lines), 1 + 2 * 4)
+        names = lines[0].split(",")
+        self.assertIn("share_bounce1", names)
+        shares = [i for i, name in enumerate(names) if name.startswith("share_bounce")]
+        for line in lines[1:]:
+            values = line.replace('"', "").split(",")
+            self.assertAlmostEqual(sum(float(values[i]) for i in shares), 1, delta=1e-6)
+
+    def test_variance_is_attributed_where_there_are_layers(self):
+        result = self.compare("-a", "path", "-b", "tracepath", "--json")
+        first, second = json.loads(result.stdout)["methods"]
+        self.assertEqual(list(first["attribution"]), ["bounces", "light groups", "techniques"])
+        for family in first["attribution"].values():
+            self.assertAlmostEqual(sum(share["mean"] for share in family.values()), 1, delta=1e-9)
+        self.assertIsNone(second["attribution"])
+        self.assertIn("tracepath) does not part its light into layers", result.stderr)
+        without = json.loads(self.compare("-a", "path", "-b", "naive", "--no-attribution", "--json").stdout)
+        self.assertTrue(all(method["attribution"] is None for method in without["methods"]))
+
+    def test_a_saved_comparison_goes_on(self):
+        self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 256, "-o", "truth.exr", "--quiet")
+        common = ["-a", "path", "-b", "path:mis=balance", "--reference", "truth.exr", "--json", "--quiet"]
+        whole = json.loads(self.compare(*common, "--repeats", 6).stdout)
+        self.compare(*common, "--save", "run.json")
+        more = self.run_program("compare", "--resume", "run.json", "--repeats", 2, "--json", "--quiet", "--save",
+                                "run.json", "-o", "report.html")
+        continued = json.loads(more.stdout)
+        for one, other in zip(whole["methods"], continued["methods"]):
+            self.assertEqual(other["repeats"], 6)
+            for key in "mse", "flip", "bias_squared", "attribution", "slope_by_samples":
+                self.assertEqual(one[key], other[key], key)
+        self.assertTrue((self.folder / "report.html").exists())
+        timed = json.loads(self.run_program("compare", "--resume", "run.json", "--time", "20ms", "--json",
+                                            "--quiet").stdout)
+        self.assertGreater(timed["methods"][0]["repeats"], 6)
+
+    def test_a_comparison_is_resumed_with_what_it_was_begun_with(self):
+        self.compare("-a", "path", "-b", "naive", "--save", "run.json")
+        for arguments, word in [
+            ([SCENE, "--resume", "run.json"], "only the budget"),
+            (["--resume", "run.json", "-a", "path"], "only the budget"),
+            (["--resume", "run.json", "--seed", "4"], "only the budget"),
+            (["--resume", "nowhere.json"], "cannot be read"),
+            (["--save", "run.json"], "a scene is missing"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.assertIn(word, self.run_program("compare", *arguments, status=2).stderr)
 
     def test_a_bad_reference_is_refused(self):
         self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 8, "-o", "noisy.exr", "--quiet")

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """usage: page_test.py MONTELUX WEB_BUILD_FOLDER [page|comparison]
 
-Makes a report and opens it in headless Chromium (web/test/page.mjs or comparison.mjs). Skipped, with a message and the exit status 77,
-where the page was not built or no Chromium is there.
+Makes a report and opens it in headless Chromium (web/test/page.mjs or comparison.mjs). Skipped, with a message and the
+exit status 77, where the page was not built or no Chromium is there. Pictures of it go to the folder that the environment
+variable MONTELUX_SCREENSHOTS names.
 """
 import os
 import shutil
@@ -26,6 +27,7 @@ def main():
         # Beside the packages it imports.
         script = build / f"{kind}_test.mjs"
         script.write_text((root / "web" / "test" / f"{kind}.mjs").read_text())
+        (build / "browser.mjs").write_text((root / "web" / "test" / "browser.mjs").read_text())
         report = Path(folder) / "report.html"
         if kind == "page":
             make = [program, "lab", "run", "all", "-q", "-o", folder]
@@ -34,7 +36,7 @@ def main():
             make = [program, "compare", scene, "--resolution", "64x48", "--spp", "4", "--repeats", "4", "-a", "path",
                     "-b", "path:mis=balance", "--no-cache", "--quiet", "-o", report]
         subprocess.run(make, check=True, stdout=subprocess.DEVNULL)
-        shots = os.environ.get("MONTELUX_SCREENSHOTS", "") if kind == "page" else ""
+        shots = os.environ.get("MONTELUX_SCREENSHOTS", "")
         return subprocess.run([node, script, report, *([shots] if shots else [])], check=False).returncode
 
 

@@ -8,13 +8,13 @@ import { readout } from "./readout";
 import type { Axis, Curve, FigureSection } from "./report";
 import { rich } from "./text";
 import { color, onThemeChange } from "./theme";
-import { linearTicks, logTicks, rangeOf } from "./ticks";
+import { linearTicks, logTicks, namedTicks, rangeOf } from "./ticks";
 
 type Range = [number, number];
 
 const seriesColor = (curve: Curve): string => color(`--series-${paletteIndex(curve)}`);
 const finite = (values: (number | null)[] | undefined): number[] => (values ?? []).filter((v): v is number => v !== null);
-const barStep = (curve: Curve): number => (curve.x.length > 1 ? curve.x[1]! - curve.x[0]! : 1);
+const barStep = (curve: Curve): number => curve.width ?? (curve.x.length > 1 ? curve.x[1]! - curve.x[0]! : 1);
 
 function ranges(figure: FigureSection): { x: Range; y: Range } {
   const bars = figure.curves.some((curve) => curve.mark === "bars");
@@ -32,7 +32,8 @@ function ranges(figure: FigureSection): { x: Range; y: Range } {
 }
 
 function axisOptions(axis: Axis, side: number): uPlot.Axis {
-  const ticks = (low: number, high: number) => (axis.log ? logTicks(low, high) : linearTicks(low, high));
+  const ticks = (low: number, high: number) =>
+    axis.names ? namedTicks(axis.names, low, high) : axis.log ? logTicks(low, high) : linearTicks(low, high);
   let labels: string[] = [];
   return {
     side,

@@ -6,7 +6,9 @@ export interface Pixels {
   width: number;
   height: number;
   samples: number; // a pixel, in each repeat
-  mean: Float32Array; // three a pixel
+  set: string;
+  channels: 1 | 3;
+  mean: Float32Array; // so many a pixel
   error: Float32Array; // likewise; empty: exact
   repeats: Float32Array[]; // luminance, one a pixel
 }
@@ -29,12 +31,15 @@ function unpack(text: string): Float32Array {
 }
 
 export function unpackPicture(picture: MeasuredPicture): Pixels {
+  const mean = unpack(picture.mean);
   return {
     name: picture.name,
     width: picture.width,
     height: picture.height,
     samples: picture.samples ?? 1,
-    mean: unpack(picture.mean),
+    set: picture.set,
+    channels: mean.length === picture.width * picture.height ? 1 : 3,
+    mean,
     error: unpack(picture.error),
     repeats: picture.repeats.map(unpack),
   };
@@ -60,12 +65,9 @@ function paint(canvas: HTMLCanvasElement, width: number, height: number, color: 
 // The picture through the sRGB curve, brighter by `stops`.
 export function paintPicture(canvas: HTMLCanvasElement, pixels: Pixels, stops: number): void {
   const gain = 2 ** stops;
-  const { mean } = pixels;
-  paint(canvas, pixels.width, pixels.height, (p) => [
-    toDisplay(gain * mean[3 * p]!),
-    toDisplay(gain * mean[3 * p + 1]!),
-    toDisplay(gain * mean[3 * p + 2]!),
-  ]);
+  const { mean, channels } = pixels;
+  const component = (p: number, c: number): number => toDisplay(gain * mean[channels === 1 ? p : 3 * p + c]!);
+  paint(canvas, pixels.width, pixels.height, (p) => [component(p, 0), component(p, 1), component(p, 2)]);
 }
 
 // Black, purple, orange, pale yellow over [0, 1].

@@ -63,8 +63,9 @@ export function readout(figure: FigureSection, joined: Joined): uPlot.Plugin {
         const first = found.reduce((a, b) => (b.distance < a.distance ? b : a));
         const x = first.curve.x[first.point]!;
         // One x for all where the curves share it, else each with its own.
-        const shared = found.every((f) => f.curve.x[f.point] === x);
-        const head = shared ? [element("div", { class: "head" }, `${figure.x.label}: ${readable(x)}`)] : [];
+        const name = figure.x.names?.[Math.round(x) - 1];
+        const shared = found.every((f) => (name ? Math.round(f.curve.x[f.point]!) === Math.round(x) : f.curve.x[f.point] === x));
+        const head = shared ? [element("div", { class: "head" }, `${figure.x.label}: ${name ?? readable(x)}`)] : [];
         box.replaceChildren(...head, ...found.map((f) => lineOf(f, !shared)));
         box.classList.add("shown");
         const right = left > u.over.clientWidth / 2;

@@ -11,6 +11,7 @@ export interface Curve {
   low?: Value[];
   high?: Value[];
   color: number; // counted through the palette
+  width?: number; // of bars
 }
 
 export interface Axis {
@@ -18,6 +19,7 @@ export interface Axis {
   log: boolean;
   low?: number;
   high?: number;
+  names?: string[]; // of the places 1, 2, ...
 }
 
 export interface TextSection { kind: "text"; text: string }
@@ -48,12 +50,14 @@ export interface ImagesSection {
   view: ImagesView;
   pictures: Picture[];
 }
-// Values are 16-bit floats, little end first, in base 64: three a pixel (mean, error) or one (repeats).
+// Values are 16-bit floats, little end first, in base 64: three a pixel (mean, error) or one (repeats; mean and error of
+// pictures of one channel).
 export interface MeasuredPicture {
   name: string;
   width: number;
   height: number;
   samples: Value;
+  set: string;
   mean: string;
   error: string;
   repeats: string[];

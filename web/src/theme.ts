@@ -13,11 +13,9 @@ function stored(): Theme | null {
   }
 }
 
-export function theme(): Theme {
-  const chosen = document.documentElement.dataset.theme;
-  if (chosen === "light" || chosen === "dark") return chosen;
-  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-}
+const ofSystem = (): Theme => (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+
+export const theme = (): Theme => document.documentElement.dataset.theme as Theme;
 
 function show(value: Theme): void {
   document.documentElement.dataset.theme = value;
@@ -30,10 +28,9 @@ export function onThemeChange(listener: () => void): void {
 }
 
 export function startTheme(button: HTMLButtonElement): void {
-  const chosen = stored();
-  if (chosen) document.documentElement.dataset.theme = chosen;
+  show(stored() ?? ofSystem());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-    if (!stored()) listeners.forEach((listener) => listener());
+    if (!stored()) show(ofSystem());
   });
   button.addEventListener("click", () => {
     const next = theme() === "dark" ? "light" : "dark";
@@ -45,18 +42,12 @@ export function startTheme(button: HTMLButtonElement): void {
     show(next);
   });
   // Paper is white.
-  let before: string | undefined;
+  let before: Theme = "light";
   addEventListener("beforeprint", () => {
-    before = document.documentElement.dataset.theme;
+    before = theme();
     show("light");
   });
-  addEventListener("afterprint", () => {
-    if (before) show(before as Theme);
-    else {
-      delete document.documentElement.dataset.theme;
-      listeners.forEach((listener) => listener());
-    }
-  });
+  addEventListener("afterprint", () => show(before));
 }
 
 export function color(name: string): string {

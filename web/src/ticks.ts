@@ -41,6 +41,17 @@ export function linearTicks(low: number, high: number, count = 6): Ticks {
   return ticks;
 }
 
+// Names at the places 1, 2, ....
+export function namedTicks(names: string[], low: number, high: number): Ticks {
+  const ticks: Ticks = { values: [], labels: [] };
+  names.forEach((name, i) => {
+    if (i + 1 < low || i + 1 > high) return;
+    ticks.values.push(i + 1);
+    ticks.labels.push(name);
+  });
+  return ticks;
+}
+
 // The range that an axis shows.
 export function rangeOf(values: number[], log: boolean, fromZero: boolean): [number, number] {
   let low = Infinity;

@@ -7,11 +7,15 @@ export class SharedZoom {
   private readonly frames: HTMLElement[] = [];
   private readonly views: HTMLElement[] = [];
 
-  // The views are moved inside of `frame`, which takes the gestures: drag to pan, control and wheel to zoom, double
-  // click to go in and, with shift, back.
-  add(frame: HTMLElement, ...views: HTMLElement[]): void {
+  // A view is moved inside of whatever frame it is in.
+  addView(view: HTMLElement): void {
+    this.views.push(view);
+    this.show(this.place);
+  }
+
+  // A frame takes the gestures: drag to pan, control and wheel to zoom, double click to go in and, with shift, back.
+  add(frame: HTMLElement): void {
     this.frames.push(frame);
-    this.views.push(...views);
     frame.addEventListener(
       "wheel",
       (event) => {

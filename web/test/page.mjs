@@ -2,57 +2,10 @@
 // Opens a report in headless Chromium and holds it to what a reader expects: no error on the console, plots that are
 // drawn, a read-out under the pointer, zoom, pictures that zoom together, and colours of its own in the dark. Exit status:
 // 0 all good, 1 not, 77 no Chromium here.
-import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { drawnColors, examineReport, pixels } from "./browser.mjs";
 
-const [, , report, shots] = process.argv;
-const browsers = [process.env.MONTELUX_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
-const executablePath = browsers.find((path) => path && existsSync(path));
-if (!executablePath) {
-  console.log("skipped: no Chromium on this machine");
-  process.exit(77);
-}
-if (shots) mkdirSync(shots, { recursive: true });
-
-const failures = [];
-const expect = (good, claim) => {
-  console.log(`${good ? "ok  " : "FAIL"} ${claim}`);
-  if (!good) failures.push(claim);
-};
-
-// How many colours a canvas shows beside its ground: a blank one shows none.
-const drawnColors = (canvas) =>
-  canvas.evaluate((element) => {
-    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
-    const colors = new Set();
-    for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200) colors.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-    return colors.size;
-  });
-const pixels = (canvas) => canvas.evaluate((element) => element.toDataURL());
-const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-
-const profile = mkdtempSync(join(tmpdir(), "montelux-page-"));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath,
-  headless: true,
-  viewport: { width: 1280, height: 900 },
-  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--disable-extensions"],
-});
-try {
-  const page = context.pages()[0] ?? (await context.newPage());
-  const errors = [];
-  const requests = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
-  page.on("pageerror", (error) => errors.push(String(error)));
-  page.on("request", (request) => /^https?:|^wss?:/.test(request.url()) && requests.push(request.url()));
-  await page.emulateMedia({ colorScheme: "light" });
-  await page.goto(pathToFileURL(resolve(report)).href);
-  await page.waitForSelector("article h2");
-  if (shots) await page.screenshot({ path: join(shots, "top-light.png") });
+await examineReport(process.argv[2], process.argv[3], async ({ page, expect, shot, ground }) => {
+  await shot("top-light");
 
   const figures = page.locator("figure:has(.plot)");
   const count = await figures.count();
@@ -77,7 +30,7 @@ try {
   await page.waitForTimeout(100);
   const text = await figure.locator(".readout.shown").first().textContent().catch(() => "");
   expect(/\d/.test(text ?? ""), `the pointer reads values ("${text}")`);
-  if (shots) await page.screenshot({ path: join(shots, "hover.png") });
+  await shot("hover");
 
   const before = await pixels(figure.locator("canvas"));
   await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.3 * box.height);
@@ -96,15 +49,15 @@ try {
   expect((await pixels(figure.locator("canvas"))) !== before, "a click on a name hides its curve");
   await figure.locator(".legend button").first().click();
 
-  const frames = page.locator(".frame");
-  if ((await frames.count()) > 1) {
+  const views = page.locator("figure:has(.pictures .picture ~ .picture)").first();
+  if ((await views.count()) > 0) {
+    const frames = views.locator(".pictures .frame");
     await frames.first().scrollIntoViewIfNeeded();
     await frames.first().dblclick();
     const shown = await frames.nth(1).locator("img").evaluate((image) => image.style.transform);
     expect(/scale\(2\.5\)/.test(shown), "pictures zoom together");
     await frames.first().dblclick({ modifiers: ["Shift"] });
-    if (shots) await page.screenshot({ path: join(shots, "pictures.png") });
-    const views = page.locator("figure:has(.stage)").first();
+    await shot("pictures");
     await views.locator(".switcher button", { hasText: "Slider" }).click();
     const stage = views.locator(".stage .frame");
     const place = await stage.boundingBox();
@@ -112,7 +65,7 @@ try {
     await stage.hover({ position: { x: 0.25 * place.width, y: 40 } });
     const shown25 = await views.locator(".curtain").evaluate((curtain) => curtain.style.clipPath);
     expect(/inset\(0(px)? 7[45]/.test(shown25), `a slider parts two pictures (${shown25})`);
-    if (shots) await page.screenshot({ path: join(shots, "slider.png") });
+    await shot("slider");
     await views.locator(".switcher button", { hasText: "Flip" }).click();
     const curtain = () => views.locator(".curtain").evaluate((element) => element.style.clipPath);
     const one = await curtain();
@@ -121,21 +74,21 @@ try {
     await views.locator(".switcher button", { hasText: "Side by side" }).click();
   }
 
-  const light = await ground(page);
+  const light = await ground();
   await page.evaluate(() => scrollTo(0, 0));
   await page.locator("button.theme").click();
   await page.waitForTimeout(200);
-  const dark = await ground(page);
+  const dark = await ground();
   expect(light !== dark, `the switch turns the page dark (${light} to ${dark})`);
-  if (shots) await page.screenshot({ path: join(shots, "top-dark.png") });
+  await shot("top-dark");
   await figure.scrollIntoViewIfNeeded();
   expect((await pixels(figure.locator("canvas"))) !== before, "plots follow into the dark");
-  if (shots) await page.screenshot({ path: join(shots, "figure-dark.png") });
+  await shot("figure-dark");
   await page.evaluate(() => localStorage.clear());
   await page.emulateMedia({ colorScheme: "dark" });
   await page.reload();
   await page.waitForSelector("article h2");
-  expect((await ground(page)) === dark, "a dark system makes the page dark");
+  expect((await ground()) === dark, "a dark system makes the page dark");
 
   await page.emulateMedia({ colorScheme: "light" });
   await page.setViewportSize({ width: 390, height: 800 });
@@ -144,12 +97,5 @@ try {
   await page.waitForTimeout(300);
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
-  if (shots) await page.screenshot({ path: join(shots, "narrow.png") });
-
-  expect(errors.length === 0, `nothing on the console ${errors.slice(0, 3).join("; ")}`);
-  expect(requests.length === 0, `no request to a network ${requests.slice(0, 3).join("; ")}`);
-} finally {
-  await context.close();
-  rmSync(profile, { recursive: true, force: true });
-}
-process.exit(failures.length === 0 ? 0 : 1);
+  await shot("narrow");
+});

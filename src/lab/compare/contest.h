@@ -7,6 +7,7 @@
 
 #include "image/pixel_buffer.h"
 #include "image/welch.h"
+#include "lab/compare/attribution.h"
 #include "lab/compare/statistics.h"
 #include "render/render.h"
 
@@ -19,6 +20,7 @@ struct Contestant {
   const PixelIntegrator* integrator = nullptr;
   PointSetKind sampler = PointSetKind::blue_noise;
   std::vector<std::string> biases;
+  std::optional<LayerPlan> layers{};  // that its variance is attributed to; none: the integrator has no layers
 };
 
 struct ContestSettings {
@@ -52,6 +54,31 @@ struct ConvergencePoint {
   Measured mse, seconds;
 };
 
+// Squared error of single passes of growing length, in one repeat.
+struct ConvergenceRun {
+  std::vector<double> samples, mse, seconds;
+};
+
+// What one method has gathered over its repeats.
+struct MethodState {
+  PassPlan plan;
+  std::vector<Repeat> repeats;
+  std::vector<std::vector<float>> luminance;  // of each repeat, one a pixel
+  std::vector<ConvergenceRun> convergence;    // of each repeat
+  std::vector<AttributionRound> attribution;  // of each repeat, where there are layers
+  PixelShares pixel_shares;
+  std::vector<PixelEstimate> pixels;  // over the passes of all repeats
+  int passes = 0;
+  std::uint64_t non_finite = 0;
+};
+
+// A contest that can go on. It is a function of the contestants, the settings and the number of rounds, but for the
+// times.
+struct ContestState {
+  Reference reference;
+  std::vector<MethodState> methods;
+};
+
 struct MethodResult {
   Contestant contestant;
   std::vector<Repeat> repeats;
@@ -64,6 +91,7 @@ struct MethodResult {
   WelchReport bias;                           // against the reference
   Measured bias_squared;  // of luminance, mean over pixels: by products of the errors of different repeats
   std::uint64_t non_finite = 0;
+  std::optional<Attribution> attribution;  // where the method has layers
 };
 
 // The mean is another than the reference's: that of the image, or pixel by pixel (bias_squared is above zero by more
@@ -105,6 +133,16 @@ double expected_smallest_mse(const std::vector<Contestant>& contestants, const C
 Reference make_reference(const std::vector<Contestant>& contestants, const std::vector<std::size_t>& may_serve,
                          const ContestSettings& settings, double goal, const ContestWatch& watch);
 
+// The plan of passes of each method; nothing is gathered yet.
+ContestState begin_contest(const std::vector<Contestant>& contestants, Reference reference,
+                           const ContestSettings& settings);
+// So many rounds more. Repeats are numbered through, and no two share random numbers. False where it was stopped; what
+// was under way is then left out.
+bool run_rounds(const std::vector<Contestant>& contestants, const ContestSettings& settings, int rounds,
+                const ContestWatch& watch, ContestState& state);
+ContestResult result_of(const std::vector<Contestant>& contestants, const ContestState& state,
+                        const ContestSettings& settings);
+// All of it: settings.repeats rounds.
 ContestResult run_contest(const std::vector<Contestant>& contestants, Reference reference,
                           const ContestSettings& settings, const ContestWatch& watch);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace montelux::lab {
@@ -103,11 +104,30 @@ Figure repeats(const ContestResult& result) {
 // More values than this, over all pictures, would make the page too large; the repeats go first.
 constexpr std::size_t most_values = 24u << 20;
 
+// Where the variance of each method comes from, pixel by pixel; layers of less than half a percent are left out.
+void add_shares(const ContestResult& result, std::size_t values, Comparison& comparison) {
+  for (const MethodResult& m : result.methods) {
+    if (!m.attribution) continue;
+    std::size_t layer = 0;
+    for (const FamilyShares& family : m.attribution->families)
+      for (const LayerShare& share : family.layers) {
+        const std::vector<float>& by_pixel = m.attribution->by_pixel[layer++];
+        if (std::abs(share.share.mean) < 0.005) continue;
+        values += by_pixel.size();
+        if (values > most_values) return;
+        MeasuredPicture picture{share.name, m.mean.width, m.mean.height, by_pixel, {}, {}, m.samples.mean};
+        picture.set = "variance of " + m.contestant.label + " by " + family.name;
+        comparison.pictures.push_back(std::move(picture));
+      }
+  }
+}
+
 Comparison pictures(const ContestResult& result) {
   Comparison comparison{"pictures",
                         "The reference, and the mean of all repeats of each method. Under the pointer: values with "
                         "standard errors, and the luminance's running mean over the repeats with its 95 % band; the "
-                        "dashed line is the reference.",
+                        "dashed line is the reference. Where a method has layers of light, `show` has the share of "
+                        "each in the variance around a pixel, white for all of it.",
                         {}};
   const Reference& reference = result.reference;
   const std::size_t pixels = reference.mean.pixel_count();
@@ -124,7 +144,63 @@ Comparison pictures(const ContestResult& result) {
     if (values <= most_values) picture.repeats = m.luminance;
     comparison.pictures.push_back(std::move(picture));
   }
+  add_shares(result, values, comparison);
   return comparison;
+}
+
+// The shares of one family in the variance of every method that has layers.
+Figure shares(const ContestResult& result, std::size_t family) {
+  Figure figure;
+  std::vector<const MethodResult*> methods;
+  std::vector<int> colors;
+  for (std::size_t i = 0; i < result.methods.size(); ++i)
+    if (result.methods[i].attribution) methods.push_back(&result.methods[i]), colors.push_back(int(i));
+  const FamilyShares& first = methods.front()->attribution->families[family];
+  figure.name = "variance-by-" + first.name;
+  std::ranges::replace(figure.name, ' ', '-');
+  figure.caption = "Shares of the picture's variance by " + first.name + ", with 95 % bars over the repeats.";
+  figure.x.label = first.name;
+  figure.y.label = "share of the variance";
+  for (const LayerShare& layer : first.layers) figure.x.names.push_back(layer.name);
+  figure.x.low = 0.5, figure.x.high = double(first.layers.size()) + 0.5;
+  const double width = 0.8 / double(methods.size());
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    Curve curve;
+    curve.name = name_of(*methods[m]), curve.mark = Mark::bars, curve.color = colors[m], curve.width = width;
+    const auto& layers = methods[m]->attribution->families[family].layers;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      curve.x.push_back(double(i + 1) + width * (double(m) - 0.5 * (double(methods.size()) - 1)));
+      curve.y.push_back(layers[i].share.mean);
+      curve.low.push_back(layers[i].share.low), curve.high.push_back(layers[i].share.high);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+void add_attribution(const ContestResult& result, Report& report) {
+  const MethodResult* any = nullptr;
+  std::string without;
+  for (const MethodResult& m : result.methods) {
+    if (m.attribution) any = &m;
+    if (!m.contestant.layers) without += (without.empty() ? "" : ", ") + name_of(m);
+  }
+  if (any) {
+    report.sections.push_back(
+        Formula{"s_i = \\frac{\\operatorname{Cov}(L_i, L)}{\\operatorname{Var}(L)}, \\quad L = "
+                "\\sum_i L_i, \\quad \\sum_i s_i = 1",
+                "Shorrocks 1982, Inequality Decomposition by Factor Components"});
+    report.sections.push_back(Text{
+        "The light of a pass is the sum of layers, and this is the share of each in the variance of that sum, over "
+        "all pixels and channels. A share below zero takes noise away from the others."});
+    for (std::size_t family = 0; family < any->attribution->families.size(); ++family)
+      report.sections.push_back(shares(result, family));
+  }
+  if (!without.empty())
+    report.sections.push_back(
+        Text{"Not attributed, since the method does not part its light into layers, or was not asked "
+             "to: " +
+             without + "."});
 }
 
 }  // namespace
@@ -138,6 +214,7 @@ ReportSet report_of(const ContestResult& result, const ContestWords& words) {
   report.sections.push_back(pictures(result));
   report.sections.push_back(table_of_methods(result));
   report.sections.push_back(table_of_truth(result));
+  add_attribution(result, report);
   report.sections.push_back(convergence(result, false));
   report.sections.push_back(convergence(result, true));
   report.sections.push_back(repeats(result));

@@ -30,6 +30,19 @@ Measured measured_ratio(const std::vector<double>& a, const std::vector<double>&
   return {std::exp(m.mean), std::exp(m.low), std::exp(m.high), m.standard_error, m.count};
 }
 
+Measured measured_ratio_of_sums(const std::vector<double>& a, const std::vector<double>& b, double confidence) {
+  double sum_a = 0, sum_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum_a += a[i], sum_b += b[i];
+  const double whole = sum_a / sum_b, n = double(a.size());
+  if (a.size() < 2) return measured({whole}, confidence);
+  std::vector<double> pseudo;
+  for (std::size_t i = 0; i < a.size(); ++i) pseudo.push_back(n * whole - (n - 1) * (sum_a - a[i]) / (sum_b - b[i]));
+  Measured m = measured(pseudo, confidence);
+  // Around the ratio itself, so that the shares of a whole sum to one.
+  m.low += whole - m.mean, m.high += whole - m.mean, m.mean = whole;
+  return m;
+}
+
 double log_slope(const std::vector<double>& x, const std::vector<double>& y) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0;
   for (std::size_t i = 0; i < x.size(); ++i)

@@ -16,6 +16,10 @@ Measured measured(const std::vector<double>& values, double confidence);
 // and Student's t. Pairs that hold a value that is not positive are left out.
 Measured measured_ratio(const std::vector<double>& a, const std::vector<double>& b, double confidence);
 
+// The ratio of two sums over repeats, sum a / sum b, with the interval that the jackknife over repeats gives
+// (Efron and Stein 1981).
+Measured measured_ratio_of_sums(const std::vector<double>& a, const std::vector<double>& b, double confidence);
+
 // The slope of log y against log x by least squares.
 double log_slope(const std::vector<double>& x, const std::vector<double>& y);
 

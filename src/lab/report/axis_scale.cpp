@@ -57,6 +57,11 @@ double AxisScale::place(double value) const {
 }
 
 std::vector<Tick> AxisScale::ticks() const {
+  if (!names.empty()) {
+    std::vector<Tick> named;
+    for (std::size_t i = 0; i < names.size(); ++i) named.push_back({double(i + 1), names[i]});
+    return named;
+  }
   return logarithmic ? logarithmic_ticks(low, high) : linear_ticks(low, high);
 }
 
@@ -75,7 +80,7 @@ AxisScale scale_of(const Axis& axis, const std::vector<double>& values, bool fro
     const double margin = high > low ? 0.04 * (high - low) : std::max(0.5 * std::abs(high), 0.5);
     low -= from_zero && low == 0 ? 0 : margin, high += margin;
   }
-  return {axis.low.value_or(low), axis.high.value_or(high), axis.logarithmic};
+  return {axis.low.value_or(low), axis.high.value_or(high), axis.logarithmic, axis.names};
 }
 
 std::string plain_text(const std::string& text) {

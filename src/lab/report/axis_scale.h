@@ -16,6 +16,7 @@ struct Tick {
 struct AxisScale {
   double low = 0, high = 1;
   bool logarithmic = false;
+  std::vector<std::string> names{};  // of the places 1, 2, ..., instead of numbers
 
   // 0 at low, 1 at high; not a number where a logarithm has none.
   double place(double value) const;

@@ -28,6 +28,7 @@ Json to_json(const Axis& axis) {
   Json json{{"label", plain_text(axis.label)}, {"log", axis.logarithmic}};
   if (axis.low) json["low"] = *axis.low;
   if (axis.high) json["high"] = *axis.high;
+  if (!axis.names.empty()) json["names"] = axis.names;
   return json;
 }
 
@@ -36,6 +37,7 @@ Json to_json(const Curve& curve, int color) {
   Json json{{"name", curve.name}, {"mark", marks[std::size_t(curve.mark)]}};
   json["x"] = numbers(curve.x), json["y"] = numbers(curve.y);
   json["color"] = color;
+  if (curve.width > 0) json["width"] = curve.width;
   if (!curve.low.empty()) json["low"] = numbers(curve.low), json["high"] = numbers(curve.high);
   return json;
 }
@@ -99,7 +101,8 @@ struct SectionWriter {
       Json one{{"name", picture.name},
                {"width", picture.width},
                {"height", picture.height},
-               {"samples", number(picture.samples)}};
+               {"samples", number(picture.samples)},
+               {"set", picture.set}};
       if (with_pictures) {
         one["mean"] = packed(picture.mean), one["error"] = packed(picture.error);
         one["repeats"] = Json::array();

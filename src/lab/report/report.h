@@ -22,6 +22,7 @@ struct Curve {
   std::vector<double> x, y;
   std::vector<double> low, high;
   int color = -1;
+  double width = 0;  // of bars; 0: the distance of the first two
 };
 
 // `label` may hold formulas in dollars. Without bounds the axis fits its data.
@@ -29,6 +30,7 @@ struct Axis {
   std::string label;
   bool logarithmic = false;
   std::optional<double> low, high;
+  std::vector<std::string> names{};  // of the places 1, 2, ... of an axis that has no numbers
 };
 
 // `name` is unique in its report and good for a file. `square`: both axes have one scale.
@@ -63,7 +65,7 @@ struct Images {
   ImagesView view = ImagesView::grid;
 };
 
-// A picture in linear values, as an estimate: three components a pixel, the top row first.
+// A picture in linear values, as an estimate: three components a pixel, or one, the top row first.
 struct MeasuredPicture {
   std::string name;
   int width = 0, height = 0;
@@ -71,9 +73,11 @@ struct MeasuredPicture {
   std::vector<float> error;                 // standard error of the mean; empty: exact
   std::vector<std::vector<float>> repeats;  // luminance by repeat, one a pixel; may be empty
   double samples = 0;                       // a pixel, in each repeat
+  std::string set = "pictures";             // those of one set are shown together
 };
 
-// Pictures of one size to be held side by side, over each other, and read out by pixel. The first is the reference.
+// Pictures of one size to be held side by side, over each other, and read out by pixel, one set at a time. The first is
+// the reference.
 struct Comparison {
   std::string name, caption;
   std::vector<MeasuredPicture> pictures;

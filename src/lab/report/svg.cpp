@@ -47,7 +47,7 @@ class Drawing {
     for (const Curve& curve : figure.curves) {
       bars = bars || curve.mark == Mark::bars;
       x.insert(x.end(), curve.x.begin(), curve.x.end());
-      if (curve.mark == Mark::bars && curve.x.size() > 1)
+      if (curve.mark == Mark::bars && !curve.x.empty())
         x.push_back(curve.x.front() - 0.5 * step(curve)), x.push_back(curve.x.back() + 0.5 * step(curve));
       for (const auto* values : {&curve.y, &curve.low, &curve.high}) y.insert(y.end(), values->begin(), values->end());
     }
@@ -74,7 +74,10 @@ class Drawing {
   }
 
  private:
-  static double step(const Curve& curve) { return curve.x.size() > 1 ? curve.x[1] - curve.x[0] : 1; }
+  static double step(const Curve& curve) {
+    if (curve.width > 0) return curve.width;
+    return curve.x.size() > 1 ? curve.x[1] - curve.x[0] : 1;
+  }
   double px(double x) const { return left_ + width_ * x_.place(x); }
   // Far outside of the frame rather than endless, so that every reader of SVG clips it.
   double py(double y) const { return top_ + height_ - height_ * std::clamp(y_.place(y), -2.0, 3.0); }

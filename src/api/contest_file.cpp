@@ -1,0 +1,270 @@
+// Comparisons in files: what they are of, and all that they have gathered, as JSON. Long arrays are 64-bit floats
+// (little end first) in base 64.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "api/contest.h"
+#include "api/render.h"
+#include "image/replace_file.h"
+#include "lab/report/base64.h"
+
+namespace montelux {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view format_name = "montelux comparison";
+constexpr int format_version = 1;
+static_assert(std::endian::native == std::endian::little);
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+template <class T>
+std::optional<T> optional_at(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  return value.is_null() ? std::nullopt : std::optional<T>(value.get<T>());
+}
+
+// ---- long arrays ----------------------------------------------------------------------------------------------------
+
+template <class T>
+std::string packed(const std::vector<T>& values) {
+  const std::vector<double> wide(values.begin(), values.end());
+  return lab::base64({reinterpret_cast<const char*>(wide.data()), 8 * wide.size()});
+}
+template <class T>
+std::vector<T> unpacked(const Json& json, std::size_t expected) {
+  const auto bytes = lab::bytes_of_base64(json.get_ref<const std::string&>());
+  if (!bytes || bytes->size() != 8 * expected) throw std::invalid_argument("an array in it is damaged");
+  std::vector<double> wide(expected);
+  std::memcpy(wide.data(), bytes->data(), bytes->size());
+  std::vector<T> values;
+  values.reserve(expected);
+  for (double x : wide) values.push_back(T(x));
+  return values;
+}
+// Of any length.
+std::vector<double> unpacked(const Json& json) {
+  const auto bytes = lab::bytes_of_base64(json.get_ref<const std::string&>());
+  return unpacked<double>(json, bytes ? bytes->size() / 8 : 0);
+}
+
+// A number that may be endless, which JSON has no word for.
+Json number(double x) { return packed(std::vector<double>{x}); }
+double number_from(const Json& json) { return unpacked<double>(json, 1).front(); }
+
+// ---- what it is of --------------------------------------------------------------------------------------------------
+
+Json options_json(const ContestOptions& o) {
+  Json json{{"methods", o.methods},          {"seconds", or_null(o.seconds)},
+            {"samples", or_null(o.samples)}, {"repeats", o.repeats},
+            {"confidence", o.confidence},    {"seed", o.seed},
+            {"attribution", o.attribution},  {"crop", Json()}};
+  if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
+  return json;
+}
+ContestOptions options_from(const Json& j) {
+  ContestOptions o;
+  o.methods = j.at("methods").get<std::vector<std::string>>();
+  o.seconds = optional_at<double>(j, "seconds"), o.samples = optional_at<int>(j, "samples");
+  o.repeats = j.at("repeats"), o.confidence = j.at("confidence"), o.seed = j.at("seed");
+  o.attribution = j.at("attribution");
+  if (const Json& c = j.at("crop"); !c.is_null()) o.crop = PixelBounds{c.at(0), c.at(1), c.at(2), c.at(3)};
+  if (o.repeats < 1 || o.methods.empty()) throw std::invalid_argument("its settings are damaged");
+  return o;
+}
+
+Json reference_json(const lab::Reference& r) {
+  return {{"width", r.mean.width},
+          {"height", r.mean.height},
+          {"origin", r.origin},
+          {"degrees_of_freedom", number(r.degrees_of_freedom)},
+          {"mean", packed(r.mean.values)},
+          {"variance", packed(r.variance.values)}};
+}
+lab::Reference reference_from(const Json& j) {
+  lab::Reference r;
+  const int width = j.at("width"), height = j.at("height");
+  if (width < 1 || height < 1 || width > 1 << 16 || height > 1 << 16)
+    throw std::invalid_argument("the size of its picture is damaged");
+  r.mean = r.variance = make_pixel_buffer(width, height, {"R", "G", "B"});
+  r.mean.values = unpacked<float>(j.at("mean"), r.mean.values.size());
+  r.variance.values = unpacked<float>(j.at("variance"), r.mean.values.size());
+  r.origin = j.at("origin"), r.degrees_of_freedom = number_from(j.at("degrees_of_freedom"));
+  return r;
+}
+
+// ---- what was gathered ----------------------------------------------------------------------------------------------
+
+Json repeat_json(const lab::Repeat& r) {
+  return packed(std::vector<double>{r.seconds, r.rays, r.samples, r.mse, r.relative_mse, r.flip, r.variance, r.coverage,
+                                    r.image_mean[0], r.image_mean[1], r.image_mean[2]});
+}
+lab::Repeat repeat_from(const Json& j) {
+  const std::vector<double> v = unpacked<double>(j, 11);
+  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], {v[8], v[9], v[10]}};
+}
+
+Json method_json(const lab::MethodState& m) {
+  Json json{{"samples_per_pass", m.plan.samples_per_pass},
+            {"planned_passes", m.plan.passes},
+            {"passes", m.passes},
+            {"non_finite", m.non_finite}};
+  json["repeats"] = Json::array();
+  for (std::size_t i = 0; i < m.repeats.size(); ++i) {
+    const lab::ConvergenceRun& run = m.convergence[i];
+    Json one{{"figures", repeat_json(m.repeats[i])},
+             {"luminance", packed(m.luminance[i])},
+             {"convergence", {packed(run.samples), packed(run.mse), packed(run.seconds)}}};
+    if (!m.attribution.empty()) one["attribution"] = {number(m.attribution[i].all), packed(m.attribution[i].layers)};
+    json["repeats"].push_back(std::move(one));
+  }
+  std::vector<double> pixels;
+  for (const PixelEstimate& p : m.pixels) {
+    pixels.insert(pixels.end(), std::begin(p.mean), std::end(p.mean));
+    pixels.insert(pixels.end(), std::begin(p.m2), std::end(p.m2));
+    pixels.push_back(p.passes), pixels.push_back(p.non_finite);
+  }
+  json["pixels"] = packed(pixels);
+  json["pixel_shares"] = Json::array();
+  for (const auto& layer : m.pixel_shares) json["pixel_shares"].push_back(packed(layer));
+  return json;
+}
+
+lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
+  lab::MethodState m;
+  m.plan = {j.at("samples_per_pass"), j.at("planned_passes")};
+  m.passes = j.at("passes"), m.non_finite = j.at("non_finite");
+  for (const Json& one : j.at("repeats")) {
+    m.repeats.push_back(repeat_from(one.at("figures")));
+    m.luminance.push_back(unpacked<float>(one.at("luminance"), pixel_count));
+    const Json& run = one.at("convergence");
+    m.convergence.push_back({unpacked(run.at(0)), unpacked(run.at(1)), unpacked(run.at(2))});
+    if (one.contains("attribution"))
+      m.attribution.push_back({number_from(one.at("attribution").at(0)), unpacked(one.at("attribution").at(1))});
+  }
+  if (m.plan.samples_per_pass < 1 || (!m.attribution.empty() && m.attribution.size() != m.repeats.size()))
+    throw std::invalid_argument("its repeats are damaged");
+  if (!m.repeats.empty()) {
+    const std::vector<double> pixels = unpacked<double>(j.at("pixels"), 8 * pixel_count);
+    for (std::size_t p = 0; p < pixel_count; ++p) {
+      PixelEstimate& e = m.pixels.emplace_back();
+      std::copy_n(&pixels[8 * p], 3, e.mean), std::copy_n(&pixels[8 * p + 3], 3, e.m2);
+      e.passes = std::uint32_t(pixels[8 * p + 6]), e.non_finite = std::uint32_t(pixels[8 * p + 7]);
+    }
+  }
+  for (const Json& layer : j.at("pixel_shares")) m.pixel_shares.push_back(unpacked<double>(layer, pixel_count));
+  return m;
+}
+
+SavedContest saved_from(const Json& j) {
+  if (!j.is_object() || j.value("format", "") != format_name)
+    throw std::invalid_argument("it is not a file that montelux compare --save wrote");
+  if (j.at("version") != format_version)
+    throw std::invalid_argument(fmt::format("its format has version {}, this program reads version {}",
+                                            j.at("version").dump(), format_version));
+  SavedContest saved;
+  saved.scene = j.at("scene").get<std::string>();
+  saved.load.lenient = j.at("lenient");
+  if (const Json& size = j.at("resolution"); !size.is_null()) saved.load.resolution = {{size.at(0), size.at(1)}};
+  saved.fingerprint = std::stoull(j.at("scene_fingerprint").get<std::string>(), nullptr, 16);
+  saved.options = options_from(j.at("options"));
+  saved.notes = j.at("notes").get<std::vector<std::string>>();
+  saved.state.reference = reference_from(j.at("reference"));
+  for (const Json& m : j.at("methods"))
+    saved.state.methods.push_back(method_from(m, saved.state.reference.mean.pixel_count()));
+  if (saved.state.methods.size() != saved.options.methods.size())
+    throw std::invalid_argument("what it has gathered does not match its methods");
+  return saved;
+}
+
+// ---- the scene ------------------------------------------------------------------------------------------------------
+
+std::optional<std::string> content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) return std::nullopt;
+  return text.str();
+}
+
+}  // namespace
+
+std::uint64_t scene_fingerprint(const fs::path& scene) {
+  std::error_code ignored;
+  std::vector<fs::path> around;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::absolute(scene, ignored).parent_path(),
+                                                            fs::directory_options::skip_permission_denied, ignored)) {
+    if (entry.is_regular_file(ignored)) around.push_back(entry.path());
+    if (around.size() > 20000) break;
+  }
+  std::ranges::sort(around);
+  // FNV-1a over the files that are reached, in the order in which they are.
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  std::set<fs::path> reached{fs::absolute(scene, ignored)};
+  for (std::deque<fs::path> open{fs::absolute(scene, ignored)}; !open.empty(); open.pop_front()) {
+    const auto content = content_of(open.front());
+    if (!content) continue;
+    for (char c : *content) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3u;
+    hash = (hash ^ content->size()) * 0x100000001b3u;
+    if (open.front().extension() != ".pbrt") continue;
+    for (const fs::path& file : around)
+      if (!reached.contains(file) && content->find(file.filename().string()) != std::string::npos)
+        reached.insert(file), open.push_back(file);
+  }
+  return hash;
+}
+
+Status save_contest(const fs::path& file, const SavedContest& c) {
+  Json json{{"format", format_name},
+            {"version", format_version},
+            {"program", version()},
+            {"scene", c.scene.string()},
+            {"scene_fingerprint", fmt::format("{:016x}", c.fingerprint)},
+            {"lenient", c.load.lenient},
+            {"resolution", Json()},
+            {"options", options_json(c.options)},
+            {"notes", c.notes},
+            {"reference", reference_json(c.state.reference)},
+            {"methods", Json::array()}};
+  if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
+  for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
+  return replace_file(file, [&json](const std::string& temporary) -> Status {
+    std::ofstream out(temporary);
+    out << json.dump(1) << '\n';
+    out.close();
+    if (!out) return Failure{"it cannot be written"};
+    return Done{};
+  });
+}
+
+Result<SavedContest> load_contest(const fs::path& file) {
+  const auto text = content_of(file);
+  if (!text) return Failure{fmt::format("{}: cannot be read", file.string())};
+  try {
+    SavedContest saved = saved_from(Json::parse(*text));
+    if (scene_fingerprint(saved.scene) != saved.fingerprint)
+      return Failure{fmt::format("{}: the scene {} has changed since, or is no longer there", file.string(),
+                                 saved.scene.string())};
+    return saved;
+  } catch (const Json::parse_error&) {
+    return Failure{fmt::format("{}: it is not a file that montelux compare --save wrote", file.string())};
+  } catch (const Json::exception& error) {
+    return Failure{fmt::format("{}: is no saved comparison ({})", file.string(), error.what())};
+  } catch (const std::exception& error) {
+    return Failure{fmt::format("{}: {}", file.string(), error.what())};
+  }
+}
+
+}  // namespace montelux
