@@ -175,6 +175,12 @@ std::optional<lab::Reference> kept_reference(const fs::path& file, const PixelBo
   return *reference;
 }
 
+// How many times the time, in whole numbers where there are many.
+std::string times_text(double times) {
+  if (!std::isfinite(times)) return "many";
+  return times < 10 ? fmt::format("{:.2g}", times) : fmt::format("{:.0f}", times);
+}
+
 }  // namespace
 
 // "a is 2.31 times as efficient as b (95 % between 2.10 and 2.55)", or that nothing is decided.
@@ -190,7 +196,7 @@ std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, doubl
   if (!v.decided)
     return fmt::format(
         "{} and {}: not decided: the ratio of efficiencies is {:.3g} ({}); {} times the time may decide it", a, b,
-        factor, interval, std::isfinite(v.times_longer) ? fmt::format("{:.2g}", v.times_longer) : "many");
+        factor, interval, times_text(v.times_longer));
   const bool biased = lab::differs_from_reference(contest.result.methods[v.first]) ||
                       lab::differs_from_reference(contest.result.methods[v.second]);
   const lab::Measured& relative = v.relative_ratio;

@@ -5,13 +5,14 @@ import unittest
 import program
 from program import SCENE, ProgramTest
 
-SMALL = ["--resolution", "16x12", "--repeats", "4", "--seed", "3"]
+SMALL = ["--resolution", "16x12", "--seed", "3"]
 
 
 class Compare(ProgramTest):
-    def compare(self, *arguments, status=0, samples=4):
+    def compare(self, *arguments, status=0, samples=4, repeats=4):
         program.ENVIRONMENT["XDG_CACHE_HOME"] = str(self.folder)
-        return self.run_program("compare", SCENE, *SMALL, "--spp", samples, *arguments, status=status)
+        return self.run_program("compare", SCENE, *SMALL, "--repeats", repeats, "--spp", samples, *arguments,
+                                status=status)
 
     def test_every_figure_has_an_interval(self):
         result = self.compare("-a", "path", "-b", "naive", "--json", "--quiet")
@@ -56,7 +57,7 @@ class Compare(ProgramTest):
     def test_a_saved_comparison_goes_on(self):
         self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 256, "-o", "truth.exr", "--quiet")
         common = ["-a", "path", "-b", "path:mis=balance", "--reference", "truth.exr", "--json", "--quiet"]
-        whole = json.loads(self.compare(*common, "--repeats", 6).stdout)
+        whole = json.loads(self.compare(*common, repeats=6).stdout)
         self.compare(*common, "--save", "run.json")
         more = self.run_program("compare", "--resume", "run.json", "--repeats", 2, "--json", "--quiet", "--save",
                                 "run.json", "-o", "report.html")

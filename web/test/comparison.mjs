@@ -53,7 +53,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
 
   await viewer.locator(".switcher button", { hasText: "Side by side" }).click();
   await viewer.locator("select[aria-label=show]").selectOption("variance of a by bounces");
-  expect((await drawnColors(canvases.first())) > 20, "the share of a layer in the variance is a picture");
+  expect((await drawnColors(canvases.nth(1))) > 20, "the share of a layer in the variance is a picture");
   await viewer.locator(".pictures .frame").first().hover({ position: { x: 50, y: 40 } });
   const shares = await page.locator(".pixel table").textContent();
   expect(/share/.test(shares) && /bounce1/.test(shares), `the pointer reads shares ("${shares}")`);
@@ -62,6 +62,19 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   expect((await canvases.count()) === 3, "and the pictures come back");
   expect((await page.locator("figcaption", { hasText: "Shares of the picture's variance" }).count()) === 3,
     "the shares are charts by bounces, light groups and techniques");
+
+  for (const [i, family] of ["bounces", "light groups", "techniques"].entries()) {
+    const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance by ${family}` }) });
+    await chart.scrollIntoViewIfNeeded();
+    await chart.locator(".plot canvas").waitFor({ timeout: 10000 });
+    await page.waitForTimeout(100);
+    expect((await drawnColors(chart.locator(".plot canvas"))) >= 8, `the chart by ${family} is drawn`);
+    const plot = chart.locator(".u-over");
+    await plot.hover({ position: { x: 80, y: 60 } });
+    const read = await chart.locator(".readout.shown").textContent().catch(() => "");
+    if (i === 0) expect(/bounces: bounce0/.test(read), `and reads out the layer by name ("${read}")`);
+    await shot(`comparison-${family.replace(" ", "-")}`);
+  }
 
   const light = await ground();
   await page.evaluate(() => scrollTo(0, 0));
