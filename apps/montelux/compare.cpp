@@ -151,6 +151,7 @@ void print_csv(const Contest& contest) {
 // "variance by bounces: bounce1 62 ± 3 %, ..."; what has less than half a percent is left out.
 void print_attribution(const lab::Attribution& attribution) {
   for (const lab::FamilyShares& family : attribution.families) {
+    if (family.layers.size() < 2) continue;
     std::string line;
     for (const lab::LayerShare& layer : family.layers) {
       const Measured& share = layer.share;

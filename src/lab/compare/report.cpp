@@ -193,8 +193,9 @@ void add_attribution(const ContestResult& result, Report& report) {
     report.sections.push_back(Text{
         "The light of a pass is the sum of layers, and this is the share of each in the variance of that sum, over "
         "all pixels and channels. A share below zero takes noise away from the others."});
+    // One group of lights alone has all of it.
     for (std::size_t family = 0; family < any->attribution->families.size(); ++family)
-      report.sections.push_back(shares(result, family));
+      if (any->attribution->families[family].layers.size() > 1) report.sections.push_back(shares(result, family));
   }
   if (!without.empty())
     report.sections.push_back(
