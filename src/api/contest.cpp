@@ -76,10 +76,11 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
     lab::Contestant contestant;
     contestant.label = std::string(1, char('a' + int(field.contestants.size())));
     contestant.text = text;
-    contestant.integrator = field.integrators.back().integrator.get();
+    contestant.integrator = field.integrators.back().any();
     contestant.sampler = sampler;
     contestant.biases = field.integrators.back().biases;
-    if (options.attribution && contestant.integrator->has_layers()) contestant.layers = attribution_layers(parts.scene);
+    const PixelIntegrator* pixels = contestant.integrator.pixel();
+    if (options.attribution && pixels && pixels->has_layers()) contestant.layers = attribution_layers(parts.scene);
     field.contestants.push_back(std::move(contestant));
   }
   return field;

@@ -91,7 +91,8 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.seed = options.seed;
   r.threads = options.threads;
   r.seconds = options.seconds;
-  r.plan = plan_passes(options.samples.value_or(preset ? preset->eye_rays : picture.samples), r.sampler);
+  r.plan =
+      plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples), r.sampler);
   return plan;
 }
 
@@ -133,7 +134,7 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   Result<Plan> checked = plan_render(parts, options);
   if (!checked) return checked.failure();
   Plan& plan = *checked;
-  const PixelIntegrator& integrator = *plan.chosen.integrator;
+  const AnyIntegrator integrator = plan.chosen.any();
   double pilot_seconds = 0;
   if (plan.render.seconds) {
     // The pass that measures the speed is taken from the time, too, and counted into it.

@@ -100,6 +100,39 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
   tile_sums[std::size_t(pass)] = tile_sum;
 }
 
+bool PassMean::add(const Rgb& radiance) {
+  if (!all_finite(radiance)) return false;
+  ++samples;
+  for (int i = 0; i < spectrum_size; ++i) sum[i] += radiance.c[i];
+  return true;
+}
+
+void Film::add_samples(const PixelBounds& tile, std::span<const PixelSample> samples) {
+  const PixelSample* sample = samples.data();
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x, ++sample) {
+      add_features(features_[index(x, y)], sample->features);
+      if (!all_finite(sample->radiance)) ++pixels_[index(x, y)].non_finite;
+    }
+}
+
+void Film::add_pass_means(const PixelBounds& tile, int pass, std::span<const PassMean> means) {
+  PassSum tile_sum;
+  const PassMean* of_pixel = means.data();
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) {
+      if (of_pixel->samples == 0) continue;
+      double mean[spectrum_size] = {};
+      for (int i = 0; i < spectrum_size; ++i) mean[i] = of_pixel->sum[i] / of_pixel->samples;
+      pixels_[index(x, y)].add(mean);
+      for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
+      ++tile_sum.pixels;
+    }
+  auto& sums = tile_sums_[index(tile.x0, tile.y0)];
+  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
+  sums[std::size_t(pass)] = tile_sum;
+}
+
 void Film::merge(const Film& other) {
   if (!(bounds_ == other.bounds_)) throw std::invalid_argument("films of different bounds cannot be merged");
   if (layers_.has_value() != other.layers_.has_value())

@@ -7,6 +7,7 @@
 #include "integrator/distribution/integrator.h"
 #include "integrator/look/integrator.h"
 #include "integrator/path/tracer.h"
+#include "integrator/restir/integrator.h"
 #include "integrator/tracepath/integrator.h"
 
 namespace montelux {
@@ -17,13 +18,14 @@ namespace {
 struct Request {
   const ParameterList& list;
   std::optional<int> max_depth;
+  std::optional<float> max_component;
   const Scene& scene;
   const Accel& accel;
 };
 using Made = Result<ChosenIntegrator>;
 
 ChosenIntegrator made(std::string_view name, std::unique_ptr<PixelIntegrator> integrator) {
-  return {std::string(name), std::move(integrator), {}, {}};
+  return {std::string(name), std::move(integrator), {}, {}, {}};
 }
 
 void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
@@ -74,6 +76,22 @@ Made make_tracepath(const Request& r) {
   return chosen;
 }
 
+Made make_restir_di(const Request& r) {
+  auto settings = restir_di_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  settings->max_component = r.max_component;
+  ChosenIntegrator chosen{"restir-di", {}, {}, {}, std::make_unique<RestirDirect>(r.scene, r.accel, *settings)};
+  note_depth(chosen, r.max_depth);
+  const bool reuses = settings->temporal || (settings->rounds > 0 && settings->neighbours > 0);
+  if (settings->weights == ReuseWeights::naive && reuses) {
+    chosen.biases.push_back("weights=naive");
+    chosen.notes.push_back(
+        "reservoirs are combined as if every pixel could make every sample: the picture is biased where pixels see "
+        "different lights (--set weights=pairwise is not)");
+  }
+  return chosen;
+}
+
 template <const char* name>
 Made make_look(const Request& r) {
   ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
@@ -90,11 +108,9 @@ struct Row {
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path<false>},
-                         {naive_spec(), make_path<true>},
-                         {direct_spec(), make_direct},
-                         {distribution_spec(), make_distribution},
-                         {tracepath_spec(), make_tracepath}};
+    std::vector<Row> all{{path_spec(), make_path<false>},    {naive_spec(), make_path<true>},
+                         {direct_spec(), make_direct},       {distribution_spec(), make_distribution},
+                         {tracepath_spec(), make_tracepath}, {restir_di_spec(), make_restir_di}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();
@@ -165,11 +181,14 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
 
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
   const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
-  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), scene, accel};
+  const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component);
+  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), most, scene, accel};
   Made result = row->make(request);
   if (!result) return result;
-  if (const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component)) {
-    result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *most);
+  if (most) {
+    // Coupled integrators scale their samples down themselves.
+    if (result->integrator)
+      result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *most);
     result->biases.push_back(fmt::format("maxcomponent={}", *most));
     result->notes.push_back(fmt::format(
         "samples brighter than {} are scaled down to it: the picture is biased by the light that this takes "

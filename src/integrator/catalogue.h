@@ -23,9 +23,11 @@ struct IntegratorDefaults {
 
 struct ChosenIntegrator {
   std::string name;                             // of the catalogue
-  std::unique_ptr<PixelIntegrator> integrator;  // scene and accel must outlive it
+  std::unique_ptr<PixelIntegrator> integrator;  // scene and accel must outlive it; null: it is coupled
   std::vector<std::string> biases;              // "maxdepth=5", ...: what makes its mean differ from the scene's light
   std::vector<std::string> notes;               // the same for people, in sentences
+  std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels learn from each other
+  AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
 };
 
 // Adds to the biases and notes what the render's point set brings: nothing, but for fixed patterns.

@@ -1,6 +1,7 @@
 // What the scheduler asks of an integrator. Integrators know no threads, no film and no files.
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -48,6 +49,58 @@ class PixelIntegrator {
   virtual RayCounts trace_layers(const TilePass&, const LayerPlan&, std::span<PixelSample>, std::span<ExactRgb>) const {
     throw std::logic_error("this integrator has no layers");
   }
+};
+
+// ---- pixels that learn from each other
+// ------------------------------------------------------------------------------
+
+// One pass of a coupled integrator: the pixels of the picture or of its crop. Every pixel takes one sample in each of
+// points.samples_per_pass frames.
+struct ChainPass {
+  PixelBounds bounds;
+  PointSet points;
+};
+
+// Where a chain is: frames follow one another, stages follow one another within a frame.
+struct ChainStep {
+  int frame = 0, stage = 0;
+};
+
+// Frames that follow one another, each with what the ones before have learned, over all pixels. A step may begin when
+// the step before it is done over all tiles; the tiles of one step may be run by many threads at once.
+class Chain {
+ public:
+  virtual ~Chain() = default;
+  // The last stage of a frame fills `out`, one sample for each pixel of the tile in row-major order: an unbiased
+  // estimate. The other stages leave it alone. The tiles must be the same in all steps.
+  virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
+};
+
+// Maps a pass to a chain of frames over the whole picture, whose mean over frames is the pass's picture: chains are
+// independent, frames of one chain are not. A pure function of the scene, the settings and the pass, whatever the tiles
+// and threads.
+class CoupledIntegrator {
+ public:
+  virtual ~CoupledIntegrator() = default;
+  // Frames that a chain should have; frames before those that only teach and are not shown; stages of each frame.
+  virtual int frames() const = 0;
+  virtual int warm_up() const = 0;
+  virtual int stages() const = 0;
+  virtual std::unique_ptr<Chain> begin(const ChainPass& pass) const = 0;
+};
+
+// An integrator of either kind, which must outlive this.
+class AnyIntegrator {
+ public:
+  AnyIntegrator() = default;
+  AnyIntegrator(const PixelIntegrator& integrator) : pixel_(&integrator) {}
+  AnyIntegrator(const CoupledIntegrator& integrator) : coupled_(&integrator) {}
+  const PixelIntegrator* pixel() const { return pixel_; }        // null: it is the other kind
+  const CoupledIntegrator* coupled() const { return coupled_; }  // likewise
+
+ private:
+  const PixelIntegrator* pixel_ = nullptr;
+  const CoupledIntegrator* coupled_ = nullptr;
 };
 
 }  // namespace montelux

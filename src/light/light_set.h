@@ -8,6 +8,7 @@
 #include "light/bvh.h"
 #include "light/image.h"
 #include "light/infinite.h"
+#include "light/light_point.h"
 #include "light/patch.h"
 #include "light/point.h"
 #include "light/quadric.h"
@@ -72,6 +73,16 @@ class LightSet {
   LightSample<F> sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
                               LightMeasure measure = LightMeasure::solid_angle) const;
 
+  // A point of a light that is given, drawn at p by solid angle, with the density of sample_light.
+  template <class F>
+  LightPointDraw<F> draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
+  // The point p of the surface of `light` with its oriented unit normal, where `radiance` is what hit_radiance says.
+  template <class F>
+  LightPoint<F> point_of_hit(Uint<F> light, Vec3<F> p, Vec3<F> ng, Spectrum<F> radiance, Mask<F> on) const;
+  // What a light point sends to p.
+  template <class F>
+  LightPointView<F> view(const LightPoint<F>& point, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
+
   // For a ray that left reference_p along the unit wi and met the surface of `light` at p, where the oriented unit
   // normal is ng and uv are the surface's parameters.
   template <class F>
@@ -132,4 +143,5 @@ class LightSet {
 }  // namespace montelux
 
 #include "light/light_set_choice.h"
+#include "light/light_set_points.h"
 #include "light/light_set_sampling.h"

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "render/coupled.h"
 #include "render/float_mode.h"
 
 namespace montelux {
@@ -191,7 +192,15 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   return {k, (samples + k - 1) / k};
 }
 
-PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings settings, double seconds) {
+PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind) {
+  if (!integrator.coupled()) return plan_passes(samples, kind);
+  const int frames = integrator.coupled()->frames();
+  return {frames, (std::max(samples, 1) + frames - 1) / frames};
+}
+
+PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds) {
+  constexpr int endless = 1 << 20;  // time ends it
+  if (integrator.coupled()) return {integrator.coupled()->frames(), endless};
   settings.seconds.reset();
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
@@ -199,13 +208,14 @@ PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings setting
   const double one_sample = std::max(render(integrator, settings, silent).seconds, 1e-6);
   const auto affordable = int(std::min(seconds / one_sample, 1e6));
   PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
-  plan.passes = 1 << 20;  // time ends it
+  plan.passes = endless;
   return plan;
 }
 
-RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
+RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
+  if (integrator.coupled()) return render_chains(*integrator.coupled(), settings, observer);
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  Job job(integrator, settings);
+  Job job(*integrator.pixel(), settings);
   bool interrupted = job.watch(threads, observer);
   return job.take_result(interrupted);
 }

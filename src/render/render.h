@@ -18,6 +18,8 @@ struct PassPlan {
 // The plan for at least `samples` samples a pixel. Passes are replicates: more of them make the error bar surer, fewer
 // make each point set longer and so the picture better; docs/error-bars.md has the measurement behind the choice.
 PassPlan plan_passes(int samples, PointSetKind kind);
+// Of any integrator: a pass of a coupled one is a chain of its frames.
+PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind);
 
 struct RenderSettings {
   PixelBounds bounds;         // of the picture, or of the crop; within width x height
@@ -57,9 +59,9 @@ struct RenderResult {
 };
 
 // The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass.
-PassPlan plan_for_time(const PixelIntegrator& integrator, RenderSettings settings, double seconds);
+PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds);
 
 // The film is the same bits for any number of threads (where no time limit is set and nobody interrupts).
-RenderResult render(const PixelIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer);
+RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer);
 
 }  // namespace montelux

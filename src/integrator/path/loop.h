@@ -93,26 +93,34 @@ MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum
   if constexpr (Tally::records) tally.template add<F>(on, light * path.weight, origin());
 }
 
-// A tile's paths, one a lane. A lane whose path ends takes the next of the first hits. `rays` answers trace and
-// occluded as Accel does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings ask.
-template <class F, class Rays, class Tally>
-RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
-                      const TilePass& pass, std::span<PixelSample> out, Tally& tally) {
+// The lanes in which a path may count the light that it meets: all, unless the source of the paths says otherwise.
+template <class F, class Source>
+MONTELUX_INLINE Mask<F> counts_light(const Source& source, const PathState<F>& path, Mask<F> on) {
+  if constexpr (requires { source.counts_light(path, on); })
+    return source.counts_light(path, on);
+  else
+    return on;
+}
+
+// Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
+// off as long as there are paths left, and gives the lanes that are on. `rays` answers trace and occluded as Accel
+// does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings ask.
+template <class F, class Rays, class Source, class Tally>
+RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
+                    const TilePass& pass, std::span<PixelSample> out, Source& source, Tally& tally) {
   using U = Uint<F>;
   using M = Mask<F>;
-  FirstHits<F> first_hits(scene, rays, pass, out, tally);
   RayCounts counts;
-  counts.camera = first_hits.rays();
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
   PathState<F> path{};
   M on(false);
   for (;;) {
-    on = first_hits.refill(path, on);
+    on = source.refill(path, on);
     if (!any(on)) return counts;
 
     // The vertex, and the light that it sends back by itself.
     const SurfaceHit<F> x = surface<F>(scene.geometry, {path.o, path.d, path.hit.t, path.time}, path.hit, on);
-    const M emits = on & (x.light != U(0u));
+    const M emits = counts_light(source, path, on & (x.light != U(0u)));
     if (any(emits)) {
       LightHit<F> light = lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
                                                  x.point.ng, x.point.uv, path.d, emits);
@@ -201,7 +209,7 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     counts.scattered += std::uint64_t(count(moves));
     auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
-    const M left = moves & !found;
+    const M left = counts_light(source, path, moves & !found);
     for (int i = 0; i < lights.infinite_count() && any(left); ++i) {
       LightHit<F> sky = lights.template escaped<F>(i, path.p, path.n, path.d, left);
       F weight = weight_of_light_hit(settings, path.density, sky.density.value);
@@ -218,6 +226,16 @@ RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& ra
     }
     on = on & found;
   }
+}
+
+// A tile's paths, from their camera rays on.
+template <class F, class Rays, class Tally>
+RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
+                      const TilePass& pass, std::span<PixelSample> out, Tally& tally) {
+  FirstHits<F> first_hits(scene, rays, pass, out, tally);
+  RayCounts counts = run_paths<F>(scene, lights, rays, settings, pass, out, first_hits, tally);
+  counts.camera += first_hits.rays();
+  return counts;
 }
 template <class F, class Rays>
 RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,

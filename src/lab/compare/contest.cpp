@@ -48,7 +48,7 @@ Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, 
   RenderSettings s = settings_for(contestant, settings);
   s.plan = {1, passes}, s.first_pass = pilot_pass;
   Stopper stopper(watch);
-  const RenderResult r = render(*contestant.integrator, s, stopper);
+  const RenderResult r = render(contestant.integrator, s, stopper);
   return {r.film.error(s.bounds).mse * r.seconds, r.seconds / passes};
 }
 
@@ -65,7 +65,7 @@ Turn take_turn(const Contestant& contestant, const ContestSettings& settings, Pa
   s.seed = mix_bits(settings.render.seed + 0x9e3779b9u * std::uint32_t(repeat + 1));
   if (settings.seconds) s.seconds = *settings.seconds / settings.repeats;
   Stopper stopper(watch);
-  return {render(*contestant.integrator, s, stopper), plan};
+  return {render(contestant.integrator, s, stopper), plan};
 }
 
 // The order of the methods in one round: drawn afresh, so that none is always the first.
@@ -86,7 +86,7 @@ ConvergenceRun run_convergence(const Contestant& contestant, const ContestSettin
   Stopper stopper(watch);
   for (int k = 1, level = 0; k <= most_samples && !stopper.stop_requested(); k *= 2, ++level) {
     s.plan = {k, 1}, s.first_pass = convergence_pass + level;
-    const RenderResult r = render(*contestant.integrator, s, stopper);
+    const RenderResult r = render(contestant.integrator, s, stopper);
     if (r.interrupted) break;
     run.samples.push_back(k), run.seconds.push_back(r.seconds);
     run.mse.push_back(squared_error(mean_of(r.film), reference));
@@ -107,7 +107,7 @@ std::optional<AttributionRound> run_attribution(const Contestant& contestant, co
   s.layers = contestant.layers;
   s.layers->spread = true;
   Stopper stopper(watch);
-  const RenderResult r = render(*contestant.integrator, s, stopper);
+  const RenderResult r = render(contestant.integrator, s, stopper);
   if (r.interrupted) return std::nullopt;
   return attribute(r.film, pixels);
 }
@@ -194,7 +194,7 @@ Reference make_reference(const std::vector<Contestant>& contestants, const std::
   Stopper stopper(watch);
   for (int more = 16; !stopper.stop_requested(); more = passes) {
     s.plan = {samples_per_pass, more}, s.first_pass = reference_pass + passes;
-    film.merge(render(*best->integrator, s, stopper).film);
+    film.merge(render(best->integrator, s, stopper).film);
     passes += more;
     const double variance = film.error(s.bounds).mse;
     if (watch.progress)
@@ -213,8 +213,8 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
   for (const Contestant& c : contestants) {
     MethodState method;
     method.plan = settings.seconds
-                      ? plan_for_time(*c.integrator, settings_for(c, settings), *settings.seconds / settings.repeats)
-                      : plan_passes(settings.samples, c.sampler);
+                      ? plan_for_time(c.integrator, settings_for(c, settings), *settings.seconds / settings.repeats)
+                      : plan_passes(c.integrator, settings.samples, c.sampler);
     state.methods.push_back(std::move(method));
   }
   return state;

@@ -17,7 +17,7 @@ namespace montelux::lab {
 struct Contestant {
   std::string label;  // "a"
   std::string text;   // as it was asked for: "direct:strategy=ris,candidates=32"
-  const PixelIntegrator* integrator = nullptr;
+  AnyIntegrator integrator;
   PointSetKind sampler = PointSetKind::blue_noise;
   std::vector<std::string> biases;
   std::optional<LayerPlan> layers{};  // that its variance is attributed to; none: the integrator has no layers

@@ -71,7 +71,7 @@ Measured measure(const TestScene& scene, const std::string& way, int samples_per
   const ChosenIntegrator chosen = scene.integrator(way);
   RenderObserver silent;
   const RenderResult result =
-      render(*chosen.integrator, scene.settings(PointSetKind::independent, {samples_per_pass, passes}, 3), silent);
+      render(chosen.any(), scene.settings(PointSetKind::independent, {samples_per_pass, passes}, 3), silent);
   const ImageEstimate image = result.film.image();
   return {image.mean[0], image.standard_error[0], result.film.non_finite()};
 }
@@ -149,7 +149,7 @@ TEST(Distribution, counts_its_rays_by_depth) {
   const TestScene scene(read_text(folder / "closed-furnace-box.pbrt"), folder.string());
   const ChosenIntegrator chosen = scene.integrator("distribution:branching=3/2,maxdepth=3");
   RenderObserver silent;
-  const RayCounts rays = render(*chosen.integrator, scene.settings(PointSetKind::independent, {1, 2}, 3), silent).rays;
+  const RayCounts rays = render(chosen.any(), scene.settings(PointSetKind::independent, {1, 2}, 3), silent).rays;
   // Nothing leaves a closed box, so the tree is complete.
   EXPECT_EQ(rays.by_depth[1], 3 * rays.by_depth[0]);
   EXPECT_EQ(rays.by_depth[2], 6 * rays.by_depth[0]);

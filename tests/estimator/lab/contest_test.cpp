@@ -50,7 +50,7 @@ ContestSettings settings(int samples, int repeats) {
 }
 
 Contestant contestant(const char* label, const PixelIntegrator& integrator) {
-  return {label, label, &integrator, PointSetKind::independent, {}};
+  return {label, label, integrator, PointSetKind::independent, {}};
 }
 
 Reference exact(float value) {

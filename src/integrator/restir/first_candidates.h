@@ -1,0 +1,161 @@
+// What a pixel finds by itself: candidates on lights by several techniques, combined by generalised balance weights.
+#pragma once
+#include "integrator/resampled_light.h"
+#include "integrator/restir/settings.h"
+#include "integrator/restir/vertex.h"
+
+namespace montelux {
+
+// The ways to draw a light.
+struct LightTechniques {
+  LightSet by_hierarchy;
+  std::optional<LightSet> by_power;  // none: not used
+
+  LightTechniques(const LightSet& lights, const RestirSettings& settings)
+      : by_hierarchy(lights.with({LightSelection::bvh})) {
+    if (settings.power_candidates > 0) by_power = lights.with({LightSelection::power});
+  }
+};
+
+// A candidate that was taken, with the point's target at the vertex.
+template <class F>
+struct Candidate {
+  LightPoint<F> point;
+  F target;
+};
+template <class F>
+MONTELUX_INLINE Candidate<F> select(Mask<F> m, const Candidate<F>& a, const Candidate<F>& b) requires(lanes_of<F> > 1) {
+  return {select(m, a.point, b.point), select(m, a.target, b.target)};
+}
+
+// The stream of one vertex's candidates. First draw_lights(), then add_hit() and add_sky() for what a direction of the
+// BSDF meets, then result().
+//
+// A point's share is its technique's number of samples times density over that of all (Veach and Guibas 1995), so its
+// resampling weight is target / sum of these products, whoever drew it. The BSDF draws only what is open to the vertex,
+// so a point on a light must have the whole of its share where something is in the way, or other pixels that see it
+// would find too little light there. The point that the lights' own techniques choose among themselves is therefore
+// asked for its visibility before it meets the BSDF's.
+template <class F, class Rays>
+class FirstCandidates {
+ public:
+  FirstCandidates(const LightTechniques& lights, const Rays& rays, const RestirSettings& settings,
+                  const ReuseVertex<F>& vertex, RayCounts& counts)
+      : lights_(lights), rays_(rays), settings_(settings), vertex_(vertex), counts_(counts) {}
+
+  void draw_lights(RandomStream<F>& stream, Mask<F> on) {
+    WeightedReservoir<Candidate<F>, F> chosen;
+    chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f);
+    Connection<F> way{};
+    F by_light = 0.0f;
+    const int all = settings_.candidates + settings_.power_candidates;
+    for (int i = 0; i < all; ++i) {
+      const bool is_power = i >= settings_.candidates;
+      // Strata of the choice: the places of one technique's candidates are spread evenly.
+      const int place = is_power ? i - settings_.candidates : i;
+      const int among = is_power ? settings_.power_candidates : settings_.candidates;
+      const F u_choice = min((stream.next() + float(place)) * (1.0f / float(among)), F(one_minus_epsilon));
+      const Vec2<F> u = stream.next2();
+      const F u_take = stream.next();
+      const LightSet& technique = is_power ? *lights_.by_power : lights_.by_hierarchy;
+      const LightChoice<F> choice = technique.choose(vertex_.p, vertex_.light_normal, u_choice, on);
+      const Mask<F> asks = on & choice.valid;
+      const LightPointDraw<F> draw =
+          lights_.by_hierarchy.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, asks);
+      const Mask<F> good = asks & draw.valid;
+      const Connection<F> to = connect(lights_.by_hierarchy, vertex_, draw.point, good);
+      const F product = draw.density.value * products_of_choice(choice, is_power, good);
+      const Mask<F> taken = chosen.add({draw.point, to.target}, weight(to, product, good), u_take);
+      way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
+      way.by_bsdf = select(taken, to.by_bsdf, way.by_bsdf);
+      by_light = select(taken, product, by_light);
+    }
+    // The share that the BSDF leaves.
+    const Mask<F> found = on & (chosen.weight_sum > F(0.0f));
+    F share = 1.0f;
+    if (settings_.bsdf_candidate || settings_.visibility_reuse) {
+      const Mask<F> open = is_open<F>(rays_, vertex_, way, found, counts_);
+      if (settings_.bsdf_candidate) share = select(open, balance_weight(by_light, way.by_bsdf), share);
+      if (settings_.visibility_reuse) share = select(open, share, F(0.0f));
+    }
+    all_.add(chosen.value, select(found, chosen.weight_sum * share, F(0.0f)), stream.next());
+    all_.value = chosen.value;
+  }
+
+  // The surface of light number `light` that the direction d of the BSDF met in `on`.
+  // `stream` belongs to this surface alone.
+  void add_hit(const SurfaceHit<F>& x, const Vec3<F>& d, const RandomStream<F>& stream, Mask<F> on) {
+    const Uint<F> light = select(on, x.light - Uint<F>(1u), Uint<F>(0u));
+    const LightHit<F> hit = lights_.by_hierarchy.template hit<F>(light, vertex_.p, vertex_.light_normal, x.point.p,
+                                                                 x.point.ng, x.point.uv, d, on);
+    const Mask<F> shines = on & !is_black(hit.radiance);
+    F product = hit.density.value * float(settings_.candidates);
+    if (lights_.by_power)
+      product =
+          product + float(settings_.power_candidates) * lights_.by_power
+                                                            ->template hit<F>(light, vertex_.p, vertex_.light_normal,
+                                                                              x.point.p, x.point.ng, x.point.uv, d, on)
+                                                            .density.value;
+    add_met(lights_.by_hierarchy.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), product,
+            stream.at(Uint<F>(0u)), shines);
+  }
+  // The lights beyond the scene, where d meets nothing.
+  void add_sky(const Vec3<F>& d, const RandomStream<F>& stream, Mask<F> on) {
+    const LightSet& lights = lights_.by_hierarchy;
+    for (int i = 0; i < lights.infinite_count() && any(on); ++i) {
+      const LightHit<F> sky = lights.template escaped<F>(i, vertex_.p, vertex_.light_normal, d, on);
+      F product = sky.density.value * float(settings_.candidates);
+      if (lights_.by_power)
+        product = product +
+                  float(settings_.power_candidates) *
+                      lights_.by_power->template escaped<F>(i, vertex_.p, vertex_.light_normal, d, on).density.value;
+      const LightPoint<F> point{d, d, sky.radiance, Uint<F>(std::uint32_t(lights.infinite_light(i))),
+                                Uint<F>(light_point::infinite)};
+      add_met(point, product, stream.at(Uint<F>(std::uint32_t(i))), on & !is_black(sky.radiance));
+    }
+  }
+
+  LightReservoir<F> result() const {
+    const F target = all_.value.target;
+    const Mask<F> found = (all_.weight_sum > F(0.0f)) & (target > F(0.0f));
+    return {all_.value.point, select(found, usable_weight<F>(all_.weight_sum / target), F(0.0f)), F(1.0f), target};
+  }
+  // Lanes where a candidate's weight was not a number.
+  Mask<F> broken() const { return broken_; }
+
+ private:
+  void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
+    if (!any(on)) return;
+    const Connection<F> to = connect(lights_.by_hierarchy, vertex_, point, on);
+    all_.add({point, to.target}, weight(to, product + to.by_bsdf, on), u);
+  }
+  // Numbers of samples times probabilities of the choice, over the lights' techniques.
+  F products_of_choice(const LightChoice<F>& choice, bool is_power, Mask<F> on) const {
+    const auto mass = [&](const LightSet& technique, bool is_own) {
+      return is_own ? choice.mass.value
+                    : technique.choice_mass(choice.light, vertex_.p, vertex_.light_normal, on).value;
+    };
+    F sum = 0.0f;
+    if (settings_.candidates > 0) sum = float(settings_.candidates) * mass(lights_.by_hierarchy, !is_power);
+    if (lights_.by_power) sum = sum + float(settings_.power_candidates) * mass(*lights_.by_power, is_power);
+    return sum;
+  }
+  // target / (sum of products), both in the point's own measure.
+  F weight(const Connection<F>& to, F products, Mask<F> on) {
+    const Mask<F> counts = on & (to.target > F(0.0f));
+    const F w = to.target / (products * to.geometry);
+    const Mask<F> unbroken = is_finite(average(to.value)) & is_finite(w);
+    broken_ = broken_ | (on & !is_finite(average(to.value))) | (counts & !unbroken);
+    return select(counts, usable_weight(w), F(0.0f));
+  }
+
+  const LightTechniques& lights_;
+  const Rays& rays_;
+  const RestirSettings& settings_;
+  const ReuseVertex<F>& vertex_;
+  RayCounts& counts_;
+  WeightedReservoir<Candidate<F>, F> all_;
+  Mask<F> broken_ = Mask<F>(false);
+};
+
+}  // namespace montelux

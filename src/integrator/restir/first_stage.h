@@ -1,0 +1,194 @@
+// The first stage of a frame: every pixel's path to its first rough surface, what it finds there by itself, and the
+// rest of the path, whose light is not reused.
+#pragma once
+#include "integrator/path/first_hits.h"
+#include "integrator/path/loop.h"
+#include "integrator/restir/continuations.h"
+#include "integrator/restir/first_candidates.h"
+
+namespace montelux {
+
+// All that the stages of a chain share and never change.
+template <class Rays>
+struct RestirScene {
+  const Scene& scene;
+  const LightTechniques& lights;
+  const Rays& rays;
+  const RestirSettings& settings;
+  bool has_interfaces;
+};
+
+// Streams of one pixel in one frame, told apart.
+namespace restir_stream {
+inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
+inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, spatial = 5;
+}  // namespace restir_stream
+
+// keep(vertex, reservoir, slot, mask): the lanes' pixels have these. Pixels that are not kept have no vertex.
+template <class F, class Rays, class Keep>
+class FirstStage {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  FirstStage(const RestirScene<Rays>& shared, const TilePass& pass, std::span<PixelSample> out, Keep& keep)
+      : shared_(shared), pass_(pass), out_(out), keep_(keep) {
+    const auto depth = shared.settings.path.max_depth;
+    max_depth_ = U(depth ? std::uint32_t(*depth) : 0x7fffffffu);
+  }
+
+  // Fills `out` with all light but what the vertices' reservoirs bring.
+  RayCounts run() {
+    FirstHits<F> first_hits(shared_.scene, shared_.rays, pass_, out_);
+    counts_.camera = first_hits.rays();
+    PathState<F> path{};
+    for (M on(false);;) {
+      on = first_hits.refill(path, on);
+      if (!any(on)) break;
+      on = step(path, on);
+    }
+    std::vector<PixelSample> results(continuations_.count());
+    counts_ += run_paths<F>(shared_.scene, shared_.lights.by_hierarchy, shared_.rays, shared_.settings.path, pass_,
+                            std::span(results), continuations_, no_tally);
+    continuations_.add_results(results, out_);
+    return counts_;
+  }
+
+ private:
+  using Candidates = FirstCandidates<F, Rays>;
+
+  // One vertex of every path; gives the lanes that go on to another.
+  M step(PathState<F>& path, M on) {
+    const Scene& scene = shared_.scene;
+    const SurfaceHit<F> x = surface<F>(scene.geometry, path.o, path.d, path.hit, on);
+    if (const M emits = on & (x.light != U(0u)); any(emits)) {
+      const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
+                                                                      x.point.uv, path.d, emits);
+      path.radiance += select(emits, path.throughput * light, gray(F(0.0f)));
+    }
+    M scatters = on & (path.depth < max_depth_);
+    const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
+    const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
+    const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
+    const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own)};
+    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
+    const M passes = scatters & bsdf.is_interface;
+    scatters = scatters & !bsdf.is_interface;
+    const M rough = scatters & !bsdf.is_delta;
+    const Vec3<F> wo = bsdf.frame.to_local(-path.d);
+    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
+    const BsdfSample<F> next = sample<F>(bsdf.lanes(scatters), wo,
+                                         Vec3<F>{sampler.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, context);
+    if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
+      record_features(path, x.point, select(next.valid & scatters, next.weight, gray(F(0.0f))), x.object, first, out_);
+
+    // The vertex whose light is reused.
+    const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
+    const ReuseVertex<F> vertex = vertex_at(path, x, bsdf, wo, numbers);
+    Candidates candidates(shared_.lights, shared_.rays, shared_.settings, vertex, counts_);
+    if (any(rough)) {
+      RandomStream<F> stream = numbers.fork(U(restir_stream::lights));
+      candidates.draw_lights(stream, rough);
+    }
+
+    // Scatter; roulette.
+    M goes_on = scatters & next.valid;
+    const M broken = goes_on & !is_finite(max_component(next.weight));
+    if (any(broken)) path.radiance += select(broken, path.throughput * next.weight, gray(F(0.0f)));
+    goes_on = goes_on & !broken;
+    path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(goes_on, U(1u), U(0u));
+    const M plays = goes_on & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth)));
+    const Roulette<F> survival = roulette(select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
+                                          sampler.get1(dimension + U(path_dimension::roulette)));
+    const M lives = goes_on & survival.survives;
+    path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
+    const M offers = rough & goes_on & !next.delta & M(shared_.settings.bsdf_candidate);
+    const Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
+    path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
+    path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
+    path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
+    path.crossings = path.crossings + select(passes, U(1u), U(0u));
+    const M moves = passes | lives | offers;
+    counts_.scattered += std::uint64_t(count(moves));
+    const auto [found, hit] = shared_.rays.template trace<F>({path.o, path.d, F(ray_infinity)}, moves);
+    path.hit = hit;
+
+    // What the direction of the BSDF met joins the candidates; what lies behind is the path's own.
+    if (any(offers)) offer(candidates, path, offers & found, offers & !found, numbers.fork(U(restir_stream::met)));
+    if (any(rough)) keep(path, vertex, candidates, rough);
+    const M counts_next = lives & next.delta;
+    const M left = (moves & !found) & (passes | (lives & !rough) | counts_next);
+    if (any(left))
+      path.radiance +=
+          select(left, path.throughput * scene.lights.template escaped_radiance<F>(path.d, left), gray(F(0.0f)));
+    const M continues = rough & lives & found & (counts_next | (path.depth < max_depth_));
+    if (any(continues)) hand_over(path, continues, counts_next);
+
+    const M ended = on & (rough | !found | !moves);
+    const Spectrum<F> radiance = path.radiance * path.weight;
+    for_each_lane(ended, [&](int k) { out_[lane(path.slot, k)].radiance = lane(radiance, k); });
+    return on & !ended;
+  }
+
+  ReuseVertex<F> vertex_at(const PathState<F>& path, const SurfaceHit<F>& x, const SurfaceScattering<F>& bsdf,
+                           const Vec3<F>& wo, const RandomStream<F>& numbers) const {
+    return {x.point.p,
+            x.point.p_error,
+            x.point.ng,
+            wo,
+            bsdf.slots,
+            bsdf.kind,
+            bsdf.frame,
+            bsdf.light_normal,
+            numbers.fork(U(restir_stream::bsdf)),
+            path.throughput * path.weight,
+            length(x.point.p - path.p),
+            U(1u)};
+  }
+
+  // The rest of a path takes its light from the next vertex on, in a state of its own.
+  void hand_over(const PathState<F>& path, M on, M counts) {
+    PathState<F> rest = path;
+    rest.radiance = gray(F(0.0f));
+    continuations_.add(rest, on, counts);
+  }
+
+  // The emitters along the direction of the BSDF, through interfaces.
+  void offer(Candidates& candidates, const PathState<F>& path, M found, M left, const RandomStream<F>& numbers) {
+    Hit<F> hit = path.hit;
+    Vec3<F> o = path.o;
+    for (std::uint32_t crossing = 0;; ++crossing) {
+      const RandomStream<F> stream = numbers.fork(U(2 * crossing)), sky = numbers.fork(U(2 * crossing + 1));
+      if (any(left)) candidates.add_sky(path.d, sky, left);
+      if (!any(found)) return;
+      const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, o, path.d, hit, found);
+      if (const M emits = found & (x.light != U(0u)); any(emits)) candidates.add_hit(x, path.d, stream, emits);
+      if (!shared_.has_interfaces) return;
+      const SurfaceScattering<F> bsdf =
+          shared_.scene.materials.template scattering<F>(x, path.d, found, stream.fork(U(1u)));
+      const M passes = found & bsdf.is_interface;
+      if (!any(passes)) return;
+      o = select(passes, offset_origin(x.point.p, x.point.p_error, x.point.ng, path.d), o);
+      counts_.scattered += std::uint64_t(count(passes));
+      const auto [further, next] = shared_.rays.template trace<F>({o, path.d, F(ray_infinity)}, passes);
+      hit = next, found = passes & further, left = passes & !further;
+    }
+  }
+
+  void keep(PathState<F>& path, const ReuseVertex<F>& vertex, const Candidates& candidates, M rough) {
+    const M broken = rough & candidates.broken();
+    if (any(broken)) path.radiance += select(broken, gray(F(std::numeric_limits<float>::quiet_NaN())), gray(F(0.0f)));
+    keep_(vertex, candidates.result(), path.slot, rough);
+  }
+
+  const RestirScene<Rays>& shared_;
+  const TilePass& pass_;
+  std::span<PixelSample> out_;
+  Keep& keep_;
+  U max_depth_;
+  Continuations<F> continuations_;
+  RayCounts counts_;
+};
+
+}  // namespace montelux

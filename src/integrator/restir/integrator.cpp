@@ -1,0 +1,25 @@
+#include "integrator/restir/integrator.h"
+
+#include "integrator/restir/direct_chain.h"
+
+namespace montelux {
+
+RestirDirect::RestirDirect(const Scene& scene, const Accel& accel, const RestirSettings& settings)
+    : scene_(scene),
+      accel_(accel),
+      settings_(settings),
+      lights_(std::make_unique<LightTechniques>(scene.lights, settings)) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    has_interfaces_ = has_interfaces_ || scene.materials[i].is_interface;
+}
+RestirDirect::~RestirDirect() = default;
+
+int RestirDirect::stages() const { return DirectChain<float, Accel>::stages(settings_); }
+
+std::unique_ptr<Chain> RestirDirect::begin(const ChainPass& pass) const {
+  const RestirScene<Accel> shared{scene_, *lights_, accel_, settings_, has_interfaces_};
+  if (settings_.path.lanes == Lanes::one) return std::make_unique<DirectChain<float, Accel>>(shared, pass);
+  return std::make_unique<DirectChain<NativeFloats, Accel>>(shared, pass);
+}
+
+}  // namespace montelux

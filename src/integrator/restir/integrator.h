@@ -1,0 +1,31 @@
+// Spatiotemporal resampling of direct light by reservoirs (Bitterli et al. 2020), as an offline estimator: chains of
+// frames are independent, so their spread is an honest error bar. docs/reuse.md has the method.
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/restir/settings.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+struct LightTechniques;
+
+class RestirDirect final : public CoupledIntegrator {
+ public:
+  // Scene and accel must outlive the integrator, and the integrator its chains.
+  RestirDirect(const Scene& scene, const Accel& accel, const RestirSettings& settings);
+  ~RestirDirect() override;
+  int frames() const override { return settings_.chain; }
+  int warm_up() const override { return settings_.warm_up; }
+  int stages() const override;
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  RestirSettings settings_;
+  std::unique_ptr<const LightTechniques> lights_;
+  bool has_interfaces_ = false;
+};
+
+}  // namespace montelux

@@ -1,0 +1,57 @@
+#include "integrator/restir/settings.h"
+
+#include <algorithm>
+
+namespace montelux {
+
+EntitySpec restir_di_spec() {
+  using enum ParameterType;
+  constexpr int most = 4096;
+  return {"restir-di",
+          "path tracing whose direct light at the first rough surface is resampled over pixels and frames (ReSTIR DI)",
+          {{"candidates", {integer}, "first candidates by the light hierarchy; default 8", 0, most},
+           {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
+           {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
+           {"neighbours", {integer}, "pixels that a pixel learns from in each round; default 5", 0, 16},
+           {"radius", {number}, "how far they are at most, in pixels; default 30", 0.5, most},
+           {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
+           {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
+           {"temporal", {boolean}, "learn from the frame before; default on"},
+           {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
+           {"weights",
+            {string},
+            "how reservoirs share; naive is biased; default pairwise",
+            0,
+            0,
+            {"naive", "unbiased", "pairwise", "generalised"}},
+           {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default off"},
+           {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
+           {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
+           {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
+           {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}}};
+}
+
+Result<RestirSettings> restir_di_settings(const ParameterList& list, std::optional<int> max_depth) {
+  RestirSettings s;
+  s.candidates = list.integer("candidates", s.candidates);
+  s.power_candidates = list.integer("power-candidates", s.power_candidates);
+  s.bsdf_candidate = list.boolean("bsdf", s.bsdf_candidate);
+  s.neighbours = list.integer("neighbours", s.neighbours);
+  s.radius = list.number("radius", s.radius);
+  s.rounds = list.integer("rounds", s.rounds);
+  s.similar = list.boolean("similar", s.similar);
+  s.temporal = list.boolean("temporal", s.temporal);
+  s.m_cap = list.number("m-cap", s.m_cap);
+  s.weights = *reuse_weights_named(list.string("weights", "pairwise"));
+  s.visibility_reuse = list.boolean("visibility-reuse", s.visibility_reuse);
+  s.chain = list.integer("chain", s.chain);
+  s.warm_up = list.integer("warm-up", s.warm_up);
+  s.path.max_depth = max_depth;
+  s.path.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
+  // A direction of the BSDF alone finds no light that is a delta, and would wait for the others.
+  if (s.candidates + s.power_candidates == 0)
+    return Failure{"restir-di needs candidates on lights: candidates or power-candidates must be at least 1"};
+  return s;
+}
+
+}  // namespace montelux

@@ -1,0 +1,68 @@
+// What one pixel hands to another: the surface point at which light is asked for, and a point of a light that was
+// found.
+#pragma once
+#include "integrator/arrival.h"
+#include "integrator/path/path_state.h"
+#include "mc/reuse.h"
+
+namespace montelux {
+
+// The first surface of a pixel's path that scatters in more than single directions, with all that is needed to ask
+// again how it scatters. Made of 32-bit words alone, so that pixels can be gathered into lanes.
+template <class F>
+struct ReuseVertex {
+  Vec3<F> p, p_error, ng;
+  Vec3<F> wo;  // local
+  BsdfSlots<F> slots;
+  Uint<F> kind;  // of BsdfKind
+  Frame<F> frame;
+  Vec3<F> light_normal;    // as SurfaceScattering has it
+  RandomStream<F> random;  // of the BSDF: the same numbers whoever asks, so that the BSDF is one function
+  Spectrum<F> throughput;  // of the path so far, with the weights of camera and filter
+  F depth;                 // distance from the vertex before it, or the camera
+  Uint<F> exists;          // 1, or 0: the path ended before
+
+  // f |cos| toward a direction of the world, and its density.
+  BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const {
+    const BsdfContext<F> context{TransportMode::radiance, random, on};
+    return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
+  }
+};
+
+template <class F>
+using LightReservoir = Reservoir<LightPoint<F>, F>;
+
+// A point of a light, joined to a vertex.
+template <class F>
+struct Connection {
+  Vec3<F> wi;
+  F distance;
+  Spectrum<F> value;  // what the vertex sends on if nothing is in the way, per unit of the light point's measure
+  F target;           // the mean of its components
+  F geometry;         // as LightPointView has it
+  F by_bsdf;          // density of BSDF sampling for wi, solid angle; 0 for a light that is a delta
+};
+
+template <class F>
+Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, const LightPoint<F>& point, Mask<F> on) {
+  const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
+  const Mask<F> asks = on & view.valid;
+  const BsdfValue<F> scattered = vertex.scattered(view.wi, asks);
+  const Spectrum<F> value = select(asks, scattered.f_cos * view.radiance * view.geometry, gray(F(0.0f)));
+  const Mask<F> met = asks & (point.sort != Uint<F>(light_point::delta));
+  return {view.wi,       view.distance,
+          value,         usable_weight(average(value)),
+          view.geometry, select(met, scattered.density.value, F(0.0f))};
+}
+
+// Where nothing is in the way.
+template <class F, class Rays>
+Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection<F>& to, Mask<F> on,
+                RayCounts& counts) {
+  if (!any(on)) return on;
+  counts.shadow += std::uint64_t(count(on));
+  const Vec3<F> o = offset_origin(vertex.p, vertex.p_error, vertex.ng, to.wi);
+  return on & !rays.template occluded<F>({o, to.wi, to.distance * (1.0f - shadow_shortening)}, on);
+}
+
+}  // namespace montelux

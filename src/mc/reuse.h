@@ -1,0 +1,201 @@
+// Reuse of resampled samples between domains: what one domain has found serves the integral over another (Bitterli et
+// al. 2020, "Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting"; Lin et al.
+// 2022, "Generalized Resampled Importance Sampling").
+//
+// A reservoir holds one sample y and a weight W with E[h(y) W] = integral of h, for every h that is 0 where the target
+// of its domain is. Whatever combines such reservoirs to another one with the same property is unbiased, whether or not
+// they depend on each other: expectations are linear.
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "mc/mis.h"
+#include "mc/resampling.h"
+
+namespace montelux {
+
+// `weight` is the unbiased contribution weight W, `target` the domain's own target at `value`. The confidence says how
+// much the sample counts beside others: any number that does not depend on the samples' values. 0: there is no
+// reservoir; a reservoir that is there and found nothing has weight 0 and its confidence.
+template <class T, class F>
+struct Reservoir {
+  T value;
+  F weight, confidence, target;
+};
+
+// How the samples of several domains share the integral over the first.
+enum class ReuseWeights : std::uint8_t { naive, unbiased, pairwise, generalised };
+
+struct NamedReuseWeights {
+  std::string_view name;
+  ReuseWeights weights;
+  std::string_view description;
+};
+inline constexpr std::array<NamedReuseWeights, 4> reuse_weight_names{{
+    {"naive", ReuseWeights::naive, "by confidence, as if every domain could make every sample: biased"},
+    {"unbiased", ReuseWeights::unbiased, "by confidence, among the domains that could have made the chosen sample"},
+    {"pairwise", ReuseWeights::pairwise, "balance heuristic between the first domain and each other one in turn"},
+    {"generalised", ReuseWeights::generalised, "balance heuristic over the targets of all domains"},
+}};
+
+inline std::optional<ReuseWeights> reuse_weights_named(std::string_view name) {
+  for (const NamedReuseWeights& entry : reuse_weight_names)
+    if (entry.name == name) return entry.weights;
+  return std::nullopt;
+}
+
+// A sample of another domain as the first domain sees it.
+template <class T, class F>
+struct Shifted {
+  T value;     // its image
+  F jacobian;  // of the map there: image over preimage
+  F target;    // of the first domain at the image; 0 where there is none
+};
+
+// What a combination asks of the domains, of which number 0 is the one that the result is for:
+//   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`
+//   F target_at(int to, const T& value, Mask<F> on)             of domain `to` at the preimage there of a value of
+//                                                               domain 0, times the Jacobian preimage over image
+// where each map is one to one on the samples for which its targets are not 0.
+template <class D, class T, class F>
+concept ReuseDomains = requires(const D& domains, const T& value, Mask<F> on) {
+  { domains.shift(1, value, on) } -> std::same_as<Shifted<T, F>>;
+  { domains.target_at(1, value, on) } -> std::same_as<F>;
+};
+
+// Resampling weights above this count as non-finite: their sums would leave the range of a float.
+inline constexpr float largest_reuse_weight = 1e36f;
+
+template <class F>
+MONTELUX_INLINE F usable_weight(F w) {
+  return select((w > F(0.0f)) & (w < F(largest_reuse_weight)), w, F(0.0f));
+}
+
+// The weights of multiple importance sampling of one combination; `inputs` are the reservoirs of the domains.
+template <class T, class F, class Domains>
+class ReuseShares {
+ public:
+  ReuseShares(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains)
+      : weights_(weights), inputs_(inputs), domains_(domains) {
+    others_ = F(0.0f);
+    for (std::size_t i = 1; i < inputs.size(); ++i) others_ = others_ + inputs[i].confidence;
+    all_ = others_ + inputs[0].confidence;
+  }
+  F all() const { return all_; }
+
+  // Of domain i > 0 at the image y of its sample, where `own` is its own target there and `first` that of domain 0, in
+  // the measure of domain 0.
+  F share(std::size_t i, const T& y, F own, F first, Mask<F> on) const {
+    const F c = inputs_[i].confidence;
+    switch (weights_) {
+      case ReuseWeights::naive:
+      case ReuseWeights::unbiased:
+        return c;
+      // Lin et al. 2022, eq. 38, with confidences.
+      case ReuseWeights::pairwise:
+        return c / all_ * balance_weight(F(others_ * own), F(inputs_[0].confidence * first));
+      case ReuseWeights::generalised:
+        break;
+    }
+    return balance_weight(F(c * own), inputs_[0].confidence * first + others_at(y, i, on));
+  }
+  // Of domain 0 at its own sample.
+  F share_of_first(Mask<F> on) const {
+    const Reservoir<T, F>& own = inputs_[0];
+    switch (weights_) {
+      case ReuseWeights::naive:
+      case ReuseWeights::unbiased:
+        return own.confidence;
+      case ReuseWeights::generalised:
+        return balance_weight(F(own.confidence * own.target), others_at(own.value, 0, on));
+      case ReuseWeights::pairwise:
+        break;
+    }
+    F sum = own.confidence;
+    for (std::size_t i = 1; i < inputs_.size(); ++i) {
+      const Mask<F> there = on & (inputs_[i].confidence > F(0.0f));
+      const F other = target_at(i, own.value, there);
+      sum = sum + select(there,
+                         inputs_[i].confidence * balance_weight(F(own.confidence * own.target), F(others_ * other)),
+                         F(0.0f));
+    }
+    return sum / all_;
+  }
+  // By what the sum of all weights is divided once y is chosen out of domain `from` (0: of the first itself).
+  F normalisation(const T& y, F target, Uint<F> from, Mask<F> on) const {
+    if (weights_ == ReuseWeights::naive) return all_;
+    if (weights_ != ReuseWeights::unbiased) return F(1.0f);
+    F could = select(target > F(0.0f), inputs_[0].confidence, F(0.0f));
+    for (std::size_t i = 1; i < inputs_.size(); ++i) {
+      const Mask<F> made = from == Uint<F>(std::uint32_t(i));
+      const Mask<F> asks = on & (inputs_[i].confidence > F(0.0f)) & !made;
+      const Mask<F> can = made | (target_at(i, y, asks) > F(0.0f));
+      could = could + select(can, inputs_[i].confidence, F(0.0f));
+    }
+    return could;
+  }
+
+ private:
+  F target_at(std::size_t i, const T& y, Mask<F> on) const {
+    return any(on) ? select(on, domains_.target_at(int(i), y, on), F(0.0f)) : F(0.0f);
+  }
+  // Confidence times target, summed over the domains but the first and `left_out`.
+  F others_at(const T& y, std::size_t left_out, Mask<F> on) const {
+    F sum = 0.0f;
+    for (std::size_t j = 1; j < inputs_.size(); ++j) {
+      if (j == left_out) continue;
+      const Mask<F> there = on & (inputs_[j].confidence > F(0.0f));
+      sum = sum + select(there, inputs_[j].confidence * target_at(j, y, there), F(0.0f));
+    }
+    return sum;
+  }
+
+  ReuseWeights weights_;
+  std::span<const Reservoir<T, F>> inputs_;
+  const Domains& domains_;
+  F others_, all_;
+};
+
+// One reservoir for the first domain out of those of all. T as for WeightedReservoir. Lanes that are off come back as
+// the first reservoir.
+template <class T, class F, class Domains>
+Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains,
+                        RandomStream<F>& stream, Mask<F> on) requires ReuseDomains<Domains, T, F> {
+  const ReuseShares<T, F, Domains> shares(weights, inputs, domains);
+  const Reservoir<T, F>& first = inputs[0];
+  WeightedReservoir<T, F> chosen;
+  chosen.value = first.value;
+  F target = first.target;
+  Uint<F> from = Uint<F>(0u);
+  const Mask<F> own = on & (first.weight > F(0.0f)) & (first.confidence > F(0.0f));
+  chosen.add(first.value,
+             select(own, usable_weight<F>(shares.share_of_first(own) * first.target * first.weight), F(0.0f)),
+             stream.next());
+  for (std::size_t i = 1; i < inputs.size(); ++i) {
+    const F u = stream.next();
+    const Mask<F> live = on & (inputs[i].weight > F(0.0f)) & (inputs[i].confidence > F(0.0f));
+    if (!any(live)) continue;
+    const Shifted<T, F> image = domains.shift(int(i), inputs[i].value, live);
+    const Mask<F> counts = live & (image.target > F(0.0f)) & (image.jacobian > F(0.0f));
+    const F own_target = inputs[i].target / image.jacobian;
+    const F w = shares.share(i, image.value, own_target, image.target, counts) * image.target * inputs[i].weight *
+                image.jacobian;
+    const Mask<F> taken = chosen.add(image.value, select(counts, usable_weight<F>(w), F(0.0f)), u);
+    target = select(taken, image.target, target);
+    from = select(taken, Uint<F>(std::uint32_t(i)), from);
+  }
+  const Mask<F> found = on & (chosen.weight_sum > F(0.0f));
+  const F divisor = shares.normalisation(chosen.value, target, from, found) * target;
+  Reservoir<T, F> result{chosen.value, F(0.0f), shares.all(), target};
+  result.weight = select(found & (divisor > F(0.0f)), usable_weight<F>(chosen.weight_sum / divisor), F(0.0f));
+  if constexpr (lanes_of<F> == 1) {
+    return on ? result : first;
+  } else {
+    return {select(on, result.value, first.value), select(on, result.weight, first.weight),
+            select(on, result.confidence, first.confidence), select(on, result.target, first.target)};
+  }
+}
+
+}  // namespace montelux

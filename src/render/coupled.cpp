@@ -1,0 +1,200 @@
+#include "render/coupled.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "render/float_mode.h"
+
+namespace montelux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int tile_side = 16;
+
+struct ChainTile {
+  PixelBounds bounds;
+  std::vector<PassMean> means;  // of the chain at hand
+};
+
+std::vector<ChainTile> cut_into_tiles(const PixelBounds& b) {
+  std::vector<ChainTile> tiles;
+  for (int y = b.y0; y < b.y1; y += tile_side)
+    for (int x = b.x0; x < b.x1; x += tile_side) {
+      const PixelBounds tile{x, y, std::min(x + tile_side, b.x1), std::min(y + tile_side, b.y1)};
+      tiles.push_back({tile, std::vector<PassMean>(std::size_t(tile.area()))});
+    }
+  return tiles;
+}
+
+// The shared state of one render. Threads take the tiles of one step, and who has done the last of them moves the chain
+// on to its next step while the others wait.
+class ChainJob {
+ public:
+  ChainJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
+      : integrator_(integrator),
+        settings_(settings),
+        frames_(integrator.warm_up() + settings.plan.samples_per_pass),
+        film_(settings.bounds),
+        tiles_(cut_into_tiles(settings.bounds)) {
+    if (settings.plan.passes > 0) begin_chain();
+  }
+
+  // True if the observer stopped the work before it was done.
+  bool watch(int threads, RenderObserver& observer) {
+    running_ = threads;
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
+    bool interrupted = false;
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, poll_interval(), [this] { return running_ == 0; })) {
+      if (observer.stop_requested()) stop_ = interrupted = true;
+      if (settings_.seconds && seconds_since(start_) >= *settings_.seconds) stop_ = true;
+      const Progress now = progress(false);
+      lock.unlock();
+      observer.progress(now);
+      lock.lock();
+    }
+    const Progress last = progress(true);
+    lock.unlock();
+    pool.clear();
+    if (failure_) std::rethrow_exception(failure_);
+    observer.progress(last);
+    return interrupted && pass_ < settings_.plan.passes;
+  }
+
+  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, seconds_since(start_), interrupted}; }
+
+ private:
+  void work() {
+    FlushDenormals flush;
+    RayCounts rays;
+    std::vector<PixelSample> samples;
+    std::unique_lock lock(mutex_);
+    try {
+      while (!over_) {
+        if (next_tile_ == tiles_.size()) {
+          changed_.wait(lock);
+          continue;
+        }
+        ChainTile& tile = tiles_[next_tile_++];
+        lock.unlock();
+        rays += do_tile(tile, samples);
+        lock.lock();
+        if (++tiles_done_ == tiles_.size()) finish_step();
+      }
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      if (!failure_) failure_ = std::current_exception();
+      over_ = true;
+    }
+    rays_ += rays;
+    --running_;
+    changed_.notify_all();
+  }
+
+  bool is_shown(int frame) const { return frame >= integrator_.warm_up(); }
+
+  // A tile belongs to one thread at a time, and the film's tiles to whom the tile belongs.
+  RayCounts do_tile(ChainTile& tile, std::vector<PixelSample>& samples) {
+    samples.assign(std::size_t(tile.bounds.area()), {});
+    const RayCounts rays = chain_->run(step_, tile.bounds, samples);
+    if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
+    film_.add_samples(tile.bounds, samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) tile.means[i].add(samples[i].radiance);
+    return rays;
+  }
+
+  // With the mutex held, when all tiles of a step are done.
+  void finish_step() {
+    if (++step_.stage == integrator_.stages()) {
+      step_.stage = 0;
+      if (is_shown(step_.frame)) ++shown_frames_;
+      ++step_.frame;
+      const bool stops = stop_;
+      if (step_.frame == frames_ || (stops && chain_counts())) end_chain();
+      if (stops || pass_ == settings_.plan.passes) over_ = true;
+    }
+    next_tile_ = tiles_done_ = 0;
+    changed_.notify_all();
+  }
+
+  // Whether a chain that is broken off is a pass: much shorter ones would only add noise.
+  bool chain_counts() const {
+    const int shown = step_.frame - integrator_.warm_up();
+    return shown > 0 && (pass_ == 0 || 2 * shown >= settings_.plan.samples_per_pass);
+  }
+
+  void begin_chain() {
+    chain_ =
+        integrator_.begin({settings_.bounds,
+                           {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass_),
+                            std::uint32_t(frames_), std::uint32_t(settings_.width), std::uint32_t(settings_.height)}});
+    step_ = {};
+    for (ChainTile& tile : tiles_) std::fill(tile.means.begin(), tile.means.end(), PassMean{});
+  }
+  void end_chain() {
+    for (const ChainTile& tile : tiles_) film_.add_pass_means(tile.bounds, pass_, tile.means);
+    ++pass_;
+    if (pass_ < settings_.plan.passes && !stop_) begin_chain();
+  }
+
+  // With the mutex held; the film's errors as of the last chain.
+  Progress progress(bool finished) {
+    Progress p;
+    p.elapsed = seconds_since(start_), p.finished = finished;
+    const double frames = double(pass_) * frames_ + (finished ? 0 : step_.frame);
+    p.fraction = frames / (double(settings_.plan.passes) * frames_);
+    if (settings_.seconds) p.fraction = std::max(p.fraction, p.elapsed / *settings_.seconds);
+    p.fraction = std::min(p.fraction, 1.0);
+    p.remaining = p.fraction > 0 ? p.elapsed * (1 - p.fraction) / p.fraction : 0;
+    p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
+    // Tiles only add to the feature layers between the ends of chains.
+    p.error = film_.error(settings_.bounds);
+    return p;
+  }
+
+  std::chrono::milliseconds poll_interval() const {
+    return std::chrono::milliseconds(seconds_since(start_) < 0.5 ? 20 : 200);
+  }
+
+  const CoupledIntegrator& integrator_;
+  const RenderSettings& settings_;
+  const int frames_;  // of a chain, those of the warm-up included
+  const Clock::time_point start_ = Clock::now();
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;  // guards what follows, save what a tile's owner writes
+  std::condition_variable changed_;
+  Film film_;
+  std::vector<ChainTile> tiles_;
+  std::unique_ptr<Chain> chain_;
+  ChainStep step_;
+  std::size_t next_tile_ = 0, tiles_done_ = 0;
+  int pass_ = 0;  // chains that are in the film
+  std::uint64_t shown_frames_ = 0;
+  bool over_ = false;
+  int running_ = 0;
+  RayCounts rays_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+RenderResult render_chains(const CoupledIntegrator& integrator, const RenderSettings& settings,
+                           RenderObserver& observer) {
+  const int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  ChainJob job(integrator, settings);
+  const bool interrupted = job.watch(threads, observer);
+  return job.take_result(interrupted);
+}
+
+}  // namespace montelux
