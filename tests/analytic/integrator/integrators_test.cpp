@@ -60,7 +60,11 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "path:roulette=fixed:0.4,roulette-depth=0",
                                          "path:light-selection=ris:5",
                                          "path:light-selection=ris:3,mis=off",
-                                         "tracepath:p-emit=0.5,roulette-depth=0"};
+                                         "tracepath:p-emit=0.5,roulette-depth=0",
+                                         "restir-di:radius=3",
+                                         "restir-di:weights=unbiased,rounds=2,radius=2,power-candidates=2",
+                                         "restir-di:weights=generalised,visibility-reuse=on,candidates=2,radius=2",
+                                         "restir-di:bsdf=off,temporal=off,neighbours=2,radius=2"};
 
 struct Measured {
   double mean = 0, standard_error = 0;

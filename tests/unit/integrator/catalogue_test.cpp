@@ -45,6 +45,22 @@ TEST(IntegratorCatalogue, says_how_lights_can_be_chosen) {
   EXPECT_NE(failure_of(scene, "path:light-selection=ris:8,nee=off").find("nee must be on"), std::string::npos);
 }
 
+TEST(IntegratorCatalogue, says_what_reuse_takes) {
+  const TestScene scene(room);
+  EXPECT_EQ(failure_of(scene,
+                       "restir-di:candidates=32,neighbours=5,radius=30,rounds=1,temporal=on,m-cap=20,"
+                       "weights=pairwise,visibility-reuse=off,chain=16"),
+            "");
+  EXPECT_NE(failure_of(scene, "restir-di:weights=biased").find("naive, unbiased, pairwise"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:neighbors=3").find("did you mean \"neighbours\""), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:neighbours=99"), "");
+  EXPECT_NE(failure_of(scene, "restir-di:chain=0"), "");
+  EXPECT_NE(failure_of(scene, "restir-di:candidates=0").find("must be at least 1"), std::string::npos);
+  EXPECT_TRUE(scene.integrator("restir-di").biases.empty());
+  EXPECT_EQ(scene.integrator("restir-di:weights=naive").biases, std::vector<std::string>{"weights=naive"});
+  EXPECT_TRUE(scene.integrator("restir-di:weights=naive,temporal=off,rounds=0").biases.empty());
+}
+
 TEST(IntegratorCatalogue, refuses_a_tree_that_never_ends) {
   const TestScene scene(room);
   EXPECT_NE(failure_of(scene, "distribution:branching=4/2").find("never ends"), std::string::npos);

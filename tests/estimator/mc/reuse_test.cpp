@@ -1,0 +1,204 @@
+// Reservoirs that are handed between domains: the mean is right by every unbiased way to share, and off by naive shares
+// by what theory says.
+#include "mc/reuse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "statistics.h"
+
+namespace montelux::test {
+namespace {
+
+// The integral of f over [0, 1], asked by domain 0. Domain 1 cannot make samples below 0.3; domain 2 counts its samples
+// in the square of x, and cannot make any above 0.8.
+template <class F>
+struct Intervals {
+  static F target(int domain, F own) {
+    if (domain == 0) return select(own < F(0.9f), own + 0.5f, F(0.0f));
+    if (domain == 1) return select(own > F(0.3f), 2.0f * own, F(0.0f));
+    return select(own < F(0.64f), F(1.5f) - own, F(0.0f));
+  }
+  Shifted<F, F> shift(int from, const F& value, Mask<F>) const {
+    if (from == 1) return {value, F(1.0f), target(0, value)};
+    const F x = sqrt(value);
+    return {x, F(0.5f) / max(x, F(1e-6f)), target(0, x)};
+  }
+  F target_at(int to, const F& x, Mask<F>) const { return to == 2 ? target(2, x * x) * 2.0f * x : target(to, x); }
+};
+template <class F>
+F integrand(F x) {
+  return select(x < F(0.9f), x * x + 0.2f, F(0.0f));
+}
+double antiderivative(double x) { return x * x * x / 3 + 0.2 * x; }
+double between(double a, double b) { return antiderivative(b) - antiderivative(a); }
+const double truth = between(0, 0.9);
+constexpr float confidences[3] = {1, 2, 4};
+// Each domain has its part by its share of the confidence, wherever it can make samples.
+const double naive_mean = (1 * truth + 2 * between(0.3, 0.9) + 4 * between(0, 0.8)) / 7;
+
+// A reservoir of few candidates, uniform in the domain's own measure.
+template <class F>
+Reservoir<F, F> first_reservoir(int domain, RandomStream<F>& stream) {
+  constexpr int candidates = 3;
+  WeightedReservoir<F, F> chosen;
+  for (int i = 0; i < candidates; ++i) {
+    const F x = stream.next(), u = stream.next();
+    chosen.add(x, Intervals<F>::target(domain, x) * (1.0f / candidates), u);
+  }
+  const F target = Intervals<F>::target(domain, chosen.value);
+  return {chosen.value, resampling_weight(chosen.weight_sum, F(1.0f), target), F(confidences[domain]), target};
+}
+
+template <class F>
+F realisation(ReuseWeights weights, RandomStream<F> stream, std::array<int, 2> order = {1, 2}) {
+  struct Ordered {
+    Intervals<F> domains;
+    std::array<int, 3> number;
+    Shifted<F, F> shift(int from, const F& value, Mask<F> on) const {
+      return domains.shift(number[std::size_t(from)], value, on);
+    }
+    F target_at(int to, const F& value, Mask<F> on) const {
+      return domains.target_at(number[std::size_t(to)], value, on);
+    }
+  };
+  const Ordered domains{{}, {0, order[0], order[1]}};
+  std::array<Reservoir<F, F>, 3> inputs;
+  for (std::size_t i = 0; i < 3; ++i) inputs[i] = first_reservoir<F>(domains.number[i], stream);
+  const Reservoir<F, F> r = combine<F, F>(weights, inputs, domains, stream, Mask<F>(true));
+  return integrand(r.value) * r.weight;
+}
+
+std::vector<double> realisations(ReuseWeights weights, int count, std::uint32_t seed,
+                                 std::array<int, 2> order = {1, 2}) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i)
+    values.push_back(double(realisation<float>(weights, RandomStream<float>(seed, std::uint32_t(i)), order)));
+  return values;
+}
+
+TEST(Reuse, finds_the_integral_by_every_unbiased_share) {
+  for (ReuseWeights weights : {ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised}) {
+    EXPECT_GT(t_test(realisations(weights, 200000, 1), truth).p_value, sidak_level(family_level, 7));
+    EXPECT_GT(t_test(realisations(weights, 200000, 2, {2, 1}), truth).p_value, sidak_level(family_level, 7));
+  }
+}
+
+TEST(Reuse, by_naive_shares_is_off_by_what_the_other_domains_cannot_make) {
+  const std::vector<double> values = realisations(ReuseWeights::naive, 200000, 3);
+  EXPECT_GT(t_test(values, naive_mean).p_value, sidak_level(family_level, 7));
+  EXPECT_LT(t_test(values, truth).p_value, 1e-12);
+}
+
+TEST(Reuse, lanes_have_the_bits_of_single_reservoirs) {
+  using F = NativeFloats;
+  for (ReuseWeights weights :
+       {ReuseWeights::naive, ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised})
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+      const F pack = realisation<F>(weights, RandomStream<F>(Uint<F>(seed), lane_index<F>()));
+      for (int k = 0; k < lanes_of<F>; ++k)
+        EXPECT_EQ(lane(pack, k), realisation<float>(weights, RandomStream<float>(seed, std::uint32_t(k))));
+    }
+}
+
+// What combinations promise for later ones: the weight serves every function on the first domain.
+TEST(Reuse, chains_of_combinations_stay_unbiased) {
+  struct Same {
+    Shifted<float, float> shift(int, const float& x, bool) const { return {x, 1, Intervals<float>::target(0, x)}; }
+    float target_at(int, const float& x, bool) const { return Intervals<float>::target(0, x); }
+  };
+  std::vector<double> values;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    RandomStream<float> stream(11, i);
+    Reservoir<float, float> kept = first_reservoir<float>(0, stream);
+    double sum = 0;
+    for (int frame = 0; frame < 8; ++frame) {
+      kept.confidence = std::min(kept.confidence, 5.0f);
+      const Reservoir<float, float> inputs[2] = {first_reservoir<float>(0, stream), kept};
+      kept = combine<float, float>(ReuseWeights::pairwise, inputs, Same{}, stream, true);
+      sum += double(integrand(kept.value) * kept.weight);
+    }
+    values.push_back(sum / 8);
+  }
+  EXPECT_GT(t_test(values, truth).p_value, family_level);
+}
+
+TEST(Reuse, takes_what_is_not_a_usable_number_for_nothing_found) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const Intervals<float> domains;
+  for (ReuseWeights weights :
+       {ReuseWeights::naive, ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised})
+    for (float bad : {0.0f, inf, nan, 3e38f, -1.0f}) {
+      RandomStream<float> stream(5, 6);
+      const float x = 0.5f, t = Intervals<float>::target(0, x), t1 = Intervals<float>::target(1, x);
+      const Reservoir<float, float> good{x, 2, 1, t};
+      // In the place of the first, and of another.
+      const Reservoir<float, float> a[2] = {good, {0.7f, bad, 1, t1}}, b[2] = {{0.7f, bad, 1, t}, {x, 2, 1, t1}};
+      for (const auto& inputs : {a, b}) {
+        const Reservoir<float, float> r = combine<float, float>(weights, std::span(inputs, 2), domains, stream, true);
+        EXPECT_EQ(r.value, x) << int(weights) << " " << bad;
+        EXPECT_TRUE(r.weight > 0 && r.weight <= 2) << int(weights) << " " << bad << " " << r.weight;
+        EXPECT_EQ(r.confidence, 2);
+      }
+      const Reservoir<float, float> nothing[2] = {{x, bad, 1, t}, {x, bad, 1, t1}};
+      EXPECT_EQ((combine<float, float>(weights, nothing, domains, stream, true).weight), 0);
+    }
+}
+
+TEST(Reuse, confidence_adds_up_and_zero_is_not_there) {
+  const Intervals<float> domains;
+  RandomStream<float> stream(7, 8);
+  const float t = Intervals<float>::target(0, 0.5f), t1 = Intervals<float>::target(1, 0.5f);
+  const Reservoir<float, float> inputs[3] = {{0.5f, 1, 3, t}, {0.5f, 1, 4, t1}, {0.4f, 9, 0, 1}};
+  for (ReuseWeights weights : {ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised}) {
+    const auto r = combine<float, float>(weights, inputs, domains, stream, true);
+    EXPECT_EQ(r.confidence, 7);
+    EXPECT_EQ(r.value, 0.5f);
+    EXPECT_NEAR(r.weight, 1, 1e-6);
+  }
+}
+
+// ---- reservoirs of one stream
+// -----------------------------------------------------------------------------------------
+
+constexpr float stream_weights[8] = {0, 1, 2, 3, 0.5f, 0, 6, 1e-3f};
+
+std::vector<double> choices(int parts, bool reversed, int count) {
+  std::vector<double> observed(8, 0.0);
+  for (int n = 0; n < count; ++n) {
+    RandomStream<float> stream(std::uint32_t(parts + (reversed ? 100 : 0)), std::uint32_t(n));
+    WeightedReservoir<int> whole;
+    for (int part = 0; part < parts; ++part) {
+      WeightedReservoir<int> one;
+      for (int i = part; i < 8; i += parts) {
+        const int element = reversed ? 7 - i : i;
+        one.add(element, stream_weights[element], stream.next());
+      }
+      whole.merge(one, stream.next());
+    }
+    EXPECT_EQ(whole.count, 8);
+    EXPECT_NEAR(whole.weight_sum, 12.501, 1e-4);
+    observed[std::size_t(whole.value)] += 1;
+  }
+  return observed;
+}
+
+TEST(WeightedReservoir, merges_of_parts_in_any_order_choose_as_one_long_stream) {
+  constexpr int count = 100000;
+  std::vector<double> expected;
+  for (float w : stream_weights) expected.push_back(count * double(w) / 12.501);
+  for (int parts : {1, 2, 4, 8})
+    for (bool reversed : {false, true}) {
+      const std::vector<double> observed = choices(parts, reversed, count);
+      EXPECT_GT(chi_square_test(observed, expected).p_value, sidak_level(family_level, 9)) << parts << reversed;
+      EXPECT_EQ(observed[0] + observed[5], 0);
+    }
+  std::vector<double> off = expected;
+  off[6] *= 1.02, off[3] -= 0.02 * expected[6];
+  EXPECT_LT(chi_square_test(choices(4, false, count), off).p_value, 1e-3);
+}
+
+}  // namespace
+}  // namespace montelux::test

@@ -1,0 +1,67 @@
+// Means of the image and of its blocks in every pass: whatever correlation there is between the pixels of a pass, the
+// passes are independent, and tests over them are honest.
+#pragma once
+#include <vector>
+
+#include "render_scenes.h"
+#include "statistics.h"
+
+namespace montelux::test {
+
+// By quantity (the image first, then blocks of `block` pixels a side), the values of all passes.
+struct PassMeans {
+  std::vector<std::vector<double>> values;
+  std::uint64_t non_finite = 0;
+};
+
+inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
+                                int passes, std::uint32_t seed, int block = 8) {
+  PassMeans m;
+  RenderObserver silent;
+  for (int pass = 0; pass < passes; ++pass) {
+    RenderSettings s = scene.settings(PointSetKind::independent, {samples_per_pass, 1}, seed, 0);
+    s.first_pass = pass;
+    const Film film = render(chosen.any(), s, silent).film;
+    const PixelBounds& b = film.bounds();
+    const int across = (b.width() + block - 1) / block, down = (b.height() + block - 1) / block;
+    std::vector<double> sums(std::size_t(1 + across * down), 0.0), counts = sums;
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x) {
+        const double value = mean_of_channels(film.pixel(x, y).mean);
+        const auto of_block = std::size_t(1 + (y - b.y0) / block * across + (x - b.x0) / block);
+        for (std::size_t i : {std::size_t(0), of_block}) sums[i] += value, counts[i] += 1;
+      }
+    m.values.resize(sums.size());
+    for (std::size_t i = 0; i < sums.size(); ++i) m.values[i].push_back(sums[i] / counts[i]);
+    m.non_finite += film.non_finite();
+  }
+  return m;
+}
+
+struct MeansVerdict {
+  bool differ = false;
+  double smallest_p = 1;
+  std::size_t where = 0;        // 0: the image; else 1 + number of the block
+  double image_difference = 0;  // relative
+  double image_error = 0;       // standard error of that
+};
+
+// Welch's test of every quantity, at a level for all of them together: half of it for the image.
+inline MeansVerdict compare_means(const PassMeans& a, const PassMeans& b, double level) {
+  MeansVerdict v;
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    const SampleSummary x = summarize(a.values[i]), y = summarize(b.values[i]);
+    if (i == 0) {
+      v.image_difference = x.mean / y.mean - 1;
+      v.image_error = std::hypot(x.standard_error(), y.standard_error()) / y.mean;
+    }
+    if (x.variance == 0 && y.variance == 0) continue;
+    const double p = welch_test(x, y).p_value;
+    const double own = i == 0 ? 0.5 * level : sidak_level(0.5 * level, double(a.values.size() - 1));
+    if (p < v.smallest_p) v.smallest_p = p, v.where = i;
+    v.differ = v.differ || p < own;
+  }
+  return v;
+}
+
+}  // namespace montelux::test

@@ -1,0 +1,142 @@
+// Chains of frames: the same picture for any number of threads, clean ends, and a film over chains.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reuse_scenes.h"
+
+namespace montelux::test {
+namespace {
+
+const TestScene& scene() {
+  static const TestScene s{reuse_scenes(40).front().text};
+  return s;
+}
+
+RenderResult chains(const char* way, PassPlan plan, int threads, int first_pass = 0,
+                    std::optional<PixelBounds> crop = {}) {
+  const ChosenIntegrator chosen = scene().integrator(way);
+  RenderSettings s = scene().settings(PointSetKind::blue_noise, plan, 5, threads);
+  s.first_pass = first_pass;
+  if (crop) s.bounds = *crop;
+  RenderObserver silent;
+  return render(chosen.any(), s, silent);
+}
+
+void expect_same(const Film& a, const Film& b) {
+  for (int y = a.bounds().y0; y < a.bounds().y1; ++y)
+    for (int x = a.bounds().x0; x < a.bounds().x1; ++x)
+      for (int c = 0; c < spectrum_size; ++c) {
+        ASSERT_EQ(a.pixel(x, y).mean[c], b.pixel(x, y).mean[c]) << x << " " << y;
+        ASSERT_EQ(a.pixel(x, y).m2[c], b.pixel(x, y).m2[c]) << x << " " << y;
+        ASSERT_EQ(a.features(x, y).albedo[c], b.features(x, y).albedo[c]) << x << " " << y;
+      }
+  EXPECT_EQ(a.image().passes, b.image().passes);
+  EXPECT_EQ(a.image().mean[0], b.image().mean[0]);
+}
+
+TEST(Chains, have_the_same_bits_for_any_number_of_threads) {
+  const char* way = "restir-di:candidates=2,radius=10,rounds=2";
+  const RenderResult one = chains(way, {4, 2}, 1);
+  EXPECT_EQ(one.film.image().passes, 2);
+  EXPECT_EQ(one.film.samples(3, 3), 8);
+  for (int threads : {2, 5}) expect_same(one.film, chains(way, {4, 2}, threads).film);
+}
+
+TEST(Chains, have_the_bits_of_single_pixels_in_lanes) {
+  // But for what compilers make of the order of sums in packs of another width.
+  const Film pack = chains("restir-di:candidates=2", {3, 1}, 1).film;
+  const Film one = chains("restir-di:candidates=2,lanes=one", {3, 1}, 1).film;
+  double off = 0, all = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const double a = pack.pixel(x, y).mean[0], b = one.pixel(x, y).mean[0];
+      off += std::abs(a - b) > 1e-4 * std::abs(a) ? 1 : 0, all += 1;
+    }
+  EXPECT_LT(off / all, 0.02);
+}
+
+TEST(Chains, add_up_to_the_film_of_one_render) {
+  const char* way = "restir-di:candidates=2";
+  Film first = chains(way, {4, 2}, 1).film;
+  first.merge(chains(way, {4, 3}, 1, 2).film);
+  const Film whole = chains(way, {4, 5}, 1).film;
+  for (int c = 0; c < spectrum_size; ++c) EXPECT_NEAR(first.image().mean[c], whole.image().mean[c], 1e-12);
+  EXPECT_EQ(first.image().passes, 5);
+}
+
+TEST(Chains, keep_to_the_crop) {
+  const PixelBounds crop{7, 9, 31, 26};
+  const RenderResult r = chains("restir-di", {2, 1}, 2, 0, crop);
+  EXPECT_EQ(r.film.bounds(), crop);
+  EXPECT_GT(r.film.pixel(20, 20).mean[0], 0);
+}
+
+TEST(Chains, do_not_show_their_warm_up) {
+  const RenderResult r = chains("restir-di:warm-up=3,candidates=2", {2, 2}, 2);
+  EXPECT_EQ(r.film.samples(5, 5), 4);
+  EXPECT_EQ(r.film.image().passes, 2);
+}
+
+// Stops as soon as it is asked.
+class StopsAtOnce final : public RenderObserver {
+ public:
+  bool stop_requested() override { return true; }
+};
+
+TEST(Chains, that_are_stopped_end_between_frames_with_a_picture) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di");
+  const RenderSettings s = scene().settings(PointSetKind::independent, {1024, 64}, 1, 2);
+  StopsAtOnce observer;
+  const RenderResult r = render(chosen.any(), s, observer);
+  EXPECT_TRUE(r.interrupted);
+  EXPECT_EQ(r.film.image().passes, 1);
+  EXPECT_GE(r.film.samples(0, 0), 1);
+  EXPECT_LT(r.film.samples(0, 0), 1024);
+  EXPECT_EQ(r.film.non_finite(), 0u);
+}
+
+TEST(Chains, end_in_time) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di:chain=4");
+  RenderSettings s = scene().settings(PointSetKind::independent, {}, 1, 2);
+  RenderObserver silent;
+  s.plan = plan_for_time(chosen.any(), s, 0.3);
+  EXPECT_EQ(s.plan.samples_per_pass, 4);
+  s.seconds = 0.3;
+  const RenderResult r = render(chosen.any(), s, silent);
+  EXPECT_FALSE(r.interrupted);
+  EXPECT_GE(r.film.image().passes, 1);
+  EXPECT_LT(r.seconds, 10);
+}
+
+TEST(Chains, are_planned_whole) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di:chain=16");
+  const PassPlan plan = plan_passes(chosen.any(), 33, PointSetKind::independent);
+  EXPECT_EQ(plan.samples_per_pass, 16);
+  EXPECT_EQ(plan.passes, 3);
+  const ChosenIntegrator path = scene().integrator("path");
+  EXPECT_EQ(plan_passes(path.any(), 33, PointSetKind::independent).samples_per_pass,
+            plan_passes(33, PointSetKind::independent).samples_per_pass);
+}
+
+TEST(Chains, hand_on_what_goes_wrong) {
+  class Broken final : public CoupledIntegrator {
+   public:
+    class Frames final : public Chain {
+      RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample>) override {
+        if (step.frame == 1) throw std::runtime_error("broken");
+        return {};
+      }
+    };
+    int frames() const override { return 4; }
+    int warm_up() const override { return 0; }
+    int stages() const override { return 2; }
+    std::unique_ptr<Chain> begin(const ChainPass&) const override { return std::make_unique<Frames>(); }
+  };
+  RenderObserver silent;
+  const Broken broken;
+  EXPECT_THROW(render(broken, scene().settings(PointSetKind::independent, {4, 2}, 1, 3), silent), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace montelux::test
