@@ -13,11 +13,14 @@
 
 namespace montelux {
 
-// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples.
+// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Only coupled integrators ask
+// for a single one of them.
 struct TilePass {
   PixelBounds tile;
   PointSet points;
-  std::optional<Shutter> shutter{};  // instead of the scene's
+  std::optional<Shutter> shutter{};     // instead of the scene's
+  std::optional<std::uint32_t> only{};  // this one of the samples alone
+  std::uint32_t samples() const { return only ? 1 : points.samples_per_pass; }
 };
 
 // Rays that were traced, for statistics.

@@ -13,11 +13,12 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
     if (is_surface(kind)) {
       with_emitter<F>(kind, row, [&](const auto& emitter) {
         const EmitterPoint<F> e = emitter.sample(p, u);
-        const Mask<F> good = m & meets_lit_side(row, e.n, direction_to(p, e.p)) & (e.density.value > F(0.0f)) &
-                             is_finite(e.density.value);
+        const Mask<F> seen = meets_lit_side(row, e.n, direction_to(p, e.p)), finite = is_finite(e.density.value);
+        const Mask<F> good = m & seen & finite & (e.density.value > F(0.0f));
         r.point.p = select(good, e.p, r.point.p), r.point.n = select(good, e.n, r.point.n);
         r.point.radiance = select(good, surface_emission(row, e.uv, good), r.point.radiance);
-        r.point.sort = select(good & row.flag(light_two_sided), Uint<F>(light_point::two_sided_surface), r.point.sort);
+        const Mask<F> both = row.flag(light_two_sided);
+        r.point.sort = select(good & both, Uint<F>(light_point::two_sided_surface), r.point.sort);
         r.density.value = select(good, e.density.value, r.density.value);
         r.valid = r.valid | good;
       });

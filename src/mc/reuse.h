@@ -175,13 +175,14 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
              stream.next());
   for (std::size_t i = 1; i < inputs.size(); ++i) {
     const F u = stream.next();
-    const Mask<F> live = on & (inputs[i].weight > F(0.0f)) & (inputs[i].confidence > F(0.0f));
+    const Reservoir<T, F>& input = inputs[i];
+    const Mask<F> live = on & (input.weight > F(0.0f)) & (input.confidence > F(0.0f));
     if (!any(live)) continue;
-    const Shifted<T, F> image = domains.shift(int(i), inputs[i].value, live);
+    const Shifted<T, F> image = domains.shift(int(i), input.value, live);
     const Mask<F> counts = live & (image.target > F(0.0f)) & (image.jacobian > F(0.0f));
-    const F own_target = inputs[i].target / image.jacobian;
-    const F w = shares.share(i, image.value, own_target, image.target, counts) * image.target * inputs[i].weight *
-                image.jacobian;
+    const F own_target = input.target / image.jacobian;
+    const F w =
+        shares.share(i, image.value, own_target, image.target, counts) * image.target * input.weight * image.jacobian;
     const Mask<F> taken = chosen.add(image.value, select(counts, usable_weight<F>(w), F(0.0f)), u);
     target = select(taken, image.target, target);
     from = select(taken, Uint<F>(std::uint32_t(i)), from);

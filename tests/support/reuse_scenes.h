@@ -64,7 +64,7 @@ Shape "bilinearmesh" "point3 P" [ 0.5 0 0.4  1.1 0 -0.2  0.5 1.1 0.4  1.1 1.1 -0
                          -2 + 0.7 * i, -2 + 0.7 * i + 0.4);
   scenes.push_back({"blockers", head + R"(AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 12 10 8 ]
-Shape "bilinearmesh" "point3 P" [ -1.5 2.5 -0.3  -1.5 2.5 0.3  -0.9 2.5 -0.3  -0.9 2.5 0.3 ] "bool invert" [ true ]
+Shape "bilinearmesh" "point3 P" [ -1.5 2.5 -0.3  -0.9 2.5 -0.3  -1.5 2.5 0.3  -0.9 2.5 0.3 ]
 AttributeEnd
 AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 4 6 12 ] "bool twosided" [ true ]
@@ -96,7 +96,7 @@ AttributeEnd
 )"});
   scenes.push_back({"textured emitter", head + R"(AttributeBegin
 AreaLightSource "diffuse" "string filename" [ "right-half.png" ] "float scale" [ 9 ]
-Shape "bilinearmesh" "point3 P" [ -1.5 1.8 -1  1.5 1.8 -1  -1.5 1.8 1.5  1.5 1.8 1.5 ] "bool invert" [ true ]
+Shape "bilinearmesh" "point3 P" [ -1.5 1.8 -1  1.5 1.8 -1  -1.5 1.8 1.5  1.5 1.8 1.5 ]
 Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ -2 0.1 1.9  -1 0.1 1.9  -2 1.2 1.9 ]
     "point2 uv" [ 0 0  1 0  0 1 ]
 AttributeEnd
@@ -126,7 +126,7 @@ AttributeEnd
   // The first rough surface is behind a mirror, glass, or an interface.
   scenes.push_back({"specular first", reuse_scene_head(size, reuse_camera, 4) + R"(AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 9 9 7 ]
-Shape "bilinearmesh" "point3 P" [ -0.6 2.3 -0.6  0.6 2.3 -0.6  -0.6 2.3 0.6  0.6 2.3 0.6 ] "bool invert" [ true ]
+Shape "bilinearmesh" "point3 P" [ -0.6 2.3 -0.6  0.6 2.3 -0.6  -0.6 2.3 0.6  0.6 2.3 0.6 ]
 AttributeEnd
 )" + reuse_floor(grey) + R"(AttributeBegin
 Translate -0.7 0.5 0

@@ -88,7 +88,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
   using U = Uint<F>;
   constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
   const PixelBounds& tile = pass.tile;
-  const auto samples = pass.points.samples_per_pass;
+  const std::uint32_t samples = pass.samples(), first = pass.only.value_or(0);
   starts_.reserve(std::size_t(tile.area()) * samples);
   const U lane_number = lane_index<F>();
   const U lane_x = lane_number & U(std::uint32_t(block_x - 1));
@@ -100,7 +100,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
       for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
-        PathStart<F> state = start_of_path<F>(scene, pass, x, y, U(sample));
+        PathStart<F> state = start_of_path<F>(scene, pass, x, y, U(first + sample));
         state.slot =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +

@@ -42,13 +42,6 @@ class DirectChain final : public Chain {
       f(pixel_number(tile.x0, y), std::size_t(y - tile.y0) * std::size_t(tile.width()), std::size_t(tile.width()));
   }
 
-  // The points of one frame: frames of a chain have numbers of their own.
-  PointSet points(int frame) const {
-    PointSet points = pass_.points;
-    points.samples_per_pass = 1;
-    points.seed = mix_bits(points.seed ^ mix_bits(std::uint32_t(frame) * 0x9e3779b9u + 0x7f4a7c15u));
-    return points;
-  }
   // Reservoirs before and after round `round`: the frame before has left its own where a frame begins.
   std::vector<LightReservoir<float>>& reservoirs(int frame, int round) {
     return reservoirs_[std::size_t(frame * settings().rounds + round) & 1];
@@ -73,7 +66,7 @@ class DirectChain final : public Chain {
 
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
-    const TilePass request{tile, points(frame)};
+    const TilePass request{tile, pass_.points, std::uint32_t(frame)};
     for_each_row(tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
@@ -85,7 +78,7 @@ class DirectChain final : public Chain {
         set_lane(pixel, k, std::uint32_t(pixel_number(tile.x0 + at % tile.width(), tile.y0 + at / tile.width())));
       });
       if (settings().temporal && frame > 0)
-        reservoir = with_last_frame(frame, request.points, {tile, slot, pixel, on}, vertex, reservoir, counts);
+        reservoir = with_last_frame(frame, {tile, slot, pixel, on}, vertex, reservoir, counts);
       for_each_lane(on, [&](int k) {
         get_lane_words(vertex, k, vertices(frame)[lane(pixel, k)]);
         reservoirs(frame, 0)[lane(pixel, k)] = get(reservoir, k);
@@ -120,8 +113,8 @@ class DirectChain final : public Chain {
     }
   };
 
-  LightReservoir<F> with_last_frame(int frame, const PointSet& points, const LanePixels& at,
-                                    const ReuseVertex<F>& vertex, const LightReservoir<F>& own, RayCounts& counts) {
+  LightReservoir<F> with_last_frame(int frame, const LanePixels& at, const ReuseVertex<F>& vertex,
+                                    const LightReservoir<F>& own, RayCounts& counts) {
     ReuseVertex<F> domains[2] = {vertex, vertex};
     LightReservoir<F> inputs[2] = {own, own};
     inputs[1].confidence = F(0.0f);
@@ -132,11 +125,13 @@ class DirectChain final : public Chain {
       put(inputs[1], k, reservoirs(frame, 0)[pixel]);
     });
     inputs[1].confidence = min(inputs[1].confidence, F(settings().m_cap));
-    return combined(inputs, domains, stream(points, at, restir_stream::temporal), at.on, counts);
+    return combined(inputs, domains, stream(frame, at, restir_stream::temporal), at.on, counts);
   }
 
-  RandomStream<F> stream(const PointSet& points, const LanePixels& at, std::uint32_t purpose) const {
-    return Sampler<F>(points, at.x(), at.y(), U(0u)).stream(U(restir_stream::dimension)).fork(U(purpose));
+  RandomStream<F> stream(int frame, const LanePixels& at, std::uint32_t purpose) const {
+    return Sampler<F>(pass_.points, at.x(), at.y(), U(std::uint32_t(frame)))
+        .stream(U(restir_stream::dimension))
+        .fork(U(purpose));
   }
 
   LightReservoir<F> combined(std::span<const LightReservoir<F>> inputs, std::span<const ReuseVertex<F>> domains,
@@ -149,7 +144,6 @@ class DirectChain final : public Chain {
   // One round of spatial reuse, and after the last the picture.
   RayCounts share(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
-    const PointSet points_of_frame = points(step.frame);
     for_each_row(tile, [&](std::size_t pixel, std::size_t first, std::size_t n) {
       std::copy_n(frame_.begin() + std::ptrdiff_t(pixel), n, out.begin() + std::ptrdiff_t(first));
     });
@@ -167,7 +161,7 @@ class DirectChain final : public Chain {
         put(inputs[0], k, reservoirs(step.frame, step.stage - 1)[lane(at.pixel, k)]);
       });
       if (settings().rounds > 0) {
-        RandomStream<F> numbers = stream(points_of_frame, at, restir_stream::spatial + std::uint32_t(step.stage));
+        RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
         choose_neighbours(step, at, numbers, domains, inputs);
         inputs[0] = combined(inputs, domains, numbers, at.on, counts);
         for_each_lane(at.on, [&](int k) { reservoirs(step.frame, step.stage)[lane(at.pixel, k)] = get(inputs[0], k); });

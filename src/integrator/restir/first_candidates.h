@@ -144,8 +144,8 @@ class FirstCandidates {
   F weight(const Connection<F>& to, F products, Mask<F> on) {
     const Mask<F> counts = on & (to.target > F(0.0f));
     const F w = to.target / (products * to.geometry);
-    const Mask<F> unbroken = is_finite(average(to.value)) & is_finite(w);
-    broken_ = broken_ | (on & !is_finite(average(to.value))) | (counts & !unbroken);
+    const Mask<F> known = is_finite(average(to.value)), weighs = is_finite(w);
+    broken_ = broken_ | (on & !known) | (counts & !weighs);
     return select(counts, usable_weight(w), F(0.0f));
   }
 
