@@ -23,7 +23,7 @@ std::vector<std::string_view> views_of(const std::vector<std::pair<std::string, 
 
 // The layers that a scene has of those that were asked for.
 Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrator& chosen, const Scene& scene) {
-  if (!chosen.integrator->has_layers()) {
+  if (!chosen.integrator || !chosen.integrator->has_layers()) {
     const bool clamped =
         std::ranges::any_of(chosen.biases, [](const std::string& bias) { return bias.starts_with("maxcomponent="); });
     if (clamped)
