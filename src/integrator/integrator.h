@@ -62,6 +62,7 @@ class PixelIntegrator {
 struct ChainPass {
   PixelBounds bounds;
   PointSet points;
+  std::optional<Shutter> shutter{};  // instead of the scene's
 };
 
 // Where a chain is: frames follow one another, stages follow one another within a frame.

@@ -138,7 +138,8 @@ class ChainJob {
     chain_ =
         integrator_.begin({settings_.bounds,
                            {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass_),
-                            std::uint32_t(frames_), std::uint32_t(settings_.width), std::uint32_t(settings_.height)}});
+                            std::uint32_t(frames_), std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
+                           settings_.shutter});
     step_ = {};
     for (ChainTile& tile : tiles_) std::fill(tile.means.begin(), tile.means.end(), PassMean{});
   }

@@ -66,7 +66,7 @@ class DirectChain final : public Chain {
 
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
-    const TilePass request{tile, pass_.points, std::uint32_t(frame)};
+    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame)};
     for_each_row(tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });

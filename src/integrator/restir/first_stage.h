@@ -59,7 +59,7 @@ class FirstStage {
   // One vertex of every path; gives the lanes that go on to another.
   M step(PathState<F>& path, M on) {
     const Scene& scene = shared_.scene;
-    const SurfaceHit<F> x = surface<F>(scene.geometry, path.o, path.d, path.hit, on);
+    const SurfaceHit<F> x = surface<F>(scene.geometry, {path.o, path.d, path.hit.t, path.time}, path.hit, on);
     if (const M emits = on & (x.light != U(0u)); any(emits)) {
       const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
                                                                       x.point.uv, path.d, emits);
@@ -111,7 +111,7 @@ class FirstStage {
     path.crossings = path.crossings + select(passes, U(1u), U(0u));
     const M moves = passes | lives | offers;
     counts_.scattered += std::uint64_t(count(moves));
-    const auto [found, hit] = shared_.rays.template trace<F>({path.o, path.d, F(ray_infinity)}, moves);
+    const auto [found, hit] = shared_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
 
     // What the direction of the BSDF met joins the candidates; what lies behind is the path's own.
@@ -144,6 +144,7 @@ class FirstStage {
             numbers.fork(U(restir_stream::bsdf)),
             path.throughput * path.weight,
             length(x.point.p - path.p),
+            path.time,
             U(1u)};
   }
 
@@ -162,7 +163,7 @@ class FirstStage {
       const RandomStream<F> stream = numbers.fork(U(2 * crossing)), sky = numbers.fork(U(2 * crossing + 1));
       if (any(left)) candidates.add_sky(path.d, sky, left);
       if (!any(found)) return;
-      const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, o, path.d, hit, found);
+      const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, {o, path.d, hit.t, path.time}, hit, found);
       if (const M emits = found & (x.light != U(0u)); any(emits)) candidates.add_hit(x, path.d, stream, emits);
       if (!shared_.has_interfaces) return;
       const SurfaceScattering<F> bsdf =
@@ -171,7 +172,7 @@ class FirstStage {
       if (!any(passes)) return;
       o = select(passes, offset_origin(x.point.p, x.point.p_error, x.point.ng, path.d), o);
       counts_.scattered += std::uint64_t(count(passes));
-      const auto [further, next] = shared_.rays.template trace<F>({o, path.d, F(ray_infinity)}, passes);
+      const auto [further, next] = shared_.rays.template trace<F>({o, path.d, F(ray_infinity), path.time}, passes);
       hit = next, found = passes & further, left = passes & !further;
     }
   }

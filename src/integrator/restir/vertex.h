@@ -20,6 +20,7 @@ struct ReuseVertex {
   RandomStream<F> random;  // of the BSDF: the same numbers whoever asks, so that the BSDF is one function
   Spectrum<F> throughput;  // of the path so far, with the weights of camera and filter
   F depth;                 // distance from the vertex before it, or the camera
+  F time;                  // at which the camera looked
   Uint<F> exists;          // 1, or 0: the path ended before
 
   // f |cos| toward a direction of the world, and its density.
@@ -62,7 +63,7 @@ Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection
   if (!any(on)) return on;
   counts.shadow += std::uint64_t(count(on));
   const Vec3<F> o = offset_origin(vertex.p, vertex.p_error, vertex.ng, to.wi);
-  return on & !rays.template occluded<F>({o, to.wi, to.distance * (1.0f - shadow_shortening)}, on);
+  return on & !rays.template occluded<F>({o, to.wi, to.distance * (1.0f - shadow_shortening), vertex.time}, on);
 }
 
 }  // namespace montelux
