@@ -76,8 +76,8 @@ ContestSettings settings(int repeats) {
 std::vector<Contestant> contestants(const PixelIntegrator& integrator) {
   LayerPlan plan;
   plan.bounces = 0, plan.techniques = true;
-  Contestant with{"a", "with", &integrator, PointSetKind::independent, {}, plan};
-  Contestant without{"b", "without", &integrator, PointSetKind::independent, {}, {}};
+  Contestant with{"a", "with", integrator, PointSetKind::independent, {}, plan};
+  Contestant without{"b", "without", integrator, PointSetKind::independent, {}, {}};
   return {with, without};
 }
 
