@@ -82,4 +82,11 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await page.waitForTimeout(200);
   expect(light !== (await ground()), "the page turns dark");
   await shot("comparison-dark", { fullPage: true });
+
+  await page.setViewportSize({ width: 390, height: 800 });
+  await viewer.locator(".pictures .frame").first().hover({ position: { x: 30, y: 20 } });
+  await page.waitForTimeout(300);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
+  await shot("comparison-narrow");
 });

@@ -44,6 +44,24 @@ TEST(Base64, is_that_of_rfc_4648) {
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
+TEST(Base64, is_read_back_and_refused_where_it_is_damaged) {
+  for (const std::string bytes : {"", "f", "fo", "foo", "foob", "\xff\x80\x01"})
+    EXPECT_EQ(bytes_of_base64(base64(bytes)), bytes);
+  for (const char* text : {"Zg=", "Zg", "Z===", "Z*==", "Zg==Zg==", "Zg=v"})
+    EXPECT_FALSE(bytes_of_base64(text)) << text;
+}
+
+TEST(ReportSvg, has_bars_side_by_side_over_names) {
+  Figure figure{"bars", "", {"kind", false, 0.5, 2.5, {"first", "second"}}, {"share", false, {}, {}}, {}, false};
+  figure.curves = {{"a", Mark::bars, {0.8, 1.8}, {1, 2}, {}, {}, 0, 0.4},
+                   {"b", Mark::bars, {1.2, 2.2}, {2, 1}, {}, {}, 1, 0.4}};
+  const std::string svg = to_svg(figure), json = to_json(ReportSet{"t", "", {{"r", "r", "", {figure}}}});
+  EXPECT_NE(svg.find(">first</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">second</text>"), std::string::npos);
+  EXPECT_NE(json.find("\"names\":[\"first\",\"second\"]"), std::string::npos);
+  EXPECT_NE(json.find("\"width\":0.4"), std::string::npos);
+}
+
 TEST(ReportCsv, quotes_what_must_be_quoted_and_leaves_out_what_is_no_number) {
   Table table{"t", "", {"name", "value"}, {{"a, \"b\"", 0.1}, {"c", std::numeric_limits<double>::quiet_NaN()}}};
   EXPECT_EQ(to_csv(table), "name,value\n\"a, \"\"b\"\"\",0.1\nc,\n");
