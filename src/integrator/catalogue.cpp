@@ -7,6 +7,7 @@
 #include "integrator/distribution/integrator.h"
 #include "integrator/look/integrator.h"
 #include "integrator/path/tracer.h"
+#include "integrator/radiosity/integrator.h"
 #include "integrator/restir/integrator.h"
 #include "integrator/tracepath/integrator.h"
 
@@ -92,6 +93,18 @@ Made make_restir_di(const Request& r) {
   return chosen;
 }
 
+Made make_radiosity(const Request& r) {
+  const RadiositySettings settings = radiosity_settings(r.list);
+  auto integrator = RadiosityIntegrator::make(r.scene, r.accel, settings);
+  if (!integrator) return integrator.failure();
+  ChosenIntegrator chosen{"radiosity", {}, {}, {}, *std::move(integrator)};
+  chosen.biases.push_back(fmt::format("elementsize={:.4g}", settings.element_size));
+  chosen.notes.push_back(
+      "irradiance is even over each element: the picture is biased by their size (--set elementsize=... makes them "
+      "smaller)");
+  return chosen;
+}
+
 template <const char* name>
 Made make_look(const Request& r) {
   ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
@@ -110,7 +123,8 @@ const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
     std::vector<Row> all{{path_spec(), make_path<false>},    {naive_spec(), make_path<true>},
                          {direct_spec(), make_direct},       {distribution_spec(), make_distribution},
-                         {tracepath_spec(), make_tracepath}, {restir_di_spec(), make_restir_di}};
+                         {tracepath_spec(), make_tracepath}, {restir_di_spec(), make_restir_di},
+                         {radiosity_spec(), make_radiosity}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();

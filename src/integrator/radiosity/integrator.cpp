@@ -1,0 +1,217 @@
+#include "integrator/radiosity/integrator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "integrator/arrival.h"
+#include "integrator/path/first_hits.h"
+#include "mc/hemisphere.h"
+
+namespace montelux {
+
+namespace {
+
+using F = NativeFloats;
+using U = Uint<F>;
+using M = Mask<F>;
+
+// What every stage of a chain shares.
+struct Radiosity {
+  const Scene& scene;
+  const Accel& accel;
+  const RadiositySettings& settings;
+  const ElementMesh& mesh;
+};
+
+// Irradiance of both sides of every element, the side of the geometric normal first; by frame, W / m^2.
+using Irradiance = std::vector<Spectrum<float>>;
+std::size_t side_of_element(std::uint32_t element, bool behind) { return 2 * std::size_t(element) + (behind ? 1 : 0); }
+
+// The numbers of one ray of an element, or of one pixel.
+namespace radiosity_dimension {
+inline constexpr std::uint32_t place = 0, direction = 2, light_choice = 4, light_point = 5, own = 8;
+}  // namespace radiosity_dimension
+
+// A surface point, the side from which it is looked at, and how that reflects.
+struct DiffusePoint {
+  SurfaceHit<F> x;
+  Vec3<F> n;           // geometric normal on the side that is looked at
+  Spectrum<F> albedo;  // 0 where nothing is reflected
+};
+
+DiffusePoint diffuse_point(const Radiosity& r, const Vec3<F>& o, const Vec3<F>& d, const Hit<F>& hit,
+                           const RandomStream<F>& own, M on) {
+  DiffusePoint at;
+  at.x = surface<F>(r.scene.geometry, o, d, hit, on);
+  at.n = face_forward(at.x.point.ng, -d);
+  BsdfContext<F> context{TransportMode::radiance, own};
+  const SurfaceScattering<F> bsdf = r.scene.materials.scattering<F>(at.x, d, on, context.random);
+  const BsdfSample<F> out =
+      sample<F>(bsdf.lanes(on), bsdf.frame.to_local(-d), Vec3<F>{F(0.5f), F(0.5f), F(0.5f)}, context);
+  at.albedo = select(on & out.valid, out.weight, gray(F(0.0f)));
+  return at;
+}
+
+// The radiosity of the elements that were hit, by the albedo of the very points.
+Spectrum<F> reflected(const Radiosity& r, const Irradiance& irradiance, const DiffusePoint& at, const Hit<F>& hit,
+                      M on) {
+  Spectrum<F> e = gray(F(0.0f));
+  for_each_lane(on, [&](int k) {
+    const Hit<float> one{0, lane(hit.u, k), lane(hit.v, k), lane(hit.geometry, k), lane(hit.primitive, k), 0};
+    const bool behind = dot(lane(at.n, k), lane(at.x.point.ng, k)) < 0;
+    set_lane(e, k, irradiance[side_of_element(r.mesh.element_of(one), behind)]);
+  });
+  return e * at.albedo;
+}
+
+// One sample of the irradiance at x on the side of n: a point of a light, and a direction to another element.
+Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const SurfacePoint<F>& x, const Vec3<F>& n,
+                              const Sampler<F>& numbers, RayCounts& counts, M on) {
+  using namespace radiosity_dimension;
+  const LightSample<F> light =
+      r.scene.lights.sample<F>(x.p, n, numbers.get1(U(light_choice)), numbers.get2(U(light_point)), on);
+  const F cos = dot(light.wi, n);
+  const M asks = on & light.valid & (cos > F(0.0f));
+  counts.shadow += std::uint64_t(count(asks));
+  const Vec3<F> o = offset_origin(x.p, x.p_error, x.ng, light.wi);
+  const M lit = asks & !r.accel.occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening)}, asks);
+  Spectrum<F> sum = select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
+
+  const Vec3<F> wi = Frame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(direction))));
+  const Vec3<F> from = offset_origin(x.p, x.p_error, x.ng, wi);
+  counts.scattered += std::uint64_t(count(on));
+  const auto [found, hit] = r.accel.trace<F>({from, wi, F(ray_infinity)}, on);
+  if (!any(found)) return sum;
+  const DiffusePoint other = diffuse_point(r, from, wi, hit, numbers.stream(U(own)), found);
+  return sum + select(found, reflected(r, known, other, hit, found), gray(F(0.0f)));
+}
+
+class RadiosityChain final : public Chain {
+ public:
+  RadiosityChain(const Radiosity& shared, const ChainPass& pass) : shared_(shared), pass_(pass) {
+    for (Irradiance& i : irradiance_) i.assign(2 * shared.mesh.size(), gray(0.0f));
+  }
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return step.stage == 0 ? transport(step.frame, tile) : show(step.frame, tile, out);
+  }
+
+ private:
+  PointSet points(int frame, PointSetKind kind, std::uint32_t samples) const {
+    PointSet p = pass_.points;
+    p.kind = kind, p.samples_per_pass = samples;
+    p.seed = mix_bits(p.seed ^ mix_bits(std::uint32_t(2 * frame + (samples > 1 ? 1 : 0)) + 0x51ed270bu));
+    return p;
+  }
+  const Irradiance& before(int frame) const { return irradiance_[std::size_t(frame) & 1]; }
+  Irradiance& after(int frame) { return irradiance_[std::size_t(frame + 1) & 1]; }
+
+  // The sides of elements are dealt out to the pixels, so that any tiles share the work and none does it twice.
+  RayCounts transport(int frame, const PixelBounds& tile) {
+    RayCounts counts;
+    const PointSet set = points(frame, PointSetKind::padded_sobol, std::uint32_t(shared_.settings.rays));
+    const auto pixels = std::size_t(pass_.bounds.area()), sides = before(frame).size();
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const std::size_t first =
+            std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+        for (std::size_t side = first; side < sides; side += pixels)
+          after(frame)[side] = irradiance_of(side, before(frame), set, counts);
+      }
+    return counts;
+  }
+
+  Spectrum<float> irradiance_of(std::size_t side, const Irradiance& known, const PointSet& set, RayCounts& counts) {
+    Spectrum<float> sum = gray(0.0f);
+    const auto rays = std::uint32_t(shared_.settings.rays);
+    for (std::uint32_t first = 0; first < rays; first += std::uint32_t(lanes_of<F>)) {
+      const U index = lane_index<F>() + U(first);
+      const M on = index < U(rays);
+      const Sampler<F> numbers(set, U(std::uint32_t(side)), U(0u), select(on, index, U(0u)));
+      const Vec2<F> u = numbers.get2(U(radiosity_dimension::place));
+      Hit<F> hit{};
+      Vec3<F> o{};
+      F weight = F(0.0f);
+      for_each_lane(on, [&](int k) {
+        const ElementPoint p = shared_.mesh.place(std::uint32_t(side / 2), {lane(u.x, k), lane(u.y, k)});
+        set_lane(hit.u, k, p.hit.u), set_lane(hit.v, k, p.hit.v);
+        set_lane(hit.geometry, k, p.hit.geometry), set_lane(hit.primitive, k, p.hit.primitive);
+        set_lane(o, k, p.o), set_lane(weight, k, p.weight);
+      });
+      const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)};
+      const SurfacePoint<F> x = surface<F>(shared_.scene.geometry, o, up, hit, on).point;
+      const Vec3<F> n = side % 2 == 1 ? -x.ng : x.ng;
+      const Spectrum<F> one = irradiance_sample(shared_, known, x, n, numbers, counts, on) * weight;
+      for_each_lane(on, [&](int k) { sum += lane(one, k); });
+    }
+    return sum * (1 / float(rays));
+  }
+
+  // One sample a pixel: what is emitted, and the reflected part of the irradiance.
+  RayCounts show(int frame, const PixelBounds& tile, std::span<PixelSample> out) {
+    const TilePass pass{tile, points(frame, pass_.points.kind, 1)};
+    const Irradiance& known = after(frame);
+    FirstHits<F> first_hits(shared_.scene, shared_.accel, pass, out);
+    RayCounts counts;
+    counts.camera = first_hits.rays();
+    PathState<F> path{};
+    for (M on = first_hits.refill(path, M(false)); any(on); on = first_hits.refill(path, M(false))) {
+      const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+      const U first = U(path_dimension::first_vertex);
+      const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+      const Arrival<F> at =
+          arrive<F>(shared_.scene, shared_.accel, {path.o, nowhere}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
+                    sampler.stream(first), counts, [](F) { return F(1.0f); });
+      const DiffusePoint point = diffuse_point(shared_, path.o, path.d, path.hit, sampler.stream(first + U(1u)), on);
+      Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
+      if (shared_.settings.gather)
+        leaves =
+            point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, gathering(pass, path), counts, on);
+      const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
+      for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+      write_features(at, point.albedo, path.slot, on, out);
+    }
+    return counts;
+  }
+  Sampler<F> gathering(const TilePass& pass, const PathState<F>& path) const {
+    PointSet set = pass.points;
+    set.seed = mix_bits(set.seed ^ 0x2545f491u);
+    return Sampler<F>(set, path.x, path.y, path.index);
+  }
+
+  Radiosity shared_;
+  ChainPass pass_;
+  Irradiance irradiance_[2];
+};
+
+// What keeps a scene from being one of diffuse surfaces.
+std::optional<std::string> not_diffuse(const Scene& scene) {
+  for (const GeometryRow& row : scene.geometry.rows) {
+    const Material& m = scene.materials[row.material];
+    if (m.is_interface) return "a surface is an interface of media";
+    if (m.mixture) return "a material is a mixture";
+    if (m.normal_map) return "a material has a normal map";
+    if (m.kind != BsdfKind::diffuse) return "a material is not \"diffuse\"";
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RadiosityIntegrator>> RadiosityIntegrator::make(const Scene& scene, const Accel& accel,
+                                                                       const RadiositySettings& settings) {
+  if (const auto reason = not_diffuse(scene))
+    return Failure{
+        fmt::format("radiosity is for scenes of diffuse surfaces, and here {}; \"path\" takes any", *reason)};
+  const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
+  auto mesh = ElementMesh::cut(scene, settings.element_size * diagonal);
+  if (!mesh) return mesh.failure();
+  return std::unique_ptr<RadiosityIntegrator>(new RadiosityIntegrator(scene, accel, settings, *std::move(mesh)));
+}
+
+std::unique_ptr<Chain> RadiosityIntegrator::begin(const ChainPass& pass) const {
+  return std::make_unique<RadiosityChain>(Radiosity{scene_, accel_, settings_, mesh_}, pass);
+}
+
+}  // namespace montelux
