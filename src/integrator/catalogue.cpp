@@ -19,7 +19,6 @@ namespace {
 struct Request {
   const ParameterList& list;
   std::optional<int> max_depth;
-  std::optional<float> max_component;
   const Scene& scene;
   const Accel& accel;
 };
@@ -80,7 +79,6 @@ Made make_tracepath(const Request& r) {
 Made make_restir_di(const Request& r) {
   auto settings = restir_di_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
-  settings->max_component = r.max_component;
   ChosenIntegrator chosen{"restir-di", {}, {}, {}, std::make_unique<RestirDirect>(r.scene, r.accel, *settings)};
   note_depth(chosen, r.max_depth);
   const bool reuses = settings->temporal || (settings->rounds > 0 && settings->neighbours > 0);
@@ -196,12 +194,13 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
   const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
   const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component);
-  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), most, scene, accel};
+  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), scene, accel};
   Made result = row->make(request);
   if (!result) return result;
   if (most) {
-    // Coupled integrators scale their samples down themselves.
-    if (result->integrator)
+    if (result->coupled)
+      result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *most);
+    else
       result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *most);
     result->biases.push_back(fmt::format("maxcomponent={}", *most));
     result->notes.push_back(fmt::format(

@@ -7,21 +7,58 @@
 namespace montelux {
 
 // Samples with a component above `most` are scaled down until it is `most`.
+inline void clamp_samples(std::span<PixelSample> samples, float most) {
+  for (PixelSample& sample : samples) {
+    const float brightest = max_component(sample.radiance);
+    if (brightest > most) sample.radiance *= gray(most / brightest);
+  }
+}
+
 class ClampedIntegrator final : public PixelIntegrator {
  public:
   ClampedIntegrator(std::unique_ptr<PixelIntegrator> inner, float most) : inner_(std::move(inner)), most_(most) {}
 
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     const RayCounts counts = inner_->trace(pass, out);
-    for (PixelSample& sample : out) {
-      const float brightest = max_component(sample.radiance);
-      if (brightest > most_) sample.radiance *= gray(most_ / brightest);
-    }
+    clamp_samples(out, most_);
     return counts;
   }
 
  private:
   std::unique_ptr<PixelIntegrator> inner_;
+  float most_;
+};
+
+class ClampedCoupledIntegrator final : public CoupledIntegrator {
+ public:
+  ClampedCoupledIntegrator(std::unique_ptr<CoupledIntegrator> inner, float most)
+      : inner_(std::move(inner)), most_(most) {}
+
+  int frames() const override { return inner_->frames(); }
+  int warm_up() const override { return inner_->warm_up(); }
+  int stages() const override { return inner_->stages(); }
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
+    return std::make_unique<ClampedChain>(inner_->begin(pass), inner_->stages() - 1, most_);
+  }
+
+ private:
+  class ClampedChain final : public Chain {
+   public:
+    ClampedChain(std::unique_ptr<Chain> inner, int last_stage, float most)
+        : inner_(std::move(inner)), last_stage_(last_stage), most_(most) {}
+    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+      const RayCounts counts = inner_->run(step, tile, out);
+      if (step.stage == last_stage_) clamp_samples(out, most_);
+      return counts;
+    }
+
+   private:
+    std::unique_ptr<Chain> inner_;
+    int last_stage_;
+    float most_;
+  };
+
+  std::unique_ptr<CoupledIntegrator> inner_;
   float most_;
 };
 

@@ -168,7 +168,6 @@ class DirectChain final : public Chain {
       }
       if (shows) show(domains[0], inputs[0], at, out, counts);
     }
-    if (shows && settings().max_component) scale_down(out);
     return counts;
   }
 
@@ -223,13 +222,6 @@ class DirectChain final : public Chain {
     const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
     const M open = is_open<F>(shared_.rays, vertex, way, lit & (way.target > F(0.0f)), counts);
     for_each_lane(open, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
-  }
-
-  void scale_down(std::span<PixelSample> out) const {
-    for (PixelSample& sample : out) {
-      const float brightest = max_component(sample.radiance);
-      if (brightest > *settings().max_component) sample.radiance *= gray(*settings().max_component / brightest);
-    }
   }
 
   const RestirScene<Rays> shared_;

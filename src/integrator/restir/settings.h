@@ -24,7 +24,6 @@ struct RestirSettings {
   bool visibility_reuse = false;
   int chain = 16, warm_up = 0;  // frames of a chain; those before them that only teach
   PathSettings path;            // of the light that is not reused
-  std::optional<float> max_component;
 };
 
 EntitySpec restir_di_spec();
