@@ -7,7 +7,7 @@ EntitySpec radiosity_spec() {
   return {"radiosity",
           "light between diffuse surfaces that are cut into elements of even irradiance (Lambertian scenes; biased by "
           "the elements' size)",
-          {{"elementsize", {number}, "longest edge of an element, over the scene's diagonal; default 0.02", 1e-4, 10},
+          {{"elementsize", {number}, "longest edge of an element, over the scene's diagonal; default 0.05", 1e-5, 10},
            {"rays", {integer}, "of each side of an element in each frame; default 16", 1, 65536},
            {"chain", {integer}, "frames that one solution is refined over: a pass; default 16", 1, 1024},
            {"warm-up", {integer}, "reflections before the first frame that is shown; default 12", 0, 1024},
