@@ -194,7 +194,9 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
 
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind) {
   if (!integrator.coupled()) return plan_passes(samples, kind);
-  const int frames = integrator.coupled()->frames();
+  // Too few chains would have no error bar.
+  constexpr int least_chains = 4;
+  const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / least_chains));
   return {frames, (std::max(samples, 1) + frames - 1) / frames};
 }
 

@@ -40,10 +40,10 @@ struct DiffusePoint {
   Spectrum<F> albedo;  // 0 where nothing is reflected
 };
 
-DiffusePoint diffuse_point(const Radiosity& r, const Vec3<F>& o, const Vec3<F>& d, const Hit<F>& hit,
-                           const RandomStream<F>& own, M on) {
+DiffusePoint diffuse_point(const Radiosity& r, const Ray<F>& ray, const Hit<F>& hit, const RandomStream<F>& own, M on) {
+  const Vec3<F>& d = ray.d;
   DiffusePoint at;
-  at.x = surface<F>(r.scene.geometry, o, d, hit, on);
+  at.x = surface<F>(r.scene.geometry, ray, hit, on);
   at.n = face_forward(at.x.point.ng, -d);
   BsdfContext<F> context{TransportMode::radiance, own};
   const SurfaceScattering<F> bsdf = r.scene.materials.scattering<F>(at.x, d, on, context.random);
@@ -83,7 +83,7 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
   counts.scattered += std::uint64_t(count(on));
   const auto [found, hit] = r.accel.trace<F>({from, wi, F(ray_infinity)}, on);
   if (!any(found)) return sum;
-  const DiffusePoint other = diffuse_point(r, from, wi, hit, numbers.stream(U(own)), found);
+  const DiffusePoint other = diffuse_point(r, {from, wi, hit.t}, hit, numbers.stream(U(own)), found);
   return sum + select(found, reflected(r, known, other, hit, found), gray(F(0.0f)));
 }
 
@@ -98,10 +98,12 @@ class RadiosityChain final : public Chain {
   }
 
  private:
-  PointSet points(int frame, PointSetKind kind, std::uint32_t samples) const {
+  // The points of the rays of elements: afresh in every frame.
+  PointSet points(int frame) const {
     PointSet p = pass_.points;
-    p.kind = kind, p.samples_per_pass = samples;
-    p.seed = mix_bits(p.seed ^ mix_bits(std::uint32_t(2 * frame + (samples > 1 ? 1 : 0)) + 0x51ed270bu));
+    p.kind = PointSetKind::padded_sobol, p.samples_per_pass = std::uint32_t(shared_.settings.rays);
+    p.width = p.height = 0;
+    p.seed = mix_bits(p.seed ^ mix_bits(std::uint32_t(frame) + 0x51ed270bu));
     return p;
   }
   const Irradiance& before(int frame) const { return irradiance_[std::size_t(frame) & 1]; }
@@ -110,7 +112,7 @@ class RadiosityChain final : public Chain {
   // The sides of elements are dealt out to the pixels, so that any tiles share the work and none does it twice.
   RayCounts transport(int frame, const PixelBounds& tile) {
     RayCounts counts;
-    const PointSet set = points(frame, PointSetKind::padded_sobol, std::uint32_t(shared_.settings.rays));
+    const PointSet set = points(frame);
     const auto pixels = std::size_t(pass_.bounds.area()), sides = before(frame).size();
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
@@ -140,7 +142,7 @@ class RadiosityChain final : public Chain {
         set_lane(o, k, p.o), set_lane(weight, k, p.weight);
       });
       const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)};
-      const SurfacePoint<F> x = surface<F>(shared_.scene.geometry, o, up, hit, on).point;
+      const SurfacePoint<F> x = surface<F>(shared_.scene.geometry, {o, up, F(0.0f)}, hit, on).point;
       const Vec3<F> n = side % 2 == 1 ? -x.ng : x.ng;
       const Spectrum<F> one = irradiance_sample(shared_, known, x, n, numbers, counts, on) * weight;
       for_each_lane(on, [&](int k) { sum += lane(one, k); });
@@ -150,7 +152,7 @@ class RadiosityChain final : public Chain {
 
   // One sample a pixel: what is emitted, and the reflected part of the irradiance.
   RayCounts show(int frame, const PixelBounds& tile, std::span<PixelSample> out) {
-    const TilePass pass{tile, points(frame, pass_.points.kind, 1)};
+    const TilePass pass{tile, pass_.points, {}, std::uint32_t(frame)};
     const Irradiance& known = after(frame);
     FirstHits<F> first_hits(shared_.scene, shared_.accel, pass, out);
     RayCounts counts;
@@ -163,7 +165,8 @@ class RadiosityChain final : public Chain {
       const Arrival<F> at =
           arrive<F>(shared_.scene, shared_.accel, {path.o, nowhere}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
                     sampler.stream(first), counts, [](F) { return F(1.0f); });
-      const DiffusePoint point = diffuse_point(shared_, path.o, path.d, path.hit, sampler.stream(first + U(1u)), on);
+      const DiffusePoint point =
+          diffuse_point(shared_, {path.o, path.d, path.hit.t}, path.hit, sampler.stream(first + U(1u)), on);
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
       if (shared_.settings.gather)
         leaves =
@@ -205,6 +208,7 @@ Result<std::unique_ptr<RadiosityIntegrator>> RadiosityIntegrator::make(const Sce
     return Failure{
         fmt::format("radiosity is for scenes of diffuse surfaces, and here {}; \"path\" takes any", *reason)};
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
+  if (scene.geometry.moves()) return Failure{"radiosity is for scenes whose surfaces stand still; \"path\" takes any"};
   auto mesh = ElementMesh::cut(scene, settings.element_size * diagonal);
   if (!mesh) return mesh.failure();
   return std::unique_ptr<RadiosityIntegrator>(new RadiosityIntegrator(scene, accel, settings, *std::move(mesh)));
