@@ -19,7 +19,7 @@ inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& 
   PassMeans m;
   RenderObserver silent;
   for (int pass = 0; pass < passes; ++pass) {
-    RenderSettings s = scene.settings(PointSetKind::independent, {samples_per_pass, 1}, seed, 0);
+    RenderSettings s = scene.settings(PointSetKind::blue_noise, {samples_per_pass, 1}, seed, 0);
     s.first_pass = pass;
     const Film film = render(chosen.any(), s, silent).film;
     const PixelBounds& b = film.bounds();
