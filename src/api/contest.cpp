@@ -67,8 +67,10 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
   for (const std::string& text : options.methods) {
     auto method = read_method(text);
     if (!method) return method.failure();
-    auto chosen = choose_integrator(method->integrator, {parts.picture.max_depth, parts.picture.max_component},
-                                    parts.scene, *parts.accel);
+    auto chosen = choose_integrator(
+        method->integrator,
+        {parts.picture.max_depth, parts.picture.max_component, parts.picture.width, parts.picture.height}, parts.scene,
+        *parts.accel);
     if (!chosen) return Failure{text + ": " + chosen.error()};
     const PointSetKind sampler = method->sampler.value_or(parts.picture.sampler);
     note_sampler(*chosen, sampler);

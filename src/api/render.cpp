@@ -62,7 +62,8 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
       parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
-  auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component}, parts.scene, *parts.accel);
+  auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component, picture.width, picture.height},
+                                  parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
   if (options.layers) {

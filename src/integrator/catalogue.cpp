@@ -19,6 +19,7 @@ namespace {
 struct Request {
   const ParameterList& list;
   std::optional<int> max_depth;
+  const IntegratorDefaults& defaults;
   const Scene& scene;
   const Accel& accel;
 };
@@ -42,6 +43,7 @@ Made make_path(const Request& r) {
   auto settings = path_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
   if (naive) settings->nee = false;
+  settings->width = r.defaults.width, settings->height = r.defaults.height;
   ChosenIntegrator chosen = made(naive ? "naive" : "path", std::make_unique<PathTracer>(r.scene, r.accel, *settings));
   note_depth(chosen, r.max_depth);
   return chosen;
@@ -194,7 +196,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
   const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
   const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component);
-  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), scene, accel};
+  const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), defaults, scene, accel};
   Made result = row->make(request);
   if (!result) return result;
   if (most) {

@@ -19,6 +19,7 @@ std::span<const EntitySpec> integrator_catalogue();
 struct IntegratorDefaults {
   std::optional<int> max_depth;
   std::optional<float> max_component;
+  int width = 0, height = 0;  // of the picture
 };
 
 struct ChosenIntegrator {

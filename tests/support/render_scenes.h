@@ -64,7 +64,8 @@ class TestScene {
     auto choice = parse_choice(text);
     if (!choice) throw std::runtime_error(choice.error());
     const PictureSettings& p = prepared_->picture;
-    auto chosen = choose_integrator(*choice, {p.max_depth, p.max_component}, prepared_->scene, *accel_);
+    auto chosen =
+        choose_integrator(*choice, {p.max_depth, p.max_component, p.width, p.height}, prepared_->scene, *accel_);
     if (!chosen) throw std::runtime_error(chosen.error());
     return *std::move(chosen);
   }

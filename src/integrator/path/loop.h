@@ -4,6 +4,7 @@
 #include "integrator/path/dimensions.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/settings.h"
+#include "integrator/path/survival.h"
 #include "integrator/resampled_light.h"
 #include "mc/mis.h"
 #include "mc/roulette.h"
@@ -50,6 +51,9 @@ MONTELUX_INLINE F survival_probability(const PathSettings& settings, const PathS
       return F(settings.fixed_survival);
     case PathRoulette::proportional:
       return min(vigour, F(most_survival));
+    case PathRoulette::efficiency:
+      return clamp(vigour * settings.survival->template factor<F>(path.x, path.y, path.depth), least_survival,
+                   most_survival);
     case PathRoulette::throughput:
       break;
   }
@@ -193,6 +197,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
     path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(goes_on, U(1u), U(0u));
+    if constexpr (requires { tally.scattered(path, goes_on); }) tally.scattered(path, goes_on);
     const M plays = goes_on & (path.depth > U(std::uint32_t(settings.roulette_depth)));
     const Roulette<F> survival = roulette(select(plays, survival_probability(settings, path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));

@@ -11,13 +11,15 @@ namespace {
 
 using enum ParameterType;
 
-// "throughput", "proportional", "fixed:0.5", "off".
+// "throughput", "proportional", "efficiency", "fixed:0.5", "off".
 Status read_roulette(const std::string& text, PathSettings& settings) {
   constexpr std::string_view fixed = "fixed:";
   if (text == "throughput") {
     settings.roulette = PathRoulette::throughput;
   } else if (text == "proportional") {
     settings.roulette = PathRoulette::proportional;
+  } else if (text == "efficiency") {
+    settings.roulette = PathRoulette::efficiency;
   } else if (text == "off") {
     settings.roulette = PathRoulette::off;
   } else if (text.starts_with(fixed)) {
@@ -28,8 +30,8 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
       return Failure{
           fmt::format("roulette fixed takes a survival probability between 0 and 1, as fixed:0.5; found \"{}\"", text)};
   } else {
-    return Failure{
-        fmt::format("roulette takes throughput, proportional, fixed:PROBABILITY or off; found \"{}\"", text)};
+    return Failure{fmt::format(
+        "roulette takes throughput, proportional, efficiency, fixed:PROBABILITY or off; found \"{}\"", text)};
   }
   return Done{};
 }
@@ -57,7 +59,7 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
 
 std::vector<ParameterSpec> common_parameters() {
   return {{"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
-          {"roulette", {string}, "throughput, proportional, fixed:PROBABILITY or off; default throughput"},
+          {"roulette", {string}, "throughput, proportional, efficiency, fixed:PROBABILITY or off; default throughput"},
           {"roulette-depth", {integer}, "scattering events before roulette; default 2", 0, 1 << 20},
           {"lanes", {string}, "paths side by side; default native", 0, 0, {"one", "native"}}};
 }

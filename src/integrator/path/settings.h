@@ -1,11 +1,14 @@
 // Settings of the path integrator.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "light/light.h"
 #include "parameter/choice.h"
 
 namespace montelux {
+
+class SurvivalMap;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
 enum class Lanes { one, native };
@@ -15,8 +18,9 @@ enum class Lanes { one, native };
 enum class PathMis { off, balance, power };
 
 // What decides whether a path lives on. `throughput`: the square root of the product of its weights; `proportional`:
-// that product itself, so that survivors weigh alike; `fixed`: always the same probability.
-enum class PathRoulette { off, throughput, proportional, fixed };
+// that product itself, so that survivors weigh alike; `fixed`: always the same probability; `efficiency`: the one that
+// a pilot found to make variance times cost least.
+enum class PathRoulette { off, throughput, proportional, fixed, efficiency };
 
 struct PathSettings {
   // Scattering events at most; none: paths end by roulette alone, without bias.
@@ -26,6 +30,9 @@ struct PathSettings {
   PathMis mis = PathMis::power;
   PathRoulette roulette = PathRoulette::throughput;
   float fixed_survival = 0.5f;  // of PathRoulette::fixed
+  // Of PathRoulette::efficiency: the size of the picture, for the pilot, and what that found; made where there is none.
+  int width = 0, height = 0;
+  std::shared_ptr<const SurvivalMap> survival;
   // How lights are chosen; none: as the scene says.
   std::optional<LightSelection> light_selection;
   // Next-event estimation by one out of so many candidates, chosen by what they would bring; 0: by a single one.

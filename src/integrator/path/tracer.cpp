@@ -1,6 +1,7 @@
 #include "integrator/path/tracer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrator/path/loop.h"
 
@@ -10,6 +11,42 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
+  if (settings.roulette == PathRoulette::efficiency && !settings.survival)
+    settings_.survival = std::make_shared<SurvivalMap>(run_pilot());
+}
+
+SurvivalMap PathTracer::run_pilot() const {
+  // Without roulette, and so not without an end; what is deeper is rare and counts little.
+  constexpr int deepest = 24, samples = 8, side = 4, tiles_in_block = 2;
+  PathSettings plain = settings_;
+  plain.roulette = PathRoulette::off;
+  plain.max_depth = std::min(settings_.max_depth.value_or(deepest), deepest);
+  const PathTracer pilot(scene_, accel_, plain);
+  const PilotBlocks blocks = PilotBlocks::of(settings_.width, settings_.height);
+  const int width = std::max(settings_.width, 1), height = std::max(settings_.height, 1), block = 1 << blocks.bits;
+  const RandomStream<float> places(0x3f84d5b5u, 0xb5470917u);
+  std::vector<PilotPath> all;
+  std::vector<PixelSample> out;
+  for (int i = 0; i < blocks.count() * tiles_in_block; ++i) {
+    const int b = i / tiles_in_block, x0 = b % blocks.across * block, y0 = b / blocks.across * block;
+    // A block at the border may be cut off: its tiles move inside.
+    const int x = std::min(x0 + int(places.at(std::uint32_t(2 * i)) * float(block)), std::max(width - side, 0));
+    const int y = std::min(y0 + int(places.at(std::uint32_t(2 * i + 1)) * float(block)), std::max(height - side, 0));
+    const PixelBounds tile{x, y, std::min(x + side, width), std::min(y + side, height)};
+    const TilePass pass{tile,
+                        {PointSetKind::independent, 0x082efa98u, std::uint32_t(i), samples, std::uint32_t(width),
+                         std::uint32_t(height)}};
+    out.assign(std::size_t(tile.area()) * samples, {});
+    std::vector<PilotPath> paths(out.size());
+    PilotTally tally(paths);
+    pilot.trace_with(pass, out, tally);
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      paths[k].light = PilotTally::mean_light(out[k].radiance);
+      paths[k].block = b, paths[k].pixel = i * side * side + int(k) / samples;
+      if (std::isfinite(paths[k].light)) all.push_back(std::move(paths[k]));
+    }
+  }
+  return survival_from(all, blocks, settings_.roulette_depth);
 }
 
 template <class Tally>

@@ -4,6 +4,7 @@
 #include "accel/accel.h"
 #include "integrator/integrator.h"
 #include "integrator/path/settings.h"
+#include "integrator/path/survival.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -19,6 +20,8 @@ class PathTracer final : public PixelIntegrator {
                          std::span<ExactRgb> sums) const override;
 
  private:
+  // The pilot of PathRoulette::efficiency: some pixels of every block of the picture.
+  SurvivalMap run_pilot() const;
   template <class Tally>
   RayCounts trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const;
   const Scene& scene_;

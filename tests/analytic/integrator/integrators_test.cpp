@@ -58,6 +58,8 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "path:mis=off,light-selection=uniform",
                                          "path:mis=balance,light-selection=power,roulette=fixed:0.6",
                                          "path:roulette=fixed:0.4,roulette-depth=0",
+                                         "path:roulette=efficiency",
+                                         "naive:roulette=efficiency,roulette-depth=0",
                                          "path:light-selection=ris:5",
                                          "path:light-selection=ris:3,mis=off",
                                          "tracepath:p-emit=0.5,roulette-depth=0",
