@@ -65,7 +65,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
     }
     EXPECT_TRUE(agrees(m, c.value)) << way << ": " << m.mean << " +- " << m.standard_error << " where " << c.formula
                                     << " = " << c.value;
-    const double fault = way == "path" ? 1.15 : 1.3;
+    const double fault = way == "path" ? 1.2 : 1.3;
     EXPECT_FALSE(agrees(m, fault * c.value)) << way << " would pass with " << 100 * (fault - 1) << " % more";
   }
 }
