@@ -62,7 +62,7 @@ void ProgressLine::progress(const Progress& p) {
   if (p.finished)
     line_.finish();
   else
-    line_.show(p.fraction, p.elapsed, [&p] { return numbers(p); });
+    line_.show((part_ + p.fraction) / parts_, p.elapsed, [&] { return name_ + numbers(p); });
 }
 
 std::string time_text(double seconds) {

@@ -25,7 +25,9 @@ class StatusLine {
 // The progress of a render as a status line; and it passes on the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
-  ProgressLine(bool visible, const StopSignals& signals) : signals_(signals), line_(visible) {}
+  // `part` of `parts` equal ones, for a sequence; `name` stands before the numbers.
+  ProgressLine(bool visible, const StopSignals& signals, std::string name = {}, int part = 0, int parts = 1)
+      : signals_(signals), line_(visible), name_(std::move(name)), part_(part), parts_(parts) {}
 
   void progress(const Progress& progress) override;
   bool stop_requested() override;
@@ -33,6 +35,8 @@ class ProgressLine final : public RenderObserver {
  private:
   const StopSignals& signals_;
   StatusLine line_;
+  std::string name_;
+  int part_, parts_;
 };
 
 // "1.2 ms", "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

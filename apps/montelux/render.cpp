@@ -29,6 +29,9 @@ struct RenderArguments {
   RenderOptions render;
   DisplayTransform display;
   bool json = false, quiet = false, no_progress = false;
+  std::optional<FrameRange> frames;
+  std::optional<double> fps;
+  std::optional<int> frame;  // the one at hand
 };
 
 constexpr const char* examples = R"(Examples:
@@ -36,6 +39,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt -o room.exr -o room.png --tone aces --spp 256
   montelux render room.pbrt --time 10m --resolution 1920x1080
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
+  montelux render flight.pbrt --frames 0:23 -o flight.####.exr
   montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
 
 Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.
@@ -102,6 +106,10 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["files"] = arguments.files;
   json["interrupted"] = rendering.result.interrupted;
   json["seed"] = arguments.render.seed;
+  if (arguments.frame) {
+    json["frame"] = *arguments.frame;
+    json["shutter"] = {arguments.render.shutter->open, arguments.render.shutter->close};
+  }
   json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json::array({nullptr, nullptr, nullptr});
   json["standard_error"] = to_json(outcome.image.standard_error);
   json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
@@ -116,7 +124,8 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["non_finite"] = outcome.non_finite;
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
-  fmt::print("{}\n", json.dump(2));
+  // A line for each frame of a sequence.
+  fmt::print("{}\n", arguments.frame ? json.dump() : json.dump(2));
 }
 
 void print_text(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
@@ -146,26 +155,28 @@ int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   return status;
 }
 
-int run_render(RenderArguments& arguments) {
-  if (arguments.files.empty()) arguments.files = {std::filesystem::path(arguments.scene).stem().string() + ".exr"};
+// Pictures that cannot be written are found out before the render.
+Status check_files(const RenderArguments& arguments) {
   for (const std::string& file : arguments.files)
-    if (Status good = check_picture_file(file); !good) return complain(good.error());
+    if (Status good = check_picture_file(file); !good) return good;
   const auto is_exr = [](const std::string& file) { return std::filesystem::path(file).extension() == ".exr"; };
   if (arguments.render.layers && !arguments.json && std::ranges::none_of(arguments.files, is_exr))
-    return complain("layers need an .exr file: -o PICTURE.exr (or --json for their means)");
+    return Failure{"layers need an .exr file: -o PICTURE.exr (or --json for their means)"};
+  return Done{};
+}
 
-  arguments.load.threads = arguments.render.threads;
-  LoadResult loaded = load_scene(arguments.scene, arguments.load);
-  print_diagnostics(loaded.diagnostics, arguments.quiet);
-  if (!loaded.scene) return bad_input;
-
-  StopSignals signals;
-  ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
-  Result<Rendering> rendering = render_scene(*loaded.scene, arguments.render, observer);
+// One picture: rendered, written and told of. A frame that is interrupted is not written.
+int render_picture(const RenderArguments& arguments, const LoadedScene& scene, RenderObserver& observer,
+                   const StopSignals& signals) {
+  Result<Rendering> rendering = render_scene(scene, arguments.render, observer);
   if (!rendering) return complain(rendering.error());
 
   const int signal = signals.received();
   const Outcome outcome = outcome_of(*rendering);
+  if (rendering->result.interrupted && arguments.frame) {
+    warn(fmt::format("interrupted in frame {}, which is not written; the frames before it are", *arguments.frame));
+    return 128 + signal;
+  }
   if (rendering->result.interrupted && outcome.samples == 0) {
     complain("interrupted before any sample was taken; nothing is written");
     return 128 + signal;
@@ -175,7 +186,8 @@ int run_render(RenderArguments& arguments) {
     warn(outcome.image.passes > 0
              ? fmt::format("interrupted after {} passes; the picture is of what was done", outcome.image.passes)
              : "interrupted in the first pass; parts of the picture are missing");
-  if (!arguments.quiet)
+  // Notes are the same for every frame.
+  if (!arguments.quiet && (!arguments.frame || *arguments.frame == arguments.frames->first))
     for (const std::string& note : rendering->notes) warn(note);
   if (outcome.non_finite > 0)
     warn(fmt::format("{} samples were not finite; they are not in the mean", outcome.non_finite));
@@ -184,7 +196,69 @@ int run_render(RenderArguments& arguments) {
     print_json(arguments, *rendering, outcome);
   else
     print_text(arguments, *rendering, outcome);
+  std::fflush(stdout);
   return rendering->result.interrupted ? 128 + signal : done;
+}
+
+// What one frame is rendered with; fails where a pattern of names has no good place for its number.
+Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const SceneInfo& scene, int frame) {
+  RenderArguments one = all;
+  one.frame = frame;
+  for (std::string& file : one.files) {
+    Result<std::string> name = frame_file(file, frame);
+    if (!name) return name.failure();
+    file = *name;
+  }
+  one.render.seed = frame_seed(all.render.seed, frame);
+  one.render.shutter = frame_shutter(scene, *all.frames, frame);
+  return one;
+}
+
+int render_frames(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals) {
+  if (!scene.info().moves && !all.quiet) warn("nothing moves in the scene: its frames differ by their seeds alone");
+  const bool visible = !all.quiet && !all.no_progress;
+  for (int frame = all.frames->first; frame <= all.frames->last; ++frame) {
+    const Result<RenderArguments> one = arguments_of_frame(all, scene.info(), frame);
+    if (!one) return complain(one.error());
+    ProgressLine observer(visible, signals,
+                          fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last),
+                          frame - all.frames->first, all.frames->count());
+    if (const int status = render_picture(*one, scene, observer, signals); status != done) return status;
+  }
+  return done;
+}
+
+int run_render(RenderArguments& arguments) {
+  if (arguments.files.empty()) arguments.files = {std::filesystem::path(arguments.scene).stem().string() + ".exr"};
+  if (arguments.fps && arguments.frames->of)
+    return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
+  if (arguments.frames) arguments.frames->fps = arguments.fps;
+  const Result<RenderArguments> first =
+      arguments.frames ? arguments_of_frame(arguments, {}, arguments.frames->last) : Result<RenderArguments>(arguments);
+  if (!first) return complain(first.error());
+  if (Status good = check_files(*first); !good) return complain(good.error());
+
+  arguments.load.threads = arguments.render.threads;
+  LoadResult loaded = load_scene(arguments.scene, arguments.load);
+  print_diagnostics(loaded.diagnostics, arguments.quiet);
+  if (!loaded.scene) return bad_input;
+
+  StopSignals signals;
+  if (arguments.frames) return render_frames(arguments, *loaded.scene, signals);
+  ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
+  return render_picture(arguments, *loaded.scene, observer, signals);
+}
+
+// A sequence of pictures.
+void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
+  add_option(verb,
+             {"--frames", "A:B[/N]",
+              "a picture for each of these frames, into which the time of the scene's transforms falls in equal parts "
+              "(A:B/N: N parts, counted from 0); their number goes to #### or %04d in -o, else before the extension"},
+             into(arguments.frames, parse_frames));
+  add_option(verb, {"--fps", "F", "frames in a unit of the scene's time: frame f has the scene's shutter, f / F later"},
+             into(arguments.fps, [](const std::string& t) { return parse_number(t, 1e-6, 1e6); }));
+  verb.get_option("--fps")->needs("--frames");
 }
 
 // How many samples, and which.
@@ -250,9 +324,10 @@ void add_render(CLI::App& app, Action& chosen) {
              });
   add_scene_options(verb, arguments->scene, arguments->load);
   add_sampling_options(verb, arguments->render);
+  add_frame_options(verb, *arguments);
   add_algorithm_options(verb, arguments->render);
   add_display_options(verb, arguments->display);
-  verb.add_flag("--json", arguments->json, "results as one JSON object");
+  verb.add_flag("--json", arguments->json, "results as one JSON object (a line for each frame)");
   verb.add_flag("--quiet", arguments->quiet, "no progress, no warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

@@ -91,6 +91,9 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
   r.seed = options.seed;
   r.threads = options.threads;
+  if (options.shutter)
+    r.shutter =
+        shutter_of(options.shutter->open, options.shutter->close, picture.transforms_start, picture.transforms_end);
   r.seconds = options.seconds;
   r.plan =
       plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples), r.sampler);

@@ -1,5 +1,6 @@
 // Rendering a scene, and the picture with everything that is known of it.
 #pragma once
+#include "api/frames.h"
 #include "api/layers.h"
 #include "api/scene.h"
 #include "image/display.h"
@@ -20,6 +21,7 @@ struct RenderOptions {
   std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
   std::optional<LayerRequest> layers;                         // of an integrator that has them
+  std::optional<ShutterTimes> shutter;                        // default: the file's
 };
 
 // A rendered picture, its error and its layers.

@@ -36,7 +36,7 @@ std::size_t bytes_of(const std::vector<T>& v) {
 
 std::size_t geometry_bytes(const GeometryStore& g) {
   return bytes_of(g.positions) + bytes_of(g.normals) + bytes_of(g.uvs) + bytes_of(g.triangles) + bytes_of(g.shapes) +
-         bytes_of(g.rows) + bytes_of(g.instances) + bytes_of(g.instance_rows);
+         bytes_of(g.rows) + bytes_of(g.instances) + bytes_of(g.instance_rows) + bytes_of(g.instance_keys);
 }
 
 // Counts triangles as they are in memory and, through the instances, as rays see them.
@@ -66,6 +66,9 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   info.camera = desc.camera.type, info.film = desc.film.type, info.filter = desc.filter.type;
   info.sampler = name_of(picture.sampler), info.integrator = picture.integrator;
   info.samples = picture.samples, info.max_depth = picture.max_depth;
+  info.moves = parts.scene.moves();
+  info.transforms_start = picture.transforms_start, info.transforms_end = picture.transforms_end;
+  info.shutter_open = picture.shutter_open, info.shutter_close = picture.shutter_close;
   count_geometry(parts.scene.geometry, info);
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
   std::map<std::string, std::size_t> lights;

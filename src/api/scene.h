@@ -24,10 +24,12 @@ struct SceneInfo {
   int width = 0, height = 0;
   PixelBounds crop;  // of the file; the whole picture where it has none
   std::string camera, film, filter, sampler, integrator;
-  int samples = 0;                      // that the file asks for
-  std::optional<int> max_depth;         // that the file asks for
-  std::size_t triangles = 0;            // in memory
-  std::size_t instanced_triangles = 0;  // as rays see them
+  int samples = 0;                                                                       // that the file asks for
+  std::optional<int> max_depth;                                                          // that the file asks for
+  bool moves = false;                                                                    // the camera or a shape
+  double transforms_start = 0, transforms_end = 1, shutter_open = 0, shutter_close = 1;  // in the scene's unit of time
+  std::size_t triangles = 0;                                                             // in memory
+  std::size_t instanced_triangles = 0;                                                   // as rays see them
   std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;
   std::size_t materials = 0, textures = 0, images = 0;
   std::vector<std::pair<std::string, std::size_t>> lights;  // by kind, with how many there are

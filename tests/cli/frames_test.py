@@ -1,0 +1,123 @@
+"""montelux render --frames: a picture for each frame of a scene that moves."""
+import json
+import math
+import signal
+import time
+import unittest
+
+from program import ProgramTest, read_pfm
+
+# A black square comes in from the left over a sky of radiance 1: at time t of 0 to 2 it hides t / 2 of the picture.
+SCENE = """
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+Sampler "stratified" "integer xsamples" 8 "integer ysamples" 8
+Integrator "path"
+PixelFilter "box"
+TransformTimes 0 2
+LookAt 0 0 -5  0 0 0  0 1 0
+Camera "orthographic" "float shutteropen" SHUTTER_OPEN "float shutterclose" SHUTTER_CLOSE
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+ActiveTransform StartTime
+Translate -2 0 0
+ActiveTransform All
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -1 -1 0   1 -1 0   1 1 0   -1 1 0 ]
+"""
+
+
+class Frames(ProgramTest):
+    def write_scene(self, shutter_open=0, shutter_close=2, name="slide.pbrt"):
+        text = SCENE.replace("SHUTTER_OPEN", str(shutter_open)).replace("SHUTTER_CLOSE", str(shutter_close))
+        (self.folder / name).write_text(text)
+
+    def told(self, *arguments):
+        result = self.run_program("render", "slide.pbrt", "--json", "--no-progress", *arguments)
+        return [json.loads(line) for line in result.stdout.splitlines()]
+
+    def expect_hidden(self, told, hidden, exposure):
+        """The share of the picture that is hidden, of each frame, to five standard errors."""
+        for frame, share in zip(told, hidden, strict=True):
+            self.assertGreater(frame["standard_error"][0], 0)
+            self.assertAlmostEqual(frame["mean"][0], exposure * (1 - share), delta=5 * frame["standard_error"][0])
+
+    def test_the_whole_time_falls_into_equal_frames(self):
+        self.write_scene()
+        told = self.told("--frames", "10:13", "-o", "a.####.pfm")
+        self.assertEqual([t["frame"] for t in told], [10, 11, 12, 13])
+        self.assertEqual([t["shutter"] for t in told], [[0, 0.5], [0.5, 1], [1, 1.5], [1.5, 2]])
+        self.assertEqual([t["files"] for t in told], [[f"a.00{n}.pfm"] for n in (10, 11, 12, 13)])
+        self.expect_hidden(told, [1 / 8, 3 / 8, 5 / 8, 7 / 8], 2)
+        # The picture is that of the moment: the square comes from the left.
+        _, _, rows = read_pfm(self.folder / "a.0011.pfm")
+        self.assertLess(rows[8][0], 0.01)
+        self.assertGreater(rows[8][3 * 15], 1.99)
+
+    def test_a_part_of_the_frames_is_the_same_as_in_the_whole(self):
+        self.write_scene(0, 1)
+        whole = self.told("--frames", "0:7", "-o", "whole.%03d.pfm")
+        part = self.told("--frames", "5:6/8", "-o", "part.#.pfm")
+        self.assertEqual([t["shutter"] for t in part], [[1.25, 1.375], [1.5, 1.625]])
+        self.assertEqual([t["seed"] for t in part], [t["seed"] for t in whole[5:7]])
+        self.assertEqual(len({t["seed"] for t in whole}), 8)
+        for number in 5, 6:
+            self.assertEqual((self.folder / f"whole.00{number}.pfm").read_bytes(),
+                             (self.folder / f"part.{number}.pfm").read_bytes())
+        self.expect_hidden(part, [(1.25 + 1.375) / 4, (1.5 + 1.625) / 4], 1)
+
+    def test_frames_a_unit_of_time_shift_the_shutter_of_the_scene(self):
+        self.write_scene(0, 0.25)
+        told = self.told("--frames", "0:3", "--fps", "2", "-o", "a.pfm")
+        self.assertEqual([t["shutter"] for t in told], [[0, 0.25], [0.5, 0.75], [1, 1.25], [1.5, 1.75]])
+        self.expect_hidden(told, [1 / 16, 5 / 16, 9 / 16, 13 / 16], 0.25)
+        self.assertTrue((self.folder / "a.0002.pfm").is_file())
+
+    def test_a_fault_in_the_shutter_would_show(self):
+        # The same frame with a shutter that stays at its opening lies far outside of what is allowed above.
+        self.write_scene()
+        self.write_scene(0.5, 1, "open.pbrt")
+        frame = self.told("--frames", "0:3", "-o", "a.pfm")[1]
+        wrong = 2 * (1 - 0.5 / 2)
+        self.assertGreater(abs(frame["mean"][0] - wrong), 5 * frame["standard_error"][0])
+        self.assertTrue(math.isfinite(frame["mean"][0]))
+
+    def test_what_makes_no_frames_is_refused(self):
+        self.write_scene()
+        for arguments, word in [(["--frames", "3"], "A:B"), (["--frames", "5:3"], "end before"),
+                                (["--frames", "-1:3"], "A:B"), (["--frames", "0:8/8"], "no frame 8"),
+                                (["--frames", "0:x"], "A:B"), (["--frames", "0:1/0"], "no frame 1"),
+                                (["--frames", "0:1/2", "--fps", "24"], "exclude"),
+                                (["--frames", "0:1", "--fps", "0"], "from"), (["--fps", "24"], "--frames"),
+                                (["--frames", "0:1", "-o", "a.##.b.%d.exr"], "more than one"),
+                                (["--frames", "0:1", "-o", "missing/a.#.exr"], "missing")]:
+            with self.subTest(arguments=arguments):
+                result = self.run_program("render", "slide.pbrt", *arguments, status=2)
+                self.assertIn(word, result.stderr)
+                self.assertEqual(list(self.folder.glob("*.exr")), [])
+
+    def test_an_interrupt_keeps_the_frames_that_are_finished(self):
+        self.write_scene()
+        program = self.start("render", "slide.pbrt", "--frames", "0:99999", "--spp", "16384", "--quiet", "-o", "a.#.pfm")
+        deadline = time.monotonic() + 60
+        while not (self.folder / "a.1.pfm").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        program.send_signal(signal.SIGINT)
+        _, error = program.communicate(timeout=60)
+        self.assertEqual(program.returncode, 130)
+        self.assertIn("not written", error)
+        frames = sorted(int(path.name.split(".")[1]) for path in self.folder.glob("a.*.pfm"))
+        self.assertEqual(frames, list(range(len(frames))))
+        self.assertGreaterEqual(len(frames), 2)
+        for number in frames:
+            self.assertEqual(read_pfm(self.folder / f"a.{number}.pfm")[:2], (16, 16))
+
+    def test_a_scene_that_stands_still_says_so(self):
+        (self.folder / "still.pbrt").write_text("Integrator \"path\"\nWorldBegin\nLightSource \"infinite\"\n")
+        result = self.run_program("render", "still.pbrt", "--resolution", "8x8", "--spp", "1", "--frames", "0:1")
+        self.assertIn("nothing moves", result.stderr)
+        self.assertTrue((self.folder / "still.0001.exr").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()
