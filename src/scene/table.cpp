@@ -63,7 +63,7 @@ List path_parameters() {
 std::vector<EntitySpec> camera_integrators() {
   return {
       {"path", "path tracing with light sampling", path_parameters()},
-      {"volpath", "path tracing with media", path_parameters()},
+      {"volpath", "path tracing with media", path_parameters(), false, "path"},
       {"simplepath", "path tracing, its techniques one by one",
        integrator_parameters({{"samplebsdf", {boolean}, "draw directions by the BSDF; default true"},
                               {"samplelights", {boolean}, "draw points of lights; default true"}}),

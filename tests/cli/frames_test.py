@@ -113,7 +113,7 @@ class Frames(ProgramTest):
             self.assertEqual(read_pfm(self.folder / f"a.{number}.pfm")[:2], (16, 16))
 
     def test_a_scene_that_stands_still_says_so(self):
-        (self.folder / "still.pbrt").write_text("Integrator \"path\"\nWorldBegin\nLightSource \"infinite\"\n")
+        (self.folder / "still.pbrt").write_text("WorldBegin\nLightSource \"infinite\"\n")
         result = self.run_program("render", "still.pbrt", "--resolution", "8x8", "--spp", "1", "--frames", "0:1")
         self.assertIn("nothing moves", result.stderr)
         self.assertTrue((self.folder / "still.0001.exr").is_file())
