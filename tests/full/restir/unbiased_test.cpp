@@ -29,10 +29,10 @@ std::string folder() { return std::string(MONTELUX_SOURCE_DIR) + "/scenes/analyt
 
 // Enough samples for the error that is wanted, by a first look.
 PassMeans measured_well(const TestScene& scene, const ChosenIntegrator& chosen, int frames, std::uint32_t seed) {
-  const PassMeans first = measure_passes(scene, chosen, frames, passes / 4, seed);
+  const PassMeans first = measure_passes(scene, chosen, frames, passes, seed);
   const SampleSummary image = summarize(first.values[0]);
   // Both sides of a comparison add to its error.
-  const double per_pass = std::sqrt(image.variance) / image.mean, goal = 0.6 * wanted_error;
+  const double per_pass = std::sqrt(image.variance) / image.mean, goal = 0.5 * wanted_error;
   const int needed = std::max(passes, int(per_pass * per_pass / (goal * goal)) + 1);
   PassMeans all = measure_passes(scene, chosen, frames, needed, seed + 1);
   return all;
