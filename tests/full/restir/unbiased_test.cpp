@@ -49,8 +49,9 @@ TEST_P(Reuse, has_the_mean_of_the_path_tracer) {
   for (const char* way : unbiased) {
     const PassMeans reuse = measured_well(scene, scene.integrator(way), 16, seed += 10);
     const MeansVerdict v = compare_means(reuse, truth, own);
-    printf("%-18s %-80s image %+.3f %% +- %.3f %%, smallest p %.3g at %zu, %zu passes\n", text.name.c_str(), way,
-           100 * v.image_difference, 100 * v.image_error, v.smallest_p, v.where, reuse.values[0].size());
+    printf("%-18s %-80s image %+.3f %% +- %.3f %%, smallest p %.3g at %zu (%+.4f %%), %zu passes\n", text.name.c_str(),
+           way, 100 * v.image_difference, 100 * v.image_error, v.smallest_p, v.where, 100 * v.difference,
+           reuse.values[0].size());
     EXPECT_FALSE(v.differ) << text.name << ", " << way << ": image " << 100 * v.image_difference << " % +- "
                            << 100 * v.image_error << " %, smallest p " << v.smallest_p << " at " << v.where;
     EXPECT_LE(v.image_error, wanted_error) << text.name << ", " << way;
