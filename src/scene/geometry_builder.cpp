@@ -131,9 +131,10 @@ void GeometryBuilder::add_instance(const InstanceDesc& instance) {
   else
     place(parts.still, start);
   // Two motions, one within the other, bend even where neither turns.
-  for (const auto& [object, within] : parts.moving)
-    place_moving(object, {[&](double t) { return motion.at(t) * within.at(t); },
-                          motion.moves() ? std::max({motion.steps(), within.steps(), 64}) : within.steps()});
+  for (const std::pair<std::uint32_t, Motion>& part : parts.moving)
+    place_moving(part.first,
+                 {[&](double t) { return motion.at(t) * part.second.at(t); },
+                  motion.moves() ? std::max({motion.steps(), part.second.steps(), 64}) : part.second.steps()});
 }
 
 void GeometryBuilder::place(std::uint32_t object, const Transform& t) {

@@ -47,7 +47,7 @@ struct KeyRange {
 struct PlacedObject {
   std::uint32_t object = 0;
   Transform object_to_world;  // at the start, where it moves
-  KeyRange keys;
+  KeyRange keys{};
 };
 
 struct GeometryStore {
