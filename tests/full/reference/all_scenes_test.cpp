@@ -16,13 +16,14 @@ namespace {
 // Scenes that Montelux cannot render yet, and the word that its message must hold.
 const std::map<std::string, std::string> not_yet{{"staircase2-gray", "medium"}};
 
-// Scenes where the reference is known to be wrong, and why. They must differ: where one starts to agree, find out why.
+// Scenes that differ, and what is known or thought of the cause. Where one starts to agree, find out why.
 constexpr std::string_view rough_coats =
     "the reference renderer weighs the light that leaves a rough coat by chance with the density of the reversed "
     "directions, which makes one bounce about 10 % too bright; see RoughCoat in distribution/material";
 constexpr std::string_view filtered_texture =
-    "the reference renderer takes textures from reduced copies: the bright lines between the tiles of the floor are "
-    "spread over the dark tiles, under a coat, whose light is not linear in what is below it";
+    "not settled; likely: the reference renderer takes textures from reduced copies, so that the bright lines between "
+    "the tiles of the floor are spread over the dark tiles, under a coat, whose light is not linear in what is below "
+    "it";
 const std::map<std::string, std::string_view> expected_failures{
     {"spot-herd-gray", rough_coats}, {"dining-room-gray", rough_coats}, {"bottles-dof-gray", filtered_texture}};
 
