@@ -192,23 +192,27 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   return {k, (samples + k - 1) / k};
 }
 
+// Fewer chains would have no error bar to speak of.
+constexpr int least_chains = 4;
+
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind) {
   if (!integrator.coupled()) return plan_passes(samples, kind);
-  // Too few chains would have no error bar.
-  constexpr int least_chains = 4;
   const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / least_chains));
   return {frames, (std::max(samples, 1) + frames - 1) / frames};
 }
 
 PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds) {
   constexpr int endless = 1 << 20;  // time ends it
-  if (integrator.coupled()) return {integrator.coupled()->frames(), endless};
   settings.seconds.reset();
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   RenderObserver silent;
   const double one_sample = std::max(render(integrator, settings, silent).seconds, 1e-6);
   const auto affordable = int(std::min(seconds / one_sample, 1e6));
+  if (const CoupledIntegrator* coupled = integrator.coupled()) {
+    const int frames = affordable * (1 + coupled->warm_up()) / least_chains - coupled->warm_up();
+    return {std::clamp(frames, 1, coupled->frames()), endless};
+  }
   PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
   plan.passes = endless;
   return plan;

@@ -1,5 +1,6 @@
 // Paths that go on behind the vertex whose direct light is reused: a source of paths for the path loop.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "image/pixel_sample.h"

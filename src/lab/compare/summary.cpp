@@ -5,6 +5,7 @@
 
 #include "lab/compare/contest.h"
 #include "mc/confidence.h"
+#include "mc/moments.h"
 
 namespace montelux::lab {
 
@@ -85,6 +86,30 @@ Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Refe
   return measured(pseudo, confidence);
 }
 
+// The mean of the image against the reference's, by the spread of the repeats' image means: right whatever the
+// correlation between pixels. The reference's pixels are taken as independent.
+WelchScale test_of_image_means(const MethodResult& m, const Reference& reference, double level) {
+  const double n = double(m.repeats.size()), pixels = double(reference.mean.pixel_count());
+  WelchScale worst;
+  worst.tests = 3;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Moments means;
+    for (const Repeat& r : m.repeats) means.add(r.image_mean[c]);
+    double truth = 0, variance = 0;
+    for (std::size_t p = 0; p < reference.mean.pixel_count(); ++p) {
+      truth += double(reference.mean.values[3 * p + c]) / pixels;
+      variance += double(reference.variance.values[3 * p + c]) / (pixels * pixels);
+    }
+    const double error = std::sqrt(means.variance() / n + variance), difference = means.mean - truth;
+    const double t = difference == 0 ? 0 : difference / error, p_value = 2 * student_t_cdf(-std::abs(t), n - 1);
+    if (c > 0 && !(p_value < worst.smallest_p)) continue;
+    worst.smallest_p = p_value, worst.t = t, worst.difference = difference, worst.channel = int(c);
+    worst.detectable = student_t_quantile(1 - level / (2 * 3), n - 1) * error;
+  }
+  worst.differs = worst.smallest_p < level / 3;
+  return worst;
+}
+
 // All repeats together against the reference: is the mean another?
 void summarize_film(const MethodState& state, const Reference& reference, MethodResult& m) {
   m.mean = make_pixel_buffer(reference.mean.width, reference.mean.height, {"R", "G", "B"});
@@ -100,6 +125,7 @@ void summarize_film(const MethodState& state, const Reference& reference, Method
   for (float& v : reference_error.values) v = std::sqrt(v);
   m.bias = welch_test({m.mean, m.standard_error, double(state.passes - 1)},
                       {reference.mean, reference_error, reference.degrees_of_freedom}, 0.01);
+  if (m.repeats.size() >= 3) m.bias.image = test_of_image_means(m, reference, 0.01 / 3);
   m.non_finite = state.non_finite;
 }
 

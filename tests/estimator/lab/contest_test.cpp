@@ -15,10 +15,11 @@ namespace {
 using namespace montelux::test;
 
 // Every sample is `mean` plus noise of standard deviation `sigma`, uniform in distribution; a pass takes at least
-// `nanoseconds` a sample.
+// `nanoseconds` a sample. `together`: all pixels have the same noise.
 class Noise final : public PixelIntegrator {
  public:
-  Noise(float mean, float sigma, double nanoseconds = 50) : mean_(mean), sigma_(sigma), nanoseconds_(nanoseconds) {}
+  Noise(float mean, float sigma, double nanoseconds = 50, bool together = false)
+      : mean_(mean), sigma_(sigma), nanoseconds_(nanoseconds), together_(together) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     const auto start = std::chrono::steady_clock::now();
     std::size_t i = 0;
@@ -27,7 +28,7 @@ class Noise final : public PixelIntegrator {
         for (std::uint32_t k = 0; k < pass.points.samples_per_pass; ++k, ++i) {
           const Sampler<float> sampler(
               {PointSetKind::independent, pass.points.seed, pass.points.pass, pass.points.samples_per_pass},
-              std::uint32_t(x), std::uint32_t(y), k);
+              together_ ? 0u : std::uint32_t(x), together_ ? 0u : std::uint32_t(y), k);
           for (int c = 0; c < 3; ++c)
             out[i].radiance[c] = mean_ + sigma_ * std::sqrt(12.0f) * (sampler.get1(std::uint32_t(c)) - 0.5f);
         }
@@ -40,6 +41,7 @@ class Noise final : public PixelIntegrator {
  private:
   float mean_, sigma_;
   double nanoseconds_;
+  bool together_;
 };
 
 ContestSettings settings(int samples, int repeats) {
@@ -105,6 +107,13 @@ TEST(Contest, finds_a_bias_and_its_size) {
   const Measured& b = r.methods[1].bias_squared;
   EXPECT_LT(std::abs(b.mean - 0.0004) / b.standard_error, student_t_quantile(1 - family_level / 8, 7));
   EXPECT_GT(b.mean / b.standard_error, 5);
+}
+
+TEST(Contest, takes_no_common_error_of_all_pixels_for_a_bias) {
+  const Noise right(1, 0.5f, 50, true), wrong(1.5f, 0.5f, 50, true);
+  const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(16, 12), {});
+  EXPECT_FALSE(differs_from_reference(r.methods[0])) << r.methods[0].bias.image.t;
+  EXPECT_TRUE(differs_from_reference(r.methods[1]));
 }
 
 TEST(Contest, makes_a_reference_that_is_good_enough) {
