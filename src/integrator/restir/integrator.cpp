@@ -1,6 +1,6 @@
 #include "integrator/restir/integrator.h"
 
-#include "integrator/restir/direct_chain.h"
+#include "integrator/restir/chain.h"
 
 namespace montelux {
 
@@ -14,12 +14,12 @@ RestirDirect::RestirDirect(const Scene& scene, const Accel& accel, const RestirS
 }
 RestirDirect::~RestirDirect() = default;
 
-int RestirDirect::stages() const { return DirectChain<float, Accel>::stages(settings_); }
+int RestirDirect::stages() const { return ReuseChain<float, Accel>::stages(settings_); }
 
 std::unique_ptr<Chain> RestirDirect::begin(const ChainPass& pass) const {
   const RestirScene<Accel> shared{scene_, *lights_, accel_, settings_, has_interfaces_};
-  if (settings_.path.lanes == Lanes::one) return std::make_unique<DirectChain<float, Accel>>(shared, pass);
-  return std::make_unique<DirectChain<NativeFloats, Accel>>(shared, pass);
+  if (settings_.path.lanes == Lanes::one) return std::make_unique<ReuseChain<float, Accel>>(shared, pass);
+  return std::make_unique<ReuseChain<NativeFloats, Accel>>(shared, pass);
 }
 
 }  // namespace montelux
