@@ -4,21 +4,17 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <thread>
 
 #include "lab/experiments/experiment.h"
 #include "lab/report/write.h"
 #include "parameter/diagnostic.h"
+#include "render/stopwatch.h"
 
 namespace montelux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 struct Task {
   const lab::Experiment* experiment;
@@ -53,9 +49,9 @@ Result<std::vector<Task>> tasks_of(const LabOptions& options) {
 }
 
 void run_task(Task& task) {
-  const auto begin = Clock::now();
+  const Stopwatch since_begin;
   task.report = lab::run_experiment(*task.experiment, task.setup);
-  task.outcome = {task.report->name, task.report->title, task.report->passed(), seconds_since(begin), {}};
+  task.outcome = {task.report->name, task.report->title, task.report->passed(), since_begin.seconds(), {}};
   for (const lab::Section& section : task.report->sections)
     if (const auto* verdict = std::get_if<lab::Verdict>(&section))
       task.outcome.verdicts.push_back({verdict->claim, verdict->detail, verdict->passed});
@@ -102,7 +98,7 @@ std::vector<ExperimentEntry> list_experiments() {
 }
 
 Result<LabRun> run_lab(const LabOptions& options, const std::filesystem::path& folder, LabObserver& observer) {
-  const auto begin = Clock::now();
+  const Stopwatch since_begin;
   Result<std::vector<Task>> tasks = tasks_of(options);
   if (!tasks) return tasks.failure();
   run_tasks(*tasks, options.threads, observer);
@@ -123,7 +119,7 @@ Result<LabRun> run_lab(const LabOptions& options, const std::filesystem::path& f
   if (!written) return written.failure();
   run.files = std::move(written->files), run.page = std::move(written->page);
   run.why_no_page = std::move(written->why_no_page);
-  run.seconds = seconds_since(begin);
+  run.seconds = since_begin.seconds();
   return run;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "api/parts.h"
 #include "integrator/catalogue.h"
@@ -142,9 +141,9 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   double pilot_seconds = 0;
   if (plan.render.seconds) {
     // The pass that measures the speed is taken from the time, too, and counted into it.
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch pilot;
     plan.render.plan = plan_for_time(integrator, plan.render, *plan.render.seconds);
-    pilot_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    pilot_seconds = pilot.seconds();
     plan.render.seconds = std::max(*plan.render.seconds - pilot_seconds, 0.0);
   }
   RenderResult result = render(integrator, plan.render, observer);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -10,14 +9,11 @@
 #include <vector>
 
 #include "render/float_mode.h"
+#include "render/watch.h"
 
 namespace montelux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr int tile_side = 16;
 
@@ -25,16 +21,6 @@ struct ChainTile {
   PixelBounds bounds;
   std::vector<PassMean> means;  // of the chain at hand
 };
-
-std::vector<ChainTile> cut_into_tiles(const PixelBounds& b) {
-  std::vector<ChainTile> tiles;
-  for (int y = b.y0; y < b.y1; y += tile_side)
-    for (int x = b.x0; x < b.x1; x += tile_side) {
-      const PixelBounds tile{x, y, std::min(x + tile_side, b.x1), std::min(y + tile_side, b.y1)};
-      tiles.push_back({tile, std::vector<PassMean>(std::size_t(tile.area()))});
-    }
-  return tiles;
-}
 
 // The shared state of one render. Threads take the tiles of one step, and who has done the last of them moves the chain
 // on to its next step while the others wait.
@@ -44,8 +30,9 @@ class ChainJob {
       : integrator_(integrator),
         settings_(settings),
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
-        film_(settings.bounds),
-        tiles_(cut_into_tiles(settings.bounds)) {
+        film_(settings.bounds) {
+    for (const PixelBounds& tile : tiles_of(settings.bounds, tile_side))
+      tiles_.push_back({tile, std::vector<PassMean>(std::size_t(tile.area()))});
     if (settings.plan.passes > 0) begin_chain();
   }
 
@@ -56,9 +43,9 @@ class ChainJob {
     for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
     bool interrupted = false;
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, poll_interval(), [this] { return running_ == 0; })) {
+    while (!changed_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
       if (observer.stop_requested()) stop_ = interrupted = true;
-      if (settings_.seconds && seconds_since(start_) >= *settings_.seconds) stop_ = true;
+      if (settings_.seconds && since_start_.seconds() >= *settings_.seconds) stop_ = true;
       const Progress now = progress(false);
       lock.unlock();
       observer.progress(now);
@@ -72,7 +59,7 @@ class ChainJob {
     return interrupted && pass_ < settings_.plan.passes;
   }
 
-  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, seconds_since(start_), interrupted}; }
+  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
 
  private:
   void work() {
@@ -151,27 +138,19 @@ class ChainJob {
 
   // With the mutex held; the film's errors as of the last chain.
   Progress progress(bool finished) {
-    Progress p;
-    p.elapsed = seconds_since(start_), p.finished = finished;
     const double frames = double(pass_) * frames_ + (finished ? 0 : step_.frame);
-    p.fraction = frames / (double(settings_.plan.passes) * frames_);
-    if (settings_.seconds) p.fraction = std::max(p.fraction, p.elapsed / *settings_.seconds);
-    p.fraction = std::min(p.fraction, 1.0);
-    p.remaining = p.fraction > 0 ? p.elapsed * (1 - p.fraction) / p.fraction : 0;
+    Progress p = progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_),
+                                settings_.seconds, finished);
     p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
     // Tiles only add to the feature layers between the ends of chains.
     p.error = film_.error(settings_.bounds);
     return p;
   }
 
-  std::chrono::milliseconds poll_interval() const {
-    return std::chrono::milliseconds(seconds_since(start_) < 0.5 ? 20 : 200);
-  }
-
   const CoupledIntegrator& integrator_;
   const RenderSettings& settings_;
   const int frames_;  // of a chain, those of the warm-up included
-  const Clock::time_point start_ = Clock::now();
+  const Stopwatch since_start_{settings_.clock};
   std::atomic<bool> stop_{false};
   std::mutex mutex_;  // guards what follows, save what a tile's owner writes
   std::condition_variable changed_;

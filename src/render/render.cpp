@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -12,6 +11,7 @@
 
 #include "render/coupled.h"
 #include "render/float_mode.h"
+#include "render/watch.h"
 
 namespace montelux {
 
@@ -26,36 +26,24 @@ int tile_side(int samples_per_pass) {
   return side;
 }
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 // A tile, and how many of its passes are in the film.
 struct TileState {
   PixelBounds bounds;
   int passes_added = 0;
   std::mutex mutex;
   std::condition_variable added;
-  TileState(PixelBounds b) : bounds(b) {}
+  explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
-
-std::deque<TileState> cut_into_tiles(const PixelBounds& b, int side) {
-  std::deque<TileState> tiles;
-  for (int y = b.y0; y < b.y1; y += side)
-    for (int x = b.x0; x < b.x1; x += side)
-      tiles.emplace_back(PixelBounds{x, y, std::min(x + side, b.x1), std::min(y + side, b.y1)});
-  return tiles;
-}
 
 // The shared state of one render. Work units are numbered pass by pass; a unit enters the film after the same tile's
 // previous pass, whichever thread did that one.
 class Job {
  public:
-  Job(const PixelIntegrator& integrator, const RenderSettings& settings)
+  Job(const PixelIntegrator& integrator, const RenderSettings& settings, const std::vector<PixelBounds>& tiles)
       : integrator_(integrator),
         settings_(settings),
         film_(settings.bounds, settings.layers),
-        tiles_(cut_into_tiles(settings.bounds, tile_side(settings.plan.samples_per_pass))),
+        tiles_(tiles.begin(), tiles.end()),
         units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
 
   void work() {
@@ -85,10 +73,10 @@ class Job {
     for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
     bool interrupted = false;
     std::unique_lock lock(mutex_);
-    while (!finished_.wait_for(lock, poll_interval(), [this] { return running_ == 0; })) {
+    while (!finished_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
       lock.unlock();
       if (observer.stop_requested()) stop_ = interrupted = true;
-      if (settings_.seconds && seconds_since(start_) >= *settings_.seconds) stop_ = true;
+      if (settings_.seconds && since_start_.seconds() >= *settings_.seconds) stop_ = true;
       observer.progress(progress(false));
       lock.lock();
     }
@@ -99,7 +87,7 @@ class Job {
     return interrupted && units_done_ < units_;
   }
 
-  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, seconds_since(start_), interrupted}; }
+  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
 
  private:
   // What a thread keeps from one unit of work to the next.
@@ -133,13 +121,8 @@ class Job {
   }
 
   Progress progress(bool finished) {
-    Progress p;
-    p.elapsed = seconds_since(start_);
-    p.finished = finished;
-    p.fraction = double(units_done_) / double(units_);
-    if (settings_.seconds) p.fraction = std::max(p.fraction, p.elapsed / *settings_.seconds);
-    p.fraction = std::min(p.fraction, 1.0);
-    p.remaining = p.fraction > 0 ? p.elapsed * (1 - p.fraction) / p.fraction : 0;
+    Progress p =
+        progress_after(since_start_.seconds(), double(units_done_) / double(units_), settings_.seconds, finished);
     for (TileState& tile : tiles_) {
       std::scoped_lock lock(tile.mutex);
       p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(tile.passes_added) *
@@ -152,14 +135,9 @@ class Job {
     return p;
   }
 
-  // Short at first, so that a quick render is not held up; then a few times a second.
-  std::chrono::milliseconds poll_interval() const {
-    return std::chrono::milliseconds(seconds_since(start_) < 0.5 ? 20 : 200);
-  }
-
   const PixelIntegrator& integrator_;
   const RenderSettings& settings_;
-  const Clock::time_point start_ = Clock::now();
+  const Stopwatch since_start_{settings_.clock};
   Film film_;
   std::deque<TileState> tiles_;
   const std::uint64_t units_;
@@ -221,7 +199,7 @@ PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings,
 RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
   if (integrator.coupled()) return render_chains(*integrator.coupled(), settings, observer);
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  Job job(*integrator.pixel(), settings);
+  Job job(*integrator.pixel(), settings, tiles_of(settings.bounds, tile_side(settings.plan.samples_per_pass)));
   bool interrupted = job.watch(threads, observer);
   return job.take_result(interrupted);
 }

@@ -5,6 +5,7 @@
 
 #include "film/film.h"
 #include "integrator/integrator.h"
+#include "render/stopwatch.h"
 
 namespace montelux {
 
@@ -32,6 +33,7 @@ struct RenderSettings {
   int first_pass = 0;               // for a render that goes on
   std::optional<LayerPlan> layers;  // of an integrator that has them
   std::optional<Shutter> shutter;   // instead of the scene's
+  SecondsClock clock;               // that `seconds` and the result's time go by; empty: the machine's
 };
 
 struct Progress {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -14,8 +13,6 @@
 namespace montelux::lab {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Passes that are told apart by what they serve, so that no two ever share numbers.
 constexpr int pilot_pass = 3 << 28, reference_pass = 1 << 28, convergence_pass = 1 << 29, attribution_pass = 5 << 28;
@@ -179,7 +176,7 @@ double expected_smallest_mse(const std::vector<Contestant>& contestants, const C
 
 Reference make_reference(const std::vector<Contestant>& contestants, const std::vector<std::size_t>& may_serve,
                          const ContestSettings& settings, double goal, const ContestWatch& watch) {
-  const auto start = Clock::now();
+  const Stopwatch since_start(settings.render.clock);
   const Contestant* best = &contestants[may_serve.front()];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i : may_serve)
@@ -198,7 +195,7 @@ Reference make_reference(const std::vector<Contestant>& contestants, const std::
     passes += more;
     const double variance = film.error(s.bounds).mse;
     if (watch.progress)
-      watch.progress(std::min(goal / variance, 1.0), std::chrono::duration<double>(Clock::now() - start).count(),
+      watch.progress(std::min(goal / variance, 1.0), since_start.seconds(),
                      fmt::format("reference by {}", best->label));
     if (!(variance > goal) || passes >= most_passes) break;
   }
@@ -222,7 +219,7 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
 
 bool run_rounds(const std::vector<Contestant>& contestants, const ContestSettings& settings, int rounds,
                 const ContestWatch& watch, ContestState& state) {
-  const auto start = Clock::now();
+  const Stopwatch since_start(settings.render.clock);
   // A round that was cut short is ended first.
   int first = std::numeric_limits<int>::max();
   for (const MethodState& m : state.methods) first = std::min(first, int(m.repeats.size()));
@@ -233,7 +230,7 @@ bool run_rounds(const std::vector<Contestant>& contestants, const ContestSetting
       if (int(state.methods[i].repeats.size()) > round) continue;
       if (watch.stop && watch.stop()) return false;
       if (watch.progress)
-        watch.progress(done / turns, std::chrono::duration<double>(Clock::now() - start).count(),
+        watch.progress(done / turns, since_start.seconds(),
                        fmt::format("round {}, {}", round + 1, contestants[i].label));
       if (!run_repeat(contestants[i], settings, state.reference, round, watch, state.methods[i])) return false;
       ++done;

@@ -1,0 +1,35 @@
+// What the two kinds of render share: the tiles that threads take, and what an observer is told.
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "render/render.h"
+
+namespace montelux {
+
+// The squares that cover the bounds in row-major order; those at the right and at the bottom may be cut off.
+inline std::vector<PixelBounds> tiles_of(const PixelBounds& b, int side) {
+  std::vector<PixelBounds> tiles;
+  for (int y = b.y0; y < b.y1; y += side)
+    for (int x = b.x0; x < b.x1; x += side) tiles.push_back({x, y, std::min(x + side, b.x1), std::min(y + side, b.y1)});
+  return tiles;
+}
+
+// `share` of the work is done; the time that was set, where one was, may be nearer its end.
+inline Progress progress_after(double elapsed, double share, const std::optional<double>& seconds, bool finished) {
+  Progress p;
+  p.elapsed = elapsed, p.finished = finished;
+  p.fraction = std::min(seconds ? std::max(share, elapsed / *seconds) : share, 1.0);
+  p.remaining = p.fraction > 0 ? elapsed * (1 - p.fraction) / p.fraction : 0;
+  return p;
+}
+
+// How long to sleep before looking again. Short at first, so that a quick render is not held up; then a few times a
+// second.
+inline std::chrono::milliseconds poll_interval(double elapsed) {
+  return std::chrono::milliseconds(elapsed < 0.5 ? 20 : 200);
+}
+
+}  // namespace montelux
