@@ -5,15 +5,13 @@
 #include <bit>
 #include <cstring>
 #include <deque>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "api/contest.h"
 #include "api/render.h"
-#include "image/replace_file.h"
+#include "api/saved_file.h"
 #include "lab/report/base64.h"
 
 namespace montelux {
@@ -23,19 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view format_name = "montelux comparison";
-constexpr int format_version = 1;
+constexpr SavedFormat saved_format{"montelux comparison", 1, "montelux compare --save", "comparison"};
 static_assert(std::endian::native == std::endian::little);
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-template <class T>
-std::optional<T> optional_at(const Json& json, const char* key) {
-  const Json& value = json.at(key);
-  return value.is_null() ? std::nullopt : std::optional<T>(value.get<T>());
-}
 
 // ---- long arrays ----------------------------------------------------------------------------------------------------
 
@@ -68,10 +55,14 @@ double number_from(const Json& json) { return unpacked<double>(json, 1).front();
 // ---- what it is of --------------------------------------------------------------------------------------------------
 
 Json options_json(const ContestOptions& o) {
-  Json json{{"methods", o.methods},          {"seconds", or_null(o.seconds)},
-            {"samples", or_null(o.samples)}, {"repeats", o.repeats},
-            {"confidence", o.confidence},    {"seed", o.seed},
-            {"attribution", o.attribution},  {"crop", Json()}};
+  Json json{{"methods", o.methods},
+            {"seconds", or_null<Json>(o.seconds)},
+            {"samples", or_null<Json>(o.samples)},
+            {"repeats", o.repeats},
+            {"confidence", o.confidence},
+            {"seed", o.seed},
+            {"attribution", o.attribution},
+            {"crop", Json()}};
   if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
   return json;
 }
@@ -170,11 +161,6 @@ lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
 }
 
 SavedContest saved_from(const Json& j) {
-  if (!j.is_object() || j.value("format", "") != format_name)
-    throw std::invalid_argument("it is not a file that montelux compare --save wrote");
-  if (j.at("version") != format_version)
-    throw std::invalid_argument(fmt::format("its format has version {}, this program reads version {}",
-                                            j.at("version").dump(), format_version));
   SavedContest saved;
   saved.scene = j.at("scene").get<std::string>();
   saved.load.lenient = j.at("lenient");
@@ -188,15 +174,6 @@ SavedContest saved_from(const Json& j) {
   if (saved.state.methods.size() != saved.options.methods.size())
     throw std::invalid_argument("what it has gathered does not match its methods");
   return saved;
-}
-
-// ---- the scene ------------------------------------------------------------------------------------------------------
-
-std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) return std::nullopt;
-  return text.str();
 }
 
 }  // namespace
@@ -227,8 +204,8 @@ std::uint64_t scene_fingerprint(const fs::path& scene) {
 }
 
 Status save_contest(const fs::path& file, const SavedContest& c) {
-  Json json{{"format", format_name},
-            {"version", format_version},
+  Json json{{"format", saved_format.name},
+            {"version", saved_format.version},
             {"program", version()},
             {"scene", c.scene.string()},
             {"scene_fingerprint", fmt::format("{:016x}", c.fingerprint)},
@@ -240,31 +217,17 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
             {"methods", Json::array()}};
   if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
   for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
-  return replace_file(file, [&json](const std::string& temporary) -> Status {
-    std::ofstream out(temporary);
-    out << json.dump(1) << '\n';
-    out.close();
-    if (!out) return Failure{"it cannot be written"};
-    return Done{};
-  });
+  return save_json(file, json);
 }
 
 Result<SavedContest> load_contest(const fs::path& file) {
-  const auto text = content_of(file);
-  if (!text) return Failure{fmt::format("{}: cannot be read", file.string())};
-  try {
-    SavedContest saved = saved_from(Json::parse(*text));
+  return load_saved<Json>(file, saved_format, [](const Json& json) {
+    SavedContest saved = saved_from(json);
     if (scene_fingerprint(saved.scene) != saved.fingerprint)
-      return Failure{fmt::format("{}: the scene {} has changed since, or is no longer there", file.string(),
-                                 saved.scene.string())};
+      throw std::invalid_argument(
+          fmt::format("the scene {} has changed since, or is no longer there", saved.scene.string()));
     return saved;
-  } catch (const Json::parse_error&) {
-    return Failure{fmt::format("{}: it is not a file that montelux compare --save wrote", file.string())};
-  } catch (const Json::exception& error) {
-    return Failure{fmt::format("{}: is no saved comparison ({})", file.string(), error.what())};
-  } catch (const std::exception& error) {
-    return Failure{fmt::format("{}: {}", file.string(), error.what())};
-  }
+  });
 }
 
 }  // namespace montelux

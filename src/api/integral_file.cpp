@@ -2,14 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "api/integrate.h"
 #include "api/render.h"
-#include "image/replace_file.h"
+#include "api/saved_file.h"
 
 namespace montelux {
 
@@ -17,18 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view format_name = "montelux integrals";
-constexpr int format_version = 1;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-template <class T>
-std::optional<T> optional_at(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found == json.end() || found->is_null() ? std::nullopt : std::optional<T>(found->get<T>());
-}
+constexpr SavedFormat saved_format{"montelux integrals", 1, "montelux integrate --save", "integral"};
 
 Json statement_json(const lab::IntegralStatement& s) {
   return {{"integrand", s.integrand},
@@ -36,9 +23,9 @@ Json statement_json(const lab::IntegralStatement& s) {
           {"pdf", s.densities},
           {"normalize_pdf", s.normalize_densities},
           {"allow_missed", s.allow_missed},
-          {"control", or_null(s.control)},
-          {"control_integral", or_null(s.control_integral)},
-          {"target", or_null(s.target)}};
+          {"control", or_null<Json>(s.control)},
+          {"control_integral", or_null<Json>(s.control_integral)},
+          {"target", or_null<Json>(s.target)}};
 }
 lab::IntegralStatement statement_from(const Json& j) {
   lab::IntegralStatement s;
@@ -52,9 +39,9 @@ lab::IntegralStatement statement_from(const Json& j) {
 }
 
 Json budget_json(const lab::Budget& b) {
-  return {{"samples", or_null(b.samples)},
-          {"seconds", or_null(b.seconds)},
-          {"target_error", or_null(b.target_error)},
+  return {{"samples", or_null<Json>(b.samples)},
+          {"seconds", or_null<Json>(b.seconds)},
+          {"target_error", or_null<Json>(b.target_error)},
           {"target_is_relative", b.target_is_relative},
           {"confidence", b.confidence}};
 }
@@ -67,11 +54,6 @@ lab::Budget budget_from(const Json& j) {
 }
 
 SavedIntegral saved_from(const Json& j) {
-  if (!j.is_object() || j.value("format", "") != format_name)
-    throw std::invalid_argument("it is not a file that montelux integrate --save wrote");
-  if (j.at("version") != format_version)
-    throw std::invalid_argument(fmt::format("its format has version {}, this program reads version {}",
-                                            j.at("version").dump(), format_version));
   SavedIntegral saved;
   saved.options.statement = statement_from(j.at("statement"));
   saved.options.methods = j.at("methods").get<std::vector<std::string>>();
@@ -92,36 +74,19 @@ Status save_integral(const std::filesystem::path& file, const SavedIntegral& sav
   Json runs = Json::array();
   for (std::size_t k = 0; k < saved.states.size(); ++k)
     runs.push_back({{"method", saved.methods[k]}, {"state", Json::parse(lab::to_json(saved.states[k]))}});
-  const Json json{{"format", format_name},
-                  {"version", format_version},
+  const Json json{{"format", saved_format.name},
+                  {"version", saved_format.version},
                   {"program", version()},
                   {"statement", statement_json(saved.options.statement)},
                   {"methods", saved.options.methods},
                   {"budget", budget_json(saved.options.budget)},
                   {"seed", saved.options.seed},
                   {"runs", runs}};
-  return replace_file(file, [&json](const std::string& temporary) -> Status {
-    std::ofstream out(temporary);
-    out << json.dump(1) << '\n';
-    out.close();
-    if (!out) return Failure{"it cannot be written"};
-    return Done{};
-  });
+  return save_json(file, json);
 }
 
 Result<SavedIntegral> load_integral(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  if (!in || !(text << in.rdbuf())) return Failure{fmt::format("{}: cannot be read", file.string())};
-  try {
-    return saved_from(Json::parse(text.str()));
-  } catch (const Json::parse_error&) {
-    return Failure{fmt::format("{}: it is not a file that montelux integrate --save wrote", file.string())};
-  } catch (const Json::exception& error) {
-    return Failure{fmt::format("{}: is no saved integral ({})", file.string(), error.what())};
-  } catch (const std::invalid_argument& error) {
-    return Failure{fmt::format("{}: {}", file.string(), error.what())};
-  }
+  return load_saved<Json>(file, saved_format, saved_from);
 }
 
 Result<SavedIntegral> merge_integrals(const std::vector<SavedIntegral>& parts) {
