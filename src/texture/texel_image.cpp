@@ -117,11 +117,7 @@ Result<TexelImage> TexelImage::read(const std::filesystem::path& path, std::opti
       is_integer ? encoding.value_or(ColorEncoding{ColorEncoding::Kind::srgb, 1.0f}) : ColorEncoding{};
   const PixelBuffer& pixels = file->pixels;
   const Selection selection = select_channels(pixels);
-  TexelImage image;
-  image.width_ = pixels.width;
-  image.height_ = pixels.height;
-  image.has_alpha_ = selection.alpha;
-  image.color_channels_ = int(selection.channels.size()) - int(selection.alpha);
+  TexelImage image(pixels.width, pixels.height, int(selection.channels.size()), selection.alpha);
   if (file->stored == SampleType::uint8) {
     for (int i = 0; i < 256; ++i) image.decoded_[i] = decode(code, float(i) / 255.0f);
     auto codes = packed<std::uint8_t>(
@@ -139,11 +135,7 @@ Result<TexelImage> TexelImage::read(const std::filesystem::path& path, std::opti
 
 TexelImage TexelImage::from(const PixelBuffer& pixels) {
   const Selection selection = select_channels(pixels);
-  TexelImage image;
-  image.width_ = pixels.width;
-  image.height_ = pixels.height;
-  image.has_alpha_ = selection.alpha;
-  image.color_channels_ = int(selection.channels.size()) - int(selection.alpha);
+  TexelImage image(pixels.width, pixels.height, int(selection.channels.size()), selection.alpha);
   image.texels_ = packed<float>(pixels, selection, [](float x, bool) { return x; });
   return image;
 }

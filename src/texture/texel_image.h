@@ -55,6 +55,10 @@ class TexelImage {
   Rgb average(int x0, int y0, int x1, int y1) const;
 
  private:
+  // Without texels yet. `channels`: those of colour and that of alpha, if there is one.
+  TexelImage(int width, int height, int channels, bool has_alpha)
+      : width_(width), height_(height), color_channels_(channels - int(has_alpha)), has_alpha_(has_alpha) {}
+
   float value(int x, int y, int channel) const;
   float number_texel(int x, int y) const;
   int channels() const { return color_channels_ + int(has_alpha_); }
@@ -65,8 +69,8 @@ class TexelImage {
   // The texels with these numbers, counted along rows. Not of halves.
   Spectrum<NativeFloats> texels(Uint<NativeFloats> number) const;
 
-  int width_ = 0, height_ = 0, color_channels_ = 1;
-  bool has_alpha_ = false;
+  int width_, height_, color_channels_;
+  bool has_alpha_;
   // 8-bit codes (and behind the last three bytes of nothing, so that each can be read as a word), bits of halves, or
   // floats; interleaved.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> texels_;
