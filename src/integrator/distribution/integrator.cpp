@@ -125,7 +125,6 @@ struct Tree {
 
 template <class Tally>
 RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
-  std::fill(out.begin(), out.end(), PixelSample{});
   FirstHits<F> first_hits(scene_, accel_, pass, out, tally);
   RayCounts counts;
   counts.camera = first_hits.rays();
@@ -152,14 +151,6 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
   return counts;
 }
 
-RayCounts DistributionIntegrator::trace(const TilePass& pass, std::span<PixelSample> out) const {
-  return trace_with(pass, out, no_tally);
-}
-
-RayCounts DistributionIntegrator::trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
-                                               std::span<ExactRgb> sums) const {
-  LayerTally tally(plan, pass.points.samples_per_pass, sums);
-  return trace_with(pass, out, tally);
-}
+template class LayeredIntegrator<DistributionIntegrator>;
 
 }  // namespace montelux

@@ -3,27 +3,25 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/distribution/settings.h"
-#include "integrator/integrator.h"
+#include "integrator/layered.h"
 #include "scene/scene.h"
 
 namespace montelux {
 
-class DistributionIntegrator final : public PixelIntegrator {
+class DistributionIntegrator final : public LayeredIntegrator<DistributionIntegrator> {
  public:
   // Scene and accel must outlive the integrator.
   DistributionIntegrator(const Scene& scene, const Accel& accel, DistributionSettings settings)
       : scene_(scene), accel_(accel), settings_(std::move(settings)) {}
-  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
-  bool has_layers() const override { return true; }
-  RayCounts trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
-                         std::span<ExactRgb> sums) const override;
 
  private:
+  friend LayeredIntegrator<DistributionIntegrator>;
   template <class Tally>
   RayCounts trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const;
   const Scene& scene_;
   const Accel& accel_;
   DistributionSettings settings_;
 };
+extern template class LayeredIntegrator<DistributionIntegrator>;
 
 }  // namespace montelux

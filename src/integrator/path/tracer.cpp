@@ -51,20 +51,11 @@ SurvivalMap PathTracer::run_pilot() const {
 
 template <class Tally>
 RayCounts PathTracer::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
-  std::fill(out.begin(), out.end(), PixelSample{});
   const LightSet& lights = own_lights_ ? *own_lights_ : scene_.lights;
   return settings_.lanes == Lanes::one ? trace_paths<float>(scene_, lights, accel_, settings_, pass, out, tally)
                                        : trace_paths<NativeFloats>(scene_, lights, accel_, settings_, pass, out, tally);
 }
 
-RayCounts PathTracer::trace(const TilePass& pass, std::span<PixelSample> out) const {
-  return trace_with(pass, out, no_tally);
-}
-
-RayCounts PathTracer::trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
-                                   std::span<ExactRgb> sums) const {
-  LayerTally tally(plan, pass.points.samples_per_pass, sums);
-  return trace_with(pass, out, tally);
-}
+template class LayeredIntegrator<PathTracer>;
 
 }  // namespace montelux

@@ -2,24 +2,20 @@
 // multiple importance sampling; Russian roulette ends the path (Kajiya 1986; Veach 1997, ch. 9 and 10).
 #pragma once
 #include "accel/accel.h"
-#include "integrator/integrator.h"
+#include "integrator/layered.h"
 #include "integrator/path/settings.h"
 #include "integrator/path/survival.h"
 #include "scene/scene.h"
 
 namespace montelux {
 
-class PathTracer final : public PixelIntegrator {
+class PathTracer final : public LayeredIntegrator<PathTracer> {
  public:
   // Scene and accel must outlive the tracer.
   PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings);
 
-  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override;
-  bool has_layers() const override { return true; }
-  RayCounts trace_layers(const TilePass& pass, const LayerPlan& plan, std::span<PixelSample> out,
-                         std::span<ExactRgb> sums) const override;
-
  private:
+  friend LayeredIntegrator<PathTracer>;
   // The pilot of PathRoulette::efficiency: some pixels of every block of the picture.
   SurvivalMap run_pilot() const;
   template <class Tally>
@@ -29,5 +25,6 @@ class PathTracer final : public PixelIntegrator {
   PathSettings settings_;
   std::optional<LightSet> own_lights_;  // where they are chosen in another way than the scene's
 };
+extern template class LayeredIntegrator<PathTracer>;
 
 }  // namespace montelux
