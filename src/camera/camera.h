@@ -22,6 +22,15 @@ struct CameraRay {
 
 inline constexpr float camera_ray_end = 1e30f;
 
+// Where a point of the world stands on the picture: the raster of the ray through the centre of the lens that leads to
+// it. The raster may lie outside of the picture.
+template <class F>
+struct Projection {
+  Vec2<F> raster;
+  F distance;    // from where that ray begins, in world space
+  Mask<F> seen;  // false: behind the camera, the other members mean nothing
+};
+
 // A point of world space that depends affinely on the raster: corner + x dx + y dy.
 struct RasterPlane {
   Vec3f corner, dx, dy;
@@ -52,6 +61,13 @@ struct ThinLens {
   }
 };
 
+// Coordinates x, y, z of q along three axes, by Cramer's rule.
+template <class F>
+MONTELUX_INLINE Vec3<F> along(const Vec3<F>& q, const Vec3<F>& x, const Vec3<F>& y, const Vec3<F>& z) {
+  const Vec3<F> xy = cross(x, y);
+  return Vec3<F>{dot(cross(y, z), q), dot(cross(z, x), q), dot(xy, q)} / dot(xy, z);
+}
+
 struct PerspectiveCamera {
   Vec3f origin;
   RasterPlane direction;  // to the plane z = 1 of camera space
@@ -60,6 +76,15 @@ struct PerspectiveCamera {
   template <class F>
   CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
     return lens.through(splat<F>(origin), direction(raster), lens_u);
+  }
+  template <class F>
+  Projection<F> project(const Vec3<F>& p) const {
+    const Vec3<F> x = splat<F>(direction.dx), y = splat<F>(direction.dy), corner = splat<F>(direction.corner);
+    const Vec3<F> v = p - splat<F>(origin), normal = cross(x, y);
+    // The point moved toward the eye into the plane z = 1.
+    const F scale = dot(normal, corner) / dot(normal, v);
+    const Vec3<F> place = along<F>(v * scale - corner, x, y, normal);
+    return {{place.x, place.y}, length(v), scale > F(0.0f)};
   }
 };
 
@@ -71,6 +96,12 @@ struct OrthographicCamera {
   template <class F>
   CameraRay<F> generate(Vec2<F> raster, Vec2<F> lens_u) const {
     return lens.through(origin(raster), splat<F>(direction), lens_u);
+  }
+  template <class F>
+  Projection<F> project(const Vec3<F>& p) const {
+    const Vec3<F> way = splat<F>(direction);
+    const Vec3<F> place = along<F>(p - splat<F>(origin.corner), splat<F>(origin.dx), splat<F>(origin.dy), way);
+    return {{place.x, place.y}, place.z * length(way), place.z > F(0.0f)};
   }
 };
 
@@ -97,6 +128,21 @@ struct SphericalCamera {
     Vec3<F> d = splat<F>(x) * w.x + splat<F>(y) * w.z + splat<F>(z) * w.y;
     return {{splat<F>(origin), normalize(d), F(camera_ray_end)}, F(1.0f)};
   }
+  template <class F>
+  Projection<F> project(const Vec3<F>& p) const {
+    const Vec3<F> v = p - splat<F>(origin);
+    const Vec3<F> local = along<F>(v, splat<F>(x), splat<F>(y), splat<F>(z));
+    const Vec3<F> w = normalize(Vec3<F>{local.x, local.z, local.y});
+    Vec2<F> uv;
+    if (mapping == Mapping::equal_area) {
+      uv = square_from_sphere(w);
+    } else {
+      const F turn = atan2(w.y, w.x) * (0.5f * inv_pi);
+      uv = {turn - floor(turn), atan2(safe_sqrt(w.x * w.x + w.y * w.y), w.z) * inv_pi};
+    }
+    const F distance = length(v);
+    return {{uv.x / to_unit.x, uv.y / to_unit.y}, distance, distance > F(0.0f)};
+  }
 };
 
 // One of the cameras.
@@ -118,6 +164,17 @@ class Camera {
       made.ray.d = normalize(to_world.direction(made.ray.d));
     }
     return made;
+  }
+  // Where the point p of the world stands on the picture at that time.
+  template <class F>
+  Projection<F> project(const Vec3<F>& p, F time = F(0.0f)) const {
+    const Vec3<F> own = motion_ ? motion_->at(time).preimage(p) : p;
+    Projection<F> place = std::visit([&](const auto& camera) { return camera.project(own); }, camera_);
+    if (motion_) {
+      const CameraRay<F> ray = generate(place.raster, {F(0.5f), F(0.5f)}, time);
+      place.distance = length(p - ray.ray.o);
+    }
+    return place;
   }
   // As the camera is in its own space, where it moves.
   const Variant& variant() const { return camera_; }

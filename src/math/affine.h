@@ -25,6 +25,12 @@ struct Affine {
     const Vec3<F> yz = cross(y, z);
     return (yz * n.x + cross(z, x) * n.y + cross(x, y) * n.z) * copysign(F(1.0f), dot(x, yz));
   }
+  // What point() maps to p, by Cramer's rule; the linear part must not be singular.
+  MONTELUX_INLINE Vec3<F> preimage(const Vec3<F>& p) const {
+    const Vec3<F> x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]}, q = p - offset();
+    const Vec3<F> yz = cross(y, z);
+    return Vec3<F>{dot(q, yz), dot(q, cross(z, x)), dot(q, cross(x, y))} / dot(x, yz);
+  }
   // By the absolute values of the linear part: bounds of errors.
   MONTELUX_INLINE Vec3<F> absolute(const Vec3<F>& d) const {
     return {abs(m[0]) * d.x + abs(m[1]) * d.y + abs(m[2]) * d.z, abs(m[4]) * d.x + abs(m[5]) * d.y + abs(m[6]) * d.z,

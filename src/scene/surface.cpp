@@ -235,13 +235,18 @@ void set_lane(SurfacePoint<F>& s, int k, const SurfacePoint<float>& x) {
 
 template <class F>
 SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on) {
+  return surface_at<F>(store, ray, hit, ray.time, on);
+}
+
+template <class F>
+SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, F time, Mask<F> on) {
   using U = Uint<F>;
   const std::uint32_t* words = words_of(store);
   const U row = select(on, hit.geometry, U(0u)) * U(row_words);
   const Mask<F> triangles = on & (gather(words + RowWord::kind, row) == U(std::uint32_t(GeometryKind::triangles)));
   SurfaceHit<F> s;
   if (any(triangles))
-    s.point = triangles_point<F>(store, hit, ray.time, row, triangles);
+    s.point = triangles_point<F>(store, hit, time, row, triangles);
   else
     s.point = {};
   for_each_lane(on & !triangles, [&](int k) {
@@ -249,7 +254,7 @@ SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F
                    lane(hit.geometry, k), lane(hit.primitive, k), lane(hit.instance, k)};
     set_lane(s.point, k, other_point(store, one, {lane(ray.o, k), lane(ray.d, k), one.t, lane(ray.time, k)}));
   });
-  place_instances<F>(store, hit, ray.time, s.point, on);
+  place_instances<F>(store, hit, time, s.point, on);
   s.material = gather(words + RowWord::material, row);
   U first_light = gather(words + RowWord::first_light, row);
   s.light = select(on & (first_light != U(0u)), first_light + hit.primitive, U(0u));
@@ -271,5 +276,8 @@ Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit) {
 template SurfaceHit<float> surface(const GeometryStore&, const Ray<float>&, const Hit<float>&, bool);
 template SurfaceHit<NativeFloats> surface(const GeometryStore&, const Ray<NativeFloats>&, const Hit<NativeFloats>&,
                                           Mask<NativeFloats>);
+template SurfaceHit<float> surface_at(const GeometryStore&, const Ray<float>&, const Hit<float>&, float, bool);
+template SurfaceHit<NativeFloats> surface_at(const GeometryStore&, const Ray<NativeFloats>&, const Hit<NativeFloats>&,
+                                             NativeFloats, Mask<NativeFloats>);
 
 }  // namespace montelux

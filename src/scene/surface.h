@@ -17,6 +17,10 @@ struct SurfaceHit {
 template <class F>
 SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on);
 
+// The same point of the same surface at another time: moved with its instance, or with the form of its mesh.
+template <class F>
+SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, F time, Mask<F> on);
+
 // Surface parameters of a hit, for alpha masks: uv alone, one ray.
 Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit);
 

@@ -209,6 +209,60 @@ TEST(Camera, in_motion_is_the_camera_that_stands_there_at_each_end_and_half_way_
   expect_near(moving.generate(Vec2f{32, 24}, Vec2f{0.5f, 0.5f}, 0.5f).ray.o, eyes * 0.5f);
 }
 
+// Every camera at rest and in motion, in skew and mirrored spaces.
+std::vector<Camera> all_cameras(int width, int height) {
+  Entity equirectangular = entity("spherical");
+  equirectangular.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
+  const Transform view = scale(-1, 1, 1.5) * *look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
+  const Transform end = rotate(50, 1, 2, -1) * translate(1, -2, 0.5);
+  std::vector<Camera> cameras;
+  for (const Entity& e : {entity("perspective", {number("fov", 70)}), entity("perspective", {number("fov", 15)}),
+                          entity("orthographic"), entity("spherical"), equirectangular}) {
+    cameras.push_back(built(e, view, width, height));
+    cameras.push_back(built(e, {}, width, height).moved({view.inverted(), (end * view).inverted()}));
+  }
+  return cameras;
+}
+
+TEST(Camera, projects_the_points_of_its_rays_to_where_they_come_from) {
+  using F = NativeFloats;
+  RandomStream<float> random(8u, 1u);
+  for (const Camera& camera : all_cameras(64, 48))
+    for (int round = 0; round < 200; ++round) {
+      const Vec2f raster{2 + random.next() * 60, 2 + random.next() * 44};
+      const float time = random.next(), distance = 0.2f + 30 * random.next();
+      const Ray<float> r = camera.generate(raster, Vec2f{0.5f, 0.5f}, time).ray;
+      const Vec3f p = r.o + r.d * distance;
+      const Projection<float> back = camera.project(p, time);
+      ASSERT_TRUE(back.seen);
+      ASSERT_NEAR(back.raster.x, raster.x, 3e-3f) << camera.variant().index() << " " << camera.moves();
+      ASSERT_NEAR(back.raster.y, raster.y, 3e-3f) << camera.variant().index() << " " << camera.moves();
+      ASSERT_NEAR(back.distance, distance, 1e-4f * distance + 1e-4f);
+      const Projection<F> pack = camera.project(Vec3<F>{F(p.x), F(p.y), F(p.z)}, F(time));
+      ASSERT_NEAR(lane(pack.raster.x, 0), back.raster.x, 1e-3f);
+      ASSERT_TRUE(all(pack.seen));
+    }
+}
+
+TEST(Camera, does_not_see_points_behind_it) {
+  for (const Camera& camera : all_cameras(64, 48)) {
+    const Ray<float> r = camera.generate(Vec2f{20, 30}, Vec2f{0.5f, 0.5f}, 0.3f).ray;
+    const bool all_around = std::holds_alternative<SphericalCamera>(camera.variant());
+    EXPECT_EQ(camera.project(r.o - r.d * 2.0f, 0.3f).seen, all_around);
+  }
+}
+
+TEST(Camera, projects_through_the_centre_of_its_lens) {
+  const Entity e = entity("perspective", {number("fov", 40), number("lensradius", 0.3f), number("focaldistance", 4)});
+  const Camera camera = built(e, *look_at({1, 2, 3}, {0, 0, 0}, {0, 1, 0}), 64, 48);
+  // In the plane in focus all rays of a raster place meet.
+  const Ray<float> a = camera.generate(Vec2f{32, 24}, Vec2f{0.1f, 0.9f}).ray;
+  const Ray<float> axis = camera.generate(Vec2f{32, 24}, Vec2f{0.5f, 0.5f}).ray;
+  const Vec3f p = a.o + a.d * (4 / dot(a.d, axis.d));
+  EXPECT_NEAR(camera.project(p).raster.x, 32, 2e-3f);
+  EXPECT_NEAR(camera.project(p).raster.y, 24, 2e-3f);
+}
+
 TEST(Camera, blades_make_a_polygon_of_the_lens_with_its_first_corner_turned) {
   Entity e =
       entity("orthographic", {number("lensradius", 2), number("focaldistance", 5), number("aperturerotation", 30)});
