@@ -51,6 +51,7 @@ class ClampedCoupledIntegrator final : public CoupledIntegrator {
       if (step.stage == last_stage_) clamp_samples(out, most_);
       return counts;
     }
+    std::unique_ptr<ChainMemory> remember(int frames) override { return inner_->remember(frames); }
 
    private:
     std::unique_ptr<Chain> inner_;

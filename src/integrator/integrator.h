@@ -57,12 +57,21 @@ class PixelIntegrator {
 // ---- pixels that learn from each other
 // ------------------------------------------------------------------------------
 
+// What a chain has learned by its end, for a chain of the next picture of a sequence. Only the integrator that left it
+// can read it.
+class ChainMemory {
+ public:
+  virtual ~ChainMemory() = default;
+  virtual std::size_t bytes() const = 0;
+};
+
 // One pass of a coupled integrator: the pixels of the picture or of its crop. Every pixel takes one sample in each of
 // points.samples_per_pass frames.
 struct ChainPass {
   PixelBounds bounds;
   PointSet points;
-  std::optional<Shutter> shutter{};  // instead of the scene's
+  std::optional<Shutter> shutter{};             // instead of the scene's
+  std::shared_ptr<const ChainMemory> before{};  // of a chain of the picture before, on the same scene; null: none
 };
 
 // Where a chain is: frames follow one another, stages follow one another within a frame.
@@ -78,6 +87,8 @@ class Chain {
   // The last stage of a frame fills `out`, one sample for each pixel of the tile in row-major order: an unbiased
   // estimate. The other stages leave it alone. The tiles must be the same in all steps.
   virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
+  // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing is to go on.
+  virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
 };
 
 // Maps a pass to a chain of frames over the whole picture, whose mean over frames is the pass's picture: chains are

@@ -126,11 +126,25 @@ class ChainJob {
         integrator_.begin({settings_.bounds,
                            {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass_),
                             std::uint32_t(frames_), std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
-                           settings_.shutter});
+                           settings_.shutter,
+                           take_memory()});
     step_ = {};
     for (ChainTile& tile : tiles_) std::fill(tile.means.begin(), tile.means.end(), PassMean{});
   }
+  // Out of the list, so that it is gone once the chain is.
+  std::shared_ptr<const ChainMemory> take_memory() {
+    const auto chain = std::size_t(pass_);
+    if (!settings_.memories || chain >= settings_.memories->size()) return nullptr;
+    return std::move((*settings_.memories)[chain]);
+  }
+  void leave_memory() {
+    if (!settings_.memories) return;
+    const auto chain = std::size_t(pass_);
+    if (settings_.memories->size() <= chain) settings_.memories->resize(chain + 1);
+    (*settings_.memories)[chain] = chain_->remember(step_.frame);
+  }
   void end_chain() {
+    leave_memory();
     for (const ChainTile& tile : tiles_) film_.add_pass_means(tile.bounds, pass_, tile.means);
     ++pass_;
     if (pass_ < settings_.plan.passes && !stop_) begin_chain();

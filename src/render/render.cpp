@@ -182,6 +182,7 @@ PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind 
 PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds) {
   constexpr int endless = 1 << 20;  // time ends it
   settings.seconds.reset();
+  settings.memories = nullptr;
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   RenderObserver silent;

@@ -1,7 +1,9 @@
 // Spends samples: hands the passes of every tile to threads and adds them up in the film, until a rule says stop.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "film/film.h"
 #include "integrator/integrator.h"
@@ -22,6 +24,9 @@ PassPlan plan_passes(int samples, PointSetKind kind);
 // Of any integrator: a pass of a coupled one is a chain of its frames.
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind);
 
+// What the chains of a picture have learned, by their number in the render.
+using ChainMemories = std::vector<std::shared_ptr<const ChainMemory>>;
+
 struct RenderSettings {
   PixelBounds bounds;         // of the picture, or of the crop; within width x height
   int width = 0, height = 0;  // of the full image
@@ -34,6 +39,9 @@ struct RenderSettings {
   std::optional<LayerPlan> layers;  // of an integrator that has them
   std::optional<Shutter> shutter;   // instead of the scene's
   SecondsClock clock;               // that `seconds` and the result's time go by; empty: the machine's
+  // Of a coupled integrator in a sequence: each chain begins with what stands at its number, and leaves there what it
+  // has learned. Null: chains begin with nothing.
+  ChainMemories* memories = nullptr;
 };
 
 struct Progress {

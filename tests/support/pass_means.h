@@ -14,6 +14,22 @@ struct PassMeans {
   std::uint64_t non_finite = 0;
 };
 
+// Adds the film of one pass.
+inline void add_pass(const Film& film, int block, PassMeans& m) {
+  const PixelBounds& b = film.bounds();
+  const int across = (b.width() + block - 1) / block, down = (b.height() + block - 1) / block;
+  std::vector<double> sums(std::size_t(1 + across * down), 0.0), counts = sums;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const double value = mean_of_channels(film.pixel(x, y).mean);
+      const auto of_block = std::size_t(1 + (y - b.y0) / block * across + (x - b.x0) / block);
+      for (std::size_t i : {std::size_t(0), of_block}) sums[i] += value, counts[i] += 1;
+    }
+  m.values.resize(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) m.values[i].push_back(sums[i] / counts[i]);
+  m.non_finite += film.non_finite();
+}
+
 inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
                                 int passes, std::uint32_t seed, int block = 8) {
   PassMeans m;
@@ -21,19 +37,7 @@ inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& 
   for (int pass = 0; pass < passes; ++pass) {
     RenderSettings s = scene.settings(PointSetKind::blue_noise, {samples_per_pass, 1}, seed, 0);
     s.first_pass = pass;
-    const Film film = render(chosen.any(), s, silent).film;
-    const PixelBounds& b = film.bounds();
-    const int across = (b.width() + block - 1) / block, down = (b.height() + block - 1) / block;
-    std::vector<double> sums(std::size_t(1 + across * down), 0.0), counts = sums;
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x) {
-        const double value = mean_of_channels(film.pixel(x, y).mean);
-        const auto of_block = std::size_t(1 + (y - b.y0) / block * across + (x - b.x0) / block);
-        for (std::size_t i : {std::size_t(0), of_block}) sums[i] += value, counts[i] += 1;
-      }
-    m.values.resize(sums.size());
-    for (std::size_t i = 0; i < sums.size(); ++i) m.values[i].push_back(sums[i] / counts[i]);
-    m.non_finite += film.non_finite();
+    add_pass(render(chosen.any(), s, silent).film, block, m);
   }
   return m;
 }

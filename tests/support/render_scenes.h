@@ -53,6 +53,7 @@ class TestScene {
 
   const PictureSettings& picture() const { return prepared_->picture; }
   const Scene& scene() const { return prepared_->scene; }
+  const Accel& accel() const { return *accel_; }
   PathTracer tracer(Lanes lanes = Lanes::native) const {
     PathSettings settings;
     settings.max_depth = prepared_->picture.max_depth;

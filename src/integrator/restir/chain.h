@@ -13,8 +13,11 @@ class ReuseChain final : public Chain {
   using U = Uint<F>;
   using M = Mask<F>;
   // What `shared` refers to must outlive the chain.
-  ReuseChain(const RestirScene<Rays>& shared, const ChainPass& pass) : shared_(shared), pass_(pass) {
+  ReuseChain(const RestirScene<Rays>& shared, const ChainPass& pass)
+      : shared_(shared), pass_(pass), before_(std::dynamic_pointer_cast<const ReuseMemory>(pass.before)) {
     const auto pixels = std::size_t(pass.bounds.area());
+    if (before_ && !(before_->bounds == pass.bounds)) before_.reset();
+    if (before_) earlier_.resize(pixels);
     for (auto& vertices : vertices_) vertices.resize(pixels);
     lights_.resize(pixels);
     frame_.resize(pixels);
@@ -25,14 +28,24 @@ class ReuseChain final : public Chain {
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage > 0) return share(step, tile, out);
     RayCounts counts = find(step.frame, tile);
-    if (settings().temporal && step.frame > 0) counts += recall(step.frame, tile);
+    if (settings().temporal && (step.frame > 0 || before_)) counts += recall(step.frame, tile);
     return counts;
+  }
+
+  std::unique_ptr<ChainMemory> remember(int frames) override {
+    if (!settings().temporal || !settings().carry) return nullptr;
+    auto memory = std::make_unique<ReuseMemory>();
+    memory->bounds = pass_.bounds, memory->shutter = shutter();
+    memory->vertices = std::move(vertices(frames - 1));
+    memory->lights = std::move(lights_.after(step_number(frames - 1, settings().rounds)));
+    return memory;
   }
 
   static int stages(const RestirSettings& settings) { return 1 + std::max(settings.rounds, 1); }
 
  private:
   const RestirSettings& settings() const { return shared_.settings; }
+  Shutter shutter() const { return pass_.shutter.value_or(shared_.scene.shutter); }
 
   // The number of a round of a frame among all that write reservoirs; round 0 is that of stage 0.
   int step_number(int frame, int round) const { return frame * (settings().rounds + 1) + round; }
@@ -53,8 +66,10 @@ class ReuseChain final : public Chain {
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
-    auto keep = [&](const ReuseVertex<F>& vertex, const LightReservoir<F>& reservoir, const U& slot, M on) {
+    auto keep = [&](const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin, const LightReservoir<F>& reservoir,
+                    const U& slot, M on) {
       const LanePixels<F> at{tile, slot, U(0u), on};
+      if (before_ && frame == 0) trace_back(at, vertex, origin);
       for_each_lane(on, [&](int k) {
         const std::size_t pixel = pixel_number(pass_.bounds, at.x(k), at.y(k));
         get_lane_words(vertex, k, vertices(frame)[pixel]);
@@ -69,7 +84,42 @@ class ReuseChain final : public Chain {
     return counts;
   }
 
-  // Every pixel learns from itself in the frame before.
+  // Which pixels of the picture before showed the points of the vertices. Behind mirrors and glass it is sought at the
+  // pixel itself.
+  void trace_back(const LanePixels<F>& at, const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin) {
+    F moment = vertex.time;
+    for_each_lane(
+        at.on, [&](int k) { set_lane(moment, k, earlier_moment(lane(vertex.time, k), shutter(), before_->shutter)); });
+    const M straight = at.on & origin.straight;
+    const EarlierPlace<F> then = earlier_place<F>(shared_.scene, origin, moment, straight);
+    for_each_lane(at.on, [&](int k) {
+      std::optional<std::size_t> pixel;
+      const std::uint32_t object = lane(vertex.object, k);
+      if (!lane(straight, k))
+        pixel = earlier_pixel(*before_, {float(at.x(k)) + 0.5f, float(at.y(k)) + 0.5f},
+                              {object, lane(vertex.ng, k), lane(vertex.depth, k)});
+      else if (lane(then.place.seen, k))
+        pixel = earlier_pixel(*before_, lane(then.place.raster, k),
+                              {object, lane(then.ng, k), lane(then.place.distance, k)});
+      earlier_[pixel_number(pass_.bounds, at.x(k), at.y(k))] = pixel;
+    });
+  }
+
+  // What a pixel held at the end of the frame before: the same pixel within a picture.
+  struct Past {
+    const ReuseVertex<float>& vertex;
+    const LightReservoir<float>& light;
+  };
+  std::optional<Past> past(int frame, std::size_t pixel) {
+    if (frame == 0) {
+      const auto earlier = earlier_[pixel];
+      return earlier ? std::optional<Past>({before_->vertices[*earlier], before_->lights[*earlier]}) : std::nullopt;
+    }
+    if (vertices(frame - 1)[pixel].exists == 0) return std::nullopt;
+    return Past{vertices(frame - 1)[pixel], lights_.before(step_number(frame, 0))[pixel]};
+  }
+
+  // Every pixel learns from itself in the frame before, or from where its surface was in the picture before.
   RayCounts recall(int frame, const PixelBounds& tile) {
     RayCounts counts;
     const int step = step_number(frame, 0);
@@ -86,10 +136,10 @@ class ReuseChain final : public Chain {
       domains[1] = domains[0], inputs[1] = inputs[0];
       inputs[1].confidence = F(0.0f);
       for_each_lane(at.on, [&](int k) {
-        const std::size_t pixel = lane(at.pixel, k);
-        if (vertices(frame - 1)[pixel].exists == 0) return;
-        set_lane_words(domains[1], k, vertices(frame - 1)[pixel]);
-        put(inputs[1], k, lights_.before(step)[pixel]);
+        const std::optional<Past> known = past(frame, lane(at.pixel, k));
+        if (!known) return;
+        set_lane_words(domains[1], k, known->vertex);
+        put(inputs[1], k, known->light);
       });
       inputs[1].confidence = min(inputs[1].confidence, F(settings().m_cap));
       const LightReservoir<F> result =
@@ -163,7 +213,9 @@ class ReuseChain final : public Chain {
 
   const RestirScene<Rays> shared_;
   const ChainPass pass_;
-  std::vector<ReuseVertex<float>> vertices_[2];  // of this frame and the one before
+  std::shared_ptr<const ReuseMemory> before_;        // of the picture before, if there is one
+  std::vector<std::optional<std::size_t>> earlier_;  // pixels of it that showed what the pixels show
+  std::vector<ReuseVertex<float>> vertices_[2];      // of this frame and the one before
   ReservoirPlanes<LightPoint> lights_;
   std::vector<PixelSample> frame_;  // without the reused light
 };

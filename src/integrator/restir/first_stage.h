@@ -5,6 +5,7 @@
 #include "integrator/path/loop.h"
 #include "integrator/restir/continuations.h"
 #include "integrator/restir/first_candidates.h"
+#include "integrator/restir/history.h"
 
 namespace montelux {
 
@@ -24,7 +25,7 @@ inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, spatial = 5;
 }  // namespace restir_stream
 
-// keep(vertex, reservoir, slot, mask): the lanes' pixels have these. Pixels that are not kept have no vertex.
+// keep(vertex, origin, reservoir, slot, mask): the lanes' pixels have these. Pixels that are not kept have no vertex.
 template <class F, class Rays, class Keep>
 class FirstStage {
  public:
@@ -59,7 +60,8 @@ class FirstStage {
   // One vertex of every path; gives the lanes that go on to another.
   M step(PathState<F>& path, M on) {
     const Scene& scene = shared_.scene;
-    const SurfaceHit<F> x = surface<F>(scene.geometry, {path.o, path.d, path.hit.t, path.time}, path.hit, on);
+    const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
+    const SurfaceHit<F> x = surface<F>(scene.geometry, origin.ray, origin.hit, on);
     if (const M emits = on & (x.light != U(0u)); any(emits)) {
       const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
                                                                       x.point.uv, path.d, emits);
@@ -116,7 +118,7 @@ class FirstStage {
 
     // What the direction of the BSDF met joins the candidates; what lies behind is the path's own.
     if (any(offers)) offer(candidates, path, offers & found, offers & !found, numbers.fork(U(restir_stream::met)));
-    if (any(rough)) keep(path, vertex, candidates, rough);
+    if (any(rough)) keep(path, {vertex, origin}, candidates, rough);
     const M counts_next = lives & next.delta;
     const M left = (moves & !found) & (passes | (lives & !rough) | counts_next);
     if (any(left))
@@ -145,6 +147,7 @@ class FirstStage {
             path.throughput * path.weight,
             length(x.point.p - path.p),
             path.time,
+            x.object,
             U(1u)};
   }
 
@@ -177,10 +180,14 @@ class FirstStage {
     }
   }
 
-  void keep(PathState<F>& path, const ReuseVertex<F>& vertex, const Candidates& candidates, M rough) {
+  struct FoundVertex {
+    const ReuseVertex<F>& vertex;
+    const VertexOrigin<F>& origin;
+  };
+  void keep(PathState<F>& path, const FoundVertex& found, const Candidates& candidates, M rough) {
     const M broken = rough & candidates.broken();
     if (any(broken)) path.radiance += select(broken, gray(F(std::numeric_limits<float>::quiet_NaN())), gray(F(0.0f)));
-    keep_(vertex, candidates.result(), path.slot, rough);
+    keep_(found.vertex, found.origin, candidates.result(), path.slot, rough);
   }
 
   const RestirScene<Rays>& shared_;

@@ -17,6 +17,7 @@ EntitySpec restir_di_spec() {
            {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
            {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
            {"temporal", {boolean}, "learn from the frame before; default on"},
+           {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
            {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
            {"weights",
             {string},
@@ -41,6 +42,7 @@ Result<RestirSettings> restir_di_settings(const ParameterList& list, std::option
   s.rounds = list.integer("rounds", s.rounds);
   s.similar = list.boolean("similar", s.similar);
   s.temporal = list.boolean("temporal", s.temporal);
+  s.carry = list.boolean("carry", s.carry);
   s.m_cap = list.number("m-cap", s.m_cap);
   s.weights = *reuse_weights_named(list.string("weights", "pairwise"));
   s.visibility_reuse = list.boolean("visibility-reuse", s.visibility_reuse);

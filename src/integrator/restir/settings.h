@@ -19,6 +19,8 @@ struct RestirSettings {
   // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one.
   bool temporal = true;
   float m_cap = 20;
+  // In a sequence, chains go on from each picture to the next.
+  bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
   // Targets know what is in the way: more shadow rays, better samples.
   bool visibility_reuse = false;

@@ -21,6 +21,7 @@ struct ReuseVertex {
   Spectrum<F> throughput;  // of the path so far, with the weights of camera and filter
   F depth;                 // distance from the vertex before it, or the camera
   F time;                  // at which the camera looked
+  Uint<F> object;          // number of the object, as SurfaceHit has it
   Uint<F> exists;          // 1, or 0: the path ended before
 
   // f |cos| toward a direction of the world, and its density.

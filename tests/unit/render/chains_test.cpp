@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "integrator/restir/history.h"
 #include "reuse_scenes.h"
 
 namespace montelux::test {
@@ -121,6 +122,60 @@ TEST(Chains, are_planned_whole) {
   const ChosenIntegrator path = scene().integrator("path");
   EXPECT_EQ(plan_passes(path.any(), 33, PointSetKind::independent).samples_per_pass,
             plan_passes(33, PointSetKind::independent).samples_per_pass);
+}
+
+// Two pictures of a sequence; the film of the second.
+Film second_picture(const char* way, int first_passes, int threads, ChainMemories& memories) {
+  const ChosenIntegrator chosen = scene().integrator(way);
+  RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, first_passes}, 5, threads);
+  s.memories = &memories;
+  RenderObserver silent;
+  render(chosen.any(), s, silent);
+  s.plan.passes = 3, s.seed = 6;
+  return render(chosen.any(), s, silent).film;
+}
+
+double largest_confidence(const ChainMemory& memory) {
+  float largest = 0;
+  for (const LightReservoir<float>& r : dynamic_cast<const ReuseMemory&>(memory).lights)
+    largest = std::max(largest, r.confidence);
+  return double(largest);
+}
+
+TEST(Chains, go_on_from_the_picture_before_each_from_its_own) {
+  const char* way = "restir-di:candidates=2,neighbours=0";
+  ChainMemories memories;
+  const Film film = second_picture(way, 3, 1, memories);
+  ASSERT_EQ(memories.size(), 3u);
+  for (const auto& memory : memories) {
+    // Four frames of one candidate each: two of the first picture, two of the second.
+    EXPECT_EQ(largest_confidence(*memory), 4);
+    EXPECT_GT(memory->bytes(), std::size_t(40 * 40) * sizeof(ReuseVertex<float>));
+  }
+  ChainMemories by_many;
+  expect_same(film, second_picture(way, 3, 4, by_many));
+}
+
+TEST(Chains, without_a_picture_before_begin_afresh) {
+  ChainMemories memories, none;
+  second_picture("restir-di:candidates=2,neighbours=0", 1, 2, memories);
+  ASSERT_EQ(memories.size(), 3u);
+  EXPECT_EQ(largest_confidence(*memories[0]), 4);
+  EXPECT_EQ(largest_confidence(*memories[1]), 2);
+  for (const char* off : {"restir-di:candidates=2,carry=off", "restir-di:candidates=2,temporal=off"}) {
+    const Film film = second_picture(off, 3, 2, none);
+    for (const auto& memory : none) EXPECT_EQ(memory, nullptr);
+    const ChosenIntegrator chosen = scene().integrator(off);
+    RenderObserver silent;
+    expect_same(film, render(chosen.any(), scene().settings(PointSetKind::blue_noise, {2, 3}, 6, 1), silent).film);
+  }
+  // What is of another crop is not looked at.
+  const ChosenIntegrator chosen = scene().integrator("restir-di:candidates=2,neighbours=0");
+  RenderSettings s = scene().settings(PointSetKind::blue_noise, {1, 1}, 6, 1);
+  s.bounds = {3, 3, 20, 20}, s.memories = &memories;
+  RenderObserver silent;
+  render(chosen.any(), s, silent);
+  EXPECT_EQ(largest_confidence(*memories[0]), 1);
 }
 
 TEST(Chains, hand_on_what_goes_wrong) {

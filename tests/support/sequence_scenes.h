@@ -1,0 +1,91 @@
+// Short sequences with a camera and a thing that move, and how they are measured: picture by picture over independent
+// chains, each of which goes on from its own of the picture before.
+#pragma once
+#include "pass_means.h"
+#include "reuse_scenes.h"
+
+namespace montelux::test {
+
+inline constexpr int sequence_pictures = 5;
+
+// The shutter of a picture: open for half of its share of the transforms' time.
+inline Shutter sequence_shutter(int picture) {
+  return {float(picture) / sequence_pictures, (float(picture) + 0.5f) / sequence_pictures};
+}
+
+// The camera pans past a screen, whose far side comes into sight, a box turns and slides over the floor, and slats
+// throw shadows that pixels share unevenly.
+inline std::string sequence_scene(int size) {
+  std::string slats;
+  for (int i = 0; i < 6; ++i)
+    slats += fmt::format("Shape \"bilinearmesh\" \"point3 P\" [ {0} 1.1 -2  {1} 1.1 -2  {0} 1.1 2  {1} 1.1 2 ]\n",
+                         -2 + 0.7 * i, -2 + 0.7 * i + 0.4);
+  return fmt::format(R"(Film "rgb" "integer xresolution" [ {0} ] "integer yresolution" [ {0} ]
+PixelFilter "box"
+Integrator "path" "integer maxdepth" [ 2 ]
+ActiveTransform StartTime
+LookAt -0.6 1 -4  -0.5 0.5 0  0 1 0
+ActiveTransform EndTime
+LookAt 0.9 1.2 -3.7  0.4 0.5 0  0 1 0
+ActiveTransform All
+Camera "perspective" "float fov" [ 45 ]
+WorldBegin
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 14 10 7 ]
+Shape "bilinearmesh" "point3 P" [ -1.5 2.5 -0.3  -0.9 2.5 -0.3  -1.5 2.5 0.3  -0.9 2.5 0.3 ]
+AttributeEnd
+AttributeBegin
+Translate 1.2 2.2 -0.6
+AreaLightSource "diffuse" "rgb L" [ 5 8 16 ]
+Shape "sphere" "float radius" [ 0.2 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
+Shape "bilinearmesh" "point3 P" [ -3 0 -3  3 0 -3  -3 0 3  3 0 3 ]
+{1}
+Material "diffuse" "rgb reflectance" [ 0.3 0.5 0.6 ]
+Shape "bilinearmesh" "point3 P" [ -0.3 0 -1.2  0.2 0 -1.2  -0.3 0.9 -1.2  0.2 0.9 -1.2 ]
+AttributeBegin
+ActiveTransform StartTime
+Translate -0.9 0.3 0.2
+ActiveTransform EndTime
+Translate 0.7 0.3 -0.5
+Rotate 80 0 1 0
+ActiveTransform All
+Material "diffuse" "rgb reflectance" [ 0.7 0.6 0.2 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2 0 2 3  4 6 5 4 7 6  0 4 5 0 5 1  1 5 6 1 6 2  2 6 7 2 7 3  3 7 4 3 4 0 ]
+    "point3 P" [ -0.3 -0.3 -0.3  0.3 -0.3 -0.3  0.3 0.3 -0.3  -0.3 0.3 -0.3
+                 -0.3 -0.3 0.3  0.3 -0.3 0.3  0.3 0.3 0.3  -0.3 0.3 0.3 ]
+AttributeEnd
+)",
+                     size, slats);
+}
+
+// What is done to the memory of a chain before the next picture has it, for planted faults.
+using MemoryChange = std::function<std::shared_ptr<const ChainMemory>(std::shared_ptr<const ChainMemory>, int picture)>;
+
+struct SequencePlan {
+  int frames = 2;  // of a chain
+  int passes = 48;
+  std::uint32_t seed = 1;
+  int block = 8;
+};
+
+// Means over passes of each picture of the sequence.
+inline std::vector<PassMeans> measure_sequence(const TestScene& scene, const ChosenIntegrator& chosen,
+                                               const SequencePlan& plan, const MemoryChange& change = {}) {
+  std::vector<PassMeans> pictures(sequence_pictures);
+  RenderObserver silent;
+  for (int pass = 0; pass < plan.passes; ++pass) {
+    ChainMemories memories;
+    for (int picture = 0; picture < sequence_pictures; ++picture) {
+      RenderSettings s =
+          scene.settings(PointSetKind::blue_noise, {plan.frames, 1}, plan.seed * 1000 + std::uint32_t(picture), 0);
+      s.first_pass = pass, s.shutter = sequence_shutter(picture), s.memories = &memories;
+      if (change && !memories.empty()) memories[0] = change(std::move(memories[0]), picture);
+      add_pass(render(chosen.any(), s, silent).film, plan.block, pictures[std::size_t(picture)]);
+    }
+  }
+  return pictures;
+}
+
+}  // namespace montelux::test

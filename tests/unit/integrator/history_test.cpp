@@ -1,0 +1,150 @@
+// Where surface points were in the picture before, against rays that look there; and what is won by knowing it.
+#include "integrator/restir/history.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "render_scenes.h"
+
+namespace montelux::test {
+namespace {
+
+constexpr int size = 64;
+
+// Boards and balls before a wall, all at rest but for one mesh and one ball; the camera pans and rolls a little.
+std::string panning_scene() {
+  std::string text = R"(Film "rgb" "integer xresolution" [ 64 ] "integer yresolution" [ 64 ]
+PixelFilter "box"
+ActiveTransform StartTime
+LookAt -0.5 1 -6  -0.5 0.8 0  0 1 0
+ActiveTransform EndTime
+LookAt 0.5 1.1 -5.5  1.2 0.8 0  0.1 1 0
+ActiveTransform All
+Camera "perspective" "float fov" [ 40 ]
+WorldBegin
+LightSource "infinite"
+Shape "bilinearmesh" "point3 P" [ -9 -5 3  9 -5 3  -9 6 3  9 6 3 ]
+AttributeBegin
+ActiveTransform EndTime
+Translate 0.6 0.3 -0.2
+Rotate 40 0 1 0
+ActiveTransform All
+Shape "trianglemesh" "integer indices" [ 0 1 2 0 2 3 ] "point3 P" [ -1 1 -1  -0.2 1 -1.2  -0.2 1.8 -1  -1 1.8 -0.8 ]
+AttributeEnd
+AttributeBegin
+ActiveTransform EndTime
+Translate -0.4 0 0.3
+ActiveTransform All
+Translate 0.8 -0.6 -1
+Shape "sphere" "float radius" [ 0.4 ]
+AttributeEnd
+)";
+  for (int i = 0; i < 24; ++i) {
+    const double x = -4 + 0.36 * i, z = 0.3 * (i * 5 % 7), y = 0.4 * (i * 3 % 5) - 0.6;
+    text += fmt::format("Shape \"bilinearmesh\" \"point3 P\" [ {} {} {}  {} {} {}  {} {} {}  {} {} {} ]\n", x, y, z,
+                        x + 0.3, y, z, x, y + 0.5, z, x + 0.3, y + 0.5, z);
+  }
+  return text;
+}
+
+const TestScene& panning() {
+  static const TestScene s{panning_scene()};
+  return s;
+}
+
+struct Seen {
+  bool found = false;
+  VertexOrigin<float> origin{};
+  SurfaceHit<float> surface{};
+};
+Seen look(Vec2f raster, float time) {
+  const Scene& scene = panning().scene();
+  Seen seen;
+  seen.origin.ray = scene.camera.generate(raster, Vec2f{0.5f, 0.5f}, time).ray;
+  const auto [found, hit] = panning().accel().trace<float>(seen.origin.ray, true);
+  seen.found = found, seen.origin.hit = hit, seen.origin.straight = true;
+  if (found) seen.surface = surface<float>(scene.geometry, seen.origin.ray, hit, true);
+  return seen;
+}
+
+constexpr float then = 0.3f, now = 0.5f;
+
+TEST(Motion, leads_to_where_the_same_point_was_seen_before) {
+  int same = 0, hidden = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const Seen here = look({float(x) + 0.5f, float(y) + 0.5f}, now);
+      ASSERT_TRUE(here.found);
+      const EarlierPlace<float> earlier = earlier_place<float>(panning().scene(), here.origin, then, true);
+      ASSERT_TRUE(earlier.place.seen);
+      const Vec2f r = earlier.place.raster;
+      if (r.x < 0 || r.y < 0 || r.x >= size || r.y >= size) continue;
+      const Seen there = look(r, then);
+      ASSERT_TRUE(there.found);
+      // What stood in front then was nearer; else it is the same point of the same surface.
+      if (there.origin.hit.t < earlier.place.distance * (1 - 1e-3f)) {
+        ++hidden;
+        continue;
+      }
+      ++same;
+      EXPECT_NEAR(there.origin.hit.t, earlier.place.distance, 2e-3f) << x << " " << y;
+      EXPECT_EQ(there.surface.object, here.surface.object) << x << " " << y;
+      EXPECT_NEAR(dot(there.surface.point.ng, earlier.ng), 1, 2e-2f) << x << " " << y;
+    }
+  EXPECT_GT(same, 3000);
+  EXPECT_GT(hidden, 50);
+}
+
+// A picture as chains remember it.
+ReuseMemory remembered(float time) {
+  ReuseMemory memory;
+  memory.bounds = {0, 0, size, size};
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const Seen seen = look({float(x) + 0.5f, float(y) + 0.5f}, time);
+      ReuseVertex<float> v{};
+      v.exists = seen.found, v.object = seen.surface.object, v.depth = seen.origin.hit.t;
+      v.p = seen.surface.point.p, v.ng = seen.surface.point.ng;
+      memory.vertices.push_back(v);
+    }
+  return memory;
+}
+
+TEST(Motion, finds_the_history_of_most_pixels_of_a_panning_camera) {
+  const ReuseMemory before = remembered(then);
+  int by_motion = 0, by_place = 0, there_by_place = 0, wrong = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const Seen here = look({float(x) + 0.5f, float(y) + 0.5f}, now);
+      const EarlierPlace<float> earlier = earlier_place<float>(panning().scene(), here.origin, then, true);
+      const SoughtSurface sought{here.surface.object, earlier.ng, earlier.place.distance};
+      const Vec3f was =
+          surface_at<float>(panning().scene().geometry, here.origin.ray, here.origin.hit, then, true).point.p;
+      // Within two pixels, of which one is 0.136 wide where the wall is.
+      const auto is_near = [&](const ReuseVertex<float>& v) { return length(v.p - was) < 0.3f; };
+      if (const auto pixel = earlier_pixel(before, earlier.place.raster, sought)) {
+        ++by_motion;
+        wrong += !is_near(before.vertices[*pixel]);
+      }
+      const ReuseVertex<float>& same = before.vertices[std::size_t(y * size + x)];
+      by_place += same.object == here.surface.object;
+      there_by_place += same.object == here.surface.object && is_near(same);
+    }
+  printf("history of the right object: %d of %d pixels by motion, %d by place (of the same spot: %d)\n", by_motion,
+         size * size, by_place, there_by_place);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(by_motion, 0.8 * size * size);
+  EXPECT_GT(by_motion, 1.2 * by_place);
+  EXPECT_GT(by_motion, 4 * there_by_place);
+}
+
+TEST(Motion, of_a_shutter_goes_to_the_same_share_of_the_exposure) {
+  const Shutter before{0.2f, 0.4f}, after{0.6f, 0.7f};
+  EXPECT_NEAR(earlier_moment(0.6f, after, before), 0.2f, 1e-6f);
+  EXPECT_NEAR(earlier_moment(0.675f, after, before), 0.35f, 1e-6f);
+  EXPECT_NEAR(earlier_moment(0.7f, after, {0.5f, 0.5f}), 0.5f, 1e-6f);
+  EXPECT_NEAR(earlier_moment(0.6f, {0.6f, 0.6f}, before), 0.2f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace montelux::test
