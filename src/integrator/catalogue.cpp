@@ -78,10 +78,11 @@ Made make_tracepath(const Request& r) {
   return chosen;
 }
 
-Made make_restir_di(const Request& r) {
-  auto settings = restir_di_settings(r.list, r.max_depth);
+template <const char* name>
+Made make_restir(const Request& r) {
+  auto settings = restir_settings(name, r.list, r.max_depth);
   if (!settings) return settings.failure();
-  ChosenIntegrator chosen{"restir-di", {}, {}, {}, std::make_unique<RestirDirect>(r.scene, r.accel, *settings)};
+  ChosenIntegrator chosen{name, {}, {}, {}, std::make_unique<RestirIntegrator>(r.scene, r.accel, *settings)};
   note_depth(chosen, r.max_depth);
   const bool reuses = settings->temporal || (settings->rounds > 0 && settings->neighbours > 0);
   if (settings->weights == ReuseWeights::naive && reuses) {
@@ -92,6 +93,8 @@ Made make_restir_di(const Request& r) {
   }
   return chosen;
 }
+
+constexpr char restir_di[] = "restir-di", restir_gi[] = "restir-gi", restir_pt[] = "restir-pt";
 
 Made make_radiosity(const Request& r) {
   const RadiositySettings settings = radiosity_settings(r.list);
@@ -121,9 +124,14 @@ struct Row {
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path<false>},    {naive_spec(), make_path<true>},
-                         {direct_spec(), make_direct},       {distribution_spec(), make_distribution},
-                         {tracepath_spec(), make_tracepath}, {restir_di_spec(), make_restir_di},
+    std::vector<Row> all{{path_spec(), make_path<false>},
+                         {naive_spec(), make_path<true>},
+                         {direct_spec(), make_direct},
+                         {distribution_spec(), make_distribution},
+                         {tracepath_spec(), make_tracepath},
+                         {restir_di_spec(), make_restir<restir_di>},
+                         {restir_gi_spec(), make_restir<restir_gi>},
+                         {restir_pt_spec(), make_restir<restir_pt>},
                          {radiosity_spec(), make_radiosity}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};

@@ -49,6 +49,22 @@ MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to
   for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
 }
 
+// Lane by lane a or b, word by word, for such a struct in a pack.
+template <template <class> class S, class F>
+MONTELUX_INLINE S<F> select_words(Mask<F> m, const S<F>& a, const S<F>& b) {
+  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
+  S<F> result = b;
+  auto* to = reinterpret_cast<char*>(&result);
+  const auto* from = reinterpret_cast<const char*>(&a);
+  for (std::size_t at = 0; at < sizeof(S<F>); at += sizeof(F)) {
+    Uint<F> x, y;
+    std::memcpy(&x, from + at, sizeof(F)), std::memcpy(&y, to + at, sizeof(F));
+    const Uint<F> chosen = select(m, x, y);
+    std::memcpy(to + at, &chosen, sizeof(F));
+  }
+  return result;
+}
+
 // Paths begin in the lanes `fresh`, where the starts stand.
 template <class F>
 MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, Mask<F> fresh) {

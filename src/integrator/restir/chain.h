@@ -20,6 +20,7 @@ class ReuseChain final : public Chain {
     if (before_) earlier_.resize(pixels);
     for (auto& vertices : vertices_) vertices.resize(pixels);
     lights_.resize(pixels);
+    if (reuses_paths()) paths_.resize(pixels);
     frame_.resize(pixels);
   }
 
@@ -38,6 +39,7 @@ class ReuseChain final : public Chain {
     memory->bounds = pass_.bounds, memory->shutter = shutter();
     memory->vertices = std::move(vertices(frames - 1));
     memory->lights = std::move(lights_.after(step_number(frames - 1, settings().rounds)));
+    if (reuses_paths()) memory->paths = std::move(paths_.after(step_number(frames - 1, settings().rounds)));
     return memory;
   }
 
@@ -45,6 +47,7 @@ class ReuseChain final : public Chain {
 
  private:
   const RestirSettings& settings() const { return shared_.settings; }
+  bool reuses_paths() const { return settings().indirect.on; }
   Shutter shutter() const { return pass_.shutter.value_or(shared_.scene.shutter); }
 
   // The number of a round of a frame among all that write reservoirs; round 0 is that of stage 0.
@@ -59,6 +62,36 @@ class ReuseChain final : public Chain {
                             [&](std::size_t pixel) { return vertices(frame)[pixel].exists != 0; });
   }
 
+  // What FirstStage tells.
+  struct Finds {
+    ReuseChain& chain;
+    int frame;
+    PixelBounds tile;
+
+    void lights(const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin, const LightReservoir<F>& reservoir,
+                const U& slot, M on) {
+      const int step = chain.step_number(frame, 0);
+      if (chain.before_ && frame == 0) chain.trace_back({tile, slot, U(0u), on}, vertex, origin);
+      for_each_pixel(slot, on, [&](int k, std::size_t pixel) {
+        get_lane_words(vertex, k, chain.vertices(frame)[pixel]);
+        get(reservoir, k, chain.lights_.after(step)[pixel]);
+        if (chain.reuses_paths()) chain.paths_.after(step)[pixel] = {{}, 0.0f, 1.0f, 0.0f};
+      });
+    }
+    void paths(const PathReservoir<F>& reservoir, const U& slot, M on) {
+      for_each_pixel(slot, on, [&](int k, std::size_t pixel) {
+        get(reservoir, k, chain.paths_.after(chain.step_number(frame, 0))[pixel]);
+      });
+    }
+
+   private:
+    template <class Function>
+    void for_each_pixel(const U& slot, M on, Function f) const {
+      const LanePixels<F> at{tile, slot, U(0u), on};
+      for_each_lane(on, [&](int k) { f(k, pixel_number(chain.pass_.bounds, at.x(k), at.y(k))); });
+    }
+  };
+
   // Every pixel by itself.
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
@@ -66,17 +99,8 @@ class ReuseChain final : public Chain {
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
-    auto keep = [&](const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin, const LightReservoir<F>& reservoir,
-                    const U& slot, M on) {
-      const LanePixels<F> at{tile, slot, U(0u), on};
-      if (before_ && frame == 0) trace_back(at, vertex, origin);
-      for_each_lane(on, [&](int k) {
-        const std::size_t pixel = pixel_number(pass_.bounds, at.x(k), at.y(k));
-        get_lane_words(vertex, k, vertices(frame)[pixel]);
-        get(reservoir, k, lights_.after(step_number(frame, 0))[pixel]);
-      });
-    };
-    FirstStage<F, Rays, decltype(keep)> stage(shared_, request, out, keep);
+    Finds finds{*this, frame, tile};
+    FirstStage<F, Rays, Finds> stage(shared_, request, out, finds);
     const RayCounts counts = stage.run();
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t first, std::size_t n) {
       std::copy_n(out.begin() + std::ptrdiff_t(first), n, frame_.begin() + std::ptrdiff_t(pixel));
@@ -105,55 +129,87 @@ class ReuseChain final : public Chain {
     });
   }
 
-  // What a pixel held at the end of the frame before: the same pixel within a picture.
-  struct Past {
+  // The pixels that a pixel learns from: their vertices and reservoirs, its own first.
+  struct Inputs {
+    std::vector<ReuseVertex<F>> vertices;
+    std::vector<LightReservoir<F>> lights;
+    std::vector<PathReservoir<F>> paths;
+
+    Inputs(std::size_t count, bool with_paths) : vertices(count), lights(count), paths(with_paths ? count : 0) {}
+    // Input i is there in no lane.
+    void clear(std::size_t i) {
+      vertices[i] = vertices[0], lights[i] = lights[0];
+      lights[i].confidence = F(0.0f);
+      if (!paths.empty()) paths[i] = paths[0], paths[i].confidence = F(0.0f);
+    }
+    void cap(std::size_t i, F most) {
+      lights[i].confidence = min(lights[i].confidence, most);
+      if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, most);
+    }
+  };
+  // What a pixel holds: it becomes lane k of input i.
+  struct Holdings {
     const ReuseVertex<float>& vertex;
     const LightReservoir<float>& light;
+    const PathReservoir<float>* path;  // null: paths are not reused
   };
-  std::optional<Past> past(int frame, std::size_t pixel) {
+  static void put_pixel(Inputs& inputs, std::size_t i, int k, const Holdings& pixel) {
+    set_lane_words(inputs.vertices[i], k, pixel.vertex);
+    put(inputs.lights[i], k, pixel.light);
+    if (pixel.path != nullptr) put(inputs.paths[i], k, *pixel.path);
+  }
+  Holdings after(int frame, int step, std::size_t pixel) {
+    return {vertices(frame)[pixel], lights_.after(step)[pixel], reuses_paths() ? &paths_.after(step)[pixel] : nullptr};
+  }
+  Holdings before(int frame, int step, std::size_t pixel) {
+    return {vertices(frame)[pixel], lights_.before(step)[pixel],
+            reuses_paths() ? &paths_.before(step)[pixel] : nullptr};
+  }
+  // What a pixel held at the end of the frame before: the same pixel within a picture.
+  std::optional<Holdings> past(int frame, std::size_t pixel) {
     if (frame == 0) {
-      const auto earlier = earlier_[pixel];
-      return earlier ? std::optional<Past>({before_->vertices[*earlier], before_->lights[*earlier]}) : std::nullopt;
+      const std::optional<std::size_t> earlier = earlier_[pixel];
+      if (!earlier) return std::nullopt;
+      return Holdings{before_->vertices[*earlier], before_->lights[*earlier],
+                      reuses_paths() ? &before_->paths[*earlier] : nullptr};
     }
     if (vertices(frame - 1)[pixel].exists == 0) return std::nullopt;
-    return Past{vertices(frame - 1)[pixel], lights_.before(step_number(frame, 0))[pixel]};
+    return before(frame - 1, step_number(frame, 0), pixel);
   }
 
   // Every pixel learns from itself in the frame before, or from where its surface was in the picture before.
   RayCounts recall(int frame, const PixelBounds& tile) {
     RayCounts counts;
     const int step = step_number(frame, 0);
+    Inputs inputs(2, reuses_paths());
     for (std::uint32_t next = 0; next < std::uint32_t(tile.area());) {
       const LanePixels<F> at = gather(frame, tile, next);
       if (!any(at.on)) break;
-      ReuseVertex<F> domains[2];
-      LightReservoir<F> inputs[2];
+      for_each_lane(at.on, [&](int k) { put_pixel(inputs, 0, k, after(frame, step, lane(at.pixel, k))); });
+      inputs.clear(1);
       for_each_lane(at.on, [&](int k) {
-        const std::size_t pixel = lane(at.pixel, k);
-        set_lane_words(domains[0], k, vertices(frame)[pixel]);
-        put(inputs[0], k, lights_.after(step)[pixel]);
+        if (const auto known = past(frame, lane(at.pixel, k))) put_pixel(inputs, 1, k, *known);
       });
-      domains[1] = domains[0], inputs[1] = inputs[0];
-      inputs[1].confidence = F(0.0f);
-      for_each_lane(at.on, [&](int k) {
-        const std::optional<Past> known = past(frame, lane(at.pixel, k));
-        if (!known) return;
-        set_lane_words(domains[1], k, known->vertex);
-        put(inputs[1], k, known->light);
-      });
-      inputs[1].confidence = min(inputs[1].confidence, F(settings().m_cap));
-      const LightReservoir<F> result =
-          combined(inputs, domains, stream(frame, at, restir_stream::temporal), at.on, counts);
-      for_each_lane(at.on, [&](int k) { get(result, k, lights_.after(step)[lane(at.pixel, k)]); });
+      inputs.cap(1, F(settings().m_cap));
+      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, step, counts);
     }
     return counts;
   }
 
-  LightReservoir<F> combined(std::span<const LightReservoir<F>> inputs, std::span<const ReuseVertex<F>> domains,
-                             RandomStream<F> numbers, M on, RayCounts& counts) const {
-    const LightPointDomains<F, Rays> points{shared_.lights.by_hierarchy, shared_.rays, domains,
-                                            settings().visibility_reuse, counts};
-    return combine<LightPoint<F>, F>(settings().weights, inputs, points, numbers, on);
+  // Combines, into the first input, and leaves the result after `step`.
+  void combine_all(Inputs& inputs, RandomStream<F> numbers, const LanePixels<F>& at, int step, RayCounts& counts) {
+    if (settings().direct) {
+      const LightPointDomains<F, Rays> points{shared_.lights.by_hierarchy, shared_.rays, inputs.vertices,
+                                              settings().visibility_reuse, counts};
+      inputs.lights[0] = combine<LightPoint<F>, F>(settings().weights, inputs.lights, points, numbers, at.on);
+    }
+    for_each_lane(at.on, [&](int k) { get(inputs.lights[0], k, lights_.after(step)[lane(at.pixel, k)]); });
+    if (!reuses_paths()) return;
+    RandomStream<F> own = numbers.fork(U(restir_stream::path));
+    const PathScene<Rays> scene = shared_.paths();
+    const PathDomains<F, Rays> domains{scene, inputs.vertices, counts};
+    inputs.paths[0] = combine<PathSample<F>, F>(settings().weights, inputs.paths, domains, own, at.on);
+    for_each_lane(at.on, [&](int k) { get(inputs.paths[0], k, paths_.after(step)[lane(at.pixel, k)]); });
   }
 
   // One round of spatial reuse, and after the last the picture.
@@ -165,38 +221,31 @@ class ReuseChain final : public Chain {
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
     const std::size_t others = reuses ? std::size_t(settings().neighbours) : 0;
     const int writes = step_number(step.frame, reuses ? step.stage : 1);
-    std::vector<ReuseVertex<F>> domains(1 + others);
-    std::vector<LightReservoir<F>> inputs(1 + others);
+    Inputs inputs(1 + others, reuses_paths());
     for (std::uint32_t next = 0; next < std::uint32_t(tile.area());) {
       const LanePixels<F> at = gather(step.frame, tile, next);
       if (!any(at.on)) break;
-      for_each_lane(at.on, [&](int k) {
-        set_lane_words(domains[0], k, vertices(step.frame)[lane(at.pixel, k)]);
-        put(inputs[0], k, lights_.before(writes)[lane(at.pixel, k)]);
-      });
+      for_each_lane(at.on, [&](int k) { put_pixel(inputs, 0, k, before(step.frame, writes, lane(at.pixel, k))); });
       if (reuses) {
         RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
-        meet_neighbours(step.frame, writes, at, numbers, domains, inputs);
-        inputs[0] = combined(inputs, domains, numbers, at.on, counts);
-        for_each_lane(at.on, [&](int k) { get(inputs[0], k, lights_.after(writes)[lane(at.pixel, k)]); });
+        meet_neighbours(step.frame, writes, at, numbers, inputs);
+        combine_all(inputs, numbers, at, writes, counts);
       }
-      if (shows) show(domains[0], inputs[0], at, out, counts);
+      if (!shows) continue;
+      show(inputs.vertices[0], inputs.lights[0], at, out, counts);
+      if (reuses_paths()) show(inputs.vertices[0], inputs.paths[0], at, out);
     }
     return counts;
   }
 
-  void meet_neighbours(int frame, int writes, const LanePixels<F>& at, RandomStream<F>& numbers,
-                       std::span<ReuseVertex<F>> domains, std::span<LightReservoir<F>> inputs) {
-    for (std::size_t i = 1; i < inputs.size(); ++i) {
+  void meet_neighbours(int frame, int writes, const LanePixels<F>& at, RandomStream<F>& numbers, Inputs& inputs) {
+    for (std::size_t i = 1; i < inputs.vertices.size(); ++i) {
       const Vec2<F> u = numbers.next2();
-      domains[i] = domains[0], inputs[i] = inputs[0];
-      inputs[i].confidence = F(0.0f);
+      inputs.clear(i);
       for_each_lane(at.on, [&](int k) {
         const auto pixel =
             neighbour(settings(), pass_.bounds, vertices(frame), at.x(k), at.y(k), {lane(u.x, k), lane(u.y, k)});
-        if (!pixel) return;
-        set_lane_words(domains[i], k, vertices(frame)[*pixel]);
-        put(inputs[i], k, lights_.before(writes)[*pixel]);
+        if (pixel) put_pixel(inputs, i, k, before(frame, writes, *pixel));
       });
     }
   }
@@ -211,13 +260,22 @@ class ReuseChain final : public Chain {
     for_each_lane(open, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
   }
 
+  // Targets of paths know what is in the way.
+  void show(const ReuseVertex<F>& vertex, const PathReservoir<F>& reservoir, const LanePixels<F>& at,
+            std::span<PixelSample> out) const {
+    const Spectrum<F> light = vertex.throughput * reservoir.value.brings * reservoir.weight;
+    for_each_lane(M(at.on & (reservoir.weight > F(0.0f))),
+                  [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
+  }
+
   const RestirScene<Rays> shared_;
   const ChainPass pass_;
   std::shared_ptr<const ReuseMemory> before_;        // of the picture before, if there is one
   std::vector<std::optional<std::size_t>> earlier_;  // pixels of it that showed what the pixels show
   std::vector<ReuseVertex<float>> vertices_[2];      // of this frame and the one before
   ReservoirPlanes<LightPoint> lights_;
-  std::vector<PixelSample> frame_;  // without the reused light
+  ReservoirPlanes<PathSample> paths_;  // of no size where paths are not reused
+  std::vector<PixelSample> frame_;     // without the reused light
 };
 
 }  // namespace montelux

@@ -6,6 +6,7 @@
 #include "integrator/restir/continuations.h"
 #include "integrator/restir/first_candidates.h"
 #include "integrator/restir/history.h"
+#include "integrator/restir/path_candidates.h"
 
 namespace montelux {
 
@@ -17,25 +18,34 @@ struct RestirScene {
   const Rays& rays;
   const RestirSettings& settings;
   bool has_interfaces;
+
+  std::uint32_t max_events() const {
+    return settings.path.max_depth ? std::uint32_t(*settings.path.max_depth) : 0x7fffffffu;
+  }
+  PathScene<Rays> paths() const { return {scene, lights.by_hierarchy, rays, settings.indirect, max_events()}; }
 };
 
 // Streams of one pixel in one frame, told apart.
 namespace restir_stream {
 inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
-inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, spatial = 5;
+inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16;
 }  // namespace restir_stream
 
-// keep(vertex, origin, reservoir, slot, mask): the lanes' pixels have these. Pixels that are not kept have no vertex.
+// What is found is told to `keep`: keep.lights(vertex, origin, reservoir, slot, mask) and, where paths are reused,
+// keep.paths(reservoir, slot, mask). Pixels of which nothing is told have no vertex, or no path.
 template <class F, class Rays, class Keep>
 class FirstStage {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
   FirstStage(const RestirScene<Rays>& shared, const TilePass& pass, std::span<PixelSample> out, Keep& keep)
-      : shared_(shared), pass_(pass), out_(out), keep_(keep) {
-    const auto depth = shared.settings.path.max_depth;
-    max_depth_ = U(depth ? std::uint32_t(*depth) : 0x7fffffffu);
-  }
+      : shared_(shared),
+        pass_(pass),
+        out_(out),
+        keep_(keep),
+        max_depth_(U(shared.max_events())),
+        behind_(shared.paths()),
+        paths_(behind_, shared.settings.path, counts_) {}
 
   // Fills `out` with all light but what the vertices' reservoirs bring.
   RayCounts run() {
@@ -46,6 +56,13 @@ class FirstStage {
       on = first_hits.refill(path, on);
       if (!any(on)) break;
       on = step(path, on);
+    }
+    if (reuses_paths()) {
+      paths_.run([&](const U& slot, const PathReservoir<F>& reservoir, const Spectrum<F>& plain, M done) {
+        for_each_lane(done, [&](int k) { out_[lane(slot, k)].radiance += lane(plain, k); });
+        keep_.paths(reservoir, slot, done);
+      });
+      return counts_;
     }
     std::vector<PixelSample> results(continuations_.count());
     counts_ += run_paths<F>(shared_.scene, shared_.lights.by_hierarchy, shared_.rays, shared_.settings.path, pass_,
@@ -77,14 +94,13 @@ class FirstStage {
     scatters = scatters & !bsdf.is_interface;
     const M rough = scatters & !bsdf.is_delta;
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
-    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
-    const BsdfSample<F> next = sample<F>(bsdf.lanes(scatters), wo,
-                                         Vec3<F>{sampler.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, context);
+    const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
+    const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
+    const BsdfSample<F> next = leave(bsdf, wo, sampler, dimension, context, path_numbers, scatters);
     if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
       record_features(path, x.point, select(next.valid & scatters, next.weight, gray(F(0.0f))), x.object, first, out_);
 
     // The vertex whose light is reused.
-    const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
     const ReuseVertex<F> vertex = vertex_at(path, x, bsdf, wo, numbers);
     Candidates candidates(shared_.lights, shared_.rays, shared_.settings, vertex, counts_);
     if (any(rough)) {
@@ -92,7 +108,7 @@ class FirstStage {
       candidates.draw_lights(stream, rough);
     }
 
-    // Scatter; roulette.
+    // Scatter; roulette, save where other pixels will scatter with the same numbers.
     M goes_on = scatters & next.valid;
     const M broken = goes_on & !is_finite(max_component(next.weight));
     if (any(broken)) path.radiance += select(broken, path.throughput * next.weight, gray(F(0.0f)));
@@ -100,7 +116,8 @@ class FirstStage {
     path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
     path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(goes_on, U(1u), U(0u));
-    const M plays = goes_on & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth)));
+    const M plays =
+        goes_on & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth))) & !(rough & M(reuses_paths()));
     const Roulette<F> survival = roulette(select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
     const M lives = goes_on & survival.survives;
@@ -120,17 +137,35 @@ class FirstStage {
     if (any(offers)) offer(candidates, path, offers & found, offers & !found, numbers.fork(U(restir_stream::met)));
     if (any(rough)) keep(path, {vertex, origin}, candidates, rough);
     const M counts_next = lives & next.delta;
-    const M left = (moves & !found) & (passes | (lives & !rough) | counts_next);
+    if (reuses_paths())
+      if (const M walks = rough & lives & (counts_next | (path.depth < max_depth_)); any(walks))
+        paths_.begin(vertex, event_at(vertex, next, walks), path_numbers, path, found, walks);
+    const M left = (moves & !found) & (passes | (lives & !rough) | (counts_next & !M(reuses_paths())));
     if (any(left))
       path.radiance +=
           select(left, path.throughput * scene.lights.template escaped_radiance<F>(path.d, left), gray(F(0.0f)));
     const M continues = rough & lives & found & (counts_next | (path.depth < max_depth_));
-    if (any(continues)) hand_over(path, continues, counts_next);
+    if (any(continues) && !reuses_paths()) hand_over(path, continues, counts_next);
 
     const M ended = on & (rough | !found | !moves);
     const Spectrum<F> radiance = path.radiance * path.weight;
     for_each_lane(ended, [&](int k) { out_[lane(path.slot, k)].radiance = lane(radiance, k); });
     return on & !ended;
+  }
+
+  bool reuses_paths() const { return shared_.settings.indirect.on; }
+
+  // The direction in which a path leaves its vertex: by the numbers of `path`, save where other pixels will scatter
+  // with the same ones. Those are independent of what decides where the pixels' own vertices are.
+  BsdfSample<F> leave(const SurfaceScattering<F>& bsdf, const Vec3<F>& wo, const Sampler<F>& sampler, U dimension,
+                      const BsdfContext<F>& context, const RandomStream<F>& path_numbers, M on) const {
+    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
+    const Vec3<F> own{sampler.get1(dimension + U(path_dimension::lobe)), u.x, u.y};
+    if (!reuses_paths()) return sample<F>(bsdf.lanes(on), wo, own, context);
+    const EventNumbers<F> first(path_numbers, U(0u));
+    const M smooth = bsdf.is_delta;
+    const BsdfContext<F> chosen{TransportMode::radiance, select_words(smooth, context.random, first.model())};
+    return sample<F>(bsdf.lanes(on), wo, select(smooth, own, first.direction()), chosen);
   }
 
   ReuseVertex<F> vertex_at(const PathState<F>& path, const SurfaceHit<F>& x, const SurfaceScattering<F>& bsdf,
@@ -148,6 +183,7 @@ class FirstStage {
             length(x.point.p - path.p),
             path.time,
             x.object,
+            path.depth,
             U(1u)};
   }
 
@@ -187,7 +223,7 @@ class FirstStage {
   void keep(PathState<F>& path, const FoundVertex& found, const Candidates& candidates, M rough) {
     const M broken = rough & candidates.broken();
     if (any(broken)) path.radiance += select(broken, gray(F(std::numeric_limits<float>::quiet_NaN())), gray(F(0.0f)));
-    keep_(found.vertex, found.origin, candidates.result(), path.slot, rough);
+    keep_.lights(found.vertex, found.origin, candidates.result(), path.slot, rough);
   }
 
   const RestirScene<Rays>& shared_;
@@ -197,6 +233,8 @@ class FirstStage {
   U max_depth_;
   Continuations<F> continuations_;
   RayCounts counts_;
+  const PathScene<Rays> behind_;
+  PathCandidates<F, Rays> paths_;
 };
 
 }  // namespace montelux

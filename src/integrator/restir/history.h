@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "integrator/integrator.h"
-#include "integrator/restir/vertex.h"
+#include "integrator/restir/path_sample.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -17,9 +17,10 @@ struct ReuseMemory final : ChainMemory {
   Shutter shutter;
   std::vector<ReuseVertex<float>> vertices;
   std::vector<LightReservoir<float>> lights;
+  std::vector<PathReservoir<float>> paths;  // none where they are not reused
 
   std::size_t bytes() const override {
-    return vertices.size() * sizeof(vertices[0]) + lights.size() * sizeof(lights[0]);
+    return vertices.size() * sizeof(vertices[0]) + lights.size() * sizeof(lights[0]) + paths.size() * sizeof(paths[0]);
   }
   // Number of the pixel that holds a place of the raster; none outside of the bounds.
   std::optional<std::size_t> pixel_at(float x, float y) const {

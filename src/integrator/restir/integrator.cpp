@@ -4,7 +4,7 @@
 
 namespace montelux {
 
-RestirDirect::RestirDirect(const Scene& scene, const Accel& accel, const RestirSettings& settings)
+RestirIntegrator::RestirIntegrator(const Scene& scene, const Accel& accel, const RestirSettings& settings)
     : scene_(scene),
       accel_(accel),
       settings_(settings),
@@ -12,11 +12,11 @@ RestirDirect::RestirDirect(const Scene& scene, const Accel& accel, const RestirS
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     has_interfaces_ = has_interfaces_ || scene.materials[i].is_interface;
 }
-RestirDirect::~RestirDirect() = default;
+RestirIntegrator::~RestirIntegrator() = default;
 
-int RestirDirect::stages() const { return ReuseChain<float, Accel>::stages(settings_); }
+int RestirIntegrator::stages() const { return ReuseChain<float, Accel>::stages(settings_); }
 
-std::unique_ptr<Chain> RestirDirect::begin(const ChainPass& pass) const {
+std::unique_ptr<Chain> RestirIntegrator::begin(const ChainPass& pass) const {
   const RestirScene<Accel> shared{scene_, *lights_, accel_, settings_, has_interfaces_};
   if (settings_.path.lanes == Lanes::one) return std::make_unique<ReuseChain<float, Accel>>(shared, pass);
   return std::make_unique<ReuseChain<NativeFloats, Accel>>(shared, pass);

@@ -1,5 +1,6 @@
-// Spatiotemporal resampling of direct light by reservoirs (Bitterli et al. 2020), as an offline estimator: chains of
-// frames are independent, so their spread is an honest error bar. docs/reuse.md has the method.
+// Spatiotemporal resampling by reservoirs, of direct light (Bitterli et al. 2020) and of paths (Ouyang et al. 2021, Lin
+// et al. 2022), as an offline estimator: chains of frames are independent, so their spread is an honest error bar.
+// docs/reuse.md has the method.
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
@@ -10,11 +11,11 @@ namespace montelux {
 
 struct LightTechniques;
 
-class RestirDirect final : public CoupledIntegrator {
+class RestirIntegrator final : public CoupledIntegrator {
  public:
   // Scene and accel must outlive the integrator, and the integrator its chains.
-  RestirDirect(const Scene& scene, const Accel& accel, const RestirSettings& settings);
-  ~RestirDirect() override;
+  RestirIntegrator(const Scene& scene, const Accel& accel, const RestirSettings& settings);
+  ~RestirIntegrator() override;
   int frames() const override { return settings_.chain; }
   int warm_up() const override { return settings_.warm_up; }
   int stages() const override;

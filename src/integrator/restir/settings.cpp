@@ -1,38 +1,103 @@
 #include "integrator/restir/settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace montelux {
 
-EntitySpec restir_di_spec() {
+namespace {
+
+constexpr int most = 4096;
+
+std::vector<ParameterSpec> common_parameters() {
   using enum ParameterType;
-  constexpr int most = 4096;
-  return {"restir-di",
-          "path tracing whose direct light at the first rough surface is resampled over pixels and frames (ReSTIR DI)",
-          {{"candidates", {integer}, "first candidates by the light hierarchy; default 8", 0, most},
-           {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
-           {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
-           {"neighbours", {integer}, "pixels that a pixel learns from in each round; default 5", 0, 16},
-           {"radius", {number}, "how far they are at most, in pixels; default 30", 0.5, most},
-           {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
-           {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
-           {"temporal", {boolean}, "learn from the frame before; default on"},
-           {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
-           {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
-           {"weights",
-            {string},
-            "how reservoirs share; naive is biased; default pairwise",
-            0,
-            0,
-            {"naive", "unbiased", "pairwise", "generalised"}},
-           {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default off"},
-           {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
-           {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
-           {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
-           {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}}};
+  return {{"candidates", {integer}, "first candidates by the light hierarchy; default 8", 0, most},
+          {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
+          {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
+          {"neighbours", {integer}, "pixels that a pixel learns from in each round; default 5", 0, 16},
+          {"radius", {number}, "how far they are at most, in pixels; default 30", 0.5, most},
+          {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
+          {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
+          {"temporal", {boolean}, "learn from the frame before; default on"},
+          {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
+          {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
+          {"weights",
+           {string},
+           "how reservoirs share; naive is biased; default pairwise",
+           0,
+           0,
+           {"naive", "unbiased", "pairwise", "generalised"}},
+          {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default off"},
+          {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
+          {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
+          {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
+          {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
 }
 
-Result<RestirSettings> restir_di_settings(const ParameterList& list, std::optional<int> max_depth) {
+std::vector<ParameterSpec> path_parameters() {
+  using enum ParameterType;
+  std::vector<ParameterSpec> all = common_parameters();
+  all.push_back({"direct", {boolean}, "direct light at the first rough surface is shared, too; default on"});
+  all.push_back({"footprint",
+                 {number},
+                 "paths are joined where the lobes cover this area, over the squared depth of the first surface; "
+                 "default 0.001",
+                 0,
+                 1e6});
+  return all;
+}
+
+}  // namespace
+
+EntitySpec restir_di_spec() {
+  return {"restir-di",
+          "path tracing whose direct light at the first rough surface is resampled over pixels and frames (ReSTIR DI)",
+          common_parameters()};
+}
+
+EntitySpec restir_gi_spec() {
+  return {"restir-gi",
+          "path tracing whose light at the first rough surface is resampled over pixels and frames, where paths can be "
+          "joined to the next surface (ReSTIR GI)",
+          path_parameters()};
+}
+
+EntitySpec restir_pt_spec() {
+  using enum ParameterType;
+  std::vector<ParameterSpec> all = path_parameters();
+  all.push_back(
+      {"shift",
+       {string},
+       "how a path becomes another pixel's: it is joined to the next surface, or scatters again with the same "
+       "numbers as far as the light, or as far as a surface to which it can be joined; default hybrid",
+       0,
+       0,
+       {"reconnection", "replay", "hybrid"}});
+  all.push_back({"replayed", {integer}, "most events that scatter again; default 4", 1, 64});
+  return {"restir-pt",
+          "path tracing whose paths behind the first rough surface are resampled over pixels and frames (ReSTIR PT)",
+          all};
+}
+
+namespace {
+
+Status read_path_reuse(std::string_view name, const ParameterList& list, RestirSettings& s) {
+  s.indirect.on = true;
+  s.direct = list.boolean("direct", s.direct);
+  s.indirect.footprint = list.number("footprint", s.indirect.footprint);
+  if (name == "restir-gi") return Done{};
+  const std::string shift = list.string("shift", "hybrid");
+  if (shift == "reconnection" && list.find("replayed") != nullptr)
+    return Failure{"restir-pt:shift=reconnection scatters nothing again: replayed is for the other shifts"};
+  s.indirect.joins = shift != "replay";
+  s.indirect.most_replayed = shift == "reconnection" ? 0 : list.integer("replayed", 4);
+  return Done{};
+}
+
+}  // namespace
+
+Result<RestirSettings> restir_settings(std::string_view name, const ParameterList& list, std::optional<int> max_depth) {
   RestirSettings s;
   s.candidates = list.integer("candidates", s.candidates);
   s.power_candidates = list.integer("power-candidates", s.power_candidates);
@@ -52,7 +117,10 @@ Result<RestirSettings> restir_di_settings(const ParameterList& list, std::option
   s.path.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
   // A direction of the BSDF alone finds no light that is a delta, and would wait for the others.
   if (s.candidates + s.power_candidates == 0)
-    return Failure{"restir-di needs candidates on lights: candidates or power-candidates must be at least 1"};
+    return Failure{
+        fmt::format("{} needs candidates on lights: candidates or power-candidates must be at least 1", name)};
+  if (name != "restir-di")
+    if (Status read = read_path_reuse(name, list, s); !read) return read.failure();
   return s;
 }
 

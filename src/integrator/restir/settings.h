@@ -7,6 +7,17 @@
 
 namespace montelux {
 
+// How the light that reaches a pixel's vertex by more than one event is shared.
+struct PathReuse {
+  bool on = false;
+  // Events that another pixel may scatter again before its path is joined to what was found.
+  int most_replayed = 0;
+  // Paths are joined to surfaces; no: to points of lights alone.
+  bool joins = true;
+  // Squared distance that the lobes of a joint must cover, over that of the pixel's vertex from the camera.
+  float footprint = 1e-3f;
+};
+
 struct RestirSettings {
   // Initial candidates of each pixel: lights chosen by the hierarchy, by power, and the direction of the BSDF.
   int candidates = 8, power_candidates = 0;
@@ -22,14 +33,19 @@ struct RestirSettings {
   // In a sequence, chains go on from each picture to the next.
   bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
-  // Targets know what is in the way: more shadow rays, better samples.
+  // Targets of direct light know what is in the way: more shadow rays, better samples.
   bool visibility_reuse = false;
   int chain = 16, warm_up = 0;  // frames of a chain; those before them that only teach
-  PathSettings path;            // of the light that is not reused
+  // Direct light at the first rough surface is shared; no: it is each pixel's own.
+  bool direct = true;
+  PathReuse indirect;
+  PathSettings path;  // of the light that is not reused
 };
 
 EntitySpec restir_di_spec();
-// max_depth is that of the request, since a scene may state it too.
-Result<RestirSettings> restir_di_settings(const ParameterList& list, std::optional<int> max_depth);
+EntitySpec restir_gi_spec();
+EntitySpec restir_pt_spec();
+// max_depth is that of the request, since a scene may state it too. `name` is that of one of these entities.
+Result<RestirSettings> restir_settings(std::string_view name, const ParameterList& list, std::optional<int> max_depth);
 
 }  // namespace montelux

@@ -22,6 +22,7 @@ struct ReuseVertex {
   F depth;                 // distance from the vertex before it, or the camera
   F time;                  // at which the camera looked
   Uint<F> object;          // number of the object, as SurfaceHit has it
+  Uint<F> events;          // scattering events of the path before it
   Uint<F> exists;          // 1, or 0: the path ended before
 
   // f |cos| toward a direction of the world, and its density.
@@ -43,6 +44,10 @@ struct Connection {
   F target;           // the mean of its components
   F geometry;         // as LightPointView has it
   F by_bsdf;          // density of BSDF sampling for wi, solid angle; 0 for a light that is a delta
+  // Whatever the light is: how the vertex scatters it, and what would arrive along wi (of a delta light, its irradiance
+  // at normal incidence).
+  BsdfValue<F> scattered;
+  Spectrum<F> arriving;
 };
 
 template <class F>
@@ -59,17 +64,23 @@ Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, cons
   const Mask<F> met = asks & (point.sort != Uint<F>(light_point::delta));
   return {view.wi,       view.distance,
           value,         usable_weight(average(value)),
-          view.geometry, select(met, scattered.density.value, F(0.0f))};
+          view.geometry, select(met, scattered.density.value, F(0.0f)),
+          scattered,     view.radiance};
 }
 
-// Where nothing is in the way.
+// Where nothing is in the way, along the unit wi.
 template <class F, class Rays>
-Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection<F>& to, Mask<F> on,
+Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Vec3<F>& wi, F distance, Mask<F> on,
                 RayCounts& counts) {
   if (!any(on)) return on;
   counts.shadow += std::uint64_t(count(on));
-  const Vec3<F> o = offset_origin(vertex.p, vertex.p_error, vertex.ng, to.wi);
-  return on & !rays.template occluded<F>({o, to.wi, to.distance * (1.0f - shadow_shortening), vertex.time}, on);
+  const Vec3<F> o = offset_origin(vertex.p, vertex.p_error, vertex.ng, wi);
+  return on & !rays.template occluded<F>({o, wi, distance * (1.0f - shadow_shortening), vertex.time}, on);
+}
+template <class F, class Rays>
+Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection<F>& to, Mask<F> on,
+                RayCounts& counts) {
+  return is_open<F>(rays, vertex, to.wi, to.distance, on, counts);
 }
 
 }  // namespace montelux

@@ -1,0 +1,302 @@
+// What a pixel finds by itself behind its vertex: one path by BSDF sampling with next-event estimation at every further
+// vertex, of whose ends one is kept in proportion to what it brings.
+#pragma once
+#include <vector>
+
+#include "integrator/path/loop.h"
+#include "integrator/restir/path_shift.h"
+
+namespace montelux {
+
+// A path on its way, with what it was joined to if it was; made of 32-bit words alone.
+template <class F>
+struct PathWalk {
+  ReuseVertex<F> from;  // the vertex that the ray left
+  Vec3<F> o, d;         // the ray
+  Hit<F> hit;           // what it met,
+  Uint<F> found;        // if anything
+  Spectrum<F> before;   // product of the events' weights up to `from`
+  Spectrum<F> leaving;  // times f cos of the event there; black for a delta
+  Spectrum<F> weight;   // times its weight
+  F density;            // of d at `from`; 0 for a delta
+  F eta_scale;          // as PathState has it
+  F pixels;             // squared distance of pixels, for Leg
+  Uint<F> events;       // up to d
+  Uint<F> crossings;    // interfaces since the last event
+  RandomStream<F> numbers;
+  Spectrum<F> plain;    // light that cannot be shared
+  Uint<F> joined;       // number of the event at the surface that the path was joined to; 0: not yet
+  JoinedSurface<F> at;  // that surface, the direction from there,
+  Vec3<F> wi;
+  Spectrum<F> until;  // what the path brings for each unit of light along it,
+  Spectrum<F> tail;   // and the weights of all events behind
+  Uint<F> slot;
+};
+
+// The walks of a tile: begin() for each pixel, then run().
+template <class F, class Rays>
+class PathCandidates {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  PathCandidates(const PathScene<Rays>& shared, const PathSettings& settings, RayCounts& counts)
+      : shared_(shared), settings_(settings), counts_(counts) {}
+
+  // The first event of the paths at `vertex`, whose ray has met `hit` where `found`.
+  void begin(const ReuseVertex<F>& vertex, const PathEvent<F>& event, const RandomStream<F>& numbers,
+             const PathState<F>& ray, M found, M on) {
+    PathWalk<F> walk{};
+    walk.from = vertex, walk.o = ray.o, walk.d = ray.d, walk.hit = ray.hit;
+    walk.found = select(found, U(1u), U(0u)), walk.slot = ray.slot;
+    walk.before = gray(F(1.0f)), walk.leaving = event.f_cos, walk.weight = event.weight;
+    walk.density = event.density, walk.eta_scale = ray.eta_scale;
+    walk.pixels = squared_distance_of_pixels(shared_.reuse, vertex);
+    walk.events = U(1u), walk.crossings = U(0u), walk.joined = U(0u), walk.numbers = numbers;
+    walk.plain = walk.until = walk.tail = gray(F(0.0f));
+    for_each_lane(on, [&](int k) { get_lane_words(walk, k, walks_.emplace_back()); });
+  }
+
+  // Calls done(slot, reservoir, light of the pixel alone, mask) for every walk that has ended.
+  template <class Done>
+  void run(Done done) {
+    M on(false);
+    for (;;) {
+      on = refill(on);
+      if (!any(on)) return;
+      const M ended = step(on);
+      if (!any(ended)) continue;
+      const F target = usable_weight(average(chosen_.value.brings));
+      const M found = ended & (chosen_.weight_sum > F(0.0f)) & (target > F(0.0f));
+      const PathReservoir<F> reservoir{chosen_.value,
+                                       select(found, usable_weight<F>(chosen_.weight_sum / target), F(0.0f)), F(1.0f),
+                                       select(found, target, F(0.0f))};
+      done(walk_.slot, reservoir, walk_.from.throughput * walk_.plain, ended);
+      on = on & !ended;
+    }
+  }
+
+ private:
+  M refill(M on) {
+    std::uint32_t running = bits(on);
+    for (int k = 0; k < lanes_of<F> && next_ < walks_.size(); ++k) {
+      if ((running >> k) & 1u) continue;
+      set_lane_words(walk_, k, walks_[next_++]);
+      set_lane(chosen_.weight_sum, k, 0.0f);
+      running |= 1u << k;
+    }
+    return mask_of_bits<F>(running);
+  }
+
+  // One surface of every path, or the sky; gives the lanes that have ended.
+  M step(M on) {
+    PathWalk<F>& w = walk_;
+    const EventNumbers<F> led_here(w.numbers, w.events - U(1u));
+    const M left = on & (w.found == U(0u));
+    meet_sky(left, led_here);
+    on = on & !left;
+    if (!any(on)) return left;
+
+    const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, {w.o, w.d, w.hit.t, w.from.time}, w.hit, on);
+    const RandomStream<F> random = led_here.surface().fork(w.crossings);
+    const SurfaceScattering<F> bsdf = shared_.scene.materials.template scattering<F>(x, w.d, on, random);
+    const M passes = on & bsdf.is_interface;
+    if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
+
+    const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
+    const ReuseVertex<F> vertex{x.point.p,     x.point.p_error,   x.point.ng,   bsdf.frame.to_local(-w.d),
+                                bsdf.slots,    bsdf.kind,         bsdf.frame,   bsdf.light_normal,
+                                random,        w.from.throughput, w.from.depth, w.from.time,
+                                w.from.object, w.from.events,     U(1u)};
+    const Leg<F> leg = leg_between<F>(w.from.p, x.point.p, x.point.ng, w.d, w.density, w.pixels);
+    if (const M lit = scatters & !bsdf.is_delta; any(lit)) ask_for_light(vertex, leg, lit);
+    const M goes_on = scatter(vertex, leg, scatters);
+
+    // The next surface, or the sky.
+    const M moves = goes_on | passes;
+    w.o = select(moves, offset_origin(x.point.p, x.point.p_error, x.point.ng, w.d), w.o);
+    w.crossings = select(goes_on, U(0u), w.crossings + select(passes, U(1u), U(0u)));
+    counts_.scattered += std::uint64_t(count(moves));
+    const auto [found, hit] = shared_.rays.template trace<F>({w.o, w.d, F(ray_infinity), w.from.time}, moves);
+    w.hit = hit, w.found = select(found, U(1u), U(0u));
+    return left | (on & !moves);
+  }
+
+  // ---- ends of the path
+
+  void meet_surface(const SurfaceHit<F>& x, M passes, M on, const EventNumbers<F>& numbers) {
+    const PathWalk<F>& w = walk_;
+    const U light = select(on, x.light - U(1u), U(0u));
+    const LightHit<F> hit = shared_.lights.template hit<F>(light, w.from.p, w.from.light_normal, x.point.p, x.point.ng,
+                                                           x.point.uv, w.d, on);
+    const M shines = on & !is_black(hit.radiance);
+    meet(shared_.lights.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), hit, passes,
+         numbers.surface().fork(w.crossings).fork(U(resampling_stream)).at(U(0u)), shines);
+  }
+  void meet_sky(M on, const EventNumbers<F>& numbers) {
+    const PathWalk<F>& w = walk_;
+    if (!any(on)) return;
+    // What a delta meets is found again as a whole.
+    if (const M smooth = on & (w.density == F(0.0f)); any(smooth)) {
+      const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};
+      meet({}, all, M(false), numbers.choice(0), smooth);
+    }
+    const M spread = on & (w.density > F(0.0f));
+    for (int i = 0; i < shared_.lights.infinite_count() && any(spread); ++i) {
+      const LightHit<F> sky = shared_.lights.template escaped<F>(i, w.from.p, w.from.light_normal, w.d, spread);
+      const LightPoint<F> point{w.d, w.d, sky.radiance, U(std::uint32_t(shared_.lights.infinite_light(i))),
+                                U(light_point::infinite)};
+      meet(point, sky, M(false), numbers.choice(std::uint32_t(i) + 1), spread);
+    }
+  }
+
+  // Light along the ray. What an event at the pixel's own vertex meets is direct light, which is not this one's, but
+  // for deltas.
+  void meet(const LightPoint<F>& point, const LightHit<F>& hit, M on_the_way, F u, M on) {
+    const PathWalk<F>& w = walk_;
+    const M is_delta = w.density == F(0.0f);
+    const M counts = on & (is_delta | (w.events > U(1u)));
+    const F share = weight_of_light_hit(settings_, w.density, hit.density.value);
+    const Spectrum<F> contribution = w.weight * hit.radiance * share;
+
+    const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
+    const M met = counts & !joined & is_delta, point_of_light = counts & !joined & !is_delta;
+    PathSample<F> sample = sample_so_far(w.events);
+    sample.light = w.tail * hit.radiance * select(straight, F(1.0f), share);
+    sample.brings = w.until * sample.light;
+    sample.end = select(met, U(path_end::met), select(point_of_light, U(path_end::light), sample.end));
+    sample.replayed = select(joined, sample.replayed, select(met, w.events, w.events - U(1u)));
+    sample.point = point;
+    sample.brings = select(met, contribution, sample.brings);
+    if (any(point_of_light)) {
+      const Connection<F> to = connect(shared_.lights, w.from, point, point_of_light);
+      sample.brings = select(point_of_light, w.before * to.value, sample.brings);
+    }
+    // Scattered again, a delta would meet with all emitters on its way at once.
+    offer(sample, contribution, counts & !(met & on_the_way), u);
+    if (const M alone = met & on_the_way; any(alone)) add_plain(contribution, alone);
+  }
+
+  void ask_for_light(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
+    const PathWalk<F>& w = walk_;
+    const EventNumbers<F> numbers(w.numbers, w.events);
+    const RandomStream<F> own = numbers.light();
+    const LightChoice<F> choice = shared_.lights.template choose<F>(vertex.p, vertex.light_normal, own.at(U(0u)), on);
+    const LightPointDraw<F> draw = shared_.lights.template draw_light_point<F>(
+        choice.light, vertex.p, vertex.light_normal, {own.at(U(1u)), own.at(U(2u))}, on & choice.valid);
+    M lit = on & choice.valid & draw.valid;
+    const Connection<F> to = connect(shared_.lights, vertex, draw.point, lit);
+    lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_);
+    if (!any(lit)) return;
+    const F density = draw.density.value * choice.mass.value;
+    const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),
+                           weight_of_light_sample(settings_, density, to.by_bsdf));
+    const Spectrum<F> estimate = to.value * (share / select(lit, density * to.geometry, F(1.0f)));
+
+    const M joined = lit & (w.joined != U(0u));
+    const M joins = lit & !joined & may_join(leg, to.scattered.density.value);
+    PathSample<F> sample = sample_so_far(w.events + U(1u));
+    sample.light = w.tail * estimate, sample.brings = w.until * sample.light;
+    if (any(joins)) {
+      sample.at = select_words(joins, surface_of(vertex), sample.at);
+      sample.wi = select(joins, to.wi, sample.wi);
+      sample.light = select(joins, to.arriving, sample.light);
+      sample.brings =
+          select(joins, w.leaving * to.scattered.f_cos * to.arriving * geometry_of(leg, vertex), sample.brings);
+    }
+    const M point_of_light = lit & !joined & !joins;
+    sample.end = select(point_of_light, U(path_end::light), sample.end);
+    sample.replayed = select(joined, sample.replayed, select(joins, w.events - U(1u), w.events));
+    sample.point = draw.point;
+    sample.brings = select(point_of_light, w.weight * to.value, sample.brings);
+    offer(sample, w.weight * estimate, lit, numbers.choice(0));
+  }
+
+  PathSample<F> sample_so_far(U events) const {
+    const PathWalk<F>& w = walk_;
+    PathSample<F> sample{};
+    sample.numbers = w.numbers, sample.events = events, sample.end = U(path_end::surface);
+    sample.replayed = w.joined - U(1u), sample.at = w.at, sample.wi = w.wi, sample.time = w.from.time;
+    return sample;
+  }
+
+  // Where no other pixel could scatter so often again, the light is this pixel's alone.
+  void offer(const PathSample<F>& sample, const Spectrum<F>& contribution, M on, F u) {
+    const M shared = on & (sample.replayed <= U(std::uint32_t(shared_.reuse.most_replayed)));
+    const M known = is_finite(average(contribution));
+    if (const M alone = on & !(shared & known); any(alone)) add_plain(contribution, alone);
+    const M counts = shared & known & (usable_weight(average(sample.brings)) > F(0.0f));
+    chosen_.add(sample, select(counts, usable_weight(average(contribution)), F(0.0f)), u);
+  }
+  void add_plain(const Spectrum<F>& light, M on) { walk_.plain += select(on, light, gray(F(0.0f))); }
+
+  // ---- the next event
+
+  M may_join(const Leg<F>& leg, F density) const {
+    return shared_.reuse.joins ? (density > F(0.0f)) & leg.is_wide(density) : M(false);
+  }
+  static JoinedSurface<F> surface_of(const ReuseVertex<F>& v) {
+    return {v.p, v.ng, v.slots, v.kind, v.frame, v.random};
+  }
+  F geometry_of(const Leg<F>& leg, const ReuseVertex<F>& vertex) const {
+    return abs(dot(vertex.ng, walk_.d)) / leg.squared_length;
+  }
+
+  M scatter(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
+    PathWalk<F>& w = walk_;
+    const EventNumbers<F> numbers(w.numbers, w.events);
+    const BsdfContext<F> context{TransportMode::radiance, numbers.model()};
+    const BsdfSample<F> next =
+        montelux::sample<F>(BsdfLanes<F>{vertex.kind, &vertex.slots, on}, vertex.wo, numbers.direction(), context);
+    const PathEvent<F> event = event_at(vertex, next, on);
+    const M broken = event.valid & !is_finite(average(event.weight));
+    if (any(broken)) add_plain(event.weight, broken);
+    const M goes_on = event.valid & !broken;
+
+    const M behind = goes_on & (w.joined != U(0u));
+    const M joins = goes_on & (w.joined == U(0u)) & may_join(leg, event.density) &
+                    (w.events <= U(std::uint32_t(shared_.reuse.most_replayed) + 1));
+    if (any(joins)) {
+      w.at = select_words(joins, surface_of(vertex), w.at);
+      w.wi = select(joins, event.wi, w.wi);
+      w.until = select(joins, w.leaving * event.f_cos * geometry_of(leg, vertex), w.until);
+      w.tail = select(joins, gray(F(1.0f)), w.tail);
+      w.joined = select(joins, w.events, w.joined);
+    }
+    w.tail = select(behind, w.tail * event.weight, w.tail);
+    w.before = select(goes_on, w.weight, w.before);
+    w.leaving = select(goes_on, w.weight * event.f_cos, w.leaving);
+    w.weight = select(goes_on, w.weight * event.weight, w.weight);
+    w.eta_scale = select(goes_on, w.eta_scale * event.eta_scale, w.eta_scale);
+    w.density = select(goes_on, event.density, w.density);
+    w.events = w.events + select(goes_on, U(1u), U(0u));
+    w.from = select_words(goes_on, vertex, w.from);
+    w.d = select(goes_on, event.wi, w.d);
+    return lives_on(numbers, goes_on);
+  }
+
+  // Roulette spares what is scattered again: other pixels would have to play with other throughputs.
+  M lives_on(const EventNumbers<F>& numbers, M on) {
+    PathWalk<F>& w = walk_;
+    const M kept = (w.joined != U(0u)) | (w.events > U(std::uint32_t(shared_.reuse.most_replayed) + 1));
+    const M plays = on & kept & (w.from.events + w.events > U(std::uint32_t(settings_.roulette_depth)));
+    if (!any(plays)) return on;
+    PathState<F> path{};
+    path.throughput = w.weight, path.eta_scale = w.eta_scale;
+    const Roulette<F> survival =
+        roulette(select(plays, survival_probability(settings_, path), F(1.0f)), numbers.roulette());
+    const M lives = on & survival.survives;
+    w.weight = select(lives, w.weight * survival.weight, w.weight);
+    w.tail = select(lives, w.tail * survival.weight, w.tail);
+    return lives;
+  }
+
+  const PathScene<Rays>& shared_;
+  const PathSettings& settings_;
+  RayCounts& counts_;
+  std::vector<PathWalk<float>> walks_;
+  std::size_t next_ = 0;
+  PathWalk<F> walk_{};
+  WeightedReservoir<PathSample<F>, F> chosen_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,161 @@
+// The shift of paths: another pixel scatters with the same numbers, and is then joined to the same surface or light
+// (Lin et al. 2022, sec. 7). With no event scattered again it is the reconnection shift, with nothing to join to but
+// the light the random replay shift.
+#pragma once
+#include "integrator/restir/path_sample.h"
+
+namespace montelux {
+
+// What the reuse of paths needs to know and never changes.
+template <class Rays>
+struct PathScene {
+  const Scene& scene;
+  const LightSet& lights;
+  const Rays& rays;
+  const PathReuse& reuse;
+  std::uint32_t max_events;  // of a whole path
+};
+
+// Pixels are told apart at a distance from the camera or the vertex before.
+template <class F>
+F squared_distance_of_pixels(const PathReuse& reuse, const ReuseVertex<F>& first) {
+  return first.depth * first.depth * reuse.footprint;
+}
+
+template <class F, class Rays>
+class PathReplay {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  PathReplay(const PathScene<Rays>& shared, const ReuseVertex<F>& first, const PathSample<F>& sample, M on,
+             RayCounts& counts)
+      : shared_(shared),
+        sample_(sample),
+        counts_(counts),
+        vertex_(first),
+        pixels_(squared_distance_of_pixels(shared.reuse, first)),
+        alive_(on) {}
+
+  // What the path brings to the first vertex, per unit of the shared measure; black where it is no path of this vertex.
+  Spectrum<F> brings() {
+    const M met = sample_.end == U(path_end::met);
+    Spectrum<F> light = gray(F(0.0f));
+    for (std::uint32_t event = 0;; ++event) {
+      const M scatters = alive_ & (U(event) < sample_.replayed);
+      if (!any(scatters)) break;
+      const Spectrum<F> seen = scatter(event, scatters, met & (sample_.replayed == U(event + 1)));
+      light += seen;
+    }
+    const M surface = alive_ & (sample_.end == U(path_end::surface)),
+            point = alive_ & (sample_.end == U(path_end::light));
+    if (any(surface)) light += select(surface, through_surface(surface), gray(F(0.0f)));
+    if (any(point)) light += select(point, through_light(point), gray(F(0.0f)));
+    return select(is_finite(average(light)), light, gray(F(0.0f)));
+  }
+
+ private:
+  // Scatters once more, to the next surface; in the lanes `last`, to the light that is met there, which is the result.
+  Spectrum<F> scatter(std::uint32_t event, M on, M last) {
+    const EventNumbers<F> numbers(sample_.numbers, U(event));
+    const BsdfContext<F> context{TransportMode::radiance, numbers.model()};
+    const BsdfSample<F> next =
+        sample<F>(BsdfLanes<F>{vertex_.kind, &vertex_.slots, on}, vertex_.wo, numbers.direction(), context);
+    const PathEvent<F> taken = event_at(vertex_, next, on);
+    // The same samples come back only if the path could not have been joined before.
+    const M spread = taken.valid & !taken.delta;
+    const M stays = taken.valid & !(spread & (may_join(taken.density) | last));
+    weight_ = select(stays, weight_ * taken.weight, weight_);
+
+    const Ray<F> ray{offset_origin(vertex_.p, vertex_.p_error, vertex_.ng, taken.wi), taken.wi, F(ray_infinity),
+                     vertex_.time};
+    const Arrival<F> at = trace_to_arrival<F>(shared_.scene, shared_.rays, {vertex_.p, vertex_.light_normal}, ray,
+                                              stays, numbers.surface(), counts_, [](F) { return F(0.0f); });
+    Spectrum<F> light = gray(F(0.0f));
+    if (const M ends = stays & last; any(ends)) {
+      const M emits = ends & at.found & (at.x.light != U(0u)), left = ends & !at.found;
+      light = select(emits,
+                     shared_.lights.template hit_radiance<F>(select(emits, at.x.light - U(1u), U(0u)), at.x.point.ng,
+                                                             at.x.point.uv, taken.wi, emits),
+                     gray(F(0.0f)));
+      light = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), light);
+      light = select(ends, weight_ * light, gray(F(0.0f)));
+    }
+    const M moved = stays & !last & at.found;
+    const F pixels = pixels_;
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.x.point.p, at.x.point.ng, taken.wi, taken.density, pixels);
+    leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
+    const ReuseVertex<F> next_vertex{at.x.point.p,      at.x.point.p_error, at.x.point.ng, at.wo,
+                                     at.bsdf.slots,     at.bsdf.kind,       at.bsdf.frame, at.bsdf.light_normal,
+                                     at.context.random, vertex_.throughput, vertex_.depth, vertex_.time,
+                                     vertex_.object,    vertex_.events,     vertex_.exists};
+    vertex_ = select_words(moved, next_vertex, vertex_);
+    has_leg_ = has_leg_ | moved;
+    alive_ = alive_ & (moved | !on);
+    return light;
+  }
+
+  // Whether the path would have been joined to the vertex at hand, if it leaves it with this density.
+  M may_join(F density) const { return shared_.reuse.joins ? has_leg_ & leg_.is_wide(density) : M(false); }
+
+  Spectrum<F> through_surface(M on) {
+    const JoinedSurface<F>& at = sample_.at;
+    const Vec3<F> way = at.p - vertex_.p;
+    const F squared = dot(way, way), distance = sqrt(squared);
+    M good = on & (squared > F(0.0f));
+    const Vec3<F> wi = way / select(good, distance, F(1.0f));
+    const BsdfValue<F> here = vertex_.scattered(wi, good);
+    good = good & (here.density.value > F(0.0f)) & !may_join(here.density.value);
+    const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density.value, pixels_);
+    good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density.value);
+    const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));
+    const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * sample_.light * geometry;
+    good = good & (average(light) > F(0.0f));
+    return select(is_open<F>(shared_.rays, vertex_, wi, distance, good, counts_), light, gray(F(0.0f)));
+  }
+
+  Spectrum<F> through_light(M on) {
+    const Connection<F> to = connect(shared_.lights, vertex_, sample_.point, on);
+    const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density.value);
+    return select(is_open<F>(shared_.rays, vertex_, to, good, counts_), weight_ * to.value, gray(F(0.0f)));
+  }
+
+  const PathScene<Rays>& shared_;
+  const PathSample<F>& sample_;
+  RayCounts& counts_;
+  ReuseVertex<F> vertex_;  // at hand
+  const F pixels_;
+  Leg<F> leg_{F(0.0f), F(0.0f), F(0.0f)};  // that led there
+  M has_leg_ = M(false), alive_;
+  Spectrum<F> weight_ = gray(F(1.0f));  // of the events so far
+};
+
+// The domains of a combination of path reservoirs: the paths behind each of `vertices`. Targets know what is in the
+// way.
+template <class F, class Rays>
+struct PathDomains {
+  const PathScene<Rays>& shared;
+  std::span<const ReuseVertex<F>> vertices;
+  RayCounts& counts;
+
+  Shifted<PathSample<F>, F> shift(int, const PathSample<F>& value, Mask<F> on) const {
+    PathSample<F> image = value;
+    image.brings = brought(0, value, on);
+    return {image, F(1.0f), usable_weight(average(image.brings))};
+  }
+  F target_at(int to, const PathSample<F>& value, Mask<F> on) const {
+    return usable_weight(average(brought(to, value, on)));
+  }
+
+ private:
+  Spectrum<F> brought(int to, const PathSample<F>& value, Mask<F> on) const {
+    const ReuseVertex<F>& first = vertices[std::size_t(to)];
+    // Where surfaces move, a path of another moment is none of this one.
+    const Mask<F> fits = on & ((value.time == first.time) | Mask<F>(!shared.scene.geometry.moves())) &
+                         (first.events + value.events <= Uint<F>(shared.max_events));
+    if (!any(fits)) return gray(F(0.0f));
+    return PathReplay<F, Rays>(shared, first, value, fits, counts).brings();
+  }
+};
+
+}  // namespace montelux
