@@ -42,6 +42,17 @@ inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& 
   return m;
 }
 
+// Enough passes for a comparison of two image means to have the relative standard error `wanted`, by a first look.
+inline PassMeans measure_to(double wanted, const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
+                            std::uint32_t seed) {
+  constexpr int first_look = 48;
+  const SampleSummary image = summarize(measure_passes(scene, chosen, samples_per_pass, first_look, seed).values[0]);
+  // Both sides of a comparison add to its error.
+  const double per_pass = std::sqrt(image.variance) / image.mean, goal = 0.5 * wanted;
+  const int needed = std::max(first_look, int(per_pass * per_pass / (goal * goal)) + 1);
+  return measure_passes(scene, chosen, samples_per_pass, needed, seed + 1);
+}
+
 struct MeansVerdict {
   bool differ = false;
   double smallest_p = 1;

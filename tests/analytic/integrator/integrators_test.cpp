@@ -66,7 +66,10 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "restir-di:radius=3",
                                          "restir-di:weights=unbiased,rounds=2,radius=2,power-candidates=2",
                                          "restir-di:weights=generalised,visibility-reuse=on,candidates=2,radius=2",
-                                         "restir-di:bsdf=off,temporal=off,neighbours=2,radius=2"};
+                                         "restir-di:bsdf=off,temporal=off,neighbours=2,radius=2",
+                                         "restir-gi:radius=3,neighbours=2",
+                                         "restir-pt:radius=2,neighbours=2,footprint=0.1",
+                                         "restir-pt:shift=replay,weights=generalised,neighbours=1,radius=2"};
 
 struct Measured {
   double mean = 0, standard_error = 0;

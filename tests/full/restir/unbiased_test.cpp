@@ -19,7 +19,6 @@ const char* const unbiased[] = {
     "restir-di:weights=generalised,visibility-reuse=on,radius=6,similar=off,candidates=2",
     "restir-di:bsdf=off,similar=off,radius=6,m-cap=5",
 };
-constexpr int passes = 48;
 
 const std::vector<ReuseScene>& scenes() {
   static const std::vector<ReuseScene> all = reuse_scenes(size);
@@ -27,27 +26,16 @@ const std::vector<ReuseScene>& scenes() {
 }
 std::string folder() { return std::string(MONTELUX_SOURCE_DIR) + "/scenes/analytic"; }
 
-// Enough samples for the error that is wanted, by a first look.
-PassMeans measured_well(const TestScene& scene, const ChosenIntegrator& chosen, int frames, std::uint32_t seed) {
-  const PassMeans first = measure_passes(scene, chosen, frames, passes, seed);
-  const SampleSummary image = summarize(first.values[0]);
-  // Both sides of a comparison add to its error.
-  const double per_pass = std::sqrt(image.variance) / image.mean, goal = 0.5 * wanted_error;
-  const int needed = std::max(passes, int(per_pass * per_pass / (goal * goal)) + 1);
-  PassMeans all = measure_passes(scene, chosen, frames, needed, seed + 1);
-  return all;
-}
-
 class Reuse : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Reuse, has_the_mean_of_the_path_tracer) {
   const ReuseScene& text = scenes()[GetParam()];
   const TestScene scene(text.text, folder());
-  const PassMeans truth = measured_well(scene, scene.integrator("path"), 64, 100);
+  const PassMeans truth = measure_to(wanted_error, scene, scene.integrator("path"), 64, 100);
   const double own = sidak_level(level, double(scenes().size() * std::size(unbiased)));
   std::uint32_t seed = 1;
   for (const char* way : unbiased) {
-    const PassMeans reuse = measured_well(scene, scene.integrator(way), 16, seed += 10);
+    const PassMeans reuse = measure_to(wanted_error, scene, scene.integrator(way), 16, seed += 10);
     const MeansVerdict v = compare_means(reuse, truth, own);
     printf("%-18s %-80s image %+.3f %% +- %.3f %%, smallest p %.3g at %zu (%+.4f %%), %zu passes\n", text.name.c_str(),
            way, 100 * v.image_difference, 100 * v.image_error, v.smallest_p, v.where, 100 * v.difference,
@@ -64,9 +52,9 @@ TEST_P(Reuse, has_the_mean_of_the_path_tracer) {
 TEST_P(Reuse, by_naive_weights_is_biased) {
   const ReuseScene& text = scenes()[GetParam()];
   const TestScene scene(text.text, folder());
-  const PassMeans truth = measured_well(scene, scene.integrator("path"), 64, 100);
+  const PassMeans truth = measure_to(wanted_error, scene, scene.integrator("path"), 64, 100);
   const PassMeans reuse =
-      measured_well(scene, scene.integrator("restir-di:weights=naive,visibility-reuse=on,radius=6"), 16, 7);
+      measure_to(wanted_error, scene, scene.integrator("restir-di:weights=naive,visibility-reuse=on,radius=6"), 16, 7);
   const MeansVerdict v = compare_means(reuse, truth, level / double(scenes().size()));
   printf("%-18s naive: image %+.3f %% +- %.3f %%, smallest p %.3g at %zu\n", text.name.c_str(),
          100 * v.image_difference, 100 * v.image_error, v.smallest_p, v.where);
