@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <type_traits>
 
 #include "mc/random.h"
 
@@ -89,43 +90,112 @@ struct AccelFor : ::testing::Test {};
 using RealTypes = ::testing::Types<float, NativeFloats>;
 TYPED_TEST_SUITE(AccelFor, RealTypes);
 
-TYPED_TEST(AccelFor, a_triangle_is_met_where_the_ray_was_aimed_and_nowhere_else) {
-  const Vec3f a{-1, 0.5f, 2}, b{2, -1, 0}, c{0.3f, 2.5f, -1};
-  StoreBuilder builder;
-  builder.triangle(a, b, c);
-  builder.end_of_world();
-  Accel accel(builder.store, opaque);
-
+// Rays aimed at known points of the plane of one triangle: most hit it, some pass by, some end before it.
+struct AimedRays {
   struct Aim {
     float t, u, v;
+    bool inside;
+    double rounding;  // of t, relative
   };
+  Vec3f a{-1, 0.5f, 2}, b{2, -1, 0}, c{0.3f, 2.5f, -1};
   std::vector<Ray<float>> rays;
   std::vector<Aim> aims;
-  RandomStream<float> random(7, 0);
-  while (rays.size() < 1000) {
-    Aim aim{0.5f + random.next(), 1.5f * random.next() - 0.25f, 1.5f * random.next() - 0.25f};
-    float edge = std::min({aim.u, aim.v, 1 - aim.u - aim.v});
-    Vec3f o{6 * random.next() - 3, 6 * random.next() - 3, 6 * random.next() - 3};
-    Vec3f to = interpolate(a, b, c, aim.u, aim.v) - o;
-    float slant = std::abs(dot(cross(b - a, c - a), to)) / length(to);
-    if (std::abs(edge) < 1e-3f || slant < 0.3f || length(to) < 0.1f) continue;  // where rounding decides
-    rays.push_back({o, to / aim.t, random.next() < 0.2f ? 0.99f * aim.t : ray_infinity});
-    aims.push_back(aim);
+
+  AimedRays() {
+    RandomStream<float> random(7, 0);
+    while (rays.size() < 1000) {
+      const float t = 0.5f + random.next(), u = 1.5f * random.next() - 0.25f, v = 1.5f * random.next() - 0.25f;
+      const float edge = std::min({u, v, 1 - u - v});
+      const Vec3f o{6 * random.next() - 3, 6 * random.next() - 3, 6 * random.next() - 3};
+      const Vec3f to = interpolate(a, b, c, u, v) - o;
+      const float slant = std::abs(dot(cross(b - a, c - a), to)) / length(to);
+      if (std::abs(edge) < 1e-3f || slant < 0.3f || length(to) < 0.1f) continue;  // where rounding decides
+      const Ray<float> ray{o, to / t, random.next() < 0.2f ? 0.99f * t : ray_infinity};
+      // Coordinates of a few units are rounded, and seen at a slant.
+      const double area = double(length(cross(b - a, c - a)));
+      const double rounding = 8 * 6e-8 * 6 * area / (double(slant) * double(length(to)));
+      rays.push_back(ray), aims.push_back({t, u, v, edge > 0 && ray.t_max > t, rounding});
+    }
   }
-  std::vector<Answer> answers = ask<TypeParam>(accel, rays);
-  ASSERT_EQ(answers.size(), rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Aim& aim = aims[i];
-    bool inside = std::min({aim.u, aim.v, 1 - aim.u - aim.v}) > 0 && rays[i].t_max > aim.t;
-    ASSERT_EQ(answers[i].found, inside) << i;
-    ASSERT_EQ(answers[i].occluded, inside) << i;
-    if (!inside) continue;
-    EXPECT_NEAR(answers[i].hit.t, aim.t, 2e-5f * aim.t);
-    EXPECT_NEAR(answers[i].hit.u, aim.u, 1e-4f);
-    EXPECT_NEAR(answers[i].hit.v, aim.v, 1e-4f);
-    EXPECT_EQ(answers[i].hit.geometry, 0u);
-    EXPECT_EQ(answers[i].hit.instance, 0u);
+};
+
+// How many of the answers are not as aimed.
+int wrong_answers(const AimedRays& aimed, const std::vector<Answer>& answers) {
+  int wrong = 0;
+  for (std::size_t i = 0; i < aimed.aims.size(); ++i) {
+    const AimedRays::Aim& aim = aimed.aims[i];
+    const Hit<float>& hit = answers[i].hit;
+    bool right = answers[i].found == aim.inside && answers[i].occluded == aim.inside;
+    if (right && aim.inside)
+      right = std::abs(double(hit.t) - double(aim.t)) < aim.rounding * double(aim.t) &&
+              std::abs(double(hit.u) - double(aim.u)) < aim.rounding * double(length(aimed.rays[i].d) * aim.t) &&
+              std::abs(double(hit.v) - double(aim.v)) < aim.rounding * double(length(aimed.rays[i].d) * aim.t) &&
+              hit.geometry == 0 && hit.instance == 0;
+    wrong += right ? 0 : 1;
   }
+  return wrong;
+}
+
+TYPED_TEST(AccelFor, a_triangle_is_met_where_the_ray_was_aimed_and_nowhere_else) {
+  const AimedRays aimed;
+  StoreBuilder builder;
+  builder.triangle(aimed.a, aimed.b, aimed.c);
+  builder.end_of_world();
+  const Accel accel(builder.store, opaque);
+  const std::vector<Answer> answers = ask<TypeParam>(accel, aimed.rays);
+  ASSERT_EQ(answers.size(), aimed.rays.size());
+  EXPECT_EQ(wrong_answers(aimed, answers), 0);
+}
+
+// The same with planted faults, each of which must be seen.
+TYPED_TEST(AccelFor, wrong_distances_missed_primitives_and_rays_without_end_are_seen) {
+  const AimedRays aimed;
+  const auto wrong_with = [&](auto spoil) {
+    StoreBuilder builder;
+    builder.triangle(aimed.a, aimed.b, aimed.c);
+    builder.end_of_world();
+    std::vector<Ray<float>> rays = aimed.rays;
+    if constexpr (std::is_invocable_v<decltype(spoil), StoreBuilder&>) spoil(builder);
+    if constexpr (std::is_invocable_v<decltype(spoil), std::vector<Ray<float>>&>) spoil(rays);
+    const Accel accel(builder.store, opaque);
+    std::vector<Answer> answers = ask<TypeParam>(accel, rays);
+    if constexpr (std::is_invocable_v<decltype(spoil), std::vector<Answer>&>) spoil(answers);
+    return wrong_answers(aimed, answers);
+  };
+  const int hits = int(std::count_if(aimed.aims.begin(), aimed.aims.end(), [](const auto& a) { return a.inside; }));
+  ASSERT_GT(hits, 100);
+  // The hit is reported a thousandth too far away.
+  EXPECT_GT(wrong_with([](std::vector<Answer>& all) {
+              for (Answer& a : all) a.hit.t *= 1.001f;
+            }),
+            hits * 9 / 10);
+  // The surface stands a thousandth of its size beside its place.
+  EXPECT_GT(wrong_with([](StoreBuilder& b) {
+              for (Vec3f& p : b.store.positions) p.z += 3e-3f;
+            }),
+            hits * 9 / 10);
+  // The triangle is missed, and another one found behind it.
+  EXPECT_GE(wrong_with([](StoreBuilder& b) {
+              for (Vec3f& p : b.store.positions) p = 50.0f * p + Vec3f{0, 0, 500};
+            }),
+            hits);
+  // Neither the nearest hit nor any hit heeds the end of the ray.
+  EXPECT_GT(wrong_with([](std::vector<Ray<float>>& rays) {
+              for (Ray<float>& ray : rays) ray.t_max = ray_infinity;
+            }),
+            30);
+  // Any hit alone does not.
+  EXPECT_GT(
+      wrong_with([&](std::vector<Answer>& all) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+          all[i].occluded |= std::min({aimed.aims[i].u, aimed.aims[i].v, 1 - aimed.aims[i].u - aimed.aims[i].v}) > 0;
+      }),
+      30);
+  // u and v are exchanged.
+  EXPECT_GT(wrong_with([](std::vector<Answer>& all) {
+              for (Answer& a : all) std::swap(a.hit.u, a.hit.v);
+            }),
+            hits * 9 / 10);
 }
 
 TYPED_TEST(AccelFor, a_hit_names_its_row_primitive_and_instance) {
