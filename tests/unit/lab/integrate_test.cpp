@@ -8,8 +8,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "statistics.h"
+
 namespace montelux::lab {
 namespace {
+
+using namespace montelux::test;
 
 Problem cubic() {
   return {.integrand = {1, pointwise([](const double* x) { return 4 * x[0] * x[0] * x[0]; })}};
@@ -189,13 +193,21 @@ TEST(Diagnosis, densities_are_held_to_their_integral_and_sign) {
   EXPECT_FALSE(report_of([](const double* x) { return 2 * x[0]; }).negative);
 }
 
+// Each of the accepted points took a geometric number of tries: is the probability of a success `truth`?
+double acceptance_p_value(const IntegralResult& r, double truth) {
+  const double n = double(r.state.accepted);
+  EXPECT_EQ(*r.acceptance, n / double(r.state.proposed));
+  return z_test(double(r.state.proposed), std::sqrt(n * (1 - truth)) / truth, n / truth).p_value;
+}
+
 TEST(Diagnosis, rejection_reports_its_acceptance_and_refuses_a_bound_that_is_too_small) {
   Problem p{.integrand = {1, pointwise([](const double* x) { return x[0] * x[0]; })}};
   p.densities.push_back({.density = pointwise([](const double* x) { return 2 * x[0]; }),
                          .sampling = DensitySampling::rejection,
                          .bound = 4.0});
   const IntegralResult r = integrate(p, method_named("importance"), {.samples = 1u << 14});
-  EXPECT_NEAR(*r.acceptance, 0.25, 0.02);
+  EXPECT_GT(acceptance_p_value(r, 0.25), family_level);
+  EXPECT_LT(acceptance_p_value(r, 1.05 * 0.25), family_level);
   EXPECT_LT(std::abs(r.mean - 1.0 / 3), 5 * r.standard_error);
   p.densities.front().bound = 1.0;
   EXPECT_THROW(integrate(p, method_named("importance"), {.samples = 1u << 14}), std::invalid_argument);
@@ -210,7 +222,9 @@ TEST(Diagnosis, the_bound_of_rejection_is_found_in_a_far_corner) {
                            return product;
                          })});
   const IntegralResult r = integrate(p, method_named("importance"), {.samples = 1u << 14});
-  EXPECT_NEAR(*r.acceptance, 1 / (1.2 * 256), 0.1 / 256);
+  // The bound is the maximum that was found and a fifth more.
+  EXPECT_GT(acceptance_p_value(r, 1 / (1.2 * 256)), family_level);
+  EXPECT_LT(acceptance_p_value(r, 1.05 / (1.2 * 256)), family_level);
 }
 
 TEST(Budget, a_target_stops_the_run_and_a_budget_that_ends_first_is_said) {
