@@ -45,6 +45,7 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
 struct Plan {
   RenderSettings render;
   ChosenIntegrator chosen;
+  double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
 };
 
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
@@ -61,10 +62,12 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
       parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
+  const Stopwatch since_choice;
   auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component, picture.width, picture.height},
                                   parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
+  plan.preparation = since_choice.seconds();
   if (options.layers) {
     auto layers = plan_layers(*options.layers, plan.chosen, parts.scene);
     if (!layers) return layers.failure();
@@ -138,16 +141,17 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (!checked) return checked.failure();
   Plan& plan = *checked;
   const AnyIntegrator integrator = plan.chosen.any();
-  double pilot_seconds = 0;
+  double before = plan.preparation;
   if (plan.render.seconds) {
-    // The pass that measures the speed is taken from the time, too, and counted into it.
+    // What goes before the render is taken from the time, too: the making of the integrator, and the pass that measures
+    // its speed.
     const Stopwatch pilot;
-    plan.render.plan = plan_for_time(integrator, plan.render, *plan.render.seconds);
-    pilot_seconds = pilot.seconds();
-    plan.render.seconds = std::max(*plan.render.seconds - pilot_seconds, 0.0);
+    plan.render.plan = plan_for_time(integrator, plan.render, std::max(*plan.render.seconds - before, 0.0));
+    before += pilot.seconds();
+    plan.render.seconds = std::max(*plan.render.seconds - before, 0.0);
   }
   RenderResult result = render(integrator, plan.render, observer);
-  result.seconds += pilot_seconds;
+  result.seconds += before;
   std::vector<Attribute> header = header_of(parts, plan, result);
   return Rendering{std::move(result), std::move(header), std::move(plan.chosen.notes), plan.render.plan,
                    std::move(plan.render.layers)};
