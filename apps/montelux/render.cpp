@@ -32,6 +32,8 @@ struct RenderArguments {
   std::optional<FrameRange> frames;
   std::optional<double> fps;
   std::optional<int> frame;  // the one at hand
+  // Whether a picture took longer than its budget.
+  bool is_late(const Rendering& rendering) const { return render.budget && rendering.result.seconds > *render.budget; }
 };
 
 constexpr const char* examples = R"(Examples:
@@ -40,6 +42,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --time 10m --resolution 1920x1080
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
   montelux render flight.pbrt --frames 0:23 -o flight.####.exr
+  montelux render flight.pbrt --frames 0:23 --interactive-budget 33ms --integrator restir-di
   montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
 
 Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.
@@ -117,7 +120,13 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["passes"] = outcome.image.passes;
   json["samples_per_pass"] = rendering.plan.samples_per_pass;
   json["samples"] = outcome.samples;
+  json["error_bar"] = rendering.has_error_bar();
   json["seconds"] = seconds;
+  if (arguments.render.budget) {
+    json["budget"] = *arguments.render.budget;
+    json["over_budget"] = arguments.is_late(rendering);
+  }
+  if (arguments.frame) json["history_bytes"] = rendering.history_bytes;
   json["rays"] = outcome.rays;
   if (rendering.result.rays.by_depth[0] > 0) json["rays_by_depth"] = rendering.result.rays.by_depth;
   json["rays_per_second"] = number_or_null(double(outcome.rays) / seconds);
@@ -138,10 +147,15 @@ void print_text(const RenderArguments& arguments, const Rendering& rendering, co
     if (std::isfinite(outcome.image.standard_error[c])) fmt::print(" ± {:.2g}", outcome.image.standard_error[c]);
   }
   if (passes == 0) fmt::print(" -");
-  fmt::print("\nerror    {} of a pixel, root of the mean relative square\n", error_text(outcome.error));
+  if (rendering.has_error_bar() || outcome.error.pixels > 0)
+    fmt::print("\nerror    {} of a pixel, root of the mean relative square\n", error_text(outcome.error));
+  else
+    fmt::print("\nerror    not known: it takes two independent passes\n");
   fmt::print("samples  {} a pixel ({} passes of {}), {} in all\n", passes * k, passes, k, count_text(outcome.samples));
-  fmt::print("time     {}, {}, {}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),
-             count_text(double(outcome.rays) / seconds, "rays/s"));
+  fmt::print(
+      "time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),
+      count_text(double(outcome.rays) / seconds, "rays/s"),
+      arguments.is_late(rendering) ? fmt::format(", over the budget of {}", time_text(*arguments.render.budget)) : "");
 }
 
 // Writes every file, also when one of them fails.
@@ -165,10 +179,8 @@ Status check_files(const RenderArguments& arguments) {
   return Done{};
 }
 
-// One picture: rendered, written and told of. A frame that is interrupted is not written.
-int render_picture(const RenderArguments& arguments, const LoadedScene& scene, RenderObserver& observer,
-                   const StopSignals& signals) {
-  Result<Rendering> rendering = render_scene(scene, arguments.render, observer);
+// One picture: written and told of. A frame that is interrupted is not written.
+int finish_picture(const RenderArguments& arguments, const Result<Rendering>& rendering, const StopSignals& signals) {
   if (!rendering) return complain(rendering.error());
 
   const int signal = signals.received();
@@ -217,14 +229,22 @@ Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const Sce
 int render_frames(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals) {
   if (!scene.info().moves && !all.quiet) warn("nothing moves in the scene: its frames differ by their seeds alone");
   const bool visible = !all.quiet && !all.no_progress;
+  Result<PictureSequence> sequence = PictureSequence::prepare(scene, all.render);
+  if (!sequence) return complain(sequence.error());
+  int late = 0;
   for (int frame = all.frames->first; frame <= all.frames->last; ++frame) {
     const Result<RenderArguments> one = arguments_of_frame(all, scene.info(), frame);
     if (!one) return complain(one.error());
     ProgressLine observer(visible, signals,
                           fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last),
                           frame - all.frames->first, all.frames->count());
-    if (const int status = render_picture(*one, scene, observer, signals); status != done) return status;
+    const Result<Rendering> rendering = sequence->render(one->render.seed, one->render.shutter, observer);
+    late += one->is_late(*rendering);
+    if (const int status = finish_picture(*one, rendering, signals); status != done) return status;
   }
+  if (late > 0 && !all.quiet)
+    warn(fmt::format("{} of {} pictures took longer than the budget of {}", late, all.frames->count(),
+                     time_text(*all.render.budget)));
   return done;
 }
 
@@ -246,7 +266,7 @@ int run_render(RenderArguments& arguments) {
   StopSignals signals;
   if (arguments.frames) return render_frames(arguments, *loaded.scene, signals);
   ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
-  return render_picture(arguments, *loaded.scene, observer, signals);
+  return finish_picture(arguments, render_scene(*loaded.scene, arguments.render, observer), signals);
 }
 
 // A sequence of pictures.
@@ -268,6 +288,12 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
   add_option(verb, {"--time", "TIME", "render for that long instead (500ms, 30s, 10m, 2h)"},
              into(render.seconds, parse_time));
   verb.get_option("--time")->excludes("--spp");
+  add_option(verb,
+             {"--interactive-budget", "TIME",
+              "a picture within that time (33ms): as many whole passes of a sample as fit, of restir-di frames of one "
+              "chain, which goes on over --frames; one at least"},
+             into(render.budget, parse_time));
+  verb.get_option("--interactive-budget")->excludes("--spp")->excludes("--time");
   add_option(verb, {"--seed", "S", "number of the realisation; the same seed gives the same bits (default 0)"},
              into(render.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},

@@ -31,7 +31,7 @@ struct ShutterTimes {
 ShutterTimes frame_shutter(const SceneInfo& scene, const FrameRange& range, int frame);
 
 // The seed of a frame of a sequence: a hash of both, so that frames are independent realisations. It is below 2^31, and
-// rendering the frame alone with it gives the same bits.
+// rendering the frame alone with it gives the same bits, but for integrators that go on from picture to picture.
 std::uint32_t frame_seed(std::uint32_t seed, int frame);
 
 // The file of a frame: its number takes the place of a run of # (with leading zeros, as wide as the run at least) or of

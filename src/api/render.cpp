@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "api/parts.h"
 #include "integrator/catalogue.h"
@@ -47,6 +48,11 @@ struct Plan {
   ChosenIntegrator chosen;
   double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
 };
+
+std::optional<Shutter> shutter_for(const std::optional<ShutterTimes>& times, const PictureSettings& picture) {
+  if (!times) return std::nullopt;
+  return shutter_of(times->open, times->close, picture.transforms_start, picture.transforms_end);
+}
 
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
   const PictureSettings& picture = parts.picture;
@@ -93,34 +99,48 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
   r.seed = options.seed;
   r.threads = options.threads;
-  if (options.shutter)
-    r.shutter =
-        shutter_of(options.shutter->open, options.shutter->close, picture.transforms_start, picture.transforms_end);
+  r.shutter = shutter_for(options.shutter, picture);
   r.seconds = options.seconds;
-  r.plan =
-      plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples), r.sampler);
+  if (options.budget && (options.seconds || options.samples || options.layers))
+    return Failure{"a time budget takes the place of a number of samples and of a time, and has no layers of light"};
+  if (options.budget) r.budget = {*options.budget, 0};
+  r.plan = options.budget
+               ? plan_for_budget(plan.chosen.any())
+               : plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples),
+                             r.sampler);
   return plan;
 }
 
-std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const Plan& plan, const RenderResult& result) {
+// What one picture was rendered with.
+struct PicturePlan {
+  const Plan& plan;
+  const RenderSettings& render;
+};
+
+std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
+                                 const RenderResult& result) {
   std::vector<Attribute> header;
   auto add = [&](std::string name, std::variant<std::string, std::int32_t, float, double> value) {
     header.push_back({"montelux:" + std::move(name), std::move(value)});
   };
   add("version", version());
   add("scene", std::filesystem::path(parts.info.file).filename().string());
-  add("integrator", plan.chosen.name);
-  add("sampler", std::string(name_of(plan.render.sampler)));
-  add("seed", std::int32_t(plan.render.seed));
-  add("samplesPerPass", std::int32_t(plan.render.plan.samples_per_pass));
+  add("integrator", picture.plan.chosen.name);
+  add("sampler", std::string(name_of(picture.render.sampler)));
+  add("seed", std::int32_t(picture.render.seed));
+  add("samplesPerPass", std::int32_t(picture.render.plan.samples_per_pass));
   add("passes", std::int32_t(result.film.image().passes));
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
-  const std::string biased = fmt::format("{}", fmt::join(plan.chosen.biases, ", "));
+  const std::string biased = fmt::format("{}", fmt::join(picture.plan.chosen.biases, ", "));
   add("biasedOptions", biased.empty() ? std::string("none") : biased);
-  const ErrorEstimate error = result.film.error(result.film.bounds());
-  add("estimatedMSE", error.mse);
-  add("estimatedRelativeMSE", error.relative_mse);
   const ImageEstimate image = result.film.image();
+  add("errorBar", image.passes >= 2 ? fmt::format("over {} independent passes", image.passes)
+                                    : std::string("none: it takes two independent passes"));
+  const ErrorEstimate error = result.film.error(result.film.bounds());
+  if (error.pixels > 0) {
+    add("estimatedMSE", error.mse);
+    add("estimatedRelativeMSE", error.relative_mse);
+  }
   for (int c = 0; c < spectrum_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
     if (image.passes >= 2) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
@@ -133,28 +153,67 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const Plan& pl
   return header;
 }
 
-}  // namespace
-
-Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer) {
-  const LoadedScene::Parts& parts = scene.parts();
-  Result<Plan> checked = plan_render(parts, options);
-  if (!checked) return checked.failure();
-  Plan& plan = *checked;
+// One picture, as the plan is but for seed, shutter and memories. What the end of a picture takes goes into the plan.
+Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSettings settings,
+                         RenderObserver& observer) {
   const AnyIntegrator integrator = plan.chosen.any();
-  double before = plan.preparation;
-  if (plan.render.seconds) {
+  // The integrator is made once, and that counts for the first picture of a sequence.
+  double before = std::exchange(plan.preparation, 0.0);
+  if (settings.seconds) {
     // What goes before the render is taken from the time, too: the making of the integrator, and the pass that measures
     // its speed.
     const Stopwatch pilot;
-    plan.render.plan = plan_for_time(integrator, plan.render, std::max(*plan.render.seconds - before, 0.0));
+    settings.plan = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0));
     before += pilot.seconds();
-    plan.render.seconds = std::max(*plan.render.seconds - before, 0.0);
+    settings.seconds = std::max(*settings.seconds - before, 0.0);
   }
-  RenderResult result = render(integrator, plan.render, observer);
+  if (settings.budget) settings.budget->seconds -= before;
+  RenderResult result = render(integrator, settings, observer);
   result.seconds += before;
-  std::vector<Attribute> header = header_of(parts, plan, result);
-  return Rendering{std::move(result), std::move(header), std::move(plan.chosen.notes), plan.render.plan,
-                   std::move(plan.render.layers)};
+  if (settings.budget) {
+    const PixelBounds& b = settings.bounds;
+    const int passes = std::max(result.film.image().passes, 1);
+    settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
+    plan.render.budget->ending = result.ending;
+  }
+  std::vector<Attribute> header = header_of(parts, {plan, settings}, result);
+  return Rendering{std::move(result), std::move(header), plan.chosen.notes, settings.plan, settings.layers, 0};
+}
+
+}  // namespace
+
+struct PictureSequence::State {
+  const LoadedScene::Parts& parts;
+  Plan plan;
+  ChainMemories memories;
+};
+
+PictureSequence::PictureSequence(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PictureSequence::~PictureSequence() = default;
+PictureSequence::PictureSequence(PictureSequence&&) noexcept = default;
+
+Result<PictureSequence> PictureSequence::prepare(const LoadedScene& scene, const RenderOptions& options) {
+  Result<Plan> plan = plan_render(scene.parts(), options);
+  if (!plan) return plan.failure();
+  return PictureSequence(std::make_unique<State>(State{scene.parts(), *std::move(plan), {}}));
+}
+
+Rendering PictureSequence::render(std::uint32_t seed, const std::optional<ShutterTimes>& shutter,
+                                  RenderObserver& observer) {
+  RenderSettings settings = state_->plan.render;
+  settings.seed = seed, settings.memories = &state_->memories;
+  if (shutter) settings.shutter = shutter_for(shutter, state_->parts.picture);
+  Rendering rendering = render_picture(state_->parts, state_->plan, std::move(settings), observer);
+  for (const auto& memory : state_->memories)
+    if (memory) rendering.history_bytes += memory->bytes();
+  return rendering;
+}
+
+Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer) {
+  Result<Plan> plan = plan_render(scene.parts(), options);
+  if (!plan) return plan.failure();
+  RenderSettings settings = plan->render;
+  return render_picture(scene.parts(), *plan, std::move(settings), observer);
 }
 
 Status check_integrator_text(const std::string& text) {

@@ -13,6 +13,7 @@ namespace montelux {
 struct RenderOptions {
   std::optional<int> samples;     // a pixel; default: what the file asks for
   std::optional<double> seconds;  // instead of a number of samples
+  std::optional<double> budget;   // seconds: whole frames of one chain, or passes of one sample, as many as fit
   std::uint32_t seed = 0;
   int threads = 0;                                            // 0: all of the machine
   std::optional<PixelBounds> crop;                            // within the picture; default: the file's
@@ -31,6 +32,27 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
+  std::size_t history_bytes = 0;  // that the chains of a sequence keep for the next picture
+  // Whether a standard error is known: it takes two independent passes.
+  bool has_error_bar() const { return result.film.image().passes >= 2; }
+};
+
+// Pictures of one scene with the same options, one after the other: what an integrator prepares is prepared once, and
+// what its chains have learned goes on from each picture to the next, where it can.
+class PictureSequence {
+ public:
+  // Fails as render_scene() does. The scene must outlive it.
+  static Result<PictureSequence> prepare(const LoadedScene& scene, const RenderOptions& options);
+  ~PictureSequence();
+  PictureSequence(PictureSequence&&) noexcept;
+
+  // With this seed and shutter instead of the options'.
+  Rendering render(std::uint32_t seed, const std::optional<ShutterTimes>& shutter, RenderObserver& observer);
+
+ private:
+  struct State;
+  explicit PictureSequence(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 // Fails where an option does not fit the scene (an unknown integrator, setting or sampler, a crop outside the picture,

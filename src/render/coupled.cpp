@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "render/float_mode.h"
@@ -59,7 +60,10 @@ class ChainJob {
     return interrupted && pass_ < settings_.plan.passes;
   }
 
-  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
+  RenderResult take_result(bool interrupted) {
+    const double seconds = since_start_.seconds();
+    return {std::move(film_), rays_, seconds, interrupted, settings_.budget ? seconds - frame_began_ : 0};
+  }
 
  private:
   void work() {
@@ -107,12 +111,21 @@ class ChainJob {
       step_.stage = 0;
       if (is_shown(step_.frame)) ++shown_frames_;
       ++step_.frame;
-      const bool stops = stop_;
-      if (step_.frame == frames_ || (stops && chain_counts())) end_chain();
-      if (stops || pass_ == settings_.plan.passes) over_ = true;
+      const bool stops = stop_ || !another_frame_fits();
+      const bool ends = step_.frame == frames_ || (stops && chain_counts());
+      if (ends) end_chain();
+      over_ = stops || pass_ == settings_.plan.passes;
+      if (ends && !over_) begin_chain();
     }
     next_tile_ = tiles_done_ = 0;
     changed_.notify_all();
+  }
+
+  // By the time that the last one took. A picture has one shown frame at least.
+  bool another_frame_fits() {
+    if (!settings_.budget) return true;
+    const double now = since_start_.seconds(), took = now - std::exchange(frame_began_, now);
+    return shown_frames_ == 0 || now + took + settings_.budget->ending <= settings_.budget->seconds;
   }
 
   // Whether a chain that is broken off is a pass: much shorter ones would only add noise.
@@ -147,17 +160,17 @@ class ChainJob {
     leave_memory();
     for (const ChainTile& tile : tiles_) film_.add_pass_means(tile.bounds, pass_, tile.means);
     ++pass_;
-    if (pass_ < settings_.plan.passes && !stop_) begin_chain();
   }
 
   // With the mutex held; the film's errors as of the last chain.
   Progress progress(bool finished) {
     const double frames = double(pass_) * frames_ + (finished ? 0 : step_.frame);
-    Progress p = progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_),
-                                settings_.seconds, finished);
+    const auto limit = settings_.budget ? std::optional(settings_.budget->seconds) : settings_.seconds;
+    Progress p =
+        progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_), limit, finished);
     p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
-    // Tiles only add to the feature layers between the ends of chains.
-    p.error = film_.error(settings_.bounds);
+    // Tiles only add to the feature layers between the ends of chains. It takes time, of which a budget has none.
+    if (!settings_.budget) p.error = film_.error(settings_.bounds);
     return p;
   }
 
@@ -175,6 +188,7 @@ class ChainJob {
   std::size_t next_tile_ = 0, tiles_done_ = 0;
   int pass_ = 0;  // chains that are in the film
   std::uint64_t shown_frames_ = 0;
+  double frame_began_ = 0;  // seconds since the start
   bool over_ = false;
   int running_ = 0;
   RayCounts rays_;

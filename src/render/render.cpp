@@ -197,8 +197,14 @@ PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings,
   return plan;
 }
 
+PassPlan plan_for_budget(const AnyIntegrator& integrator) {
+  constexpr int longest_chain = 1024, most_passes = 1 << 20;
+  return integrator.coupled() ? PassPlan{longest_chain, 1} : PassPlan{1, most_passes};
+}
+
 RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {
   if (integrator.coupled()) return render_chains(*integrator.coupled(), settings, observer);
+  if (settings.budget) return render_chains(PassesAsChains(*integrator.pixel()), settings, observer);
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   Job job(*integrator.pixel(), settings, tiles_of(settings.bounds, tile_side(settings.plan.samples_per_pass)));
   bool interrupted = job.watch(threads, observer);

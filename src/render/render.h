@@ -24,6 +24,13 @@ PassPlan plan_passes(int samples, PointSetKind kind);
 // Of any integrator: a pass of a coupled one is a chain of its frames.
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind);
 
+// A picture within a time: the plan's samples are then bounds. A frame, or a pass, begins only where it is likely to
+// end in time; one there always is.
+struct TimeBudget {
+  double seconds = 0;
+  double ending = 0;  // of that, what the end of a picture takes once its last frame is done, by experience
+};
+
 // What the chains of a picture have learned, by their number in the render.
 using ChainMemories = std::vector<std::shared_ptr<const ChainMemory>>;
 
@@ -33,12 +40,13 @@ struct RenderSettings {
   PointSetKind sampler = PointSetKind::blue_noise;
   std::uint32_t seed = 0;
   PassPlan plan;
-  std::optional<double> seconds;    // stop at this time, with as many passes as fit; plan.passes is then a bound
-  int threads = 0;                  // 0: all of the machine
-  int first_pass = 0;               // for a render that goes on
-  std::optional<LayerPlan> layers;  // of an integrator that has them
-  std::optional<Shutter> shutter;   // instead of the scene's
-  SecondsClock clock;               // that `seconds` and the result's time go by; empty: the machine's
+  std::optional<double> seconds;     // stop at this time, with as many passes as fit; plan.passes is then a bound
+  std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
+  int threads = 0;                   // 0: all of the machine
+  int first_pass = 0;                // for a render that goes on
+  std::optional<LayerPlan> layers;   // of an integrator that has them
+  std::optional<Shutter> shutter;    // instead of the scene's
+  SecondsClock clock;                // that `seconds` and the result's time go by; empty: the machine's
   // Of a coupled integrator in a sequence: each chain begins with what stands at its number, and leaves there what it
   // has learned. Null: chains begin with nothing.
   ChainMemories* memories = nullptr;
@@ -66,10 +74,15 @@ struct RenderResult {
   RayCounts rays;
   double seconds = 0;
   bool interrupted = false;  // the observer asked to stop before the work was done
+  double ending = 0;         // of the seconds, those after the last frame; where there was a budget
 };
 
 // The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass.
 PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds);
+
+// The plan for a render within a budget: one chain of a coupled integrator, passes of one sample of any other, and as
+// many frames or passes as time allows.
+PassPlan plan_for_budget(const AnyIntegrator& integrator);
 
 // The film is the same bits for any number of threads (where no time limit is set and nobody interrupts).
 RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer);

@@ -26,6 +26,26 @@ Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
     "point3 P" [ -1 -1 0   1 -1 0   1 1 0   -1 1 0 ]
 """
 
+# A lamp over a floor, past which a camera pans.
+LIT_SCENE = """
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+PixelFilter "box"
+Integrator "path" "integer maxdepth" 3
+ActiveTransform StartTime
+LookAt 0 1 -4  -0.2 0.5 0  0 1 0
+ActiveTransform EndTime
+LookAt 0 1 -4  0.2 0.5 0  0 1 0
+ActiveTransform All
+Camera "perspective" "float fov" 60
+WorldBegin
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 9 8 7 ]
+Translate 0 1.5 0
+Shape "sphere" "float radius" 0.2
+AttributeEnd
+Shape "bilinearmesh" "point3 P" [ -9 0 -9  9 0 -9  -9 0 9  9 0 9 ]
+"""
+
 
 class Frames(ProgramTest):
     def write_scene(self, shutter_open=0, shutter_close=2, name="slide.pbrt"):
@@ -111,6 +131,47 @@ class Frames(ProgramTest):
         self.assertGreaterEqual(len(frames), 2)
         for number in frames:
             self.assertEqual(read_pfm(self.folder / f"a.{number}.pfm")[:2], (16, 16))
+
+    def test_chains_go_on_from_frame_to_frame(self):
+        (self.folder / "slide.pbrt").write_text(LIT_SCENE)
+        way = ["--integrator", "restir-di:chain=2,candidates=2", "--spp", "8"]
+        told = self.told("--frames", "0:2", *way, "-o", "on.#.pfm")
+        again = self.told("--frames", "0:2", *way, "--threads", "1", "-o", "again.#.pfm")
+        self.assertEqual([t["mean"] for t in told], [t["mean"] for t in again])
+        off = self.told("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
+        late = self.told("--frames", "2:2/3", *way, "-o", "late.#.pfm")
+        self.assertEqual([t["history_bytes"] > 16 * 16 * 4 * 100 for t in told], [True] * 3)
+        self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
+        # The first frame has no history; what begins later has none either.
+        same = [(self.folder / f"on.{n}.pfm").read_bytes() == (self.folder / f"off.{n}.pfm").read_bytes()
+                for n in range(3)]
+        self.assertEqual(same, [True, False, False])
+        self.assertEqual(late[0]["mean"], off[2]["mean"])
+        for on, other in zip(told, off, strict=True):
+            error = math.hypot(on["standard_error"][1], other["standard_error"][1])
+            self.assertAlmostEqual(on["mean"][1], other["mean"][1], delta=5 * error)
+
+    def test_a_budget_ends_every_picture(self):
+        (self.folder / "slide.pbrt").write_text(LIT_SCENE)
+        chains = self.told("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")
+        for frame in chains:
+            self.assertGreaterEqual(frame["samples_per_pass"], 1)
+            self.assertEqual((frame["passes"], frame["error_bar"], frame["budget"]), (1, False, 0.2))
+            self.assertEqual(frame["standard_error"], [None] * 3)
+            self.assertEqual(frame["over_budget"], frame["seconds"] > 0.2)
+            self.assertGreater(frame["history_bytes"], 0)
+        still = json.loads(self.run_program("render", "slide.pbrt", "--json", "--interactive-budget", "300ms",
+                                            "-o", "still.exr").stdout)
+        self.assertEqual(still["error_bar"], still["passes"] > 1)
+        self.assertEqual(len(list(self.folder.glob("*.exr"))), 4)
+        # A picture that cannot be in time has one pass all the same, and says that it is late.
+        result = self.run_program("render", "slide.pbrt", "--frames", "0:1", "--interactive-budget", "0.001ms",
+                                  "--no-progress", "-o", "a.#.pfm")
+        self.assertIn("over the budget", result.stdout)
+        self.assertIn("error    not known", result.stdout)
+        self.assertIn("2 of 2 pictures took longer", result.stderr)
+        for arguments in (["--spp", "2"], ["--time", "1s"], ["--layers", "bounces"]):
+            self.run_program("render", "slide.pbrt", "--interactive-budget", "1s", *arguments, status=2)
 
     def test_a_scene_that_stands_still_says_so(self):
         (self.folder / "still.pbrt").write_text("WorldBegin\nLightSource \"infinite\"\n")

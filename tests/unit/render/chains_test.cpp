@@ -1,6 +1,7 @@
 // Chains of frames: the same picture for any number of threads, clean ends, and a film over chains.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "integrator/restir/history.h"
@@ -176,6 +177,79 @@ TEST(Chains, without_a_picture_before_begin_afresh) {
   RenderObserver silent;
   render(chosen.any(), s, silent);
   EXPECT_EQ(largest_confidence(*memories[0]), 1);
+}
+
+// Frames that take a hundredth of a second each, by a clock of their own.
+class TickingFrames final : public CoupledIntegrator {
+ public:
+  class Frames final : public Chain {
+   public:
+    explicit Frames(std::atomic<int>& ticks) : ticks_(ticks) {}
+    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample>) override {
+      // The last tile of the 40 x 40 pixels ends the frame.
+      if (step.stage == 1 && tile.x1 == 40 && tile.y1 == 40) ++ticks_;
+      return {};
+    }
+
+   private:
+    std::atomic<int>& ticks_;
+  };
+  int frames() const override { return 4; }
+  int warm_up() const override { return 0; }
+  int stages() const override { return 2; }
+  std::unique_ptr<Chain> begin(const ChainPass&) const override { return std::make_unique<Frames>(ticks_); }
+  SecondsClock clock() const {
+    return [this] { return 0.01 * ticks_; };
+  }
+
+ private:
+  mutable std::atomic<int> ticks_{0};
+};
+RenderResult within(TimeBudget budget) {
+  const TickingFrames integrator;
+  RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(integrator), 1, 1);
+  s.budget = budget, s.clock = integrator.clock();
+  RenderObserver silent;
+  return render(integrator, s, silent);
+}
+
+TEST(Budget, is_filled_by_whole_frames_of_one_chain) {
+  for (auto [budget, frames] : {std::pair{TimeBudget{0.0451, 0}, 4}, {{0.0401, 0.005}, 3}, {{0.0401, 0.015}, 2}}) {
+    const RenderResult r = within(budget);
+    EXPECT_EQ(r.film.samples(3, 3), frames) << budget.seconds << " " << budget.ending;
+    EXPECT_EQ(r.film.samples(39, 39), frames);
+    EXPECT_LE(r.seconds, budget.seconds);
+    EXPECT_FALSE(r.interrupted);
+    // One chain has no error bar.
+    EXPECT_EQ(r.film.image().passes, 1);
+    EXPECT_EQ(r.film.error(r.film.bounds()).pixels, 0u);
+  }
+}
+
+TEST(Budget, that_is_too_small_gives_one_frame) {
+  const RenderResult r = within({0.001, 0});
+  EXPECT_EQ(r.film.samples(3, 3), 1);
+  EXPECT_GT(r.seconds, 0.001);
+}
+
+TEST(Budget, is_filled_by_whole_passes_of_other_integrators) {
+  class Ticking final : public PixelIntegrator {
+   public:
+    mutable std::atomic<int> ticks{0};
+    RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+      EXPECT_EQ(out.size(), std::size_t(pass.tile.area()));
+      for (PixelSample& sample : out) sample.radiance = gray(float(pass.points.pass));
+      ticks += pass.tile.x1 == 40 && pass.tile.y1 == 40;
+      return {};
+    }
+  } integrator;
+  RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(integrator), 1, 1);
+  s.budget = {0.0351, 0}, s.clock = [&] { return 0.01 * integrator.ticks; };
+  RenderObserver silent;
+  const RenderResult r = render(integrator, s, silent);
+  EXPECT_EQ(r.film.image().passes, 3);
+  EXPECT_EQ(r.film.pixel(5, 5).mean[0], 1);
+  EXPECT_NEAR(r.film.pixel(39, 5).variance_of_mean(0), 1.0 / 3, 1e-12);
 }
 
 TEST(Chains, hand_on_what_goes_wrong) {
