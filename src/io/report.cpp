@@ -44,9 +44,7 @@ std::string excerpt_with_caret(std::string_view line, int column) {
   constexpr std::size_t width = 100;
   std::size_t at = std::min<std::size_t>(column > 0 ? std::size_t(column) - 1 : 0, line.size());
   std::size_t start = at > width * 3 / 4 ? at - width / 2 : 0;
-  std::string shown(line.substr(start, width));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  const std::string shown = without_control(line.substr(start, width), ' ');
   std::string before = start > 0 ? "..." : "", after = start + width < line.size() ? "..." : "";
   return "    " + before + shown + after + "\n    " + std::string(before.size() + at - start, ' ') + "^\n";
 }

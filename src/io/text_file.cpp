@@ -57,6 +57,23 @@ Result<std::string> unpack(const std::string& packed, const std::string& path) {
   }
 }
 
+// The bytes of the character that the text, which is not empty, begins with; 0 where that is a control character or no
+// UTF-8 (Unicode 15, table 3-7).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 32 && first != 127 ? 1 : 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4) return 0;
+  // Neither longer forms than need be, nor surrogates, nor beyond U+10FFFF; nor the control characters from U+0080.
+  const unsigned low = first == 0xe0 || first == 0xc2 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t i = 2; i < length; ++i)
+    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
+  return length;
+}
+
 }  // namespace
 
 bool is_regular_file(const std::string& path) {
@@ -87,10 +104,18 @@ Result<std::string> read_whole_file(const std::string& path) {
 
 std::string printable(std::string_view text) {
   constexpr std::size_t most = 120;
-  std::string clean(text.substr(0, most));
-  for (char& c : clean)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  std::string clean = without_control(text.substr(0, most), '?');
   if (text.size() > most) clean += "...";
+  return clean;
+}
+
+std::string without_control(std::string_view text, char instead) {
+  std::string clean;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    clean += length == 0 ? std::string(1, instead) : std::string(text.substr(0, length));
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
   return clean;
 }
 

@@ -1,6 +1,7 @@
 // Files read whole, compressed or not.
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "math/result.h"
 
@@ -16,7 +17,10 @@ std::string resolve_path(const std::string& folder, const std::string& name);
 // Whether a regular file of this path can be seen.
 bool is_regular_file(const std::string& path);
 
-// Text from a user's file made fit to be printed in a message: unprintable bytes become '?', long text is cut.
+// Text from a user's file made fit to be printed in a message: control characters and what is no UTF-8 become
+// `instead`, a byte for a byte.
+std::string without_control(std::string_view text, char instead);
+// The same by '?', and long text is cut.
 std::string printable(std::string_view text);
 
 }  // namespace montelux

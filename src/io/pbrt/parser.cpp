@@ -77,6 +77,16 @@ Parser::Parser(std::string folder, Diagnostics& diagnostics, bool lenient) : rep
   scene_.materials.push_back({"", Entity{"diffuse", {}, {}}});
 }
 
+// What a file is that cannot be pbrt's, by how it begins.
+static std::string_view other_format(std::string_view text) {
+  if (text.starts_with("glTF")) return "binary glTF";
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (text.starts_with("{")) return "JSON, as glTF is";
+  if (text.starts_with("<")) return "XML, as Mitsuba's scenes are";
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return "a ply mesh";
+  return {};
+}
+
 void Parser::parse_file(const std::string& path) {
   namespace fs = std::filesystem;
   constexpr int most_files = 20000;
@@ -91,6 +101,9 @@ void Parser::parse_file(const std::string& path) {
     return report_.error(where, "too many files include each other; '" + printable(path) + "' is left out");
   auto text = read_whole_file(path);
   if (!text) return report_.error(where, text.error());
+  if (const std::string_view other = other_format(*text); !other.empty())
+    return report_.error(where, "'" + printable(path) + "' is " + std::string(other),
+                         "scenes are read from pbrt-v4 files");
   open_files_.push_back(std::move(canonical));
   parse_text(*text, path);
   open_files_.pop_back();

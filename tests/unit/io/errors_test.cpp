@@ -5,6 +5,8 @@
 
 #include "io/pbrt.h"
 #include "io/report.h"
+#include "io/text_file.h"
+#include "temporary_folder.h"
 
 namespace montelux {
 namespace {
@@ -286,6 +288,37 @@ TEST(LenientReading, lets_pass_what_montelux_cannot_do_yet) {
   EXPECT_EQ(result.scene->materials.at(1).entity.type, "diffuse");
   EXPECT_TRUE(result.scene->materials.at(1).entity.parameters.spectrum("reflectance"));
   EXPECT_TRUE(result.scene->shapes.at(0).object_to_world.is_identity());
+}
+
+TEST(Reading, names_the_format_of_a_file_that_is_none_of_pbrt) {
+  const testing_io::TemporaryFolder folder;
+  for (const auto& [content, what] :
+       std::vector<std::pair<std::string, std::string>>{{"{\n  \"asset\": {}\n}", "JSON, as glTF is"},
+                                                        {" \n<scene version=\"3.0.0\"/>", "XML, as Mitsuba's"},
+                                                        {std::string("glTF\2\0\0\0\xe0\xff", 10), "binary glTF"},
+                                                        {"ply\nformat ascii 1.0\n", "a ply mesh"}}) {
+    const ReadResult result = read_pbrt(folder.write("scene.x", content));
+    EXPECT_EQ(result.diagnostics.errors(), 1);
+    EXPECT_NE(listing(result.diagnostics).find(what), std::string::npos) << listing(result.diagnostics);
+  }
+}
+
+TEST(Messages, hold_no_control_characters_and_no_broken_text) {
+  EXPECT_EQ(printable("a\tb\x7f"), "a?b?");
+  EXPECT_EQ(printable("Gr\xc3\xb6\xc3\x9f"
+                      "e \xe2\x82\xac \xf0\x9f\x8e\xb2"),
+            "Gr\xc3\xb6\xc3\x9f"
+            "e \xe2\x82\xac \xf0\x9f\x8e\xb2");
+  // Cut off, too long a form, a surrogate, beyond the last character, a control character of two bytes.
+  EXPECT_EQ(printable("\xe2\x82"), "??");
+  EXPECT_EQ(printable("\xc0\xaf"), "??");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "???");
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");
+  EXPECT_EQ(printable("\xc2\x9b"), "??");
+  const testing_io::TemporaryFolder folder;
+  const ReadResult result = read_pbrt(folder.write("scene.pbrt", "WorldBegin\nShap\xff\xfe \x1b[31m\n"));
+  const std::string text = render(result.diagnostics, {false, true});
+  for (const char* broken : {"\xff", "\xfe", "\x1b"}) EXPECT_EQ(text.find(broken), std::string::npos) << text;
 }
 
 }  // namespace
