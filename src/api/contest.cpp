@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "api/checksum.h"
 #include "api/compare.h"
 #include "api/parts.h"
 #include "api/render.h"
@@ -124,14 +125,8 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
 
 // ---- the cache of references ----------------------------------------------------------------------------------------
 
-std::uint64_t hash(std::uint64_t h, std::string_view text) {
-  for (char c : text) h = (h ^ std::uint8_t(c)) * 0x100000001b3u;
-  return (h ^ 0xff) * 0x100000001b3u;
-}
-
 // Changes with any file beside the scene or below, with the size of the picture, and with what biases it.
 std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, const std::string& biases) {
-  std::uint64_t h = 0xcbf29ce484222325u;
   std::vector<std::string> files;
   std::error_code ignored;
   const fs::path folder = fs::absolute(parts.info.file, ignored).parent_path();
@@ -143,10 +138,10 @@ std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, 
     if (files.size() > 20000) break;
   }
   std::ranges::sort(files);
-  for (const std::string& file : files) h = hash(h, file);
-  h = hash(h, fmt::format("{} {} {} {} {} {} {}", parts.info.file, parts.picture.width, parts.picture.height, b.x0,
-                          b.y0, b.x1, b.y1));
-  return hash(h, version() + biases);
+  const std::string what =
+      fmt::format("{}\n{} {} {} {} {} {} {}\n{}{}", fmt::join(files, "\n"), parts.info.file, parts.picture.width,
+                  parts.picture.height, b.x0, b.y0, b.x1, b.y1, version(), biases);
+  return checksum(what);
 }
 
 std::optional<fs::path> cache_folder() {

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "api/checksum.h"
 #include "api/contest.h"
 #include "api/render.h"
 #include "api/saved_file.h"
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux comparison", 1, "montelux compare --save", "comparison"};
+constexpr SavedFormat saved_format{"montelux comparison", 2, "montelux compare --save", "comparison"};
 static_assert(std::endian::native == std::endian::little);
 
 // ---- long arrays ----------------------------------------------------------------------------------------------------
@@ -187,20 +188,19 @@ std::uint64_t scene_fingerprint(const fs::path& scene) {
     if (around.size() > 20000) break;
   }
   std::ranges::sort(around);
-  // FNV-1a over the files that are reached, in the order in which they are.
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  // Of the files that are reached, in the order in which they are.
+  std::uint64_t all = checksum("");
   std::set<fs::path> reached{fs::absolute(scene, ignored)};
   for (std::deque<fs::path> open{fs::absolute(scene, ignored)}; !open.empty(); open.pop_front()) {
     const auto content = content_of(open.front());
     if (!content) continue;
-    for (char c : *content) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3u;
-    hash = (hash ^ content->size()) * 0x100000001b3u;
+    all = checksum(fmt::format("{} bytes\n", content->size()), checksum(*content, all));
     if (open.front().extension() != ".pbrt") continue;
     for (const fs::path& file : around)
       if (!reached.contains(file) && content->find(file.filename().string()) != std::string::npos)
         reached.insert(file), open.push_back(file);
   }
-  return hash;
+  return all;
 }
 
 Status save_contest(const fs::path& file, const SavedContest& c) {
@@ -217,7 +217,7 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
             {"methods", Json::array()}};
   if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
   for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
-  return save_json(file, json);
+  return save_json(file, std::move(json));
 }
 
 Result<SavedContest> load_contest(const fs::path& file) {

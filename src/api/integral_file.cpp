@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux integrals", 1, "montelux integrate --save", "integral"};
+constexpr SavedFormat saved_format{"montelux integrals", 2, "montelux integrate --save", "integral"};
 
 Json statement_json(const lab::IntegralStatement& s) {
   return {{"integrand", s.integrand},
@@ -74,15 +74,15 @@ Status save_integral(const std::filesystem::path& file, const SavedIntegral& sav
   Json runs = Json::array();
   for (std::size_t k = 0; k < saved.states.size(); ++k)
     runs.push_back({{"method", saved.methods[k]}, {"state", Json::parse(lab::to_json(saved.states[k]))}});
-  const Json json{{"format", saved_format.name},
-                  {"version", saved_format.version},
-                  {"program", version()},
-                  {"statement", statement_json(saved.options.statement)},
-                  {"methods", saved.options.methods},
-                  {"budget", budget_json(saved.options.budget)},
-                  {"seed", saved.options.seed},
-                  {"runs", runs}};
-  return save_json(file, json);
+  Json json{{"format", saved_format.name},
+            {"version", saved_format.version},
+            {"program", version()},
+            {"statement", statement_json(saved.options.statement)},
+            {"methods", saved.options.methods},
+            {"budget", budget_json(saved.options.budget)},
+            {"seed", saved.options.seed},
+            {"runs", runs}};
+  return save_json(file, std::move(json));
 }
 
 Result<SavedIntegral> load_integral(const std::filesystem::path& file) {

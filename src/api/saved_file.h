@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/checksum.h"
 #include "image/replace_file.h"
 #include "math/result.h"
 
@@ -39,6 +40,19 @@ void check_format(const Json& json, const SavedFormat& format) {
                                 ", this program reads version " + std::to_string(format.version));
 }
 
+template <class Json>
+std::string checksum_of(const Json& json) {
+  return std::to_string(checksum(json.dump()));
+}
+
+// Throws std::invalid_argument where anything in the file is not as it was written. Takes the checksum out.
+template <class Json>
+void check_whole(Json& json) {
+  const Json stated = json.value("checksum", Json());
+  json.erase("checksum");
+  if (stated != checksum_of(json)) throw std::invalid_argument("it is damaged: its checksum is another");
+}
+
 // read(json) of a file of the format; what it throws becomes a failure that names the file.
 template <class Json, class Read>
 auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Read read)
@@ -46,8 +60,9 @@ auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Re
   const auto text = content_of(file);
   if (!text) return Failure{file.string() + ": cannot be read"};
   try {
-    const Json json = Json::parse(*text, nullptr, false);  // without exceptions: what is no JSON is no object either
+    Json json = Json::parse(*text, nullptr, false);  // without exceptions: what is no JSON is no object either
     check_format(json, format);
+    check_whole(json);
     return read(json);
   } catch (const std::invalid_argument& error) {
     return Failure{file.string() + ": " + error.what()};
@@ -56,9 +71,10 @@ auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Re
   }
 }
 
-// Whole or not at all.
+// Whole or not at all, with a checksum.
 template <class Json>
-Status save_json(const std::filesystem::path& file, const Json& json) {
+Status save_json(const std::filesystem::path& file, Json json) {
+  json["checksum"] = checksum_of(json);
   return replace_file(file, [&json](const std::string& temporary) -> Status {
     std::ofstream out(temporary);
     out << json.dump(1) << '\n';

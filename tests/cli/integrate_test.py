@@ -113,6 +113,9 @@ class Files(IntegrateTest):
         self.assert_refused(["--resume", "none.json"], "none.json", "cannot be read")
         (self.folder / "b.json").write_text("{}")
         self.assert_refused(["--resume", "b.json"], "b.json")
+        damaged = (self.folder / "a.json").read_text().replace('"seed": 0', '"seed": 1', 1)
+        (self.folder / "b.json").write_text(damaged)
+        self.assert_refused(["--resume", "b.json"], "b.json", "it is damaged")
 
     def wait_for_handler(self, process):
         """Until the program is ready for SIGINT, as far as the system tells."""

@@ -188,6 +188,22 @@ TEST(Contest, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stoppe
   EXPECT_TRUE(run_rounds(both, settings(3), 3, {}, read->state));
   expect_same(read->state, whole);
 
+  // What is not as it was written is refused.
+  std::ifstream in(file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& [old, by] :
+       std::vector<std::pair<std::string, std::string>>{{"\"confidence\": 0.95", "\"confidence\": 1.95"},
+                                                        {"\"repeats\": ", "\"repeats\": 1"},
+                                                        {"\"notes\": []", "\"notes\": {}"}}) {
+    std::string damaged = text;
+    ASSERT_NE(damaged.find(old), std::string::npos) << old;
+    std::ofstream(file) << damaged.replace(damaged.find(old), old.size(), by);
+    const Result<SavedContest> refused = load_contest(file);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().find("it is damaged"), std::string::npos) << refused.error();
+  }
+  std::ofstream(file) << text;
+
   // Statistics are those of all six.
   const ContestResult a = result_of(both, read->state, settings(3)), b = result_of(both, whole, settings(6));
   EXPECT_EQ(a.methods[0].mse.mean, b.methods[0].mse.mean);
@@ -226,8 +242,9 @@ TEST(Contest, refuses_files_that_are_no_saved_contest) {
   for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
            {"not JSON", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux integrals"})", "not a file that montelux compare --save wrote"},
-           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 1"},
-           {R"({"format": "montelux comparison", "version": 1})", "is no saved comparison"}}) {
+           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 2"},
+           {R"({"format": "montelux comparison"})", "is no saved comparison"},
+           {R"({"format": "montelux comparison", "version": 2})", "it is damaged"}}) {
     std::ofstream(file) << text;
     const Result<SavedContest> read = load_contest(file);
     ASSERT_FALSE(read);
