@@ -8,6 +8,7 @@
 
 #include "lab/experiments/statistics.h"
 #include "lab/experiments/table.h"
+#include "mc/metropolis.h"
 
 namespace montelux::lab {
 
@@ -32,7 +33,7 @@ struct Mutation {
     const double y = far ? double(stream.next()) : x + 0.1 * (2 * double(stream.next()) - 1);
     const double u = double(stream.next());
     if (y <= 0 || y >= 1) return x;
-    return fault || u * target(x) < target(y) ? y : x;
+    return fault || u < metropolis_acceptance(target(x), target(y)) ? y : x;
   }
 };
 

@@ -1,3 +1,5 @@
+#include "mc/metropolis.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -115,7 +117,7 @@ class Metropolis final : public Technique {
     const Values v = evaluate(points, n, sums);
     for (std::size_t c = 0; c < n; ++c) {
       Chain& chain = state[c];
-      const double chance = chain.target > 0 ? std::min(1.0, v.targets[c] / chain.target) : 1.0;
+      const double chance = metropolis_acceptance(chain.target, v.targets[c]);
       chain.sum += chance * v.ratios[c] + (1 - chance) * chain.ratio;
       ++sums.proposed;
       if (accept[c] >= chance) continue;
