@@ -238,7 +238,8 @@ int render_frames(const RenderArguments& all, const LoadedScene& scene, const St
     ProgressLine observer(visible, signals,
                           fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last),
                           frame - all.frames->first, all.frames->count());
-    const Result<Rendering> rendering = sequence->render(one->render.seed, one->render.shutter, observer);
+    const ShutterTimes before = frame_shutter(scene.info(), *all.frames, frame - 1);
+    const Result<Rendering> rendering = sequence->render({one->render.seed, *one->render.shutter, before}, observer);
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return status;
   }
@@ -253,6 +254,8 @@ int run_render(RenderArguments& arguments) {
   if (arguments.fps && arguments.frames->of)
     return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
   if (arguments.frames) arguments.frames->fps = arguments.fps;
+  if (!arguments.frames && arguments.render.layers && arguments.render.layers->motion)
+    return complain("motion is between the pictures of a sequence: --layers motion needs --frames");
   const Result<RenderArguments> first =
       arguments.frames ? arguments_of_frame(arguments, {}, arguments.frames->last) : Result<RenderArguments>(arguments);
   if (!first) return complain(first.error());
@@ -323,9 +326,11 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
              into(render.sampler, choice(samplers)));
   add_option(
       verb,
-      {"--layers", "bounces[:N],light-groups,errors",
-       "layers of light in the .exr: bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
-       "each \"string group\" of the scene's lights; with errors NAME_stderr, too"},
+      {"--layers", "bounces[:N],light-groups,errors,motion",
+       "layers in the .exr: of light, bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
+       "each \"string group\" of the scene's lights; with errors NAME_stderr, too; motion: the way in pixels from here "
+       "to "
+       "where the same point was in the frame before"},
       into(render.layers, parse_layers));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {

@@ -27,8 +27,11 @@ Status read_word(std::string_view word, LayerRequest& request) {
     request.light_groups = true;
   } else if (word == "errors") {
     request.errors = true;
+  } else if (word == "motion") {
+    request.motion = true;
   } else {
-    return Failure{fmt::format("there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors", word)};
+    return Failure{
+        fmt::format("there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion", word)};
   }
   return Done{};
 }
@@ -44,7 +47,7 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     more = comma != std::string_view::npos;
     if (more) rest = rest.substr(comma + 1);
   }
-  if (!request.bounces && !request.light_groups)
+  if (!request.of_light() && (request.errors || !request.motion))
     return Failure{"errors are those of layers: bounces, light-groups, or both must be asked for, too"};
   return request;
 }

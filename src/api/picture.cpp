@@ -94,6 +94,7 @@ PixelBuffer layers_of(const Rendering& rendering) {
       }
       set(Channel::z, feature.depth / feature.hits);
     }
+  if (rendering.motion) append_layer(image, "motion", *rendering.motion);
   if (rendering.layers) append_light(image, *film.layers(), bounds, layer_names(*rendering.layers));
   return image;
 }

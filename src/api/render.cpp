@@ -8,6 +8,7 @@
 #include "api/parts.h"
 #include "integrator/catalogue.h"
 #include "integrator/direct/settings.h"
+#include "render/motion.h"
 
 namespace montelux {
 
@@ -46,12 +47,12 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
 struct Plan {
   RenderSettings render;
   ChosenIntegrator chosen;
+  bool motion = false;     // of a sequence
   double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
 };
 
-std::optional<Shutter> shutter_for(const std::optional<ShutterTimes>& times, const PictureSettings& picture) {
-  if (!times) return std::nullopt;
-  return shutter_of(times->open, times->close, picture.transforms_start, picture.transforms_end);
+Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
+  return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
 }
 
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
@@ -74,7 +75,8 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
   plan.preparation = since_choice.seconds();
-  if (options.layers) {
+  plan.motion = options.layers && options.layers->motion;
+  if (options.layers && options.layers->of_light()) {
     auto layers = plan_layers(*options.layers, plan.chosen, parts.scene);
     if (!layers) return layers.failure();
     plan.render.layers = *std::move(layers);
@@ -99,9 +101,9 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
   r.seed = options.seed;
   r.threads = options.threads;
-  r.shutter = shutter_for(options.shutter, picture);
+  if (options.shutter) r.shutter = shutter_for(*options.shutter, picture);
   r.seconds = options.seconds;
-  if (options.budget && (options.seconds || options.samples || options.layers))
+  if (options.budget && (options.seconds || options.samples || plan.render.layers))
     return Failure{"a time budget takes the place of a number of samples and of a time, and has no layers of light"};
   if (options.budget) r.budget = {*options.budget, 0};
   r.plan = options.budget
@@ -177,7 +179,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     plan.render.budget->ending = result.ending;
   }
   std::vector<Attribute> header = header_of(parts, {plan, settings}, result);
-  return Rendering{std::move(result), std::move(header), plan.chosen.notes, settings.plan, settings.layers, 0};
+  return Rendering{std::move(result), std::move(header), plan.chosen.notes, settings.plan, settings.layers, 0, {}};
 }
 
 }  // namespace
@@ -198,14 +200,17 @@ Result<PictureSequence> PictureSequence::prepare(const LoadedScene& scene, const
   return PictureSequence(std::make_unique<State>(State{scene.parts(), *std::move(plan), {}}));
 }
 
-Rendering PictureSequence::render(std::uint32_t seed, const std::optional<ShutterTimes>& shutter,
-                                  RenderObserver& observer) {
+Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver& observer) {
+  const LoadedScene::Parts& parts = state_->parts;
   RenderSettings settings = state_->plan.render;
-  settings.seed = seed, settings.memories = &state_->memories;
-  if (shutter) settings.shutter = shutter_for(shutter, state_->parts.picture);
-  Rendering rendering = render_picture(state_->parts, state_->plan, std::move(settings), observer);
+  settings.seed = picture.seed, settings.memories = &state_->memories;
+  settings.shutter = shutter_for(picture.shutter, parts.picture);
+  const MotionRequest motion{settings.bounds, *settings.shutter, shutter_for(picture.before, parts.picture),
+                             settings.threads};
+  Rendering rendering = render_picture(parts, state_->plan, std::move(settings), observer);
   for (const auto& memory : state_->memories)
     if (memory) rendering.history_bytes += memory->bytes();
+  if (state_->plan.motion) rendering.motion = motion_vectors(parts.scene, *parts.accel, motion);
   return rendering;
 }
 

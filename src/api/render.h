@@ -32,9 +32,16 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;  // that the chains of a sequence keep for the next picture
+  std::size_t history_bytes = 0;      // that the chains of a sequence keep for the next picture
+  std::optional<PixelBuffer> motion;  // to the picture before, as motion_vectors() has it
   // Whether a standard error is known: it takes two independent passes.
   bool has_error_bar() const { return result.film.image().passes >= 2; }
+};
+
+// What changes from one picture of a sequence to the next.
+struct SequencePicture {
+  std::uint32_t seed = 0;
+  ShutterTimes shutter, before;  // of this picture, and of the one before it
 };
 
 // Pictures of one scene with the same options, one after the other: what an integrator prepares is prepared once, and
@@ -47,7 +54,7 @@ class PictureSequence {
   PictureSequence(PictureSequence&&) noexcept;
 
   // With this seed and shutter instead of the options'.
-  Rendering render(std::uint32_t seed, const std::optional<ShutterTimes>& shutter, RenderObserver& observer);
+  Rendering render(const SequencePicture& picture, RenderObserver& observer);
 
  private:
   struct State;
@@ -61,7 +68,8 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
 
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
 // P.X ...; Z; samples; id. Then those of light, where they were asked for: bounce0.R ..., Combined_key.R ..., and with
-// errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding.
+// errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding. Motion is
+// motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The

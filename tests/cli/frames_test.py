@@ -151,6 +151,18 @@ class Frames(ProgramTest):
             error = math.hypot(on["standard_error"][1], other["standard_error"][1])
             self.assertAlmostEqual(on["mean"][1], other["mean"][1], delta=5 * error)
 
+    def test_motion_is_a_layer_of_frames(self):
+        self.write_scene()
+        self.run_program("render", "slide.pbrt", "--frames", "0:1", "--spp", "1", "--layers", "motion", "-o", "a.#.exr")
+        for name in b"motion.X", b"motion.Y":
+            self.assertIn(name, (self.folder / "a.1.exr").read_bytes())
+        alone = self.run_program("render", "slide.pbrt", "--layers", "motion", status=2)
+        self.assertIn("--frames", alone.stderr)
+        both = self.told("--frames", "0:0", "--spp", "1", "--layers", "motion,bounces:1", "-o", "b.#.exr")
+        self.assertIn("bounce0", both[0]["layers"])
+        self.assertIn(b"motion.X", (self.folder / "b.0.exr").read_bytes())
+        self.run_program("render", "slide.pbrt", "--frames", "0:0", "--layers", "motion,errors", status=2)
+
     def test_a_budget_ends_every_picture(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
         chains = self.told("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")

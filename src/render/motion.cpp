@@ -1,0 +1,67 @@
+#include "render/motion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "integrator/restir/history.h"
+
+namespace montelux {
+
+namespace {
+
+using F = NativeFloats;
+using U = Uint<F>;
+
+float middle(const Shutter& shutter) { return shutter.time(0.5f); }
+
+// Where the points of a pack of pixels were.
+Projection<F> earlier_places(const Scene& scene, const Accel& accel, const MotionRequest& request,
+                             const Vec2<F>& raster, Mask<F> on) {
+  const F now = middle(request.now), before = middle(request.before);
+  const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f), F(0.5f)}, now).ray;
+  const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), ray.time}, on, Coherence::coherent);
+  const Mask<F> meets = on & found;
+  const VertexOrigin<F> origin{{ray.o, ray.d, hit.t, ray.time}, hit, meets};
+  Projection<F> place = earlier_place<F>(scene, origin, before, meets).place;
+  // What is far away moves with the camera's turns alone.
+  const float size = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
+  const float far = 1e5f * std::max(size, 1.0f);
+  const Projection<F> sky = scene.camera.project(ray.o + ray.d * far, before);
+  place.raster = select<F>(meets, place.raster, sky.raster);
+  place.seen = (meets & place.seen) | (sky.seen & !meets);
+  return place;
+}
+
+void fill_row(const Scene& scene, const Accel& accel, const MotionRequest& request, int y, PixelBuffer& out) {
+  const PixelBounds& b = request.bounds;
+  for (int x0 = 0; x0 < b.width(); x0 += lanes_of<F>) {
+    const U x = lane_index<F>() + U(std::uint32_t(x0));
+    const Mask<F> on = x < U(std::uint32_t(b.width()));
+    const Vec2<F> raster{to_float(x) + (float(b.x0) + 0.5f), F(float(b.y0 + y) + 0.5f)};
+    const Projection<F> then = earlier_places(scene, accel, request, raster, on);
+    for_each_lane(Mask<F>(on & then.seen), [&](int k) {
+      const Vec2f here = lane(raster, k), there = lane(then.raster, k);
+      out.at(x0 + k, y, 0) = there.x - here.x;
+      out.at(x0 + k, y, 1) = here.y - there.y;
+    });
+  }
+}
+
+}  // namespace
+
+PixelBuffer motion_vectors(const Scene& scene, const Accel& accel, const MotionRequest& request) {
+  PixelBuffer out = make_pixel_buffer(request.bounds.width(), request.bounds.height(), {"X", "Y"});
+  std::atomic<int> next{0};
+  const int threads = request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  std::vector<std::jthread> pool;
+  for (int i = 0; i < threads; ++i)
+    pool.emplace_back([&] {
+      for (int y; (y = next.fetch_add(1)) < out.height;) fill_row(scene, accel, request, y, out);
+    });
+  pool.clear();
+  return out;
+}
+
+}  // namespace montelux
