@@ -58,6 +58,11 @@ class LightSet {
   // Whether there are lights that no ray meets.
   bool has_delta() const { return has_delta_; }
 
+  // Lights that have no place: they shine from beyond the scene, or everywhere.
+  bool has_beyond() const { return !unbounded_.empty(); }
+  template <class F>
+  Mask<F> is_beyond(Uint<F> light, Mask<F> on) const;
+
   // Which light to sample at p, and the probability of that choice (equal to the last bit).
   template <class F>
   LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;

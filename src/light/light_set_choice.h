@@ -5,6 +5,12 @@
 namespace montelux {
 
 template <class F>
+Mask<F> LightSet::is_beyond(Uint<F> light, Mask<F> on) const {
+  const Uint<F> kinds = gather(tables_.kinds.data(), select(on, light, Uint<F>(0u)));
+  return on & (kinds >= Uint<F>(std::uint32_t(LightKind::distant)));
+}
+
+template <class F>
 LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   if (count() == 0) return {Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
   if (settings_.selection == LightSelection::uniform) {
@@ -42,7 +48,7 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   light = select(on, light, Uint<F>(0u));
   if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
   if (by_power_) return by_power_->mass<F>(light);
-  Mask<F> unbounded = gather(tables_.kinds.data(), light) >= Uint<F>(std::uint32_t(LightKind::distant));
+  Mask<F> unbounded = is_beyond<F>(light, on);
   F share = F(1.0f) - F(unbounded_mass_ * float(unbounded_.size()));
   Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));
   return {select(unbounded, F(unbounded_mass_), bounded.value * share)};

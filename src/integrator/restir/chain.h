@@ -256,7 +256,9 @@ class ReuseChain final : public Chain {
     if (!any(lit)) return;
     const Connection<F> way = connect(shared_.lights.by_hierarchy, vertex, reservoir.value, lit);
     const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
-    const M open = is_open<F>(shared_.rays, vertex, way, lit & (way.target > F(0.0f)), counts);
+    // Where targets know what is in the way, the pixel sees whatever it holds.
+    const M asks = lit & (way.target > F(0.0f));
+    const M open = settings().visibility_reuse ? asks : is_open<F>(shared_.rays, vertex, way, asks, counts);
     for_each_lane(open, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
   }
 

@@ -35,7 +35,8 @@ MONTELUX_INLINE Candidate<F> select(Mask<F> m, const Candidate<F>& a, const Cand
 // resampling weight is target / sum of these products, whoever drew it. The BSDF draws only what is open to the vertex,
 // so a point on a light must have the whole of its share where something is in the way, or other pixels that see it
 // would find too little light there. The point that the lights' own techniques choose among themselves is therefore
-// asked for its visibility before it meets the BSDF's.
+// asked for its visibility before it meets the BSDF's. Lights with a place and those beyond the scene have a stream
+// each, and ask each for themselves: where a sun is hidden, a pixel would else find nothing but the sun.
 template <class F, class Rays>
 class FirstCandidates {
  public:
@@ -44,10 +45,8 @@ class FirstCandidates {
       : lights_(lights), rays_(rays), settings_(settings), vertex_(vertex), counts_(counts) {}
 
   void draw_lights(RandomStream<F>& stream, Mask<F> on) {
-    WeightedReservoir<Candidate<F>, F> chosen;
-    chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f);
-    Connection<F> way{};
-    F by_light = 0.0f;
+    const bool has_beyond = lights_.by_hierarchy.has_beyond();
+    Winner placed, beyond;
     const int all = settings_.candidates + settings_.power_candidates;
     for (int i = 0; i < all; ++i) {
       const bool is_power = i >= settings_.candidates;
@@ -65,21 +64,17 @@ class FirstCandidates {
       const Mask<F> good = asks & draw.valid;
       const Connection<F> to = connect(lights_.by_hierarchy, vertex_, draw.point, good);
       const F product = draw.density.value * products_of_choice(choice, is_power, good);
-      const Mask<F> taken = chosen.add({draw.point, to.target}, weight(to, product, good), u_take);
-      way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
-      way.by_bsdf = select(taken, to.by_bsdf, way.by_bsdf);
-      by_light = select(taken, product, by_light);
+      const F w = weight(to, product, good);
+      if (!has_beyond) {
+        placed.add(draw.point, to, product, w, u_take);
+        continue;
+      }
+      const Mask<F> far = good & lights_.by_hierarchy.is_beyond(choice.light, good);
+      placed.add(draw.point, to, product, select(far, F(0.0f), w), u_take);
+      beyond.add(draw.point, to, product, select(far, w, F(0.0f)), u_take);
     }
-    // The share that the BSDF leaves.
-    const Mask<F> found = on & (chosen.weight_sum > F(0.0f));
-    F share = 1.0f;
-    if (settings_.bsdf_candidate || settings_.visibility_reuse) {
-      const Mask<F> open = is_open<F>(rays_, vertex_, way, found, counts_);
-      if (settings_.bsdf_candidate) share = select(open, balance_weight(by_light, way.by_bsdf), share);
-      if (settings_.visibility_reuse) share = select(open, share, F(0.0f));
-    }
-    all_.add(chosen.value, select(found, chosen.weight_sum * share, F(0.0f)), stream.next());
-    all_.value = chosen.value;
+    end_stream(placed, stream, on);
+    if (has_beyond) end_stream(beyond, stream, on);
   }
 
   // The surface of light number `light` that the direction d of the BSDF met in `on`.
@@ -124,6 +119,31 @@ class FirstCandidates {
   Mask<F> broken() const { return broken_; }
 
  private:
+  // What a stream of points on lights has chosen.
+  struct Winner {
+    WeightedReservoir<Candidate<F>, F> chosen;
+    Connection<F> way{};
+    F by_light = 0.0f;  // the products of its techniques
+
+    Winner() { chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f); }
+    void add(const LightPoint<F>& point, const Connection<F>& to, F product, F w, F u) {
+      const Mask<F> taken = chosen.add({point, to.target}, w, u);
+      way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
+      way.by_bsdf = select(taken, to.by_bsdf, way.by_bsdf);
+      by_light = select(taken, product, by_light);
+    }
+  };
+  // Joins a stream's winner to the rest, with the share that the BSDF leaves.
+  void end_stream(const Winner& winner, RandomStream<F>& stream, Mask<F> on) {
+    const Mask<F> found = on & (winner.chosen.weight_sum > F(0.0f));
+    F share = 1.0f;
+    if (settings_.bsdf_candidate || settings_.visibility_reuse) {
+      const Mask<F> open = is_open<F>(rays_, vertex_, winner.way, found, counts_);
+      if (settings_.bsdf_candidate) share = select(open, balance_weight(winner.by_light, winner.way.by_bsdf), share);
+      if (settings_.visibility_reuse) share = select(open, share, F(0.0f));
+    }
+    all_.add(winner.chosen.value, select(found, winner.chosen.weight_sum * share, F(0.0f)), stream.next());
+  }
   void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
     if (!any(on)) return;
     const Connection<F> to = connect(lights_.by_hierarchy, vertex_, point, on);
@@ -154,7 +174,7 @@ class FirstCandidates {
   const RestirSettings& settings_;
   const ReuseVertex<F>& vertex_;
   RayCounts& counts_;
-  WeightedReservoir<Candidate<F>, F> all_;
+  WeightedReservoir<Candidate<F>, F> all_ = Winner().chosen;
   Mask<F> broken_ = Mask<F>(false);
 };
 
