@@ -55,13 +55,13 @@ struct Shifted {
 };
 
 // What a combination asks of the domains, of which number 0 is the one that the result is for:
-//   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`
+//   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`; may say more
 //   F target_at(int to, const T& value, Mask<F> on)             of domain `to` at the preimage there of a value of
 //                                                               domain 0, times the Jacobian preimage over image
 // where each map is one to one on the samples for which its targets are not 0.
 template <class D, class T, class F>
 concept ReuseDomains = requires(const D& domains, const T& value, Mask<F> on) {
-  { domains.shift(1, value, on) } -> std::same_as<Shifted<T, F>>;
+  { domains.shift(1, value, on) } -> std::convertible_to<Shifted<T, F>>;
   { domains.target_at(1, value, on) } -> std::same_as<F>;
 };
 
@@ -158,11 +158,26 @@ class ReuseShares {
   F others_, all_;
 };
 
+// Whether the shares sum to one for each sample by itself, and not only once a sample is chosen.
+constexpr bool shares_sum_to_one(ReuseWeights weights) {
+  return weights == ReuseWeights::pairwise || weights == ReuseWeights::generalised;
+}
+
+// For combine(): what else is to be done with every input, and nothing is.
+struct NothingElse {};
+
 // One reservoir for the first domain out of those of all. T as for WeightedReservoir. Lanes that are off come back as
 // the first reservoir.
-template <class T, class F, class Domains>
+//
+// Where shares_sum_to_one, the sum of h(y_i) w_i over all inputs estimates the integral of h over the first domain,
+// with less variance than the one sample that is chosen: its mean over the choice (Rao and Blackwell). For such sums
+// each.own(w, on) gets the weight of the first domain's own sample, and each.other(image, w, on) those of the others,
+// with what domains.shift() gave.
+template <class T, class F, class Domains, class Each = NothingElse>
 Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains,
-                        RandomStream<F>& stream, Mask<F> on) requires ReuseDomains<Domains, T, F> {
+                        RandomStream<F>& stream, Mask<F> on,
+                        [[maybe_unused]] Each&& each = {}) requires ReuseDomains<Domains, T, F> {
+  constexpr bool tells = !std::is_same_v<std::remove_cvref_t<Each>, NothingElse>;
   const ReuseShares<T, F, Domains> shares(weights, inputs, domains);
   const Reservoir<T, F>& first = inputs[0];
   WeightedReservoir<T, F> chosen;
@@ -170,20 +185,22 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
   F target = first.target;
   Uint<F> from = Uint<F>(0u);
   const Mask<F> own = on & (first.weight > F(0.0f)) & (first.confidence > F(0.0f));
-  chosen.add(first.value,
-             select(own, usable_weight<F>(shares.share_of_first(own) * first.target * first.weight), F(0.0f)),
-             stream.next());
+  const F own_share = shares.share_of_first(own);
+  const F own_weight = select(own, usable_weight<F>(own_share * first.target * first.weight), F(0.0f));
+  chosen.add(first.value, own_weight, stream.next());
+  if constexpr (tells) each.own(F(own_share * first.weight), Mask<F>(own_weight > F(0.0f)));
   for (std::size_t i = 1; i < inputs.size(); ++i) {
     const F u = stream.next();
     const Reservoir<T, F>& input = inputs[i];
     const Mask<F> live = on & (input.weight > F(0.0f)) & (input.confidence > F(0.0f));
     if (!any(live)) continue;
-    const Shifted<T, F> image = domains.shift(int(i), input.value, live);
+    const auto image = domains.shift(int(i), input.value, live);
     const Mask<F> counts = live & (image.target > F(0.0f)) & (image.jacobian > F(0.0f));
     const F own_target = input.target / image.jacobian;
-    const F w =
-        shares.share(i, image.value, own_target, image.target, counts) * image.target * input.weight * image.jacobian;
-    const Mask<F> taken = chosen.add(image.value, select(counts, usable_weight<F>(w), F(0.0f)), u);
+    const F per_target = shares.share(i, image.value, own_target, image.target, counts) * input.weight * image.jacobian;
+    const F w = select(counts, usable_weight<F>(per_target * image.target), F(0.0f));
+    const Mask<F> taken = chosen.add(image.value, w, u);
+    if constexpr (tells) each.other(image, per_target, Mask<F>(w > F(0.0f)));
     target = select(taken, image.target, target);
     from = select(taken, Uint<F>(std::uint32_t(i)), from);
   }

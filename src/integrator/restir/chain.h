@@ -191,24 +191,58 @@ class ReuseChain final : public Chain {
         if (const auto known = past(frame, lane(at.pixel, k))) put_pixel(inputs, 1, k, *known);
       });
       inputs.cap(1, F(settings().m_cap));
-      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, step, counts);
+      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, false, counts);
+      leave(inputs, at, step);
     }
     return counts;
   }
 
-  // Combines, into the first input, and leaves the result after `step`.
-  void combine_all(Inputs& inputs, RandomStream<F> numbers, const LanePixels<F>& at, int step, RayCounts& counts) {
+  // The light of all that a vertex and its neighbours hold.
+  struct LightOfAll {
+    const Spectrum<F>& own_light;
+    Spectrum<F> sum = gray(F(0.0f));
+    void own(const F& weight, M on) { sum += select(on, own_light * weight, gray(F(0.0f))); }
+    void other(const ShiftedLight<F>& image, const F& weight, M on) {
+      sum += select(on, image.light * weight, gray(F(0.0f)));
+    }
+  };
+  // Where targets know what is in the way, all reservoirs of the last round can be shown, and not the chosen one alone.
+  bool shows_all() const {
+    return settings().visibility_reuse && settings().rounds > 0 && shares_sum_to_one(settings().weights);
+  }
+
+  // Combines, into the first input. Where `sums`, gives the light of all light points.
+  Spectrum<F> combine_all(Inputs& inputs, const RandomStream<F>& numbers, const LanePixels<F>& at, bool sums,
+                          RayCounts& counts) const {
+    Spectrum<F> light = gray(F(0.0f));
     if (settings().direct) {
       const LightPointDomains<F, Rays> points{shared_.lights.by_hierarchy, shared_.rays, inputs.vertices,
                                               settings().visibility_reuse, counts};
-      inputs.lights[0] = combine<LightPoint<F>, F>(settings().weights, inputs.lights, points, numbers, at.on);
+      RandomStream<F> own = numbers;
+      const auto merged = [&](auto&& each) {
+        return combine<LightPoint<F>, F>(settings().weights, inputs.lights, points, own, at.on, each);
+      };
+      if (sums) {
+        const Spectrum<F> first =
+            connect(shared_.lights.by_hierarchy, inputs.vertices[0], inputs.lights[0].value, at.on).value;
+        LightOfAll all{first};
+        inputs.lights[0] = merged(all);
+        light = all.sum;
+      } else {
+        inputs.lights[0] = merged(NothingElse{});
+      }
     }
-    for_each_lane(at.on, [&](int k) { get(inputs.lights[0], k, lights_.after(step)[lane(at.pixel, k)]); });
-    if (!reuses_paths()) return;
+    if (!reuses_paths()) return light;
     RandomStream<F> own = numbers.fork(U(restir_stream::path));
     const PathScene<Rays> scene = shared_.paths();
     const PathDomains<F, Rays> domains{scene, inputs.vertices, counts};
     inputs.paths[0] = combine<PathSample<F>, F>(settings().weights, inputs.paths, domains, own, at.on);
+    return light;
+  }
+  // Leaves what the first input holds after `step`.
+  void leave(const Inputs& inputs, const LanePixels<F>& at, int step) {
+    for_each_lane(at.on, [&](int k) { get(inputs.lights[0], k, lights_.after(step)[lane(at.pixel, k)]); });
+    if (!reuses_paths()) return;
     for_each_lane(at.on, [&](int k) { get(inputs.paths[0], k, paths_.after(step)[lane(at.pixel, k)]); });
   }
 
@@ -219,6 +253,7 @@ class ReuseChain final : public Chain {
       std::copy_n(frame_.begin() + std::ptrdiff_t(pixel), n, out.begin() + std::ptrdiff_t(first));
     });
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
+    const bool sums = shows && shows_all();
     const std::size_t others = reuses ? std::size_t(settings().neighbours) : 0;
     const int writes = step_number(step.frame, reuses ? step.stage : 1);
     Inputs inputs(1 + others, reuses_paths());
@@ -229,10 +264,12 @@ class ReuseChain final : public Chain {
       if (reuses) {
         RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
         meet_neighbours(step.frame, writes, at, numbers, inputs);
-        combine_all(inputs, numbers, at, writes, counts);
+        const Spectrum<F> light = combine_all(inputs, numbers, at, sums, counts);
+        if (sums) add_light(inputs.vertices[0].throughput * light, at, at.on, out);
+        leave(inputs, at, writes);
       }
       if (!shows) continue;
-      show(inputs.vertices[0], inputs.lights[0], at, out, counts);
+      if (!sums) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
       if (reuses_paths()) show(inputs.vertices[0], inputs.paths[0], at, out);
     }
     return counts;
@@ -259,7 +296,10 @@ class ReuseChain final : public Chain {
     // Where targets know what is in the way, the pixel sees whatever it holds.
     const M asks = lit & (way.target > F(0.0f));
     const M open = settings().visibility_reuse ? asks : is_open<F>(shared_.rays, vertex, way, asks, counts);
-    for_each_lane(open, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
+    add_light(light, at, open, out);
+  }
+  void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {
+    for_each_lane(on, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
   }
 
   // Targets of paths know what is in the way.

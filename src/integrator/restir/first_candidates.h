@@ -69,7 +69,7 @@ class FirstCandidates {
         placed.add(draw.point, to, product, w, u_take);
         continue;
       }
-      const Mask<F> far = good & lights_.by_hierarchy.is_beyond(choice.light, good);
+      const Mask<F> far = good & lights_.by_hierarchy.template is_beyond<F>(choice.light, good);
       placed.add(draw.point, to, product, select(far, F(0.0f), w), u_take);
       beyond.add(draw.point, to, product, select(far, w, F(0.0f)), u_take);
     }

@@ -6,6 +6,12 @@
 
 namespace montelux {
 
+// The image of a light point, with the light that the first vertex sends on.
+template <class F>
+struct ShiftedLight : Shifted<LightPoint<F>, F> {
+  Spectrum<F> light;
+};
+
 // The domains of a combination of LightReservoirs: the integral over all lights at each of `vertices`.
 template <class F, class Rays>
 struct LightPointDomains {
@@ -15,15 +21,20 @@ struct LightPointDomains {
   bool sees;  // targets know what is in the way
   RayCounts& counts;
 
-  Shifted<LightPoint<F>, F> shift(int, const LightPoint<F>& value, Mask<F> on) const {
-    return {value, F(1.0f), target_at(0, value, on)};
+  ShiftedLight<F> shift(int, const LightPoint<F>& value, Mask<F> on) const {
+    const Connection<F> way = seen_from(0, value, on);
+    return {{value, F(1.0f), way.target}, way.value};
   }
-  F target_at(int to, const LightPoint<F>& value, Mask<F> on) const {
+  F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
+
+ private:
+  Connection<F> seen_from(int to, const LightPoint<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& vertex = vertices[std::size_t(to)];
-    const Connection<F> way = connect(lights, vertex, value, on);
-    if (!sees) return way.target;
+    Connection<F> way = connect(lights, vertex, value, on);
+    if (!sees) return way;
     const Mask<F> open = is_open<F>(rays, vertex, way, on & (way.target > F(0.0f)), counts);
-    return select(open, way.target, F(0.0f));
+    way.target = select(open, way.target, F(0.0f));
+    return way;
   }
 };
 
