@@ -5,7 +5,7 @@ usage: make_reuse_scenes.py FOLDER
 
 building.pbrt four storeys with columns, screens and coffered ceilings, and 1280 lanterns of 8 triangles in the
               coffers: a place sees few of the 10,240 triangles, whose strengths go over two and a half decades
-terrace.pbrt  320 lamps (spheres and panels) between columns under a pergola, and a sky with a small sun
+terrace.pbrt  320 lamps (spheres and panels) in shades, between columns under a pergola, and a sky with a small sun
 sky.pfm       that sky, in equal-area octahedral coordinates
 """
 import array
@@ -147,12 +147,12 @@ def sky_pixel(x, y, size):
     clouds = 1 + 0.6 * math.sin(7 * d[0] + 3 * d[1]) * math.sin(5 * d[1] - 4 * d[2])
     base = [(0.10 + 0.25 * (1 - z)) * clouds, (0.16 + 0.12 * (1 - z)) * clouds, 0.35 * clouds]
     light = [b + g * glow for b, g in zip(base, (1.6, 1.0, 0.5))]
-    if cos > math.cos(math.radians(1.2)):
-        light = [4200.0, 3400.0, 2300.0]
+    if cos > math.cos(math.radians(0.3)):
+        light = [68000.0, 55000.0, 37000.0]
     return tuple(light)
 
 
-def write_sky(path, size=512):
+def write_sky(path, size=1024):
     rows = []
     for y in range(size):
         row = array.array("f")
@@ -167,7 +167,7 @@ def write_sky(path, size=512):
 
 
 def terrace(rng):
-    floor, walls, beams, metal = Mesh(), Mesh(), Mesh(), Mesh()
+    floor, walls, beams, metal, shades = Mesh(), Mesh(), Mesh(), Mesh(), Mesh()
     lamps = []
     floor.polygon([(-30, 0, -30), (-30, 0, 30), (30, 0, 30), (30, 0, -30)])
     for i in range(9):
@@ -185,15 +185,21 @@ def terrace(rng):
     for _ in range(60):
         x, z, r = rng.uniform(-11, 11), rng.uniform(-4, 10), rng.uniform(0.15, 0.45)
         metal.octahedron((x, r, z), r)
+    # Lamps hang in shades that are open below: a place sees those that it is nearly under.
     for i in range(320):
-        x, z = rng.uniform(-11, 11), rng.uniform(-4, 10.5)
-        light = radiance(rng, 2, 40)
+        x, y, z = rng.uniform(-11, 11), rng.uniform(2.5, 2.9), rng.uniform(-4, 10.5)
+        light = radiance(rng, 2, 60)
+        w, low, high = 0.1, y - 0.08, y + 0.1
+        shades.polygon([(x - w, high, z - w), (x + w, high, z - w), (x + w, high, z + w), (x - w, high, z + w)])
+        for sx, sz in (1, 0), (-1, 0), (0, 1), (0, -1):
+            a = (x + sx * w - sz * w, z + sz * w + sx * w)
+            b = (x + sx * w + sz * w, z + sz * w - sx * w)
+            shades.polygon([(a[0], low, a[1]), (b[0], low, b[1]), (b[0], high, b[1]), (a[0], high, a[1])])
         if i % 2:
             r = rng.uniform(0.02, 0.05)
-            lamps.append(lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, rng.uniform(2.6, 3.0), z, r)))
+            lamps.append(lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, y, z, r)))
         else:
-            # A panel on the floor side of a beam: the camera sees its back.
-            s, y = rng.uniform(0.03, 0.08), 3.04
+            s = rng.uniform(0.02, 0.06)
             panel = Mesh()
             panel.polygon([(x - s, y, z - s), (x + s, y, z - s), (x + s, y, z + s), (x - s, y, z + s)])
             lamps.append(lamp(light, panel.text()))
@@ -202,6 +208,7 @@ def terrace(rng):
             + material('"coateddiffuse" "rgb reflectance" [ 0.4 0.38 0.35 ] "float roughness" [ 0.25 ]', floor)
             + material('"diffuse" "rgb reflectance" [ 0.6 0.56 0.5 ]', walls)
             + material('"diffuse" "rgb reflectance" [ 0.35 0.22 0.14 ]', beams)
+            + material('"diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]', shades)
             + material('"conductor" "float roughness" [ 0.25 ]', metal)
             + "".join(lamps))
 

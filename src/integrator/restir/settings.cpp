@@ -12,11 +12,11 @@ constexpr int most = 4096;
 
 std::vector<ParameterSpec> common_parameters() {
   using enum ParameterType;
-  return {{"candidates", {integer}, "first candidates by the light hierarchy; default 8", 0, most},
+  return {{"candidates", {integer}, "first candidates by the light hierarchy; default 4", 0, most},
           {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
           {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
           {"neighbours", {integer}, "pixels that a pixel learns from in each round; default 5", 0, 16},
-          {"radius", {number}, "how far they are at most, in pixels; default 30", 0.5, most},
+          {"radius", {number}, "how far they are at most, in pixels; default 8", 0.5, most},
           {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
           {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
           {"temporal", {boolean}, "learn from the frame before; default on"},
@@ -28,7 +28,7 @@ std::vector<ParameterSpec> common_parameters() {
            0,
            0,
            {"naive", "unbiased", "pairwise", "generalised"}},
-          {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default off"},
+          {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
           {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
           {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
           {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},

@@ -20,11 +20,11 @@ struct PathReuse {
 
 struct RestirSettings {
   // Initial candidates of each pixel: lights chosen by the hierarchy, by power, and the direction of the BSDF.
-  int candidates = 8, power_candidates = 0;
+  int candidates = 4, power_candidates = 0;
   bool bsdf_candidate = true;
   // Spatial reuse: in each of `rounds` rounds so many pixels at most `radius` pixels away.
   int neighbours = 5, rounds = 1;
-  float radius = 30;
+  float radius = 8;
   // Neighbours whose surface looks another way, or lies at another depth, are passed over.
   bool similar = true;
   // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one.
@@ -34,7 +34,7 @@ struct RestirSettings {
   bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
   // Targets of direct light know what is in the way: more shadow rays, better samples.
-  bool visibility_reuse = false;
+  bool visibility_reuse = true;
   int chain = 16, warm_up = 0;  // frames of a chain; those before them that only teach
   // Direct light at the first rough surface is shared; no: it is each pixel's own.
   bool direct = true;
