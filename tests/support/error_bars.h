@@ -31,13 +31,13 @@ struct Coverage {
   }
 };
 
-// `shrink` plants a fault: standard errors are multiplied by it.
-inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, PointSetKind sampler, PassPlan plan,
-                                 int seeds, double shrink = 1) {
+// Of the films that `film_of` gives for each seed. `shrink` plants a fault: standard errors are multiplied by it.
+template <class FilmOf>
+Coverage measure_coverage_of(FilmOf film_of, const Truth& truth, PassPlan plan, int seeds, double shrink = 1) {
   Coverage c;
   const double t = student_t_quantile(0.975, plan.passes - 1);
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Film film = scene.render(sampler, plan, std::uint32_t(seed), Lanes::native, 0).film;
+    const Film film = film_of(std::uint32_t(seed));
     const PixelBounds& b = film.bounds();
     double held = 0, pixels = 0, squares = 0, estimated = 0;
     std::size_t i = 0;
@@ -60,6 +60,25 @@ inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, Poi
     c.seeds += 1;
   }
   return c;
+}
+
+// By path tracing.
+inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, PointSetKind sampler, PassPlan plan,
+                                 int seeds, double shrink = 1) {
+  return measure_coverage_of(
+      [&](std::uint32_t seed) { return scene.render(sampler, plan, seed, Lanes::native, 0).film; }, truth, plan, seeds,
+      shrink);
+}
+// By the integrator of this name and settings.
+inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, std::string_view integrator, PassPlan plan,
+                                 int seeds, double shrink = 1) {
+  const ChosenIntegrator chosen = scene.integrator(integrator);
+  return measure_coverage_of(
+      [&](std::uint32_t seed) {
+        RenderObserver silent;
+        return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, seed, 0), silent).film;
+      },
+      truth, plan, seeds, shrink);
 }
 
 // Two-sided exact test (Clopper and Pearson 1934): is the probability of a success in [low, high]?

@@ -12,12 +12,12 @@ constexpr int size = 32;
 constexpr double level = 0.01, wanted_error = 0.002;
 const char* const unbiased[] = {
     "restir-di:radius=6",
-    "restir-di:weights=unbiased,radius=6,rounds=2",
-    "restir-di:weights=generalised,radius=6,power-candidates=2",
-    "restir-di:visibility-reuse=on,radius=6",
-    "restir-di:weights=unbiased,visibility-reuse=on,radius=6,similar=off",
-    "restir-di:weights=generalised,visibility-reuse=on,radius=6,similar=off,candidates=2",
-    "restir-di:bsdf=off,similar=off,radius=6,m-cap=5",
+    "restir-di:visibility-reuse=off,candidates=8,radius=6",
+    "restir-di:weights=unbiased,visibility-reuse=off,candidates=8,radius=6,rounds=2",
+    "restir-di:weights=generalised,visibility-reuse=off,candidates=8,radius=6,power-candidates=2",
+    "restir-di:weights=unbiased,candidates=8,radius=6,similar=off",
+    "restir-di:weights=generalised,radius=6,similar=off,candidates=2",
+    "restir-di:bsdf=off,visibility-reuse=off,candidates=8,similar=off,radius=6,m-cap=5",
 };
 
 const std::vector<ReuseScene>& scenes() {
