@@ -29,12 +29,12 @@ class ReuseChain final : public Chain {
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage > 0) return share(step, tile, out);
     RayCounts counts = find(step.frame, tile);
-    if (settings().temporal && (step.frame > 0 || before_)) counts += recall(step.frame, tile);
+    if (step.frame == 0 ? before_ != nullptr : settings().temporal) counts += recall(step.frame, tile);
     return counts;
   }
 
   std::unique_ptr<ChainMemory> remember(int frames) override {
-    if (!settings().temporal || !settings().carry) return nullptr;
+    if (!settings().carry) return nullptr;
     auto memory = std::make_unique<ReuseMemory>();
     memory->bounds = pass_.bounds, memory->shutter = shutter();
     memory->vertices = std::move(vertices(frames - 1));
@@ -191,7 +191,7 @@ class ReuseChain final : public Chain {
         if (const auto known = past(frame, lane(at.pixel, k))) put_pixel(inputs, 1, k, *known);
       });
       inputs.cap(1, F(settings().m_cap));
-      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, false, counts);
+      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, {}, counts);
       leave(inputs, at, step);
     }
     return counts;
@@ -199,45 +199,55 @@ class ReuseChain final : public Chain {
 
   // The light of all that a vertex and its neighbours hold.
   struct LightOfAll {
-    const Spectrum<F>& own_light;
+    Spectrum<F> own_light;
     Spectrum<F> sum = gray(F(0.0f));
     void own(const F& weight, M on) { sum += select(on, own_light * weight, gray(F(0.0f))); }
-    void other(const ShiftedLight<F>& image, const F& weight, M on) {
-      sum += select(on, image.light * weight, gray(F(0.0f)));
-    }
+    void other(const ShiftedLight<F>& image, const F& weight, M on) { add(image.light, weight, on); }
+    void other(const Shifted<PathSample<F>, F>& image, const F& weight, M on) { add(image.value.brings, weight, on); }
+
+   private:
+    void add(const Spectrum<F>& light, const F& weight, M on) { sum += select(on, light * weight, gray(F(0.0f))); }
   };
   // Where targets know what is in the way, all reservoirs of the last round can be shown, and not the chosen one alone.
-  bool shows_all() const {
-    return settings().visibility_reuse && settings().rounds > 0 && shares_sum_to_one(settings().weights);
+  struct Shown {
+    bool lights = false, paths = false;
+  };
+  Shown shows_all() const {
+    const bool all = settings().rounds > 0 && shares_sum_to_one(settings().weights);
+    return {all && settings().direct && settings().visibility_reuse, all && reuses_paths()};
   }
 
-  // Combines, into the first input. Where `sums`, gives the light of all light points.
-  Spectrum<F> combine_all(Inputs& inputs, const RandomStream<F>& numbers, const LanePixels<F>& at, bool sums,
+  // Combines, into the first input. Gives the light of all samples of those kinds that `sums` names.
+  Spectrum<F> combine_all(Inputs& inputs, const RandomStream<F>& numbers, const LanePixels<F>& at, const Shown& sums,
                           RayCounts& counts) const {
     Spectrum<F> light = gray(F(0.0f));
+    const LightSet& lights = shared_.lights.by_hierarchy;
     if (settings().direct) {
-      const LightPointDomains<F, Rays> points{shared_.lights.by_hierarchy, shared_.rays, inputs.vertices,
-                                              settings().visibility_reuse, counts};
-      RandomStream<F> own = numbers;
-      const auto merged = [&](auto&& each) {
-        return combine<LightPoint<F>, F>(settings().weights, inputs.lights, points, own, at.on, each);
-      };
-      if (sums) {
-        const Spectrum<F> first =
-            connect(shared_.lights.by_hierarchy, inputs.vertices[0], inputs.lights[0].value, at.on).value;
-        LightOfAll all{first};
-        inputs.lights[0] = merged(all);
-        light = all.sum;
-      } else {
-        inputs.lights[0] = merged(NothingElse{});
-      }
+      const LightPointDomains<F, Rays> domains{lights, shared_.rays, inputs.vertices, settings().visibility_reuse,
+                                               counts};
+      const auto own = [&] { return connect(lights, inputs.vertices[0], inputs.lights[0].value, at.on).value; };
+      light += merge(inputs.lights, domains, numbers, at.on, sums.lights, own);
     }
-    if (!reuses_paths()) return light;
-    RandomStream<F> own = numbers.fork(U(restir_stream::path));
-    const PathScene<Rays> scene = shared_.paths();
-    const PathDomains<F, Rays> domains{scene, inputs.vertices, counts};
-    inputs.paths[0] = combine<PathSample<F>, F>(settings().weights, inputs.paths, domains, own, at.on);
+    if (reuses_paths()) {
+      const PathScene<Rays> scene = shared_.paths();
+      const PathDomains<F, Rays> domains{scene, inputs.vertices, counts};
+      const auto own = [&] { return inputs.paths[0].value.brings; };
+      light += merge(inputs.paths, domains, numbers.fork(U(restir_stream::path)), at.on, sums.paths, own);
+    }
     return light;
+  }
+  // own_light() is that of the first input's sample, before the others come.
+  template <class T, class Domains, class OwnLight>
+  Spectrum<F> merge(std::vector<Reservoir<T, F>>& inputs, const Domains& domains, RandomStream<F> numbers, M on,
+                    bool sums, OwnLight own_light) const {
+    const std::span<const Reservoir<T, F>> all_inputs(inputs);
+    if (!sums) {
+      inputs[0] = combine<T, F>(settings().weights, all_inputs, domains, numbers, on);
+      return gray(F(0.0f));
+    }
+    LightOfAll all{own_light()};
+    inputs[0] = combine<T, F>(settings().weights, all_inputs, domains, numbers, on, all);
+    return all.sum;
   }
   // Leaves what the first input holds after `step`.
   void leave(const Inputs& inputs, const LanePixels<F>& at, int step) {
@@ -253,7 +263,7 @@ class ReuseChain final : public Chain {
       std::copy_n(frame_.begin() + std::ptrdiff_t(pixel), n, out.begin() + std::ptrdiff_t(first));
     });
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
-    const bool sums = shows && shows_all();
+    const Shown sums = shows ? shows_all() : Shown{};
     const std::size_t others = reuses ? std::size_t(settings().neighbours) : 0;
     const int writes = step_number(step.frame, reuses ? step.stage : 1);
     Inputs inputs(1 + others, reuses_paths());
@@ -265,12 +275,12 @@ class ReuseChain final : public Chain {
         RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
         meet_neighbours(step.frame, writes, at, numbers, inputs);
         const Spectrum<F> light = combine_all(inputs, numbers, at, sums, counts);
-        if (sums) add_light(inputs.vertices[0].throughput * light, at, at.on, out);
+        if (shows) add_light(inputs.vertices[0].throughput * light, at, at.on, out);
         leave(inputs, at, writes);
       }
       if (!shows) continue;
-      if (!sums) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
-      if (reuses_paths()) show(inputs.vertices[0], inputs.paths[0], at, out);
+      if (!sums.lights) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
+      if (reuses_paths() && !sums.paths) show(inputs.vertices[0], inputs.paths[0], at, out);
     }
     return counts;
   }
@@ -306,8 +316,7 @@ class ReuseChain final : public Chain {
   void show(const ReuseVertex<F>& vertex, const PathReservoir<F>& reservoir, const LanePixels<F>& at,
             std::span<PixelSample> out) const {
     const Spectrum<F> light = vertex.throughput * reservoir.value.brings * reservoir.weight;
-    for_each_lane(M(at.on & (reservoir.weight > F(0.0f))),
-                  [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
+    add_light(light, at, at.on & (reservoir.weight > F(0.0f)), out);
   }
 
   const RestirScene<Rays> shared_;
