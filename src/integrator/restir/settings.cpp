@@ -10,34 +10,61 @@ namespace {
 
 constexpr int most = 4096;
 
-std::vector<ParameterSpec> common_parameters() {
+// What has proven best: for direct light, much time behind each sample; for paths, many neighbours and no frames
+// before, whose samples the mean over a chain would count again.
+RestirSettings defaults_of(std::string_view name) {
+  RestirSettings s;
+  if (name == "restir-di") return s;
+  s.neighbours = 4, s.rounds = 2, s.radius = 6;
+  s.similar = s.temporal = false;
+  s.indirect.on = true;
+  if (name == "restir-pt") s.indirect.most_replayed = 4;
+  return s;
+}
+
+std::vector<ParameterSpec> common_parameters(bool paths) {
   using enum ParameterType;
-  return {{"candidates", {integer}, "first candidates by the light hierarchy; default 4", 0, most},
-          {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
-          {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
-          {"neighbours", {integer}, "pixels that a pixel learns from in each round; default 5", 0, 16},
-          {"radius", {number}, "how far they are at most, in pixels; default 8", 0.5, most},
-          {"rounds", {integer}, "rounds of spatial reuse; default 1", 0, 8},
-          {"similar", {boolean}, "pass over neighbours with another normal or depth; default on"},
-          {"temporal", {boolean}, "learn from the frame before; default on"},
-          {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
-          {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
-          {"weights",
-           {string},
-           "how reservoirs share; naive is biased; default pairwise",
-           0,
-           0,
-           {"naive", "unbiased", "pairwise", "generalised"}},
-          {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
-          {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
-          {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
-          {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
-          {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
+  return {
+      {"candidates", {integer}, "first candidates by the light hierarchy; default 4", 0, most},
+      {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
+      {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
+      {"neighbours",
+       {integer},
+       paths ? "pixels that a pixel learns from in each round; default 4"
+             : "pixels that a pixel learns from in each round; default 5",
+       0,
+       16},
+      {"radius",
+       {number},
+       paths ? "how far they are at most, in pixels; default 6" : "how far they are at most, in pixels; default 8",
+       0.5,
+       most},
+      {"rounds", {integer}, paths ? "rounds of spatial reuse; default 2" : "rounds of spatial reuse; default 1", 0, 8},
+      {"similar",
+       {boolean},
+       paths ? "pass over neighbours with another normal or depth; default off"
+             : "pass over neighbours with another normal or depth; default on"},
+      {"temporal",
+       {boolean},
+       paths ? "learn from the frame before; default off" : "learn from the frame before; default on"},
+      {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
+      {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
+      {"weights",
+       {string},
+       "how reservoirs share; naive is biased; default pairwise",
+       0,
+       0,
+       {"naive", "unbiased", "pairwise", "generalised"}},
+      {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
+      {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
+      {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
+      {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
+      {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
 }
 
 std::vector<ParameterSpec> path_parameters() {
   using enum ParameterType;
-  std::vector<ParameterSpec> all = common_parameters();
+  std::vector<ParameterSpec> all = common_parameters(true);
   all.push_back({"direct", {boolean}, "direct light at the first rough surface is shared, too; default on"});
   all.push_back({"footprint",
                  {number},
@@ -53,7 +80,7 @@ std::vector<ParameterSpec> path_parameters() {
 EntitySpec restir_di_spec() {
   return {"restir-di",
           "path tracing whose direct light at the first rough surface is resampled over pixels and frames (ReSTIR DI)",
-          common_parameters()};
+          common_parameters(false)};
 }
 
 EntitySpec restir_gi_spec() {
@@ -83,7 +110,6 @@ EntitySpec restir_pt_spec() {
 namespace {
 
 Status read_path_reuse(std::string_view name, const ParameterList& list, RestirSettings& s) {
-  s.indirect.on = true;
   s.direct = list.boolean("direct", s.direct);
   s.indirect.footprint = list.number("footprint", s.indirect.footprint);
   if (name == "restir-gi") return Done{};
@@ -91,14 +117,14 @@ Status read_path_reuse(std::string_view name, const ParameterList& list, RestirS
   if (shift == "reconnection" && list.find("replayed") != nullptr)
     return Failure{"restir-pt:shift=reconnection scatters nothing again: replayed is for the other shifts"};
   s.indirect.joins = shift != "replay";
-  s.indirect.most_replayed = shift == "reconnection" ? 0 : list.integer("replayed", 4);
+  s.indirect.most_replayed = shift == "reconnection" ? 0 : list.integer("replayed", s.indirect.most_replayed);
   return Done{};
 }
 
 }  // namespace
 
 Result<RestirSettings> restir_settings(std::string_view name, const ParameterList& list, std::optional<int> max_depth) {
-  RestirSettings s;
+  RestirSettings s = defaults_of(name);
   s.candidates = list.integer("candidates", s.candidates);
   s.power_candidates = list.integer("power-candidates", s.power_candidates);
   s.bsdf_candidate = list.boolean("bsdf", s.bsdf_candidate);

@@ -61,6 +61,21 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_TRUE(scene.integrator("restir-di:weights=naive,temporal=off,rounds=0").biases.empty());
 }
 
+TEST(IntegratorCatalogue, says_what_the_reuse_of_paths_takes) {
+  const TestScene scene(room);
+  EXPECT_EQ(failure_of(scene, "restir-gi:direct=off,footprint=0.01,radius=5"), "");
+  EXPECT_EQ(failure_of(scene, "restir-pt:shift=replay,replayed=3"), "");
+  EXPECT_EQ(failure_of(scene, "restir-pt:shift=reconnection"), "");
+  EXPECT_NE(failure_of(scene, "restir-pt:shift=reconnection,replayed=3").find("scatters nothing again"),
+            std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-pt:shift=reply").find("reconnection, replay, hybrid"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-gi:shift=replay"), "");
+  EXPECT_NE(failure_of(scene, "restir-di:direct=off"), "");
+  EXPECT_NE(failure_of(scene, "restir-pt:footprint=-1"), "");
+  EXPECT_NE(failure_of(scene, "restir-pt:candidates=0").find("restir-pt needs candidates"), std::string::npos);
+  EXPECT_EQ(scene.integrator("restir-gi:weights=naive").biases, std::vector<std::string>{"weights=naive"});
+}
+
 TEST(IntegratorCatalogue, refuses_a_tree_that_never_ends) {
   const TestScene scene(room);
   EXPECT_NE(failure_of(scene, "distribution:branching=4/2").find("never ends"), std::string::npos);

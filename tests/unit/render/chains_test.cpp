@@ -38,24 +38,28 @@ void expect_same(const Film& a, const Film& b) {
 }
 
 TEST(Chains, have_the_same_bits_for_any_number_of_threads) {
-  const char* way = "restir-di:candidates=2,radius=10,rounds=2";
-  const RenderResult one = chains(way, {4, 2}, 1);
-  EXPECT_EQ(one.film.image().passes, 2);
-  EXPECT_EQ(one.film.samples(3, 3), 8);
-  for (int threads : {2, 5}) expect_same(one.film, chains(way, {4, 2}, threads).film);
+  for (const char* way :
+       {"restir-di:candidates=2,radius=10,rounds=2", "restir-pt:candidates=2,radius=10,temporal=on"}) {
+    const RenderResult one = chains(way, {4, 2}, 1);
+    EXPECT_EQ(one.film.image().passes, 2);
+    EXPECT_EQ(one.film.samples(3, 3), 8);
+    for (int threads : {2, 5}) expect_same(one.film, chains(way, {4, 2}, threads).film);
+  }
 }
 
 TEST(Chains, have_the_bits_of_single_pixels_in_lanes) {
   // But for what compilers make of the order of sums in packs of another width.
-  const Film pack = chains("restir-di:candidates=2", {3, 1}, 1).film;
-  const Film one = chains("restir-di:candidates=2,lanes=one", {3, 1}, 1).film;
-  double off = 0, all = 0;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      const double a = pack.pixel(x, y).mean[0], b = one.pixel(x, y).mean[0];
-      off += std::abs(a - b) > 1e-4 * std::abs(a) ? 1 : 0, all += 1;
-    }
-  EXPECT_LT(off / all, 0.02);
+  for (const std::string way : {"restir-di:candidates=2", "restir-pt:candidates=2"}) {
+    const Film pack = chains(way.c_str(), {3, 1}, 1).film;
+    const Film one = chains((way + ",lanes=one").c_str(), {3, 1}, 1).film;
+    double off = 0, all = 0;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const double a = pack.pixel(x, y).mean[0], b = one.pixel(x, y).mean[0];
+        off += std::abs(a - b) > 1e-4 * std::abs(a) ? 1 : 0, all += 1;
+      }
+    EXPECT_LT(off / all, 0.02) << way;
+  }
 }
 
 TEST(Chains, add_up_to_the_film_of_one_render) {
