@@ -27,7 +27,8 @@ struct RestirSettings {
   float radius = 8;
   // Neighbours whose surface looks another way, or lies at another depth, are passed over.
   bool similar = true;
-  // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one.
+  // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one; for a picture's
+  // first frame, that of the picture before.
   bool temporal = true;
   float m_cap = 20;
   // In a sequence, chains go on from each picture to the next.
