@@ -24,7 +24,7 @@ const char* const unbiased[] = {
     "restir-di:radius=4,candidates=4",
     "restir-di:radius=4,candidates=2,weights=unbiased,visibility-reuse=on",
     "restir-di:neighbours=0,candidates=2,weights=generalised,visibility-reuse=on",
-    "restir-gi:neighbours=1,radius=4,candidates=2",
+    "restir-gi:temporal=on,neighbours=1,radius=4,candidates=2",
 };
 
 TEST(Sequence, has_the_mean_of_the_path_tracer_in_every_picture) {

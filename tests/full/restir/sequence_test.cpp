@@ -39,9 +39,9 @@ const std::vector<SequenceCase>& cases() {
       {"paths_with_a_camera_that_moves",
        false,
        3,
-       {"restir-gi:neighbours=2,radius=6", "restir-pt:neighbours=2,radius=6",
-        "restir-pt:neighbours=0,shift=replay,visibility-reuse=on"}},
-      {"paths_with_a_box_that_moves", true, 3, {"restir-pt:neighbours=1,radius=6"}},
+       {"restir-gi:temporal=on,neighbours=2,radius=6", "restir-pt:temporal=on,neighbours=2,radius=6",
+        "restir-pt:temporal=on,neighbours=0,shift=replay,visibility-reuse=on"}},
+      {"paths_with_a_box_that_moves", true, 3, {"restir-pt:temporal=on,neighbours=1,radius=6"}},
   };
   return all;
 }
