@@ -6,6 +6,7 @@ usage: make_reuse_scenes.py FOLDER
 building.pbrt four storeys with columns, screens and coffered ceilings, and 1280 lanterns of 8 triangles in the
               coffers: a place sees few of the 10,240 triangles, whose strengths go over two and a half decades
 terrace.pbrt  320 lamps (spheres and panels) in shades, between columns under a pergola, and a sky with a small sun
+slats.pbrt    two lamps behind slats, small, for a map of the bias of naive weights
 sky.pfm       that sky, in equal-area octahedral coordinates
 """
 import array
@@ -121,7 +122,7 @@ def building(rng):
             lantern = Mesh()
             lantern.octahedron((x, top - rng.uniform(0.15, 0.5), z), rng.uniform(0.03, 0.07))
             lamps.append(lamp(radiance(rng, 2.5, 200), lantern.text()))
-    return (head((-10, 4.3, -10.5), (1.5, -2.2, 2), 45)
+    return (head((-10, 4.3, -10.5), (1.5, -4, 2), 45)
             + material('"coateddiffuse" "rgb reflectance" [ 0.25 0.24 0.22 ] "float roughness" [ 0.2 ]', floor)
             + material('"diffuse" "rgb reflectance" [ 0.6 0.58 0.55 ]', walls)
             + material('"diffuse" "rgb reflectance" [ 0.5 0.3 0.25 ]', cloth)
@@ -213,10 +214,25 @@ def terrace(rng):
             + "".join(lamps))
 
 
+def slats(_):
+    grey, floor = Mesh(), Mesh()
+    floor.polygon([(-3, 0, -3), (-3, 0, 3), (3, 0, 3), (3, 0, -3)])
+    for i in range(6):
+        x = -2 + 0.7 * i
+        grey.polygon([(x, 0.7, -2), (x + 0.4, 0.7, -2), (x + 0.4, 0.7, 2), (x, 0.7, 2)])
+    lamps = ""
+    for x, z, light in (-1.2, 0.0, (12, 10, 8)), (1.2, 0.4, (4, 6, 12)):
+        panel = Mesh()
+        panel.polygon([(x - 0.3, 2.3, z - 0.3), (x + 0.3, 2.3, z - 0.3), (x + 0.3, 2.3, z + 0.3), (x - 0.3, 2.3, z + 0.3)])
+        lamps += lamp(light, panel.text())
+    top = head((0, 1.6, -4), (0, 0.6, 0), 45).replace("480", "96").replace("270", "96").replace("[ 5 ]", "[ 1 ]")
+    return top + material('"diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]', floor) + material('"diffuse" "rgb reflectance" [ 0.3 0.4 0.6 ]', grey) + lamps
+
+
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    for name, make in ("building", building), ("terrace", terrace):
+    for name, make in ("building", building), ("terrace", terrace), ("slats", slats):
         with open(os.path.join(folder, name + ".pbrt"), "w") as f:
             f.write(make(random.Random(name)))
     write_sky(os.path.join(folder, "sky.pfm"))

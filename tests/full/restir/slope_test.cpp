@@ -88,7 +88,7 @@ TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
   EXPECT_NEAR(unbiased.slope, -1, 0.1);
   EXPECT_GT(t_test(unbiased.squared_bias, 0).p_value, level);
   EXPECT_GT(naive.slope, -0.8);
-  EXPECT_LT(t_test(naive.squared_bias, 0).p_value, 1e-6);
+  EXPECT_LT(t_test(naive.squared_bias, 0).p_value, 1e-4);
 }
 
 }  // namespace
