@@ -65,10 +65,9 @@ struct SoughtSurface {
   Vec3f ng;
   float depth;
 
-  // Normals within 25 degrees, depths within a tenth, as between neighbours.
   bool is_like(const ReuseVertex<float>& other) const {
-    return other.exists != 0 && other.object == object && std::abs(dot(ng, other.ng)) > 0.906f &&
-           std::abs(depth - other.depth) < 0.1f * depth;
+    return other.exists != 0 && other.object == object && are_normals_similar(std::abs(dot(ng, other.ng))) &&
+           are_depths_similar(depth, other.depth);
   }
 };
 

@@ -9,10 +9,10 @@
 
 namespace montelux {
 
-// Normals within 25 degrees, depths within a tenth (Bitterli et al. 2020, sec. 5).
+// As their pixels see them.
 inline bool are_similar(const ReuseVertex<float>& a, const ReuseVertex<float>& b) {
   const float side = (a.wo.z < 0) == (b.wo.z < 0) ? 1.0f : -1.0f;
-  return side * dot(a.frame.n, b.frame.n) > 0.906f && std::abs(a.depth - b.depth) < 0.1f * a.depth;
+  return are_normals_similar(side * dot(a.frame.n, b.frame.n)) && are_depths_similar(a.depth, b.depth);
 }
 
 // A pixel drawn uniformly from a disk around (x, y), by `u`. The choice looks at surfaces alone, never at what was

@@ -103,10 +103,7 @@ class PathCandidates {
     if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
 
     const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
-    const ReuseVertex<F> vertex{x.point.p,     x.point.p_error,   x.point.ng,   bsdf.frame.to_local(-w.d),
-                                bsdf.slots,    bsdf.kind,         bsdf.frame,   bsdf.light_normal,
-                                random,        w.from.throughput, w.from.depth, w.from.time,
-                                w.from.object, w.from.events,     U(1u)};
+    const ReuseVertex<F> vertex = vertex_behind(w.from, x, bsdf, w.d, random);
     const Leg<F> leg = leg_between<F>(w.from.p, x.point.p, x.point.ng, w.d, w.density, w.pixels);
     if (const M lit = scatters & !bsdf.is_delta; any(lit)) ask_for_light(vertex, leg, lit);
     const M goes_on = scatter(vertex, leg, scatters);

@@ -84,11 +84,7 @@ class PathReplay {
     const F pixels = pixels_;
     const Leg<F> leg = leg_between<F>(vertex_.p, at.x.point.p, at.x.point.ng, taken.wi, taken.density, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
-    const ReuseVertex<F> next_vertex{at.x.point.p,      at.x.point.p_error, at.x.point.ng, at.wo,
-                                     at.bsdf.slots,     at.bsdf.kind,       at.bsdf.frame, at.bsdf.light_normal,
-                                     at.context.random, vertex_.throughput, vertex_.depth, vertex_.time,
-                                     vertex_.object,    vertex_.events,     vertex_.exists};
-    vertex_ = select_words(moved, next_vertex, vertex_);
+    vertex_ = select_words(moved, vertex_behind(vertex_, at.x, at.bsdf, taken.wi, at.context.random), vertex_);
     has_leg_ = has_leg_ | moved;
     alive_ = alive_ & (moved | !on);
     return light;

@@ -1,6 +1,8 @@
 // What one pixel hands to another: the surface point at which light is asked for, and a point of a light that was
 // found.
 #pragma once
+#include <cmath>
+
 #include "integrator/arrival.h"
 #include "integrator/path/path_state.h"
 #include "mc/reuse.h"
@@ -31,6 +33,22 @@ struct ReuseVertex {
     return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
   }
 };
+
+// What a path meets at `x`, where it scatters as `bsdf`; `from` gives what belongs to the whole path. `random`: the
+// numbers of the BSDF.
+template <class F>
+ReuseVertex<F> vertex_behind(const ReuseVertex<F>& from, const SurfaceHit<F>& x, const SurfaceScattering<F>& bsdf,
+                             const Vec3<F>& d, const RandomStream<F>& random) {
+  ReuseVertex<F> v = from;
+  v.p = x.point.p, v.p_error = x.point.p_error, v.ng = x.point.ng, v.wo = bsdf.frame.to_local(-d);
+  v.slots = bsdf.slots, v.kind = bsdf.kind, v.frame = bsdf.frame, v.light_normal = bsdf.light_normal;
+  v.random = random;
+  return v;
+}
+
+// Surfaces among which reuse pays: normals within 25 degrees, distances within a tenth (Bitterli et al. 2020, sec. 5).
+inline bool are_normals_similar(float cosine) { return cosine > 0.906f; }
+inline bool are_depths_similar(float a, float b) { return std::abs(a - b) < 0.1f * a; }
 
 template <class F>
 using LightReservoir = Reservoir<LightPoint<F>, F>;
