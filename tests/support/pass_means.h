@@ -8,21 +8,26 @@
 
 namespace montelux::test {
 
-// By quantity (the image first, then blocks of `block` pixels a side), the values of all passes.
+// In pixels.
+struct BlockSize {
+  int width = 8, height = 8;
+};
+
+// By quantity (the image first, then blocks row by row), the values of all passes.
 struct PassMeans {
   std::vector<std::vector<double>> values;
   std::uint64_t non_finite = 0;
 };
 
 // Adds the film of one pass.
-inline void add_pass(const Film& film, int block, PassMeans& m) {
+inline void add_pass(const Film& film, BlockSize block, PassMeans& m) {
   const PixelBounds& b = film.bounds();
-  const int across = (b.width() + block - 1) / block, down = (b.height() + block - 1) / block;
+  const int across = (b.width() + block.width - 1) / block.width, down = (b.height() + block.height - 1) / block.height;
   std::vector<double> sums(std::size_t(1 + across * down), 0.0), counts = sums;
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       const double value = mean_of_channels(film.pixel(x, y).mean);
-      const auto of_block = std::size_t(1 + (y - b.y0) / block * across + (x - b.x0) / block);
+      const auto of_block = std::size_t(1 + (y - b.y0) / block.height * across + (x - b.x0) / block.width);
       for (std::size_t i : {std::size_t(0), of_block}) sums[i] += value, counts[i] += 1;
     }
   m.values.resize(sums.size());
@@ -31,7 +36,7 @@ inline void add_pass(const Film& film, int block, PassMeans& m) {
 }
 
 inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
-                                int passes, std::uint32_t seed, int block = 8) {
+                                int passes, std::uint32_t seed, BlockSize block = {}) {
   PassMeans m;
   RenderObserver silent;
   for (int pass = 0; pass < passes; ++pass) {

@@ -68,7 +68,7 @@ struct SequencePlan {
   int frames = 2;  // of a chain
   int passes = 48;
   std::uint32_t seed = 1;
-  int block = 8;
+  BlockSize block{};
 };
 
 // Means over passes of each picture of the sequence.
