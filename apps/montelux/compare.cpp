@@ -29,12 +29,14 @@ struct CompareArguments {
   std::optional<std::string> report, save, resume;
   std::optional<int> repeats;  // as typed
   bool json = false, csv = false, quiet = false, no_progress = false, no_cache = false, no_attribution = false;
+  bool no_slopes = false;
 };
 
 constexpr const char* examples = R"(Examples:
   montelux compare room.pbrt -a path -b 'direct:strategy=ris,candidates=32' --spp 64
   montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12 -o report.html
   montelux compare room.pbrt -a path:sampler=halton -b path:sampler=blue-noise --reference truth.exr --json
+  montelux compare room.pbrt -a path -b restir-di:chain=1,warm-up=12 --warm-frames --spp 4
   montelux compare room.pbrt -a path -b naive --time 20s --save run.json
   montelux compare --resume run.json --time 60s --save run.json -o report.html
 
@@ -46,7 +48,7 @@ Exit status: 0 compared (decided or not); 1 the reference is not good enough; 2 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json to_json(const Measured& m) {
-  return {{"mean", number(m.mean)},
+  return {{"mean", m.count > 0 ? number(m.mean) : Json()},
           {"interval", {number(m.low), number(m.high)}},
           {"standard_error", number(m.standard_error)}};
 }
@@ -75,10 +77,14 @@ Json to_json(const MethodResult& m) {
   json["flip"] = to_json(m.flip);
   json["variance"] = to_json(m.variance);
   json["seconds"] = to_json(m.seconds);
+  json["warm_up_seconds"] = to_json(m.warm_up);
+  json["seconds_with_warm_up"] = to_json(m.all_seconds);
   json["samples"] = to_json(m.samples);
   json["rays"] = to_json(m.rays);
   json["efficiency"] = to_json(m.efficiency);
   json["relative_efficiency"] = to_json(m.relative_efficiency);
+  json["efficiency_with_warm_up"] = to_json(m.whole_efficiency);
+  json["relative_efficiency_with_warm_up"] = to_json(m.whole_relative_efficiency);
   json["coverage"] = to_json(m.coverage);
   json["slope_by_samples"] = to_json(m.slope_by_samples);
   json["slope_by_time"] = to_json(m.slope_by_time);
@@ -105,6 +111,8 @@ void print_json(const CompareArguments& arguments, const Contest& contest) {
   json["reference"] = {{"origin", r.reference.origin}, {"share_of_smallest_mse", number(r.reference_share)}};
   json["refused"] = contest.refusal.empty() ? Json() : Json(contest.refusal);
   json["interrupted"] = r.interrupted;
+  json["warm_up_counts"] = r.warm_up_counts;
+  json["clock"] = arguments.contest.processor_time ? "processor" : "wall";
   json["methods"] = Json::array();
   for (const MethodResult& m : r.methods) json["methods"].push_back(to_json(m));
   json["verdicts"] = Json::array();
@@ -113,6 +121,8 @@ void print_json(const CompareArguments& arguments, const Contest& contest) {
                                 {"second", r.methods[v.second].contestant.label},
                                 {"efficiency_ratio", to_json(v.ratio)},
                                 {"relative_efficiency_ratio", to_json(v.relative_ratio)},
+                                {"efficiency_ratio_with_warm_up", to_json(v.whole_ratio)},
+                                {"relative_efficiency_ratio_with_warm_up", to_json(v.whole_relative_ratio)},
                                 {"decided", v.decided && contest.refusal.empty()},
                                 {"times_longer_to_decide", number(v.times_longer)}});
   fmt::print("{}\n", json.dump(2));
@@ -129,6 +139,7 @@ void print_csv(const Contest& contest) {
   std::vector<std::string> layers;
   for (const MethodResult& m : contest.result.methods)
     if (layers.empty() && m.contestant.layers) layers = layer_names(*m.contestant.layers);
+  if (!contest.result.warm_up_counts) fmt::print(",warm_up_seconds");
   for (const std::string& name : layers) fmt::print(",share_{}", name);
   fmt::print("\n");
   for (std::size_t k = 0; k < contest.result.methods.size(); ++k) {
@@ -139,6 +150,7 @@ void print_csv(const Contest& contest) {
       fmt::print("{},\"{}\",{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", m.contestant.label,
                  m.contestant.text, i, r.seconds, r.samples, r.rays, r.mse, r.relative_mse, r.flip, r.variance,
                  r.coverage);
+      if (!contest.result.warm_up_counts) fmt::print(",{:.9g}", r.warm_up);
       for (std::size_t layer = 0; layer < layers.size(); ++layer)
         fmt::print(",{}", attribution.empty()
                               ? std::string()
@@ -170,10 +182,14 @@ void print_text(const CompareArguments& arguments, const Contest& contest) {
     const Measured& s = m.slope_by_samples;
     fmt::print("{}  {}\n", m.contestant.label, m.contestant.text);
     fmt::print("   mse {}   relMSE {}   FLIP {}\n", spread(m.mse), spread(m.relative_mse), spread(m.flip));
-    fmt::print("   {} repeats of {:.3g} s and {:.4g} samples a pixel, {:.3g} rays\n", m.repeats.size(), m.seconds.mean,
-               m.samples.mean, m.rays.mean);
-    fmt::print("   efficiency {}   slope by samples {}   error bars hold {:.1f} %\n", spread(m.efficiency),
-               s.count >= 2 ? spread(s) : "-", 100 * m.coverage.mean);
+    fmt::print("   {} repeats of {:.3g} s{} and {:.4g} samples a pixel, {:.3g} rays\n", m.repeats.size(),
+               m.seconds.mean, arguments.contest.processor_time ? " on processors" : "", m.samples.mean, m.rays.mean);
+    if (!r.warm_up_counts && m.warm_up.mean > 0)
+      fmt::print("   not counted: {:.3g} s of warm-up in each repeat; with it efficiency {}\n", m.warm_up.mean,
+                 spread(m.whole_efficiency));
+    fmt::print("   efficiency {}   slope by samples {}   error bars hold {}\n", spread(m.efficiency),
+               s.count >= 2 ? spread(s) : "-",
+               std::isfinite(m.coverage.mean) ? fmt::format("{:.1f} %", 100 * m.coverage.mean) : "-");
     fmt::print("   mean {} the reference (image {}, squared bias {})\n",
                lab::differs_from_reference(m) ? "differs from" : "agrees with",
                fmt::format("{:+.1f} standard errors", m.bias.image.t), spread(m.bias_squared));
@@ -195,6 +211,9 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
   if (arguments.load.resolution)
     line += fmt::format(" --resolution {}x{}", arguments.load.resolution->first, arguments.load.resolution->second);
   if (c.crop) line += fmt::format(" --crop {},{},{},{}", c.crop->x0, c.crop->y0, c.crop->x1, c.crop->y1);
+  if (c.warm_frames) line += " --warm-frames";
+  if (c.processor_time) line += " --clock processor";
+  if (!c.slopes) line += " --no-slopes";
   if (!c.attribution) line += " --no-attribution";
   return line + fmt::format(" --repeats {} --seed {} -o {}", repeats, c.seed, *arguments.report);
 }
@@ -204,7 +223,7 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
   ContestOptions& now = arguments.contest;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
       arguments.load.resolution || arguments.load.lenient || now.confidence != ContestOptions{}.confidence ||
-      arguments.no_attribution)
+      arguments.no_attribution || arguments.no_slopes || now.warm_frames || now.processor_time)
     return Failure{
         "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "
         "--repeats) may be given"};
@@ -236,6 +255,7 @@ int run_compare(CompareArguments& arguments) {
     arguments.contest.repeats = arguments.repeats.value_or(arguments.contest.repeats);
     arguments.contest.cache = !arguments.no_cache;
     arguments.contest.attribution = !arguments.no_attribution;
+    arguments.contest.slopes = !arguments.no_slopes;
     arguments.load.threads = arguments.contest.threads;
   }
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
@@ -317,6 +337,16 @@ void add_compare(CLI::App& app, Action& chosen) {
   verb.get_option("--time")->excludes("--spp");
   add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8); with --resume: that many more"},
              into(arguments->repeats, [](const std::string& t) { return parse_whole(t, 1, 10000); }));
+  verb.add_flag("--warm-frames", contest.warm_frames,
+                "frames of a sequence: those of a warm-up have been shown anyway, so their time does not count");
+  const std::vector<std::string> clocks{"wall", "processor"};
+  add_option(verb, {"--clock", alternatives(clocks), "processor: time of all threads on processors, for busy machines"},
+             [&contest, clocks](const std::string& text) -> Status {
+               const auto name = parse_choice(text, clocks);
+               if (!name) return name.failure();
+               contest.processor_time = *name == "processor";
+               return Done{};
+             });
   add_option(verb, {"--reference", "FILE", "picture to hold them against; default: made by the most efficient method"},
              [&contest](const std::string& file) -> Status {
                if (file != "auto") contest.reference = file;
@@ -342,6 +372,8 @@ void add_compare(CLI::App& app, Action& chosen) {
              });
   verb.add_flag("--no-attribution", arguments->no_attribution,
                 "do not tell which layers of light the variance comes from (saves a fifth of the time)");
+  verb.add_flag("--no-slopes", arguments->no_slopes,
+                "no passes of growing length, which the slopes are fitted over (saves a third of the time)");
   verb.add_flag("--no-cache", arguments->no_cache, "neither use nor keep a reference of an earlier comparison");
   verb.add_flag("--json", arguments->json, "results as one JSON object");
   verb.add_flag("--csv", arguments->csv, "every repeat as a line of CSV");

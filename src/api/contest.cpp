@@ -181,8 +181,10 @@ std::string times_text(double times) {
 
 }  // namespace
 
+namespace {
+
 // "a is 2.31 times as efficient as b (95 % between 2.10 and 2.55)", or that nothing is decided.
-std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, double confidence) {
+std::string sentence_of_ratio(const Contest& contest, const lab::PairVerdict& v, double confidence) {
   const std::string& a = contest.result.methods[v.first].contestant.label;
   const std::string& b = contest.result.methods[v.second].contestant.label;
   const bool first_wins = v.ratio.mean >= 1;
@@ -204,6 +206,23 @@ std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, doubl
                      biased ? "; one of them is biased, so this holds for this time alone" : "");
 }
 
+}  // namespace
+
+std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, double confidence) {
+  const std::string sentence = sentence_of_ratio(contest, v, confidence);
+  const lab::MethodResult &a = contest.result.methods[v.first], &b = contest.result.methods[v.second];
+  if (contest.result.warm_up_counts || !contest.refusal.empty() || v.ratio.count < 2) return sentence;
+  std::string warmed;
+  for (const lab::MethodResult* m : {&a, &b})
+    if (m->warm_up.mean > 0) warmed += (warmed.empty() ? "" : " and ") + m->contestant.label;
+  if (warmed.empty()) return sentence;
+  const bool first_wins = v.ratio.mean >= 1;
+  const lab::Measured& whole = v.whole_ratio;
+  return fmt::format("{}; the warm-up of {} is not counted: with it {:.3g} times (between {:.3g} and {:.3g})", sentence,
+                     warmed, first_wins ? whole.mean : 1 / whole.mean, first_wins ? whole.low : 1 / whole.high,
+                     first_wins ? whole.high : 1 / whole.low);
+}
+
 Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
                      double confidence, const std::vector<std::string>& commands) {
   lab::ContestWords words;
@@ -211,6 +230,12 @@ Status write_contest(const std::filesystem::path& file, const Contest& contest, 
   for (const lab::PairVerdict& v : contest.result.verdicts)
     words.sentences.push_back(sentence_of(contest, v, confidence));
   if (!contest.refusal.empty()) words.notes.push_back(contest.refusal);
+  if (!contest.result.warm_up_counts)
+    words.notes.push_back(
+        "frames of a sequence: where a method has frames of warm-up, these have been shown anyway, and seconds and "
+        "efficiencies are without their time, unless another is said");
+  if (contest.saved.options.processor_time)
+    words.notes.push_back("seconds are those of all threads together on processors");
   words.notes.insert(words.notes.end(), contest.notes.begin(), contest.notes.end());
   words.commands = commands;
   Result<std::string> page = lab::to_html(lab::report_of(contest.result, words));
@@ -241,6 +266,9 @@ Result<lab::ContestSettings> settings_of(const LoadedScene::Parts& parts, const 
   if (b.x0 < 0 || b.y0 < 0 || b.x1 > r.width || b.y1 > r.height || b.x0 >= b.x1 || b.y0 >= b.y1)
     return Failure{fmt::format("the crop is not inside the picture of {} x {} pixels", r.width, r.height)};
   r.seed = options.seed, r.threads = options.threads;
+  r.warm_up_counts = !options.warm_frames;
+  if (options.processor_time) r.clock = processor_seconds;
+  settings.slopes = options.slopes;
   settings.seconds = options.seconds;
   settings.samples = options.samples.value_or(settings.samples);
   settings.repeats = options.repeats;
@@ -295,6 +323,16 @@ void conclude(Contest& contest, const std::vector<lab::Contestant>& contestants,
           "{} ({}) does not part its light into layers, so its variance is not attributed", c.label, c.text));
 }
 
+// Frames that are not to count must be there.
+Status check_warm_up(const std::vector<lab::Contestant>& contestants, const ContestOptions& options) {
+  const auto warms_up = [](const lab::Contestant& c) {
+    return c.integrator.coupled() && c.integrator.coupled()->warm_up() > 0;
+  };
+  if (!options.warm_frames || std::ranges::any_of(contestants, warms_up)) return Done{};
+  return Failure{
+      "no method has frames of warm-up whose time might not count: restir-di:chain=1,warm-up=12 has, for one"};
+}
+
 // Seconds of one repeat of one method.
 double seconds_of_repeat(const lab::ContestState& state, const lab::ContestSettings& settings) {
   if (settings.seconds) return *settings.seconds / settings.repeats;
@@ -310,6 +348,7 @@ Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& 
                                 const lab::ContestWatch& watch) {
   auto field = make_field(scene.parts(), options);
   if (!field) return field.failure();
+  if (Status warm = check_warm_up(field->contestants, options); !warm) return warm.failure();
   auto settings = settings_of(scene.parts(), options);
   if (!settings) return settings.failure();
   Contest contest;

@@ -21,7 +21,10 @@ struct ContestOptions {
   std::uint32_t seed = 0;
   int threads = 0;
   std::optional<PixelBounds> crop;
-  bool attribution = true;  // tell which layers of light the variance of each method comes from
+  bool warm_frames = false;     // frames of a sequence: the time of warm-up frames does not count
+  bool processor_time = false;  // the time of all threads on processors, instead of the clock on the wall
+  bool slopes = true;           // of the squared error, by samples and by time
+  bool attribution = true;      // tell which layers of light the variance of each method comes from
 };
 
 // A contest in a file: what it is of, and all that it has gathered. `fingerprint` is of the scene's files.
@@ -49,7 +52,7 @@ struct Contest {
   SavedContest saved;  // but for the scene, how it was loaded, and its fingerprint
 };
 
-// What the verdict says, in a sentence.
+// What the verdict says, in a sentence; where the time of warm-up does not count, it says that, and what it would be.
 std::string sentence_of(const Contest& contest, const lab::PairVerdict& verdict, double confidence);
 
 // Writes the report, one HTML page that needs no network. `commands` are those that make it again. Fails where the file
@@ -60,7 +63,8 @@ Status write_contest(const std::filesystem::path& file, const Contest& contest, 
 // Whether every method can be made; a scene is not needed to tell.
 Status check_methods(const std::vector<std::string>& methods);
 
-// Fails where a method does not fit the scene, or the reference cannot be read or has another size.
+// Fails where a method does not fit the scene, none has the warm-up that is not to count, or the reference cannot be
+// read or has another size.
 Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
                                 const lab::ContestWatch& watch);
 // Goes on with a contest: its repeats and those that follow are as those of one contest. Fails where its methods or its

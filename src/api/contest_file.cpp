@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux comparison", 2, "montelux compare --save", "comparison"};
+constexpr SavedFormat saved_format{"montelux comparison", 3, "montelux compare --save", "comparison"};
 static_assert(std::endian::native == std::endian::little);
 
 // ---- long arrays ----------------------------------------------------------------------------------------------------
@@ -62,6 +62,9 @@ Json options_json(const ContestOptions& o) {
             {"repeats", o.repeats},
             {"confidence", o.confidence},
             {"seed", o.seed},
+            {"warm_frames", o.warm_frames},
+            {"processor_time", o.processor_time},
+            {"slopes", o.slopes},
             {"attribution", o.attribution},
             {"crop", Json()}};
   if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
@@ -72,7 +75,8 @@ ContestOptions options_from(const Json& j) {
   o.methods = j.at("methods").get<std::vector<std::string>>();
   o.seconds = optional_at<double>(j, "seconds"), o.samples = optional_at<int>(j, "samples");
   o.repeats = j.at("repeats"), o.confidence = j.at("confidence"), o.seed = j.at("seed");
-  o.attribution = j.at("attribution");
+  o.warm_frames = j.at("warm_frames"), o.processor_time = j.at("processor_time");
+  o.slopes = j.at("slopes"), o.attribution = j.at("attribution");
   if (const Json& c = j.at("crop"); !c.is_null()) o.crop = PixelBounds{c.at(0), c.at(1), c.at(2), c.at(3)};
   if (o.repeats < 1 || o.methods.empty()) throw std::invalid_argument("its settings are damaged");
   return o;
@@ -101,12 +105,12 @@ lab::Reference reference_from(const Json& j) {
 // ---- what was gathered ----------------------------------------------------------------------------------------------
 
 Json repeat_json(const lab::Repeat& r) {
-  return packed(std::vector<double>{r.seconds, r.rays, r.samples, r.mse, r.relative_mse, r.flip, r.variance, r.coverage,
-                                    r.image_mean[0], r.image_mean[1], r.image_mean[2]});
+  return packed(std::vector<double>{r.seconds, r.all_seconds, r.warm_up, r.rays, r.samples, r.mse, r.relative_mse,
+                                    r.flip, r.variance, r.coverage, r.image_mean[0], r.image_mean[1], r.image_mean[2]});
 }
 lab::Repeat repeat_from(const Json& j) {
-  const std::vector<double> v = unpacked<double>(j, 11);
-  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], {v[8], v[9], v[10]}};
+  const std::vector<double> v = unpacked<double>(j, 13);
+  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], {v[10], v[11], v[12]}};
 }
 
 Json method_json(const lab::MethodState& m) {

@@ -46,7 +46,7 @@ class ChainJob {
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
       if (observer.stop_requested()) stop_ = interrupted = true;
-      if (settings_.seconds && since_start_.seconds() >= *settings_.seconds) stop_ = true;
+      if (time_is_over()) stop_ = true;
       const Progress now = progress(false);
       lock.unlock();
       observer.progress(now);
@@ -62,7 +62,8 @@ class ChainJob {
 
   RenderResult take_result(bool interrupted) {
     const double seconds = since_start_.seconds();
-    return {std::move(film_), rays_, seconds, interrupted, settings_.budget ? seconds - frame_began_ : 0};
+    const double ending = settings_.budget ? seconds - frame_began_ : 0;
+    return {std::move(film_), rays_, seconds, interrupted, ending, warm_up_seconds(seconds)};
   }
 
  private:
@@ -111,7 +112,8 @@ class ChainJob {
       step_.stage = 0;
       if (is_shown(step_.frame)) ++shown_frames_;
       ++step_.frame;
-      const bool stops = stop_ || !another_frame_fits();
+      if (step_.frame == integrator_.warm_up()) warm_up_ += since_start_.seconds() - warm_up_began_;
+      const bool stops = stop_ || time_is_over() || !another_frame_fits();
       const bool ends = step_.frame == frames_ || (stops && chain_counts());
       if (ends) end_chain();
       over_ = stops || pass_ == settings_.plan.passes;
@@ -119,6 +121,16 @@ class ChainJob {
     }
     next_tile_ = tiles_done_ = 0;
     changed_.notify_all();
+  }
+
+  // Seconds of frames that are not shown, those of a chain that is being warmed up among them. All threads work on one
+  // frame at a time, so it is theirs alone.
+  double warm_up_seconds(double now) const { return warm_up_ + (is_shown(step_.frame) ? 0 : now - warm_up_began_); }
+  // A picture has one shown frame at least.
+  bool time_is_over() const {
+    if (!settings_.seconds || shown_frames_ == 0) return false;
+    const double now = since_start_.seconds();
+    return now - (settings_.warm_up_counts ? 0 : warm_up_seconds(now)) >= *settings_.seconds;
   }
 
   // By the time that the last one took. A picture has one shown frame at least.
@@ -143,6 +155,7 @@ class ChainJob {
                            take_memory()});
     step_ = {};
     for (ChainTile& tile : tiles_) std::fill(tile.means.begin(), tile.means.end(), PassMean{});
+    warm_up_began_ = since_start_.seconds();
   }
   // Out of the list, so that it is gone once the chain is.
   std::shared_ptr<const ChainMemory> take_memory() {
@@ -188,7 +201,9 @@ class ChainJob {
   std::size_t next_tile_ = 0, tiles_done_ = 0;
   int pass_ = 0;  // chains that are in the film
   std::uint64_t shown_frames_ = 0;
-  double frame_began_ = 0;  // seconds since the start
+  double frame_began_ = 0;    // seconds since the start
+  double warm_up_began_ = 0;  // of the chain at hand, likewise
+  double warm_up_ = 0;        // seconds of all that is over
   bool over_ = false;
   int running_ = 0;
   RayCounts rays_;

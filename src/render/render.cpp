@@ -186,10 +186,12 @@ PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings,
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   RenderObserver silent;
-  const double one_sample = std::max(render(integrator, settings, silent).seconds, 1e-6);
+  const RenderResult one = render(integrator, settings, silent);
+  const double one_sample = std::max(settings.warm_up_counts ? one.seconds : one.shown_seconds(), 1e-6);
   const auto affordable = int(std::min(seconds / one_sample, 1e6));
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
-    const int frames = affordable * (1 + coupled->warm_up()) / least_chains - coupled->warm_up();
+    const int warm_up = settings.warm_up_counts ? coupled->warm_up() : 0;
+    const int frames = affordable * (1 + warm_up) / least_chains - warm_up;
     return {std::clamp(frames, 1, coupled->frames()), endless};
   }
   PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);

@@ -41,6 +41,7 @@ struct RenderSettings {
   std::uint32_t seed = 0;
   PassPlan plan;
   std::optional<double> seconds;     // stop at this time, with as many passes as fit; plan.passes is then a bound
+  bool warm_up_counts = true;        // in these seconds; no: only the time of frames that are shown does
   std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
   int threads = 0;                   // 0: all of the machine
   int first_pass = 0;                // for a render that goes on
@@ -75,6 +76,8 @@ struct RenderResult {
   double seconds = 0;
   bool interrupted = false;  // the observer asked to stop before the work was done
   double ending = 0;         // of the seconds, those after the last frame; where there was a budget
+  double warm_up = 0;  // of the seconds, those of frames of a warm-up: where chains begin and end is not among them
+  double shown_seconds() const { return seconds - warm_up; }
 };
 
 // The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass.

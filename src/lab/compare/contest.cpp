@@ -36,9 +36,13 @@ RenderSettings settings_for(const Contestant& contestant, const ContestSettings&
 
 // What a short render says of a method.
 struct Pilot {
-  double cost = 0;            // mse x seconds
-  double sample_seconds = 0;  // for one sample of every pixel
+  double mse = 0, samples = 0;
+  double seconds = 0, all_seconds = 0;  // that count, and all
 };
+
+double seconds_that_count(const RenderResult& r, const ContestSettings& settings) {
+  return settings.render.warm_up_counts ? r.seconds : r.shown_seconds();
+}
 
 Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, const ContestWatch& watch) {
   constexpr int passes = 8;
@@ -46,7 +50,7 @@ Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, 
   s.plan = {1, passes}, s.first_pass = pilot_pass;
   Stopper stopper(watch);
   const RenderResult r = render(contestant.integrator, s, stopper);
-  return {r.film.error(s.bounds).mse * r.seconds, r.seconds / passes};
+  return {r.film.error(s.bounds).mse, passes, seconds_that_count(r, settings), r.seconds};
 }
 
 // One turn of one method.
@@ -78,6 +82,7 @@ std::vector<std::size_t> order_of_round(std::size_t methods, std::uint32_t seed,
 ConvergenceRun run_convergence(const Contestant& contestant, const ContestSettings& settings,
                                const Reference& reference, int most_samples, int repeat, const ContestWatch& watch) {
   ConvergenceRun run;
+  if (!settings.slopes) return run;
   RenderSettings s = settings_for(contestant, settings);
   s.seed = mix_bits(settings.render.seed + 0x85ebca6bu * std::uint32_t(repeat + 1));
   Stopper stopper(watch);
@@ -85,7 +90,7 @@ ConvergenceRun run_convergence(const Contestant& contestant, const ContestSettin
     s.plan = {k, 1}, s.first_pass = convergence_pass + level;
     const RenderResult r = render(contestant.integrator, s, stopper);
     if (r.interrupted) break;
-    run.samples.push_back(k), run.seconds.push_back(r.seconds);
+    run.samples.push_back(k), run.seconds.push_back(seconds_that_count(r, settings));
     run.mse.push_back(squared_error(mean_of(r.film), reference));
   }
   return run;
@@ -142,7 +147,9 @@ bool run_repeat(const Contestant& contestant, const ContestSettings& settings, c
   const Film& film = turn.result.film;
   Repeat repeat = measure(film, reference);
   repeat.samples = samples_a_pixel(film);
-  repeat.seconds = turn.result.seconds, repeat.rays = double(turn.result.rays.all());
+  repeat.seconds = seconds_that_count(turn.result, settings);
+  repeat.all_seconds = turn.result.seconds, repeat.warm_up = turn.result.warm_up;
+  repeat.rays = double(turn.result.rays.all());
   const auto longest = int(std::clamp(repeat.samples / 2, 4.0, 1024.0));
   const ConvergenceRun convergence = run_convergence(contestant, settings, reference, longest, round, watch);
   if (watch.stop && watch.stop()) return false;
@@ -168,8 +175,8 @@ double expected_smallest_mse(const std::vector<Contestant>& contestants, const C
   for (const Contestant& contestant : contestants) {
     const Pilot pilot = take_pilot(contestant, settings, watch);
     const double seconds =
-        settings.seconds ? *settings.seconds / settings.repeats : pilot.sample_seconds * settings.samples;
-    if (pilot.cost > 0) smallest = std::min(smallest, pilot.cost / seconds);
+        settings.seconds ? *settings.seconds / settings.repeats : pilot.seconds / pilot.samples * settings.samples;
+    if (const double cost = pilot.mse * pilot.seconds; cost > 0) smallest = std::min(smallest, cost / seconds);
   }
   return smallest;
 }
@@ -179,9 +186,10 @@ Reference make_reference(const std::vector<Contestant>& contestants, const std::
   const Stopwatch since_start(settings.render.clock);
   const Contestant* best = &contestants[may_serve.front()];
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i : may_serve)
-    if (const Pilot pilot = take_pilot(contestants[i], settings, watch); pilot.cost < least)
-      least = pilot.cost, best = &contestants[i];
+  for (std::size_t i : may_serve) {
+    const Pilot pilot = take_pilot(contestants[i], settings, watch);
+    if (const double cost = pilot.mse * pilot.all_seconds; cost < least) least = cost, best = &contestants[i];
+  }
 
   RenderSettings s = settings_for(*best, settings);
   s.seed = mix_bits(settings.render.seed ^ 0x5bd1e995u);

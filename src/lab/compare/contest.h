@@ -24,11 +24,14 @@ struct Contestant {
 };
 
 struct ContestSettings {
-  RenderSettings render;          // bounds, size, seed, threads; sampler and plan are the contestants' own
+  // Bounds, size, seed, threads, clock, and whether the time of warm-up frames counts; sampler and plan are the
+  // contestants' own.
+  RenderSettings render;
   std::optional<double> seconds;  // for each method, over all repeats; else
   int samples = 64;               // a pixel, in each repeat
   int repeats = 8;
   double confidence = 0.95;
+  bool slopes = true;  // render passes of growing length, too
 };
 
 // What the methods are held against. `variance` is that of the mean, by pixel and channel; zero where it is exact.
@@ -41,20 +44,22 @@ struct Reference {
 // One repeat of one method, held against the reference. The reference's own variance has been taken off the squared
 // errors, so that they estimate those against the truth without bias; a value may come out negative by chance.
 struct Repeat {
-  double seconds = 0, rays = 0, samples = 0;  // samples: a pixel
+  double seconds = 0;                   // that count
+  double all_seconds = 0, warm_up = 0;  // all that it took; of these, seconds of frames that are not shown
+  double rays = 0, samples = 0;         // of all frames; of those that are shown, a pixel
   double mse = 0, relative_mse = 0, flip = 0;
   double variance = 0;  // that the method's own error bars state, mean over pixels
   double coverage = 0;  // share of pixels whose 95 % interval holds the reference
   double image_mean[3] = {};
 };
 
-// The squared error of single passes of 1, 2, 4, ... samples.
+// The squared error of single passes of 1, 2, 4, ... samples, and the seconds that count.
 struct ConvergencePoint {
   double samples = 0;
   Measured mse, seconds;
 };
 
-// Squared error of single passes of growing length, in one repeat.
+// The same in one repeat; empty without slopes.
 struct ConvergenceRun {
   std::vector<double> samples, mse, seconds;
 };
@@ -82,8 +87,9 @@ struct ContestState {
 struct MethodResult {
   Contestant contestant;
   std::vector<Repeat> repeats;
-  Measured seconds, rays, samples, mse, relative_mse, flip, variance, coverage;
-  Measured efficiency, relative_efficiency;  // 1 / (mse x seconds); 1 / (relative mse x seconds)
+  Measured seconds, all_seconds, warm_up, rays, samples, mse, relative_mse, flip, variance, coverage;
+  Measured efficiency, relative_efficiency;              // 1 / (mse x seconds); 1 / (relative mse x seconds)
+  Measured whole_efficiency, whole_relative_efficiency;  // the same by all seconds
   std::vector<ConvergencePoint> convergence;
   Measured slope_by_samples, slope_by_time;   // of log mse
   PixelBuffer mean, standard_error;           // over all repeats
@@ -103,11 +109,13 @@ bool differs_from_reference(const MethodResult& m);
 struct PairVerdict {
   std::size_t first = 0, second = 0;
   Measured ratio, relative_ratio;
+  Measured whole_ratio, whole_relative_ratio;  // the same by all seconds
   bool decided = false;
   double times_longer = 1;  // how many times the time would decide it, if the ratio is what it seems
 };
 
 struct ContestResult {
+  bool warm_up_counts = true;  // in seconds and efficiencies; no: only the time of frames that are shown does
   std::vector<MethodResult> methods;
   std::vector<PairVerdict> verdicts;  // of every pair, by mse
   Reference reference;

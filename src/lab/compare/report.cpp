@@ -18,13 +18,19 @@ std::string name_of(const MethodResult& m) { return m.contestant.label + ": " + 
 
 Table table_of_methods(const ContestResult& result) {
   Table table{"methods",
-              "Means over the repeats, with their intervals; squared errors and FLIP of one repeat against the "
-              "reference. Efficiency is 1 / (mse × seconds).",
+              fmt::format("Means over the repeats, with their intervals; squared errors and FLIP of one repeat against "
+                          "the reference. Efficiency is 1 / (mse × seconds).{}",
+                          result.warm_up_counts ? "" : " Seconds are those of frames that are shown."),
               {"method", "mse", "relMSE", "FLIP", "seconds", "samples a pixel", "rays", "efficiency"},
               {}};
   for (const MethodResult& m : result.methods)
     table.rows.push_back({name_of(m), spread(m.mse), spread(m.relative_mse), spread(m.flip), spread(m.seconds),
                           m.samples.mean, fmt::format("{:.3g}", m.rays.mean), spread(m.efficiency)});
+  if (result.warm_up_counts) return table;
+  table.columns.insert(table.columns.end(), {"seconds of warm-up, not counted", "efficiency with these"});
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    table.rows[i].insert(table.rows[i].end(),
+                         {spread(result.methods[i].warm_up), spread(result.methods[i].whole_efficiency)});
   return table;
 }
 
@@ -53,6 +59,11 @@ Table table_of_ratios(const ContestResult& result) {
   for (const PairVerdict& v : result.verdicts)
     table.rows.push_back({result.methods[v.first].contestant.label, result.methods[v.second].contestant.label,
                           spread(v.ratio), spread(v.relative_ratio), v.decided ? "yes" : "no"});
+  if (result.warm_up_counts) return table;
+  table.columns.insert(table.columns.end(), {"ratio with the time of warm-up", "the same by relMSE"});
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    table.rows[i].insert(table.rows[i].end(),
+                         {spread(result.verdicts[i].whole_ratio), spread(result.verdicts[i].whole_relative_ratio)});
   return table;
 }
 
@@ -81,6 +92,10 @@ Figure convergence(const ContestResult& result, bool by_time) {
     figure.curves.push_back(std::move(line)), figure.curves.push_back(std::move(bars));
   }
   return figure;
+}
+
+bool has_slopes(const ContestResult& result) {
+  return std::ranges::any_of(result.methods, [](const MethodResult& m) { return !m.convergence.empty(); });
 }
 
 Figure repeats(const ContestResult& result) {
@@ -216,8 +231,10 @@ ReportSet report_of(const ContestResult& result, const ContestWords& words) {
   report.sections.push_back(table_of_methods(result));
   report.sections.push_back(table_of_truth(result));
   add_attribution(result, report);
-  report.sections.push_back(convergence(result, false));
-  report.sections.push_back(convergence(result, true));
+  if (has_slopes(result)) {
+    report.sections.push_back(convergence(result, false));
+    report.sections.push_back(convergence(result, true));
+  }
   report.sections.push_back(repeats(result));
   report.sections.push_back(Text{fmt::format("Reference: {}; its own variance is {:.2g} of the smallest squared error.",
                                              result.reference.origin, result.reference_share)});

@@ -37,10 +37,14 @@ std::vector<double> column(const MethodResult& method, double (*value)(const Rep
 }
 double efficiency_of(const Repeat& r) { return 1 / (r.mse * r.seconds); }
 double relative_efficiency_of(const Repeat& r) { return 1 / (r.relative_mse * r.seconds); }
+double whole_efficiency_of(const Repeat& r) { return 1 / (r.mse * r.all_seconds); }
+double whole_relative_efficiency_of(const Repeat& r) { return 1 / (r.relative_mse * r.all_seconds); }
 
 void summarize(MethodResult& m, double confidence) {
   const auto of = [&](double (*value)(const Repeat&)) { return measured(column(m, value), confidence); };
   m.seconds = of([](const Repeat& r) { return r.seconds; });
+  m.all_seconds = of([](const Repeat& r) { return r.all_seconds; });
+  m.warm_up = of([](const Repeat& r) { return r.warm_up; });
   m.rays = of([](const Repeat& r) { return r.rays; });
   m.samples = of([](const Repeat& r) { return r.samples; });
   m.mse = of([](const Repeat& r) { return r.mse; });
@@ -50,6 +54,8 @@ void summarize(MethodResult& m, double confidence) {
   m.coverage = of([](const Repeat& r) { return r.coverage; });
   m.efficiency = of(efficiency_of);
   m.relative_efficiency = of(relative_efficiency_of);
+  m.whole_efficiency = of(whole_efficiency_of);
+  m.whole_relative_efficiency = of(whole_relative_efficiency_of);
 }
 
 // The mean over pixels of the squared bias. The errors of two repeats are independent, so their product has the squared
@@ -133,9 +139,13 @@ PairVerdict judge(const ContestResult& result, std::size_t a, std::size_t b, dou
   const MethodResult &first = result.methods[a], &second = result.methods[b];
   PairVerdict v;
   v.first = a, v.second = b;
-  v.ratio = measured_ratio(column(first, efficiency_of), column(second, efficiency_of), confidence);
-  v.relative_ratio =
-      measured_ratio(column(first, relative_efficiency_of), column(second, relative_efficiency_of), confidence);
+  const auto ratio_of = [&](double (*value)(const Repeat&)) {
+    return measured_ratio(column(first, value), column(second, value), confidence);
+  };
+  v.ratio = ratio_of(efficiency_of);
+  v.relative_ratio = ratio_of(relative_efficiency_of);
+  v.whole_ratio = ratio_of(whole_efficiency_of);
+  v.whole_relative_ratio = ratio_of(whole_relative_efficiency_of);
   v.decided = v.ratio.count >= 2 && (v.ratio.low > 1 || v.ratio.high < 1);
   if (!v.decided && v.ratio.count >= 2) {
     // The half width shrinks with the root of the number of repeats, and must come below the distance from one.
@@ -157,6 +167,7 @@ ContestResult result_of(const std::vector<Contestant>& contestants, const Contes
                         const ContestSettings& settings) {
   ContestResult result;
   result.reference = state.reference;
+  result.warm_up_counts = settings.render.warm_up_counts;
   double smallest_mse = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     const MethodState& gathered = state.methods[i];
