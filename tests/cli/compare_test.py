@@ -54,6 +54,43 @@ class Compare(ProgramTest):
         without = json.loads(self.compare("-a", "path", "-b", "naive", "--no-attribution", "--json").stdout)
         self.assertTrue(all(method["attribution"] is None for method in without["methods"]))
 
+    def test_the_time_of_warm_up_does_not_count_for_warm_frames(self):
+        methods = ["-a", "path", "-b", "restir-di:chain=1,warm-up=6"]
+        found = json.loads(self.compare(*methods, "--warm-frames", "--json").stdout)
+        self.assertFalse(found["warm_up_counts"])
+        path, frames = found["methods"]
+        self.assertEqual(path["warm_up_seconds"]["mean"], 0)
+        self.assertEqual(path["seconds"], path["seconds_with_warm_up"])
+        self.assertGreater(frames["warm_up_seconds"]["mean"], frames["seconds"]["mean"])
+        self.assertAlmostEqual(frames["seconds"]["mean"] + frames["warm_up_seconds"]["mean"],
+                               frames["seconds_with_warm_up"]["mean"], delta=1e-9)
+        self.assertGreater(frames["efficiency"]["mean"], frames["efficiency_with_warm_up"]["mean"])
+        verdict = found["verdicts"][0]
+        self.assertLess(verdict["efficiency_ratio"]["mean"], verdict["efficiency_ratio_with_warm_up"]["mean"])
+        # What is left out is said, in every form of the results.
+        result = self.compare(*methods, "--warm-frames", "-o", "report.html")
+        self.assertRegex(result.stdout, r"not counted: \S+ s of warm-up in each repeat; with it efficiency")
+        self.assertRegex(result.stdout, r"the warm-up of b is not counted: with it \S+ times \(between")
+        page = (self.folder / "report.html").read_text()
+        for word in "ratio with the time of warm-up", "frames of a sequence", "--warm-frames":
+            self.assertIn(word, page)
+        self.assertIn("warm_up_seconds", self.compare(*methods, "--warm-frames", "--csv").stdout.splitlines()[0])
+        # By default all time counts.
+        found = json.loads(self.compare(*methods, "--json").stdout)
+        self.assertTrue(found["warm_up_counts"])
+        self.assertEqual(found["methods"][1]["seconds"], found["methods"][1]["seconds_with_warm_up"])
+        self.assertNotIn("warm-up of b", self.compare(*methods).stdout)
+
+    def test_the_clock_and_slopes_may_be_chosen(self):
+        found = json.loads(self.compare("-a", "path", "-b", "naive", "--clock", "processor", "--no-slopes", "--json",
+                                        "--save", "run.json").stdout)
+        self.assertEqual(found["clock"], "processor")
+        self.assertEqual(found["methods"][0]["convergence"], [])
+        self.assertIsNone(found["methods"][0]["slope_by_samples"]["mean"])
+        more = json.loads(self.run_program("compare", "--resume", "run.json", "--repeats", 2, "--json").stdout)
+        self.assertEqual(more["clock"], "processor")
+        self.assertEqual(more["methods"][0]["repeats"], 6)
+
     def test_a_saved_comparison_goes_on(self):
         self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 256, "-o", "truth.exr", "--quiet")
         common = ["-a", "path", "-b", "path:mis=balance", "--reference", "truth.exr", "--json", "--quiet"]
@@ -77,6 +114,7 @@ class Compare(ProgramTest):
             ([SCENE, "--resume", "run.json"], "only the budget"),
             (["--resume", "run.json", "-a", "path"], "only the budget"),
             (["--resume", "run.json", "--seed", "4"], "only the budget"),
+            (["--resume", "run.json", "--warm-frames"], "only the budget"),
             (["--resume", "nowhere.json"], "cannot be read"),
             (["--save", "run.json"], "a scene is missing"),
         ]:
@@ -96,6 +134,8 @@ class Compare(ProgramTest):
             (["-a", "path", "-b", "path:sampler=sobl"], 'did you mean "sobol"'),
             (["-a", "path", "-b", "path:mis=best"], "balance, power, off"),
             (["-a", "direct", "-b", "ao"], "none of them can make the reference"),
+            (["-a", "path", "-b", "restir-di", "--warm-frames"], "no method has frames of warm-up"),
+            (["-a", "path", "-b", "naive", "--clock", "sand"], "wall, processor"),
             (["-a", "path", "-b", "naive", "--reference", "nowhere.exr"], "nowhere.exr"),
         ]:
             with self.subTest(arguments=arguments):

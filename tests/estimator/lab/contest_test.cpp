@@ -57,6 +57,33 @@ class Noise final : public PixelIntegrator {
   WorkClock* clock_ = nullptr;
 };
 
+// Chains whose frames are those of Noise, after `warm_up` frames that take as long and show nothing.
+class WarmedUp final : public CoupledIntegrator {
+ public:
+  WarmedUp(const Noise& noise, int warm_up) : noise_(noise), warm_up_(warm_up) {}
+  int frames() const override { return 1; }
+  int warm_up() const override { return warm_up_; }
+  int stages() const override { return 1; }
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override { return std::make_unique<Frames>(noise_, pass); }
+
+ private:
+  class Frames final : public Chain {
+   public:
+    Frames(const Noise& noise, const ChainPass& pass) : noise_(noise), pass_(pass) {}
+    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+      PointSet points = pass_.points;
+      points.samples_per_pass = 1, points.pass = mix_bits(points.pass * 1024 + std::uint32_t(step.frame));
+      return noise_.trace({tile, points, {}}, out);
+    }
+
+   private:
+    const Noise& noise_;
+    ChainPass pass_;
+  };
+  const Noise& noise_;
+  int warm_up_;
+};
+
 ContestSettings settings(int samples, int repeats) {
   ContestSettings s;
   s.render.bounds = {0, 0, 32, 32}, s.render.width = s.render.height = 32, s.render.threads = 1;
@@ -146,6 +173,65 @@ TEST(Contest, counts_the_time_of_its_turns) {
   const ContestResult r = run_contest({contestant("a", dear)}, exact(1), s, {});
   for (const Repeat& repeat : r.methods[0].repeats)
     EXPECT_NEAR(repeat.seconds, 2000e-9 * 16 * 32 * 32, 1e-12 * repeat.seconds);
+}
+
+// Alone, and with 12 frames of warm-up before each: the same frames at the same cost.
+ContestResult contest_of_warm_frames(bool warm_up_counts) {
+  WorkClock clock;
+  const Noise alone(1, 1, 1024, clock, 0), frame(1, 1, 1024, clock, 3);
+  const WarmedUp warmed(frame, 12);
+  ContestSettings s = settings(16, 8);
+  s.render.clock = clock.clock(), s.render.warm_up_counts = warm_up_counts, s.confidence = 1 - family_level;
+  return run_contest({contestant("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
+}
+
+TEST(Contest, leaves_the_time_of_warm_up_out_if_told_to) {
+  const ContestResult r = contest_of_warm_frames(false);
+  const double frame = 1024e-9 * 32 * 32;
+  for (const Repeat& repeat : r.methods[1].repeats) {
+    EXPECT_NEAR(repeat.seconds, 16 * frame, 1e-9 * frame);
+    EXPECT_NEAR(repeat.warm_up, 16 * 12 * frame, 1e-9 * frame);
+    EXPECT_NEAR(repeat.all_seconds, 16 * 13 * frame, 1e-9 * frame);
+  }
+  for (const Repeat& repeat : r.methods[0].repeats) EXPECT_EQ(repeat.seconds, repeat.all_seconds);
+  const PairVerdict& v = r.verdicts.front();
+  EXPECT_FALSE(v.decided);
+  EXPECT_TRUE(holds(v.ratio, 1)) << v.ratio.low << " to " << v.ratio.high;
+  EXPECT_TRUE(holds(v.whole_ratio, 13)) << v.whole_ratio.low << " to " << v.whole_ratio.high;
+  EXPECT_TRUE(holds(v.relative_ratio, 1));
+  EXPECT_TRUE(holds(v.whole_relative_ratio, 13));
+  // A planted fault: warm-up is counted all the same.
+  EXPECT_FALSE(holds(v.ratio, 13));
+  // Single passes of k samples have one warm-up each, and errors and seconds as without.
+  for (const ConvergencePoint& p : r.methods[1].convergence)
+    EXPECT_NEAR(p.seconds.mean, p.samples * frame, 1e-9 * frame) << p.samples;
+  EXPECT_TRUE(holds(r.methods[1].slope_by_time, -1));
+}
+
+TEST(Contest, counts_all_time_by_default) {
+  const ContestResult r = contest_of_warm_frames(true);
+  for (const MethodResult& m : r.methods)
+    for (const Repeat& repeat : m.repeats) EXPECT_EQ(repeat.seconds, repeat.all_seconds);
+  EXPECT_TRUE(r.verdicts.front().decided);
+  EXPECT_TRUE(holds(r.verdicts.front().ratio, 13));
+  // A planted fault: a slope over seconds with the warm-up in them is another.
+  EXPECT_FALSE(holds(r.methods[1].slope_by_time, -1));
+}
+
+TEST(Contest, gives_warm_frames_as_much_counted_time_as_the_others) {
+  WorkClock clock;
+  const Noise alone(1, 1, 1024, clock, 0), frame(1, 1, 1024, clock, 3);
+  const WarmedUp warmed(frame, 12);
+  ContestSettings s = settings(16, 4);
+  const double seconds = 1024e-9 * 32 * 32;
+  s.render.clock = clock.clock(), s.render.warm_up_counts = false, s.slopes = false, s.seconds = 4 * 20 * seconds;
+  const ContestResult r =
+      run_contest({contestant("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
+  for (const Repeat& repeat : r.methods[1].repeats) {
+    EXPECT_GE(repeat.seconds, (1 - 1e-9) * 20 * seconds);
+    EXPECT_LE(repeat.seconds, 21 * seconds * (1 + 1e-9));
+  }
+  EXPECT_TRUE(r.methods[1].convergence.empty());
 }
 
 TEST(Contest, finds_a_bias_and_its_size) {
