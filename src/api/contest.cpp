@@ -119,6 +119,10 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
     for (std::size_t i = 0; i < reference.variance.values.size(); ++i)
       reference.variance.values[i] = picture->bars->standard_error.values[i] * picture->bars->standard_error.values[i];
     reference.degrees_of_freedom = picture->bars->degrees_of_freedom;
+    if (const auto& error = picture->bars->error_of_mean) {
+      reference.variance_of_image.emplace();
+      for (std::size_t c = 0; c < 3; ++c) (*reference.variance_of_image)[c] = std::pow(double(error->values[c]), 2);
+    }
   }
   return reference;
 }
@@ -157,11 +161,16 @@ void keep_reference(const fs::path& file, const lab::Reference& reference) {
   PixelBuffer picture = reference.mean, bars = reference.variance;
   for (float& v : bars.values) v = std::sqrt(v);
   append_layer(picture, "stderr", bars);
+  std::vector<Attribute> header{{"montelux:passes", std::int32_t(reference.degrees_of_freedom) + 1}};
+  for (std::size_t c = 0; reference.variance_of_image && c < 3; ++c) {
+    double mean = 0;
+    for (std::size_t p = c; p < reference.mean.values.size(); p += 3) mean += double(reference.mean.values[p]);
+    header.push_back({fmt::format("montelux:mean{}", "RGB"[c]), mean / double(reference.mean.pixel_count())});
+    header.push_back(
+        {fmt::format("montelux:meanStandardError{}", "RGB"[c]), std::sqrt((*reference.variance_of_image)[c])});
+  }
   // A cache that cannot be written only costs time later.
-  if (Status kept =
-          write_image(file, picture, {{{"montelux:passes", std::int32_t(reference.degrees_of_freedom) + 1}}, {}});
-      !kept)
-    return;
+  if (Status kept = write_image(file, picture, {std::move(header), {}}); !kept) return;
 }
 
 // The kept reference if it is as good as asked for.

@@ -87,6 +87,9 @@ Json reference_json(const lab::Reference& r) {
           {"height", r.mean.height},
           {"origin", r.origin},
           {"degrees_of_freedom", number(r.degrees_of_freedom)},
+          {"variance_of_image",
+           r.variance_of_image ? Json(packed(std::vector(r.variance_of_image->begin(), r.variance_of_image->end())))
+                               : Json()},
           {"mean", packed(r.mean.values)},
           {"variance", packed(r.variance.values)}};
 }
@@ -98,6 +101,10 @@ lab::Reference reference_from(const Json& j) {
   r.mean = r.variance = make_pixel_buffer(width, height, {"R", "G", "B"});
   r.mean.values = unpacked<float>(j.at("mean"), r.mean.values.size());
   r.variance.values = unpacked<float>(j.at("variance"), r.mean.values.size());
+  if (const Json& known = j.at("variance_of_image"); !known.is_null()) {
+    const std::vector<double> v = unpacked<double>(known, 3);
+    r.variance_of_image = {v[0], v[1], v[2]};
+  }
   r.origin = j.at("origin"), r.degrees_of_freedom = number_from(j.at("degrees_of_freedom"));
   return r;
 }

@@ -207,7 +207,10 @@ Reference make_reference(const std::vector<Contestant>& contestants, const std::
                      fmt::format("reference by {}", best->label));
     if (!(variance > goal) || passes >= most_passes) break;
   }
-  return {mean_of(film), variance_of(film), double(passes - 1),
+  const ImageEstimate image = film.image();
+  std::array<double, 3> variance_of_image{};
+  for (std::size_t c = 0; c < 3; ++c) variance_of_image[c] = image.standard_error[c] * image.standard_error[c];
+  return {mean_of(film), variance_of(film), double(passes - 1), variance_of_image,
           fmt::format("{}, {} samples a pixel", best->text, passes * samples_per_pass)};
 }
 

@@ -1,7 +1,9 @@
 // Which estimator of a picture is better, by how much, and how sure that is: methods take turns on one scene in
 // independent repeats, and every figure has an error bar from these.
 #pragma once
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,8 @@ struct ContestSettings {
 struct Reference {
   PixelBuffer mean, variance;  // R, G, B
   double degrees_of_freedom = 0;
+  // Of the image mean, R, G, B, over passes: right where pixels share their errors. None: they are independent.
+  std::optional<std::array<double, 3>> variance_of_image{};
   std::string origin;  // "path, 4096 samples a pixel", or a file
 };
 

@@ -93,7 +93,7 @@ Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Refe
 }
 
 // The mean of the image against the reference's, by the spread of the repeats' image means: right whatever the
-// correlation between pixels. The reference's pixels are taken as independent.
+// correlation between pixels.
 WelchScale test_of_image_means(const MethodResult& m, const Reference& reference, double level) {
   const double n = double(m.repeats.size()), pixels = double(reference.mean.pixel_count());
   WelchScale worst;
@@ -106,6 +106,7 @@ WelchScale test_of_image_means(const MethodResult& m, const Reference& reference
       truth += double(reference.mean.values[3 * p + c]) / pixels;
       variance += double(reference.variance.values[3 * p + c]) / (pixels * pixels);
     }
+    if (reference.variance_of_image) variance = (*reference.variance_of_image)[c];
     const double error = std::sqrt(means.variance() / n + variance), difference = means.mean - truth;
     const double t = difference == 0 ? 0 : difference / error, p_value = 2 * student_t_cdf(-std::abs(t), n - 1);
     if (c > 0 && !(p_value < worst.smallest_p)) continue;
@@ -131,7 +132,7 @@ void summarize_film(const MethodState& state, const Reference& reference, Method
   for (float& v : reference_error.values) v = std::sqrt(v);
   m.bias = welch_test({m.mean, m.standard_error, double(state.passes - 1)},
                       {reference.mean, reference_error, reference.degrees_of_freedom}, 0.01);
-  if (m.repeats.size() >= 3) m.bias.image = test_of_image_means(m, reference, 0.01 / 3);
+  if (m.repeats.size() >= 2) m.bias.image = test_of_image_means(m, reference, 0.01 / 3);
   m.non_finite = state.non_finite;
 }
 

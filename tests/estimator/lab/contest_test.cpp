@@ -253,6 +253,19 @@ TEST(Contest, takes_no_common_error_of_all_pixels_for_a_bias) {
   EXPECT_TRUE(differs_from_reference(r.methods[1]));
 }
 
+TEST(Contest, takes_no_common_error_of_the_reference_for_a_bias) {
+  // Every pixel of the reference is off by the same: two of its standard errors, which its passes tell.
+  const Noise right(1, 0.5f);
+  Reference off = exact(1);
+  for (float& v : off.mean.values) v += 0.02f;
+  for (float& v : off.variance.values) v = 1e-4f;
+  off.variance_of_image = {1e-4, 1e-4, 1e-4};
+  EXPECT_FALSE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].bias.image.differs);
+  // A planted fault: its pixels are taken as independent.
+  off.variance_of_image.reset();
+  EXPECT_TRUE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].bias.image.differs);
+}
+
 TEST(Contest, makes_a_reference_that_is_good_enough) {
   const Noise quiet(1, 0.5f), loud(1, 2);
   const std::vector<Contestant> both{contestant("a", quiet), contestant("b", loud)};
@@ -260,6 +273,8 @@ TEST(Contest, makes_a_reference_that_is_good_enough) {
   const double goal = 0.05 * expected_smallest_mse(both, s, {});
   const Reference r = make_reference(both, {0, 1}, s, goal, {});
   EXPECT_LE(mean_value(r.variance), goal);
+  // Independent pixels: the variance of the image mean is that of a pixel over their number, but for its spread.
+  for (double v : r.variance_of_image.value()) EXPECT_LT(std::abs(std::log(v * 1024 / mean_value(r.variance))), 3);
   EXPECT_EQ(r.origin.substr(0, 2), "a,");
   EXPECT_LT(run_contest(both, r, s, {}).reference_share, 0.25);
 }
