@@ -89,8 +89,7 @@ struct Truth {
   std::vector<double> mean, variance;
   double image = 0, image_error = 0;
 };
-inline Truth truth_of(const TestScene& scene, PassPlan plan) {
-  const Film film = scene.render(PointSetKind::padded_sobol, plan, 0x7257u, Lanes::native, 0).film;
+inline Truth truth_of(const Film& film) {
   Truth t;
   const PixelBounds& b = film.bounds();
   for (int y = b.y0; y < b.y1; ++y)
@@ -100,6 +99,13 @@ inline Truth truth_of(const TestScene& scene, PassPlan plan) {
     }
   t.image = film.image().mean[0], t.image_error = film.image().standard_error[0];
   return t;
+}
+inline Truth truth_of(const TestScene& scene, PassPlan plan, std::optional<Shutter> shutter = {}) {
+  const PathTracer path = scene.tracer();
+  RenderSettings s = scene.settings(PointSetKind::padded_sobol, plan, 0x7257u, 0);
+  s.shutter = shutter;
+  RenderObserver silent;
+  return truth_of(render(path, s, silent).film);
 }
 
 }  // namespace montelux::test

@@ -15,6 +15,14 @@ struct Coverage {
   std::vector<double> pixel_share;         // by seed
   std::vector<double> estimated, squares;  // by seed: estimated and true squared error, means over pixels
 
+  // As if the seeds of both had been measured together.
+  void add(const Coverage& other) {
+    pixels += other.pixels, pixel_intervals += other.pixel_intervals, images += other.images, seeds += other.seeds;
+    estimated_mse += other.estimated_mse, true_mse += other.true_mse;
+    for (double share : other.pixel_share) pixel_share.push_back(share);
+    for (double value : other.estimated) estimated.push_back(value);
+    for (double value : other.squares) squares.push_back(value);
+  }
   // Of the estimated to the true mean squared error.
   double ratio() const { return estimated_mse / true_mse; }
   // Is that ratio in [low, high]? Student's test of estimated - r true, r the nearest ratio of the range.
@@ -79,6 +87,28 @@ inline Coverage measure_coverage(const TestScene& scene, const Truth& truth, std
         return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, seed, 0), silent).film;
       },
       truth, plan, seeds, shrink);
+}
+
+struct ShareInterval {
+  double low = 0, high = 1;
+};
+// Two-sided exact interval of a probability (Clopper and Pearson 1934).
+inline ShareInterval binomial_interval(double successes, double trials, double level) {
+  // The p at which `tail`, which rises with p, reaches a value.
+  const auto where = [](auto tail, double value) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) (tail(0.5 * (low + high)) < value ? low : high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+  };
+  const auto at_least = [&](double k) { return [=](double p) { return incomplete_beta(k, trials - k + 1, p); }; };
+  return {successes > 0 ? where(at_least(successes), 0.5 * level) : 0,
+          successes < trials ? where(at_least(successes + 1), 1 - 0.5 * level) : 1};
+}
+// Student's, of the mean of independent values.
+inline ShareInterval mean_interval(const std::vector<double>& x, double level) {
+  const SampleSummary s = summarize(x);
+  const double half = student_t_quantile(1 - 0.5 * level, double(x.size()) - 1) * s.standard_error();
+  return {s.mean - half, s.mean + half};
 }
 
 // Two-sided exact test (Clopper and Pearson 1934): is the probability of a success in [low, high]?

@@ -10,6 +10,7 @@ namespace montelux::test {
 struct ReuseScene {
   std::string name, text;
 };
+inline void PrintTo(const ReuseScene& s, std::ostream* out) { *out << s.name; }
 
 inline std::string reuse_scene_head(int size, const char* camera, int max_depth) {
   return fmt::format(R"({}
@@ -19,6 +20,20 @@ Integrator "path" "integer maxdepth" [ {} ]
 WorldBegin
 )",
                      camera, size, size, max_depth);
+}
+
+// The head of a scene whose camera goes from one place to another; both as the words of LookAt.
+inline std::string moving_camera_head(int size, const char* start, const char* end, int fov) {
+  return fmt::format(R"(Film "rgb" "integer xresolution" [ {0} ] "integer yresolution" [ {0} ]
+PixelFilter "box"
+ActiveTransform StartTime
+LookAt {1}
+ActiveTransform EndTime
+LookAt {2}
+ActiveTransform All
+Camera "perspective" "float fov" [ {3} ]
+)",
+                     size, start, end, fov);
 }
 
 inline constexpr const char* reuse_camera =

@@ -26,15 +26,8 @@ ActiveTransform EndTime
 Translate 0.7 0.3 -0.5
 Rotate 80 0 1 0
 ActiveTransform All)";
-  return fmt::format(R"(Film "rgb" "integer xresolution" [ {0} ] "integer yresolution" [ {0} ]
-PixelFilter "box"
-Integrator "path" "integer maxdepth" [ {3} ]
-ActiveTransform StartTime
-LookAt -0.6 1 -4  -0.5 0.5 0  0 1 0
-ActiveTransform EndTime
-LookAt 0.9 1.2 -3.7  0.4 0.5 0  0 1 0
-ActiveTransform All
-Camera "perspective" "float fov" [ 45 ]
+  return moving_camera_head(size, "-0.6 1 -4  -0.5 0.5 0  0 1 0", "0.9 1.2 -3.7  0.4 0.5 0  0 1 0", 45) +
+         fmt::format(R"(Integrator "path" "integer maxdepth" [ {2} ]
 WorldBegin
 AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 14 10 7 ]
@@ -47,18 +40,18 @@ Shape "sphere" "float radius" [ 0.2 ]
 AttributeEnd
 Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
 Shape "bilinearmesh" "point3 P" [ -3 0 -3  3 0 -3  -3 0 3  3 0 3 ]
-{1}
+{0}
 Material "diffuse" "rgb reflectance" [ 0.3 0.5 0.6 ]
 Shape "bilinearmesh" "point3 P" [ -0.3 0 -1.2  0.2 0 -1.2  -0.3 0.9 -1.2  0.2 0.9 -1.2 ]
 AttributeBegin
-{2}
+{1}
 Material "diffuse" "rgb reflectance" [ 0.7 0.6 0.2 ]
 Shape "trianglemesh" "integer indices" [ 0 1 2 0 2 3  4 6 5 4 7 6  0 4 5 0 5 1  1 5 6 1 6 2  2 6 7 2 7 3  3 7 4 3 4 0 ]
     "point3 P" [ -0.3 -0.3 -0.3  0.3 -0.3 -0.3  0.3 0.3 -0.3  -0.3 0.3 -0.3
                  -0.3 -0.3 0.3  0.3 -0.3 0.3  0.3 0.3 0.3  -0.3 0.3 0.3 ]
 AttributeEnd
 )",
-                     size, slats, box_moves ? moving : "Translate 0.7 0.3 -0.5", max_depth);
+                     slats, box_moves ? moving : "Translate 0.7 0.3 -0.5", max_depth);
 }
 
 // What is done to the memory of a chain before the next picture has it, for planted faults.

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "pass_means.h"
 #include "path_reuse_scenes.h"
+#include "reuse_checks.h"
 
 namespace montelux::test {
 namespace {
@@ -21,7 +21,6 @@ const char* const unbiased[] = {
     "restir-pt:radius=4,candidates=4,neighbours=2,weights=generalised,footprint=0.05",
     "restir-pt:radius=4,candidates=4,neighbours=2,weights=unbiased,shift=replay,replayed=3,direct=off",
 };
-std::string folder() { return std::string(MONTELUX_SOURCE_DIR) + "/scenes/analytic"; }
 
 // A scene, and what the path tracer says of it.
 struct Measured {
@@ -29,7 +28,9 @@ struct Measured {
   TestScene scene;
   PassMeans truth;
   explicit Measured(const ReuseScene& t)
-      : text(t), scene(t.text, folder()), truth(measure_passes(scene, scene.integrator("path"), 256, passes, 100)) {}
+      : text(t),
+        scene(t.text, textures_of_reuse_scenes()),
+        truth(measure_passes(scene, scene.integrator("path"), 256, passes, 100)) {}
 };
 const std::vector<std::unique_ptr<Measured>>& scenes() {
   static const auto all = [] {
@@ -47,11 +48,7 @@ TEST(PathReuse, has_the_mean_of_the_path_tracer_in_every_scene) {
     const auto& [text, scene, truth] = *measured;
     for (const char* way : unbiased) {
       const PassMeans reuse = measure_passes(scene, scene.integrator(way), 16, passes, ++seed);
-      const MeansVerdict v = compare_means(reuse, truth, own);
-      EXPECT_FALSE(v.differ) << text.name << ", " << way << ": image " << 100 * v.image_difference << " % +- "
-                             << 100 * v.image_error << " %, smallest p " << v.smallest_p << " at " << v.where;
-      EXPECT_LT(v.image_error, 0.03) << text.name << ", " << way;
-      EXPECT_EQ(reuse.non_finite, 0u) << text.name << ", " << way;
+      expect_mean(text.name, way, reuse, truth, {own, 0.03});
     }
   }
 }
@@ -62,10 +59,7 @@ TEST(PathReuse, by_naive_weights_is_too_dark) {
     const auto& [text, scene, truth] = *measured;
     const ChosenIntegrator naive =
         scene.integrator("restir-pt:radius=4,candidates=4,weights=naive,similar=off,direct=off");
-    const MeansVerdict v =
-        compare_means(measure_passes(scene, naive, 16, passes / 4, 7), truth, level / double(scenes().size()));
-    EXPECT_TRUE(v.differ) << text.name;
-    EXPECT_LT(v.image_difference, 0) << text.name;
+    expect_too_dark(text.name, measure_passes(scene, naive, 16, passes / 4, 7), truth, level / double(scenes().size()));
   }
 }
 

@@ -2,8 +2,7 @@
 // level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 
-#include "pass_means.h"
-#include "reuse_scenes.h"
+#include "reuse_checks.h"
 
 namespace montelux::test {
 namespace {
@@ -16,24 +15,19 @@ const char* const unbiased[] = {
     "restir-di:radius=4,candidates=4,weights=unbiased,visibility-reuse=off,rounds=2",
     "restir-di:radius=4,candidates=2,weights=generalised,visibility-reuse=on,similar=off,power-candidates=2",
 };
-std::string folder() { return std::string(MONTELUX_SOURCE_DIR) + "/scenes/analytic"; }
 
 TEST(RestirDirect, has_the_mean_of_the_path_tracer_in_every_scene) {
   const std::vector<ReuseScene> scenes = reuse_scenes(size);
   const double own = sidak_level(level, double(scenes.size() * std::size(unbiased)));
   std::uint32_t seed = 1;
   for (const ReuseScene& text : scenes) {
-    const TestScene scene(text.text, folder());
+    const TestScene scene(text.text, textures_of_reuse_scenes());
     const PassMeans truth = measure_passes(scene, scene.integrator("path"), 128, passes, 100);
     for (const char* way : unbiased) {
       // Pass means of 1/Z weights have long tails: few passes do not show their spread.
       const int enough = std::string_view(way).find("weights=unbiased") != std::string_view::npos ? 4 * passes : passes;
       const PassMeans reuse = measure_passes(scene, scene.integrator(way), 16, enough, ++seed);
-      const MeansVerdict v = compare_means(reuse, truth, own);
-      EXPECT_FALSE(v.differ) << text.name << ", " << way << ": image " << 100 * v.image_difference << " % +- "
-                             << 100 * v.image_error << " %, smallest p " << v.smallest_p << " at " << v.where;
-      EXPECT_LT(v.image_error, 0.03) << text.name << ", " << way;
-      EXPECT_EQ(reuse.non_finite, 0u) << text.name << ", " << way;
+      expect_mean(text.name, way, reuse, truth, {own, 0.03});
     }
   }
 }
@@ -42,13 +36,11 @@ TEST(RestirDirect, has_the_mean_of_the_path_tracer_in_every_scene) {
 TEST(RestirDirect, by_naive_weights_is_too_dark_behind_blockers) {
   const ReuseScene text = reuse_scenes(size)[1];
   ASSERT_EQ(text.name, "blockers");
-  const TestScene scene(text.text, folder());
+  const TestScene scene(text.text, textures_of_reuse_scenes());
   const PassMeans truth = measure_passes(scene, scene.integrator("path"), 128, passes, 100);
   const ChosenIntegrator naive =
       scene.integrator("restir-di:radius=4,candidates=4,weights=naive,visibility-reuse=on,similar=off");
-  const MeansVerdict v = compare_means(measure_passes(scene, naive, 8, passes, 7), truth, level);
-  EXPECT_TRUE(v.differ);
-  EXPECT_LT(v.image_difference, 0);
+  expect_too_dark(text.name, measure_passes(scene, naive, 8, passes, 7), truth, level);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "api/contest.h"
 #include "lab/compare/contest.h"
-#include "mc/random.h"
+#include "noise.h"
 #include "statistics.h"
 
 namespace montelux::lab {
@@ -51,18 +51,9 @@ class LayeredNoise final : public PixelIntegrator {
  private:
   template <class Function>
   void for_each_sample(const TilePass& pass, Function f) const {
-    std::size_t i = 0;
-    for (int y = pass.tile.y0; y < pass.tile.y1; ++y)
-      for (int x = pass.tile.x0; x < pass.tile.x1; ++x)
-        for (std::uint32_t k = 0; k < pass.points.samples_per_pass; ++k, ++i) {
-          const Sampler<float> sampler(
-              {PointSetKind::independent, pass.points.seed, pass.points.pass, pass.points.samples_per_pass},
-              std::uint32_t(x), std::uint32_t(y), k);
-          const auto noise = [&](std::uint32_t dimension, double sigma) {
-            return float(sigma) * std::sqrt(12.0f) * (sampler.get1(dimension) - 0.5f);
-          };
-          f(i, noise(0, sigma_x), noise(1, sigma_y), noise(2, sigma_z));
-        }
+    for_each_noise(pass, false, [&](std::size_t i, const Sampler<float>& sampler) {
+      f(i, noise(sampler, 0, float(sigma_x)), noise(sampler, 1, float(sigma_y)), noise(sampler, 2, float(sigma_z)));
+    });
   }
 };
 

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "mc/random.h"
+#include "noise.h"
 #include "statistics.h"
 
 namespace montelux::lab {
@@ -35,16 +35,9 @@ class Noise final : public PixelIntegrator {
   Noise(float mean, float sigma, double nanoseconds, WorkClock& clock, std::uint32_t first)
       : mean_(mean), sigma_(sigma), first_(first), nanoseconds_(nanoseconds), clock_(&clock) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
-    std::size_t i = 0;
-    for (int y = pass.tile.y0; y < pass.tile.y1; ++y)
-      for (int x = pass.tile.x0; x < pass.tile.x1; ++x)
-        for (std::uint32_t k = 0; k < pass.points.samples_per_pass; ++k, ++i) {
-          const Sampler<float> sampler(
-              {PointSetKind::independent, pass.points.seed, pass.points.pass, pass.points.samples_per_pass},
-              together_ ? 0u : std::uint32_t(x), together_ ? 0u : std::uint32_t(y), k);
-          for (int c = 0; c < 3; ++c)
-            out[i].radiance[c] = mean_ + sigma_ * std::sqrt(12.0f) * (sampler.get1(first_ + std::uint32_t(c)) - 0.5f);
-        }
+    for_each_noise(pass, together_, [&](std::size_t i, const Sampler<float>& sampler) {
+      for (int c = 0; c < 3; ++c) out[i].radiance[c] = mean_ + noise(sampler, first_ + std::uint32_t(c), sigma_);
+    });
     if (clock_) clock_->pass(1e-9 * nanoseconds_ * double(out.size()));
     return {};
   }
@@ -135,25 +128,25 @@ PairVerdict verdict_by_work(const Noise& a, const Noise& b, const WorkClock& clo
 }
 bool holds(const Measured& interval, double truth) { return interval.low < truth && truth < interval.high; }
 
+// The pair is decided, its ratio is the true one, and each of the ratios that a fault would give is excluded.
+void expect_ratio(const PairVerdict& v, double truth, std::initializer_list<double> faults) {
+  EXPECT_TRUE(v.decided);
+  EXPECT_TRUE(holds(v.ratio, truth)) << v.ratio.low << " to " << v.ratio.high;
+  for (double fault : faults) EXPECT_FALSE(holds(v.ratio, fault)) << fault;
+}
+
+// Planted faults: the variance is taken for four fifths of what it is; or is not squared.
 TEST(Contest, decides_for_the_method_of_less_noise_at_the_same_cost) {
   WorkClock clock;
   const Noise quiet(1, 0.5f, 400, clock, 0), loud(1, 1, 400, clock, 3);
-  const PairVerdict v = verdict_by_work(quiet, loud, clock);
-  EXPECT_TRUE(v.decided);
-  EXPECT_TRUE(holds(v.ratio, 4)) << v.ratio.low << " to " << v.ratio.high;
-  // Planted faults: the variance is taken for four fifths of what it is; or is not squared.
-  EXPECT_FALSE(holds(v.ratio, 5));
-  EXPECT_FALSE(holds(v.ratio, 2));
+  expect_ratio(verdict_by_work(quiet, loud, clock), 4, {5, 2});
 }
 
+// A planted fault: the time is not counted.
 TEST(Contest, decides_for_the_cheaper_of_equal_noise) {
   WorkClock clock;
   const Noise cheap(1, 1, 200, clock, 0), dear(1, 1, 2000, clock, 3);
-  const PairVerdict v = verdict_by_work(dear, cheap, clock);
-  EXPECT_TRUE(v.decided);
-  EXPECT_TRUE(holds(v.ratio, 0.1)) << v.ratio.low << " to " << v.ratio.high;
-  // A planted fault: the time is not counted.
-  EXPECT_FALSE(holds(v.ratio, 1));
+  expect_ratio(verdict_by_work(dear, cheap, clock), 0.1, {1});
 }
 
 TEST(Contest, leaves_equals_undecided) {

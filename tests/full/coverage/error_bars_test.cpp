@@ -38,24 +38,6 @@ TEST_P(ErrorBars, cover_the_truth_as_often_as_they_say) {
   }
 }
 
-// Frames of a chain and pixels beside each other depend on each other; chains do not.
-TEST_P(ErrorBars, cover_the_truth_under_reuse) {
-  const TestScene scene(GetParam().text), small(GetParam().text, ".", std::pair{8, 8});
-  const Truth truth = truth_of(scene, {2048, 16}), small_truth = truth_of(small, {2048, 16});
-  constexpr const char* way = "restir-di:radius=3";
-  const double level = sidak_level(family, 3.0 * double(error_bar_scenes().size()));
-  const PassPlan plan{4, 16};
-  const Coverage c = measure_coverage(scene, truth, way, plan, seeds);
-  const Coverage s = measure_coverage(small, small_truth, way, plan, seeds_of_small_images);
-  const double pixels = c.pixels / c.pixel_intervals, held = c.images + s.images, images = c.seeds + s.seeds;
-  std::printf("| %s | restir-di | %d x %d | %.1f %% | %.1f %% | %.3f |\n", GetParam().name.c_str(), plan.passes,
-              plan.samples_per_pass, 100 * pixels, 100 * held / images, c.ratio());
-  std::fflush(stdout);
-  EXPECT_GE(c.pixels_p_value(low, high), level) << "pixels " << pixels;
-  EXPECT_GE(binomial_p_value(held, images, low, high), level) << "image " << held / images;
-  EXPECT_GE(c.ratio_p_value(ratio_low, ratio_high), level) << "estimated over true " << c.ratio();
-}
-
 // Standard errors that are a quarter too small or three quarters too large fail by each of the three figures.
 TEST_P(ErrorBars, that_are_slightly_wrong_are_found) {
   const TestScene scene(GetParam().text), small(GetParam().text, ".", std::pair{8, 8});

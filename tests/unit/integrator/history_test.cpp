@@ -1,10 +1,9 @@
 // Where surface points were in the picture before, against rays that look there; and what is won by knowing it.
 #include "integrator/restir/history.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "render_scenes.h"
+#include "reuse_scenes.h"
 
 namespace montelux::test {
 namespace {
@@ -13,15 +12,8 @@ constexpr int size = 64;
 
 // Boards and balls before a wall, all at rest but for one mesh and one ball; the camera pans and rolls a little.
 std::string panning_scene() {
-  std::string text = R"(Film "rgb" "integer xresolution" [ 64 ] "integer yresolution" [ 64 ]
-PixelFilter "box"
-ActiveTransform StartTime
-LookAt -0.5 1 -6  -0.5 0.8 0  0 1 0
-ActiveTransform EndTime
-LookAt 0.5 1.1 -5.5  1.2 0.8 0  0.1 1 0
-ActiveTransform All
-Camera "perspective" "float fov" [ 40 ]
-WorldBegin
+  std::string text =
+      moving_camera_head(size, "-0.5 1 -6  -0.5 0.8 0  0 1 0", "0.5 1.1 -5.5  1.2 0.8 0  0.1 1 0", 40) + R"(WorldBegin
 LightSource "infinite"
 Shape "bilinearmesh" "point3 P" [ -9 -5 3  9 -5 3  -9 6 3  9 6 3 ]
 AttributeBegin
