@@ -184,7 +184,9 @@ TEST(Shape, rays_that_leave_do_not_meet_the_surface_again) {
       } else if (c < -0.05f) {
         // Inside a sphere the ray crosses to the other side, along a chord.
         ASSERT_TRUE(hit);
-        ASSERT_NEAR(hit->t / s, -2 * c, 1e-3);
+        // The place is rounded to about 1e-5 of the radius, as it is 80 radii from the origin; a flat chord stretches
+        // that.
+        ASSERT_NEAR(hit->t / s, -2 * c, 4e-5 / -c);
       }
     }
   }

@@ -79,9 +79,10 @@ TEST(Motion, leads_to_where_the_same_point_was_seen_before) {
         continue;
       }
       ++same;
-      EXPECT_NEAR(there.origin.hit.t, earlier.place.distance, 2e-3f) << x << " " << y;
+      // Some roundings of a distance below ten, and of a unit vector.
+      EXPECT_NEAR(there.origin.hit.t, earlier.place.distance, 1e-5f) << x << " " << y;
       EXPECT_EQ(there.surface.object, here.surface.object) << x << " " << y;
-      EXPECT_NEAR(dot(there.surface.point.ng, earlier.ng), 1, 2e-2f) << x << " " << y;
+      EXPECT_NEAR(dot(there.surface.point.ng, earlier.ng), 1, 1e-6f) << x << " " << y;
     }
   EXPECT_GT(same, 3000);
   EXPECT_GT(hidden, 50);

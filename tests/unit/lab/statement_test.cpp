@@ -30,7 +30,7 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 TEST(Statement, a_good_density_is_taken_and_measured) {
   const StatementReading reading = read_statement(cubic("2*x, inverse=sqrt(u)"), methods("importance"));
   ASSERT_TRUE(reading.stated) << mistakes(cubic("2*x, inverse=sqrt(u)"));
-  EXPECT_NEAR(reading.stated->densities[0].integral, 1, 1e-3);
+  EXPECT_NEAR(reading.stated->densities[0].integral, 1, 1e-4);
   ASSERT_EQ(reading.stated->problem.densities.size(), 1u);
   const std::vector<double> u{0.25, 0.81};
   std::vector<double> x(2), p(2);
@@ -63,7 +63,7 @@ TEST(Statement, a_density_that_is_none_is_refused_with_a_measurement) {
   scaled.normalize_densities = true;
   const StatementReading reading = read_statement(scaled, methods("importance"));
   ASSERT_TRUE(reading.stated);
-  EXPECT_NEAR(*reading.stated->densities[0].scaled_by, 2.0 / 3, 1e-3);
+  EXPECT_NEAR(*reading.stated->densities[0].scaled_by, 2.0 / 3, 1e-4);
 }
 
 TEST(Statement, an_inverse_of_another_density_is_refused) {

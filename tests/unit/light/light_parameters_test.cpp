@@ -72,7 +72,8 @@ TEST(LightParameters, power_is_what_a_light_in_one_point_sends_in_all) {
     std::vector<Parameter> parameters{number("power", 30)};
     if (type == "goniometric" || type == "projection") parameters.push_back(text("filename", "square"));
     Made made = make(entity(type, parameters), translate(1, 2, 3));
-    EXPECT_NEAR(sent(made.lights, {1, 2, 3}) / 30, 1, 0.01) << type;
+    // The sharp edge of a projected picture cuts through about one in thirty of its cells of directions.
+    EXPECT_NEAR(sent(made.lights, {1, 2, 3}) / 30, 1, type == "projection" ? 4e-3 : 1e-3) << type;
   }
 }
 
@@ -86,7 +87,8 @@ TEST(LightParameters, illuminance_is_what_the_upward_plane_receives) {
         Vec3f w = sphere_from_square(Vec2f{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n});
         sum += double(luminance(made.lights.escaped_radiance<float>(w, true)) * max(w.z, 0.0f));
       }
-    EXPECT_NEAR(4 * std::numbers::pi * sum / (n * n), 5, 0.02) << file;
+    // The sum over cells, whose error falls as 1 / n^2, but where the edges of the file's texels cut them.
+    EXPECT_NEAR(4 * std::numbers::pi * sum / (n * n), 5, 5e-4) << file;
   }
 }
 
