@@ -235,7 +235,7 @@ TEST(Camera, projects_the_points_of_its_rays_to_where_they_come_from) {
       const Vec3f p = r.o + r.d * distance;
       const Projection<float> back = camera.project(p, time);
       ASSERT_TRUE(back.seen);
-      // The point and the camera's place are rounded to 2^-24 of what they are, seen from the distance through a
+      // Of the point and the camera's place some operations leave 2^-21 of what they are, seen from the distance in a
       // picture of at most 64 pixels in 15 degrees.
       const float rounding = 1e-5f + (length(p) + length(r.o)) / distance * 0x1p-21f * 250;
       ASSERT_NEAR(back.raster.x, raster.x, rounding) << camera.variant().index() << " " << camera.moves();
