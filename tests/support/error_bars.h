@@ -15,14 +15,6 @@ struct Coverage {
   std::vector<double> pixel_share;         // by seed
   std::vector<double> estimated, squares;  // by seed: estimated and true squared error, means over pixels
 
-  // As if the seeds of both had been measured together.
-  void add(const Coverage& other) {
-    pixels += other.pixels, pixel_intervals += other.pixel_intervals, images += other.images, seeds += other.seeds;
-    estimated_mse += other.estimated_mse, true_mse += other.true_mse;
-    for (double share : other.pixel_share) pixel_share.push_back(share);
-    for (double value : other.estimated) estimated.push_back(value);
-    for (double value : other.squares) squares.push_back(value);
-  }
   // Of the estimated to the true mean squared error.
   double ratio() const { return estimated_mse / true_mse; }
   // Is that ratio in [low, high]? Student's test of estimated - r true, r the nearest ratio of the range.
