@@ -1,9 +1,8 @@
 // A chain of frames whose pixels share what they know of light.
 #pragma once
-#include "integrator/restir/first_stage.h"
-#include "integrator/restir/light_point_shift.h"
+#include "integrator/restir/combination.h"
+#include "integrator/restir/groups.h"
 #include "integrator/restir/neighbours.h"
-#include "integrator/restir/reservoirs.h"
 
 namespace montelux {
 
@@ -27,7 +26,10 @@ class ReuseChain final : public Chain {
   // Stage 0 looks for light at every pixel and in the frame before; every further one learns from neighbours, and the
   // last one of these makes the picture.
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    if (step.stage > 0) return share(step, tile, out);
+    if (step.stage > 0) {
+      if (!in_groups()) return share(step, tile, out);
+      return step.stage <= settings().rounds ? share_in_groups(step, tile) : show_frame(step, tile, out);
+    }
     RayCounts counts = find(step.frame, tile);
     if (step.frame == 0 ? before_ != nullptr : settings().temporal) counts += recall(step.frame, tile);
     return counts;
@@ -43,11 +45,15 @@ class ReuseChain final : public Chain {
     return memory;
   }
 
-  static int stages(const RestirSettings& settings) { return 1 + std::max(settings.rounds, 1); }
+  // Groups reach over tiles, so that the picture is complete only after the last round.
+  static int stages(const RestirSettings& settings) {
+    return 1 + std::max(settings.rounds, 1) + (settings.groups && settings.rounds > 0 ? 1 : 0);
+  }
 
  private:
   const RestirSettings& settings() const { return shared_.settings; }
   bool reuses_paths() const { return settings().indirect.on; }
+  bool in_groups() const { return settings().groups && settings().rounds > 0; }
   Shutter shutter() const { return pass_.shutter.value_or(shared_.scene.shutter); }
 
   // The number of a round of a frame among all that write reservoirs; round 0 is that of stage 0.
@@ -129,49 +135,20 @@ class ReuseChain final : public Chain {
     });
   }
 
-  // The pixels that a pixel learns from: their vertices and reservoirs, its own first.
-  struct Inputs {
-    std::vector<ReuseVertex<F>> vertices;
-    std::vector<LightReservoir<F>> lights;
-    std::vector<PathReservoir<F>> paths;
-
-    Inputs(std::size_t count, bool with_paths) : vertices(count), lights(count), paths(with_paths ? count : 0) {}
-    // Input i is there in no lane.
-    void clear(std::size_t i) {
-      vertices[i] = vertices[0], lights[i] = lights[0];
-      lights[i].confidence = F(0.0f);
-      if (!paths.empty()) paths[i] = paths[0], paths[i].confidence = F(0.0f);
-    }
-    void cap(std::size_t i, F most) {
-      lights[i].confidence = min(lights[i].confidence, most);
-      if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, most);
-    }
-  };
-  // What a pixel holds: it becomes lane k of input i.
-  struct Holdings {
-    const ReuseVertex<float>& vertex;
-    const LightReservoir<float>& light;
-    const PathReservoir<float>* path;  // null: paths are not reused
-  };
-  static void put_pixel(Inputs& inputs, std::size_t i, int k, const Holdings& pixel) {
-    set_lane_words(inputs.vertices[i], k, pixel.vertex);
-    put(inputs.lights[i], k, pixel.light);
-    if (pixel.path != nullptr) put(inputs.paths[i], k, *pixel.path);
-  }
-  Holdings after(int frame, int step, std::size_t pixel) {
+  PixelHoldings after(int frame, int step, std::size_t pixel) {
     return {vertices(frame)[pixel], lights_.after(step)[pixel], reuses_paths() ? &paths_.after(step)[pixel] : nullptr};
   }
-  Holdings before(int frame, int step, std::size_t pixel) {
+  PixelHoldings before(int frame, int step, std::size_t pixel) {
     return {vertices(frame)[pixel], lights_.before(step)[pixel],
             reuses_paths() ? &paths_.before(step)[pixel] : nullptr};
   }
   // What a pixel held at the end of the frame before: the same pixel within a picture.
-  std::optional<Holdings> past(int frame, std::size_t pixel) {
+  std::optional<PixelHoldings> past(int frame, std::size_t pixel) {
     if (frame == 0) {
       const std::optional<std::size_t> earlier = earlier_[pixel];
       if (!earlier) return std::nullopt;
-      return Holdings{before_->vertices[*earlier], before_->lights[*earlier],
-                      reuses_paths() ? &before_->paths[*earlier] : nullptr};
+      return PixelHoldings{before_->vertices[*earlier], before_->lights[*earlier],
+                           reuses_paths() ? &before_->paths[*earlier] : nullptr};
     }
     if (vertices(frame - 1)[pixel].exists == 0) return std::nullopt;
     return before(frame - 1, step_number(frame, 0), pixel);
@@ -181,76 +158,33 @@ class ReuseChain final : public Chain {
   RayCounts recall(int frame, const PixelBounds& tile) {
     RayCounts counts;
     const int step = step_number(frame, 0);
-    Inputs inputs(2, reuses_paths());
+    ReuseInputs<F> inputs(2, reuses_paths());
     for (std::uint32_t next = 0; next < std::uint32_t(tile.area());) {
       const LanePixels<F> at = gather(frame, tile, next);
       if (!any(at.on)) break;
-      for_each_lane(at.on, [&](int k) { put_pixel(inputs, 0, k, after(frame, step, lane(at.pixel, k))); });
+      for_each_lane(at.on, [&](int k) { inputs.put_pixel(0, k, after(frame, step, lane(at.pixel, k))); });
       inputs.clear(1);
       for_each_lane(at.on, [&](int k) {
-        if (const auto known = past(frame, lane(at.pixel, k))) put_pixel(inputs, 1, k, *known);
+        if (const auto known = past(frame, lane(at.pixel, k))) inputs.put_pixel(1, k, *known);
       });
       inputs.cap(1, F(settings().m_cap));
-      combine_all(inputs, stream(frame, at, restir_stream::temporal), at, {}, counts);
+      combination(inputs, counts).into_first(stream(frame, at, restir_stream::temporal), at.on, {});
       leave(inputs, at, step);
     }
     return counts;
   }
 
-  // The light of all that a vertex and its neighbours hold.
-  struct LightOfAll {
-    Spectrum<F> own_light;
-    Spectrum<F> sum = gray(F(0.0f));
-    void own(const F& weight, M on) { sum += select(on, own_light * weight, gray(F(0.0f))); }
-    void other(const ShiftedLight<F>& image, const F& weight, M on) { add(image.light, weight, on); }
-    void other(const Shifted<PathSample<F>, F>& image, const F& weight, M on) { add(image.value.brings, weight, on); }
-
-   private:
-    void add(const Spectrum<F>& light, const F& weight, M on) { sum += select(on, light * weight, gray(F(0.0f))); }
-  };
   // Where targets know what is in the way, all reservoirs of the last round can be shown, and not the chosen one alone.
-  struct Shown {
-    bool lights = false, paths = false;
-  };
-  Shown shows_all() const {
-    const bool all = settings().rounds > 0 && shares_sum_to_one(settings().weights);
+  ShownSums shows_all() const {
+    const bool all = settings().rounds > 0 && (settings().groups || shares_sum_to_one(settings().weights));
     return {all && settings().direct && settings().visibility_reuse, all && reuses_paths()};
   }
 
-  // Combines, into the first input. Gives the light of all samples of those kinds that `sums` names.
-  Spectrum<F> combine_all(Inputs& inputs, const RandomStream<F>& numbers, const LanePixels<F>& at, const Shown& sums,
-                          RayCounts& counts) const {
-    Spectrum<F> light = gray(F(0.0f));
-    const LightSet& lights = shared_.lights.by_hierarchy;
-    if (settings().direct) {
-      const LightPointDomains<F, Rays> domains{lights, shared_.rays, inputs.vertices, settings().visibility_reuse,
-                                               counts};
-      const auto own = [&] { return connect(lights, inputs.vertices[0], inputs.lights[0].value, at.on).value; };
-      light += merge(inputs.lights, domains, numbers, at.on, sums.lights, own);
-    }
-    if (reuses_paths()) {
-      const PathScene<Rays> scene = shared_.paths();
-      const PathDomains<F, Rays> domains{scene, inputs.vertices, counts};
-      const auto own = [&] { return inputs.paths[0].value.brings; };
-      light += merge(inputs.paths, domains, numbers.fork(U(restir_stream::path)), at.on, sums.paths, own);
-    }
-    return light;
-  }
-  // own_light() is that of the first input's sample, before the others come.
-  template <class T, class Domains, class OwnLight>
-  Spectrum<F> merge(std::vector<Reservoir<T, F>>& inputs, const Domains& domains, RandomStream<F> numbers, M on,
-                    bool sums, OwnLight own_light) const {
-    const std::span<const Reservoir<T, F>> all_inputs(inputs);
-    if (!sums) {
-      inputs[0] = combine<T, F>(settings().weights, all_inputs, domains, numbers, on);
-      return gray(F(0.0f));
-    }
-    LightOfAll all{own_light()};
-    inputs[0] = combine<T, F>(settings().weights, all_inputs, domains, numbers, on, all);
-    return all.sum;
+  ReuseCombination<F, Rays> combination(ReuseInputs<F>& inputs, RayCounts& counts) const {
+    return {shared_, inputs, counts};
   }
   // Leaves what the first input holds after `step`.
-  void leave(const Inputs& inputs, const LanePixels<F>& at, int step) {
+  void leave(const ReuseInputs<F>& inputs, const LanePixels<F>& at, int step) {
     for_each_lane(at.on, [&](int k) { get(inputs.lights[0], k, lights_.after(step)[lane(at.pixel, k)]); });
     if (!reuses_paths()) return;
     for_each_lane(at.on, [&](int k) { get(inputs.paths[0], k, paths_.after(step)[lane(at.pixel, k)]); });
@@ -259,40 +193,135 @@ class ReuseChain final : public Chain {
   // One round of spatial reuse, and after the last the picture.
   RayCounts share(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
-    for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t first, std::size_t n) {
-      std::copy_n(frame_.begin() + std::ptrdiff_t(pixel), n, out.begin() + std::ptrdiff_t(first));
-    });
+    copy_frame(tile, out);
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
-    const Shown sums = shows ? shows_all() : Shown{};
+    const ShownSums sums = shows ? shows_all() : ShownSums{};
     const std::size_t others = reuses ? std::size_t(settings().neighbours) : 0;
     const int writes = step_number(step.frame, reuses ? step.stage : 1);
-    Inputs inputs(1 + others, reuses_paths());
+    ReuseInputs<F> inputs(1 + others, reuses_paths());
     for (std::uint32_t next = 0; next < std::uint32_t(tile.area());) {
       const LanePixels<F> at = gather(step.frame, tile, next);
       if (!any(at.on)) break;
-      for_each_lane(at.on, [&](int k) { put_pixel(inputs, 0, k, before(step.frame, writes, lane(at.pixel, k))); });
+      for_each_lane(at.on, [&](int k) { inputs.put_pixel(0, k, before(step.frame, writes, lane(at.pixel, k))); });
       if (reuses) {
         RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
         meet_neighbours(step.frame, writes, at, numbers, inputs);
-        const Spectrum<F> light = combine_all(inputs, numbers, at, sums, counts);
+        const Spectrum<F> light = combination(inputs, counts).into_first(numbers, at.on, sums);
         if (shows) add_light(inputs.vertices[0].throughput * light, at, at.on, out);
         leave(inputs, at, writes);
       }
       if (!shows) continue;
-      if (!sums.lights) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
-      if (reuses_paths() && !sums.paths) show(inputs.vertices[0], inputs.paths[0], at, out);
+      show_chosen(inputs, sums, at, out, counts);
     }
     return counts;
   }
 
-  void meet_neighbours(int frame, int writes, const LanePixels<F>& at, RandomStream<F>& numbers, Inputs& inputs) {
+  // What the pixels of the groups hold: lane k of input i is pixel i of the group first + k. Lanes without a pixel have
+  // confidence 0.
+  void meet_groups(int frame, int writes, const PixelGroups& groups, std::size_t first, ReuseInputs<F>& inputs) {
+    for (std::size_t i = 0; i < inputs.vertices.size(); ++i) inputs.cap(i, F(0.0f));
+    for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
+      const std::span<const std::uint32_t> members = groups.group(first + k);
+      for (std::size_t i = 0; i < members.size(); ++i) inputs.put_pixel(i, int(k), before(frame, writes, members[i]));
+    }
+  }
+
+  // The same for the pixels of groups, all at once.
+  RayCounts share_in_groups(const ChainStep& step, const PixelBounds& tile) {
+    RayCounts counts;
+    const bool last = step.stage == settings().rounds;
+    const ShownSums sums = last ? shows_all() : ShownSums{};
+    const int writes = step_number(step.frame, step.stage);
+    const PixelGroups groups = groups_at(step, tile);
+    ReuseInputs<F> inputs(groups.size, reuses_paths());
+    for (std::size_t first = 0; first < groups.count(); first += lanes_of<F>) {
+      meet_groups(step.frame, writes, groups, first, inputs);
+      const M on = inputs.lights[0].confidence > F(0.0f);
+      const std::vector<Spectrum<F>> light =
+          combination(inputs, counts).into_each(group_stream(step, groups, first), on, sums);
+      for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
+        const std::span<const std::uint32_t> members = groups.group(first + k);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+          get(inputs.lights[i], int(k), lights_.after(writes)[members[i]]);
+          if (reuses_paths()) get(inputs.paths[i], int(k), paths_.after(writes)[members[i]]);
+          if (last) frame_[members[i]].radiance += lane(inputs.vertices[i].throughput * light[i], int(k));
+        }
+      }
+    }
+    return counts;
+  }
+
+  PixelGroups groups_at(const ChainStep& step, const PixelBounds& tile) {
+    const auto number = [&](int x, int y, std::uint32_t which) {
+      return Sampler<float>(pass_.points, std::uint32_t(x), std::uint32_t(y), std::uint32_t(step.frame))
+          .stream(restir_stream::dimension)
+          .fork(restir_stream::spatial + std::uint32_t(step.stage))
+          .at(which);
+    };
+    const int side = std::max(1, int(std::lround(2 * settings().radius)));
+    const ReuseBlocks blocks{side, int(number(0, 0, 0) * float(side)), int(number(0, 0, 1) * float(side))};
+    return groups_of(blocks, pass_.bounds, tile, 1 + std::size_t(settings().neighbours),
+                     [&](std::size_t pixel, int x, int y) -> std::optional<std::uint64_t> {
+                       const ReuseVertex<float>& v = vertices(step.frame)[pixel];
+                       if (v.exists == 0) return {};
+                       const auto random = std::uint64_t(number(x, y, 2) * 16777216.0f);
+                       if (!settings().similar) return random;
+                       return std::uint64_t(v.object) << 32 | random;
+                     });
+  }
+
+  // Of the first pixel of each group.
+  RandomStream<F> group_stream(const ChainStep& step, const PixelGroups& groups, std::size_t first) const {
+    U xs(0u), ys(0u);
+    const auto width = std::uint32_t(pass_.bounds.width());
+    for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
+      const std::uint32_t pixel = groups.group(first + k)[0];
+      set_lane(xs, int(k), std::uint32_t(pass_.bounds.x0) + pixel % width);
+      set_lane(ys, int(k), std::uint32_t(pass_.bounds.y0) + pixel / width);
+    }
+    return Sampler<F>(pass_.points, xs, ys, U(std::uint32_t(step.frame)))
+        .stream(U(restir_stream::dimension))
+        .fork(U(restir_stream::groups + std::uint32_t(step.stage)));
+  }
+
+  // The picture, once all rounds are over.
+  RayCounts show_frame(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
+    RayCounts counts;
+    copy_frame(tile, out);
+    const ShownSums sums = shows_all();
+    if (sums.lights && (sums.paths || !reuses_paths())) return counts;
+    const int writes = step_number(step.frame, settings().rounds);
+    ReuseInputs<F> inputs(1, reuses_paths());
+    for (std::uint32_t next = 0; next < std::uint32_t(tile.area());) {
+      const LanePixels<F> at = gather(step.frame, tile, next);
+      if (!any(at.on)) break;
+      for_each_lane(at.on, [&](int k) { inputs.put_pixel(0, k, after(step.frame, writes, lane(at.pixel, k))); });
+      show_chosen(inputs, sums, at, out, counts);
+    }
+    return counts;
+  }
+
+  void copy_frame(const PixelBounds& tile, std::span<PixelSample> out) const {
+    for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t first, std::size_t n) {
+      std::copy_n(frame_.begin() + std::ptrdiff_t(pixel), n, out.begin() + std::ptrdiff_t(first));
+    });
+  }
+  // Those kinds of samples of the first input that are not shown as sums.
+  void show_chosen(const ReuseInputs<F>& inputs, const ShownSums& sums, const LanePixels<F>& at,
+                   std::span<PixelSample> out, RayCounts& counts) const {
+    if (!sums.lights) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
+    if (reuses_paths() && !sums.paths) show(inputs.vertices[0], inputs.paths[0], at, out);
+  }
+
+  void meet_neighbours(int frame, int writes, const LanePixels<F>& at, RandomStream<F>& numbers,
+                       ReuseInputs<F>& inputs) {
     for (std::size_t i = 1; i < inputs.vertices.size(); ++i) {
       const Vec2<F> u = numbers.next2();
       inputs.clear(i);
       for_each_lane(at.on, [&](int k) {
         const auto pixel =
             neighbour(settings(), pass_.bounds, vertices(frame), at.x(k), at.y(k), {lane(u.x, k), lane(u.y, k)});
-        if (pixel) put_pixel(inputs, i, k, before(frame, writes, *pixel));
+        if (pixel) inputs.put_pixel(i, k, before(frame, writes, *pixel));
       });
     }
   }

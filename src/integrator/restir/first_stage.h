@@ -28,7 +28,7 @@ struct RestirScene {
 // Streams of one pixel in one frame, told apart.
 namespace restir_stream {
 inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
-inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16;
+inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
 }  // namespace restir_stream
 
 // What is found is told to `keep`: keep.lights(vertex, origin, reservoir, slot, mask) and, where paths are reused,

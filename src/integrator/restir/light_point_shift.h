@@ -26,6 +26,12 @@ struct LightPointDomains {
     return {{value, F(1.0f), way.target}, way.value};
   }
   F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
+  // A surface sees what it has.
+  ShiftedLight<F> image(int from, int to, const LightPoint<F>& value, Mask<F> on) const {
+    const Connection<F> way =
+        from == to ? connect(lights, vertices[std::size_t(to)], value, on) : seen_from(to, value, on);
+    return {{value, F(1.0f), way.target}, way.value};
+  }
 
  private:
   Connection<F> seen_from(int to, const LightPoint<F>& value, Mask<F> on) const {

@@ -134,10 +134,13 @@ struct PathDomains {
   std::span<const ReuseVertex<F>> vertices;
   RayCounts& counts;
 
-  Shifted<PathSample<F>, F> shift(int, const PathSample<F>& value, Mask<F> on) const {
-    PathSample<F> image = value;
-    image.brings = brought(0, value, on);
-    return {image, F(1.0f), usable_weight(average(image.brings))};
+  Shifted<PathSample<F>, F> shift(int from, const PathSample<F>& value, Mask<F> on) const {
+    return image(from, 0, value, on);
+  }
+  Shifted<PathSample<F>, F> image(int from, int to, const PathSample<F>& value, Mask<F> on) const {
+    PathSample<F> there = value;
+    if (from != to) there.brings = brought(to, value, on);
+    return {there, F(1.0f), usable_weight(average(there.brings))};
   }
   F target_at(int to, const PathSample<F>& value, Mask<F> on) const {
     return usable_weight(average(brought(to, value, on)));

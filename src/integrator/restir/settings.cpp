@@ -12,13 +12,18 @@ constexpr int most = 4096;
 
 // What has proven best: for direct light, much time behind each sample; for paths, many neighbours and no frames
 // before, whose samples the mean over a chain would count again.
-RestirSettings defaults_of(std::string_view name) {
+RestirSettings defaults_of(std::string_view name, bool groups) {
   RestirSettings s;
+  s.groups = groups;
+  if (!groups) s.neighbours = 5, s.radius = 8;
   if (name == "restir-di") return s;
-  s.neighbours = 4, s.rounds = 2, s.radius = 6;
-  s.similar = s.temporal = false;
+  s.temporal = false;
   s.indirect.on = true;
   if (name == "restir-pt") s.indirect.most_replayed = 4;
+  if (groups)
+    s.neighbours = 7, s.rounds = 3, s.radius = 4;
+  else
+    s.neighbours = 4, s.rounds = 2, s.radius = 6, s.similar = false;
   return s;
 }
 
@@ -28,22 +33,32 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"candidates", {integer}, "first candidates by the light hierarchy; default 4", 0, most},
       {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
       {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
+      {"groups",
+       {boolean},
+       "pixels share in groups, whose samples are all tried at all of their pixels; off: each has neighbours of its "
+       "own; default on, off where weights are stated"},
       {"neighbours",
        {integer},
-       paths ? "pixels that a pixel learns from in each round; default 4"
-             : "pixels that a pixel learns from in each round; default 5",
+       paths ? "pixels that a pixel learns from in each round; default 7, without groups 4"
+             : "pixels that a pixel learns from in each round; default 15, without groups 5",
        0,
        16},
       {"radius",
        {number},
-       paths ? "how far they are at most, in pixels; default 6" : "how far they are at most, in pixels; default 8",
+       paths ? "how far they are, in pixels: groups are of one block of twice as many; default 4, without groups 6"
+             : "how far they are, in pixels: groups are of one block of twice as many; default 2, without groups 8",
        0.5,
        most},
-      {"rounds", {integer}, paths ? "rounds of spatial reuse; default 2" : "rounds of spatial reuse; default 1", 0, 8},
+      {"rounds",
+       {integer},
+       paths ? "rounds of spatial reuse; default 3, without groups 2" : "rounds of spatial reuse; default 1",
+       0,
+       8},
       {"similar",
        {boolean},
-       paths ? "pass over neighbours with another normal or depth; default off"
-             : "pass over neighbours with another normal or depth; default on"},
+       paths ? "share among alike: in groups, the same object first (default on); else the same normal and depth "
+               "(default off)"
+             : "share among alike: in groups, the same object first; else the same normal and depth; default on"},
       {"temporal",
        {boolean},
        paths ? "learn from the frame before; default off" : "learn from the frame before; default on"},
@@ -51,7 +66,9 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
       {"weights",
        {string},
-       "how reservoirs share; naive is biased; default pairwise",
+       "how reservoirs share; naive is biased; default pairwise without groups, generalised in them, where the others "
+       "need "
+       "groups=off",
        0,
        0,
        {"naive", "unbiased", "pairwise", "generalised"}},
@@ -124,7 +141,10 @@ Status read_path_reuse(std::string_view name, const ParameterList& list, RestirS
 }  // namespace
 
 Result<RestirSettings> restir_settings(std::string_view name, const ParameterList& list, std::optional<int> max_depth) {
-  RestirSettings s = defaults_of(name);
+  const std::string weights = list.string("weights", "");
+  RestirSettings s = defaults_of(name, list.boolean("groups", weights.empty()));
+  if (s.groups && !weights.empty() && weights != "generalised")
+    return Failure{fmt::format("{}: groups share by generalised weights; weights={} needs groups=off", name, weights)};
   s.candidates = list.integer("candidates", s.candidates);
   s.power_candidates = list.integer("power-candidates", s.power_candidates);
   s.bsdf_candidate = list.boolean("bsdf", s.bsdf_candidate);
@@ -135,7 +155,7 @@ Result<RestirSettings> restir_settings(std::string_view name, const ParameterLis
   s.temporal = list.boolean("temporal", s.temporal);
   s.carry = list.boolean("carry", s.carry);
   s.m_cap = list.number("m-cap", s.m_cap);
-  s.weights = *reuse_weights_named(list.string("weights", "pairwise"));
+  s.weights = *reuse_weights_named(weights.empty() ? "pairwise" : weights);
   s.visibility_reuse = list.boolean("visibility-reuse", s.visibility_reuse);
   s.chain = list.integer("chain", s.chain);
   s.warm_up = list.integer("warm-up", s.warm_up);

@@ -22,10 +22,14 @@ struct RestirSettings {
   // Initial candidates of each pixel: lights chosen by the hierarchy, by power, and the direction of the BSDF.
   int candidates = 4, power_candidates = 0;
   bool bsdf_candidate = true;
-  // Spatial reuse: in each of `rounds` rounds so many pixels at most `radius` pixels away.
-  int neighbours = 5, rounds = 1;
-  float radius = 8;
-  // Neighbours whose surface looks another way, or lies at another depth, are passed over.
+  // Spatial reuse, in each of `rounds` rounds. In groups: a pixel and so many neighbours, of one block of 2 radius
+  // pixels, try all of their samples at all of these pixels. Else so many pixels for each pixel, at most `radius`
+  // pixels away.
+  bool groups = true;
+  int neighbours = 15, rounds = 1;
+  float radius = 2;
+  // In groups: pixels of one object stand together. Else: neighbours whose surface looks another way, or lies at
+  // another depth, are passed over.
   bool similar = true;
   // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one; for a picture's
   // first frame, that of the picture before.

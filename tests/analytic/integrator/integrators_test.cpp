@@ -64,11 +64,12 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "path:light-selection=ris:3,mis=off",
                                          "tracepath:p-emit=0.5,roulette-depth=0",
                                          "restir-di:radius=3",
+                                         "restir-di:weights=pairwise,radius=3",
                                          "restir-di:weights=unbiased,rounds=2,radius=2,power-candidates=2",
                                          "restir-di:weights=generalised,visibility-reuse=on,candidates=2,radius=2",
-                                         "restir-di:bsdf=off,temporal=off,neighbours=2,radius=2",
+                                         "restir-di:groups=off,bsdf=off,temporal=off,neighbours=2,radius=2",
                                          "restir-gi:radius=3,neighbours=2",
-                                         "restir-pt:radius=2,neighbours=2,footprint=0.1",
+                                         "restir-pt:radius=2,neighbours=3,footprint=0.1",
                                          "restir-pt:shift=replay,weights=generalised,neighbours=1,radius=2"};
 
 struct Measured {

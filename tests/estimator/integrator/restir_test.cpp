@@ -11,7 +11,9 @@ constexpr int size = 16, passes = 48;
 constexpr double level = 0.01;
 const char* const unbiased[] = {
     "restir-di:radius=4,candidates=4",
-    "restir-di:radius=4,visibility-reuse=off",
+    "restir-di:radius=4,visibility-reuse=off,rounds=2,similar=off",
+    "restir-di:weights=pairwise,radius=4,candidates=4",
+    "restir-di:weights=pairwise,radius=4,visibility-reuse=off",
     "restir-di:radius=4,candidates=4,weights=unbiased,visibility-reuse=off,rounds=2",
     "restir-di:radius=4,candidates=2,weights=generalised,visibility-reuse=on,similar=off,power-candidates=2",
 };

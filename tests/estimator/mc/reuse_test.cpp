@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mc/reuse_group.h"
 #include "statistics.h"
 
 namespace montelux::test {
@@ -126,6 +127,91 @@ TEST(Reuse, the_sum_over_all_inputs_finds_the_integral_with_less_variance) {
 TEST(Reuse, the_sum_over_all_inputs_is_off_by_confidence_alone) {
   ASSERT_FALSE(shares_sum_to_one(ReuseWeights::unbiased));
   EXPECT_LT(t_test(sums_of_all(ReuseWeights::unbiased, 200000, 23), truth).p_value, 1e-12);
+}
+
+// The same domains as a group, whose maps compose. A fault: no Jacobian.
+template <class F, bool has_jacobian = true>
+struct IntervalGroup {
+  Shifted<F, F> image(int from, int to, const F& value, Mask<F>) const {
+    const F x = from == 2 ? sqrt(value) : value, y = to == 2 ? x * x : x;
+    F jacobian = 1.0f;
+    if (from == 2 && to != 2) jacobian = F(0.5f) / max(x, F(1e-6f));
+    if (from != 2 && to == 2) jacobian = 2.0f * x;
+    return {y, has_jacobian ? jacobian : F(1.0f), Intervals<F>::target(to, y)};
+  }
+};
+// Of all x: what a domain cannot make has weight 0.
+template <class F>
+F integrand_of_group(F x) {
+  return x * x + 0.2f;
+}
+const std::array<double, 3> truths_of_group{between(0, 0.9), between(0.3, 1), between(0, 0.64)};
+
+// By the samples that are chosen, and by the sums over all.
+template <class F>
+struct GroupEstimates {
+  std::array<F, 3> chosen, sum;
+};
+template <class F, bool has_jacobian = true>
+GroupEstimates<F> of_group(RandomStream<F> stream) {
+  std::array<Reservoir<F, F>, 3> group;
+  for (int domain = 0; domain < 3; ++domain) group[std::size_t(domain)] = first_reservoir<F>(domain, stream);
+  GroupEstimates<F> e;
+  e.sum.fill(F(0.0f));
+  combine_group<F, F>(group, IntervalGroup<F, has_jacobian>{}, stream.fork(Uint<F>(1u)), Mask<F>(true),
+                      [&](std::size_t k, const Shifted<F, F>& image, const F& weight, Mask<F> on) {
+                        e.sum[k] = e.sum[k] + select(on, integrand_of_group(image.value) * weight, F(0.0f));
+                      });
+  for (std::size_t k = 0; k < 3; ++k) {
+    e.chosen[k] = integrand_of_group(group[k].value) * group[k].weight;
+    EXPECT_TRUE(all(group[k].confidence == F(7.0f)));
+  }
+  return e;
+}
+
+struct GroupSamples {
+  std::array<std::vector<double>, 3> chosen, sum;
+};
+template <bool has_jacobian>
+GroupSamples samples_of_group(std::uint32_t seed) {
+  GroupSamples s;
+  for (std::uint32_t i = 0; i < 200000; ++i) {
+    const GroupEstimates<float> e = of_group<float, has_jacobian>(RandomStream<float>(seed, i));
+    for (std::size_t k = 0; k < 3; ++k)
+      s.chosen[k].push_back(double(e.chosen[k])), s.sum[k].push_back(double(e.sum[k]));
+  }
+  return s;
+}
+
+TEST(ReuseGroup, finds_the_integral_over_each_of_its_domains) {
+  const GroupSamples s = samples_of_group<true>(31);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GT(t_test(s.chosen[k], truths_of_group[k]).p_value, sidak_level(family_level, 6)) << k;
+    EXPECT_GT(t_test(s.sum[k], truths_of_group[k]).p_value, sidak_level(family_level, 6)) << k;
+    EXPECT_LT(summarize(s.sum[k]).variance, summarize(s.chosen[k]).variance) << k;
+  }
+}
+
+TEST(ReuseGroup, without_the_jacobian_is_off_in_each_of_its_domains) {
+  const GroupSamples s = samples_of_group<false>(32);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(t_test(s.chosen[k], truths_of_group[k]).p_value, 1e-9) << k;
+    EXPECT_LT(t_test(s.sum[k], truths_of_group[k]).p_value, 1e-9) << k;
+  }
+}
+
+TEST(ReuseGroup, has_the_bits_of_single_reservoirs_in_lanes) {
+  using F = NativeFloats;
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    const GroupEstimates<F> pack = of_group<F>(RandomStream<F>(Uint<F>(seed), lane_index<F>()));
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const GroupEstimates<float> one = of_group<float>(RandomStream<float>(seed, std::uint32_t(k)));
+      for (std::size_t domain = 0; domain < 3; ++domain) {
+        EXPECT_EQ(lane(pack.chosen[domain], k), one.chosen[domain]);
+        EXPECT_EQ(lane(pack.sum[domain], k), one.sum[domain]);
+      }
+    }
+  }
 }
 
 TEST(Reuse, lanes_have_the_bits_of_single_reservoirs) {

@@ -34,7 +34,7 @@ const std::vector<SequenceCase>& cases() {
       {"direct_light_with_a_box_that_moves",
        true,
        2,
-       {"restir-di:radius=6", "restir-di:weights=generalised,neighbours=0,candidates=2,visibility-reuse=on",
+       {"restir-di", "restir-di:weights=generalised,neighbours=0,candidates=2,visibility-reuse=on",
         "restir-di:weights=unbiased,radius=6"}},
       {"paths_with_a_camera_that_moves",
        false,

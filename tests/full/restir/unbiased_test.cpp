@@ -12,20 +12,23 @@ namespace {
 constexpr int size = 32;
 constexpr double level = 0.01, wanted_error = 0.002;
 const char* const direct_ways[] = {
-    "restir-di:radius=6",
-    "restir-di:visibility-reuse=off,candidates=8,radius=6",
+    "restir-di",
+    "restir-di:visibility-reuse=off,candidates=8,radius=4,rounds=2,similar=off",
+    "restir-di:weights=pairwise,radius=6",
+    "restir-di:weights=pairwise,visibility-reuse=off,candidates=8,radius=6",
     "restir-di:weights=unbiased,visibility-reuse=off,candidates=8,radius=6,rounds=2",
     "restir-di:weights=generalised,visibility-reuse=off,candidates=8,radius=6,power-candidates=2",
     "restir-di:weights=unbiased,candidates=8,radius=6,similar=off",
     "restir-di:weights=generalised,radius=6,similar=off,candidates=2",
-    "restir-di:bsdf=off,visibility-reuse=off,candidates=8,similar=off,radius=6,m-cap=5",
+    "restir-di:weights=pairwise,bsdf=off,visibility-reuse=off,candidates=8,similar=off,radius=6,m-cap=5",
 };
 const char* const path_ways[] = {
-    "restir-gi:radius=6",
-    "restir-pt:radius=6",
+    "restir-gi",
+    "restir-pt",
+    "restir-pt:weights=pairwise,radius=6",
     "restir-pt:radius=6,neighbours=2,weights=unbiased,footprint=0.02,similar=off",
     "restir-pt:radius=6,neighbours=2,weights=generalised,footprint=0.1,similar=off",
-    "restir-pt:radius=6,neighbours=2,shift=replay",
+    "restir-pt:radius=3,neighbours=2,shift=replay",
 };
 
 class Reuse : public testing::TestWithParam<ReuseScene> {};

@@ -52,6 +52,7 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
                        "weights=pairwise,visibility-reuse=off,chain=16"),
             "");
   EXPECT_NE(failure_of(scene, "restir-di:weights=biased").find("naive, unbiased, pairwise"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:groups=on,weights=pairwise").find("needs groups=off"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbors=3").find("did you mean \"neighbours\""), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbours=99"), "");
   EXPECT_NE(failure_of(scene, "restir-di:chain=0"), "");

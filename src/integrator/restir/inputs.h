@@ -1,0 +1,45 @@
+// What pixels bring to a combination: their vertices and reservoirs, side by side in lanes.
+#pragma once
+#include <vector>
+
+#include "integrator/restir/path_sample.h"
+#include "integrator/restir/reservoirs.h"
+#include "integrator/restir/vertex.h"
+
+namespace montelux {
+
+// What a pixel holds.
+struct PixelHoldings {
+  const ReuseVertex<float>& vertex;
+  const LightReservoir<float>& light;
+  const PathReservoir<float>* path;  // null: paths are not reused
+};
+
+// Input i of a combination, in every lane.
+template <class F>
+struct ReuseInputs {
+  std::vector<ReuseVertex<F>> vertices;
+  std::vector<LightReservoir<F>> lights;
+  std::vector<PathReservoir<F>> paths;  // none where paths are not reused
+
+  ReuseInputs(std::size_t count, bool with_paths) : vertices(count), lights(count), paths(with_paths ? count : 0) {}
+
+  // Input i is there in no lane; finite numbers stand in for it.
+  void clear(std::size_t i) {
+    vertices[i] = vertices[0], lights[i] = lights[0];
+    if (!paths.empty()) paths[i] = paths[0];
+    cap(i, F(0.0f));
+  }
+  void cap(std::size_t i, F most) {
+    lights[i].confidence = min(lights[i].confidence, most);
+    if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, most);
+  }
+  // The pixel becomes lane k of input i.
+  void put_pixel(std::size_t i, int k, const PixelHoldings& pixel) {
+    set_lane_words(vertices[i], k, pixel.vertex);
+    put(lights[i], k, pixel.light);
+    if (pixel.path != nullptr) put(paths[i], k, *pixel.path);
+  }
+};
+
+}  // namespace montelux

@@ -1,0 +1,72 @@
+// Reuse in a group of domains, each of which learns from all others at once: every sample is tried in every domain, so
+// that n domains need n (n - 1) evaluations for balance weights over all of them, which n neighbourhoods of their own
+// would need n times over.
+#pragma once
+#include "mc/reuse.h"
+
+namespace montelux {
+
+// What a group asks of its domains:
+//   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)   of a sample of domain `from`, in domain `to`;
+//   may
+//                                                                       say more. From a domain to itself it is the
+//                                                                       sample, and nothing needs to be asked anew.
+// The maps must compose: what leads from i to k leads there over j, too, wherever there is an image in j.
+template <class D, class T, class F>
+concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> on) {
+  { domains.image(0, 1, value, on) } -> std::convertible_to<Shifted<T, F>>;
+};
+
+// One reservoir for each domain out of those of all, in their place; all get the confidence of all. Domains of
+// confidence 0 are not there. `stream` gives numbers from its start on.
+//
+// As the maps compose, the share of a sample by the balance heuristic over all domains is the same in whichever domain
+// it is asked for: c_i p_i / sum over k of c_k p_k(image in k) |Jacobian|. each(k, image, w, on) is told, for every
+// domain and every sample, the weight with which h(image) enters the estimate of the integral of h over domain k (the
+// mean over the choice, Rao and Blackwell).
+template <class T, class F, class Domains, class Each>
+void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, const RandomStream<F>& stream, Mask<F> on,
+                   Each&& each) requires ReuseGroupDomains<Domains, T, F> {
+  using ImageOf = decltype(domains.image(0, 1, group[0].value, on));
+  struct Choice {
+    WeightedReservoir<T, F> chosen;
+    F target = 0.0f;
+  };
+  const std::size_t n = group.size();
+  std::vector<Choice> choices(n);
+  std::vector<ImageOf> images(n);
+  F all = 0.0f;
+  for (std::size_t k = 0; k < n; ++k) choices[k].chosen.value = group[k].value, all = all + group[k].confidence;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Reservoir<T, F>& sample = group[i];
+    const Mask<F> live = on & (sample.weight > F(0.0f)) & (sample.confidence > F(0.0f));
+    if (!any(live)) continue;
+    const F own = sample.confidence * sample.target;
+    F sum = own;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Mask<F> there = live & (group[k].confidence > F(0.0f));
+      images[k] = domains.image(int(i), int(k), sample.value, there);
+      if (k == i) images[k].target = sample.target, images[k].jacobian = F(1.0f);
+      images[k].target = select(there & (images[k].jacobian > F(0.0f)), images[k].target, F(0.0f));
+      if (k != i)
+        sum = sum +
+              select(images[k].target > F(0.0f), group[k].confidence * images[k].target * images[k].jacobian, F(0.0f));
+    }
+    const F share = select(live, usable_weight<F>(own / sum * sample.weight), F(0.0f));
+    for (std::size_t k = 0; k < n; ++k) {
+      const F per_target = share * images[k].jacobian;
+      const F w = select(images[k].target > F(0.0f), usable_weight<F>(per_target * images[k].target), F(0.0f));
+      const Mask<F> taken = choices[k].chosen.add(images[k].value, w, stream.at(Uint<F>(std::uint32_t(i * n + k))));
+      choices[k].target = select(taken, images[k].target, choices[k].target);
+      each(k, images[k], per_target, Mask<F>(w > F(0.0f)));
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const Choice& choice = choices[k];
+    const Mask<F> found = on & (choice.chosen.weight_sum > F(0.0f)) & (choice.target > F(0.0f));
+    const F weight = select(found, usable_weight<F>(choice.chosen.weight_sum / choice.target), F(0.0f));
+    group[k] = {choice.chosen.value, weight, select(group[k].confidence > F(0.0f), all, F(0.0f)), choice.target};
+  }
+}
+
+}  // namespace montelux
