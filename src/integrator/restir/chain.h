@@ -258,8 +258,8 @@ class ReuseChain final : public Chain {
           .fork(restir_stream::spatial + std::uint32_t(step.stage))
           .at(which);
     };
-    const int side = std::max(1, int(std::lround(2 * settings().radius)));
-    const ReuseBlocks blocks{side, int(number(0, 0, 0) * float(side)), int(number(0, 0, 1) * float(side))};
+    const ReuseBlocks blocks(2 * double(settings().radius), 2 * pi * double(number(0, 0, 0)),
+                             {double(number(0, 0, 1)), double(number(0, 0, 3))});
     return groups_of(blocks, pass_.bounds, tile, 1 + std::size_t(settings().neighbours),
                      [&](std::size_t pixel, int x, int y) -> std::optional<std::uint64_t> {
                        const ReuseVertex<float>& v = vertices(step.frame)[pixel];

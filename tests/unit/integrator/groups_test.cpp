@@ -34,7 +34,8 @@ Groups all_groups(const ReuseBlocks& blocks, const std::vector<PixelBounds>& til
 }
 
 TEST(PixelGroups, hold_every_pixel_with_a_vertex_once) {
-  for (const ReuseBlocks& blocks : {ReuseBlocks{4, 0, 0}, ReuseBlocks{5, 3, 1}, ReuseBlocks{40, 17, 39}}) {
+  for (const ReuseBlocks& blocks :
+       {ReuseBlocks(4, 0, {0, 0}), ReuseBlocks(5, 1.1, {0.3, 0.9}), ReuseBlocks(40, 4, {0.2, 0.7})}) {
     std::map<std::uint32_t, int> times;
     for (const auto& group : all_groups(blocks, tiles_of(picture, 16)))
       for (std::uint32_t pixel : group) ++times[pixel];
@@ -44,18 +45,18 @@ TEST(PixelGroups, hold_every_pixel_with_a_vertex_once) {
 }
 
 TEST(PixelGroups, are_the_same_whatever_the_tiles) {
-  for (const ReuseBlocks& blocks : {ReuseBlocks{4, 2, 3}, ReuseBlocks{7, 0, 6}})
+  for (const ReuseBlocks& blocks : {ReuseBlocks(4, 0.4, {0.5, 0.8}), ReuseBlocks(7, 5.5, {0, 0.3})})
     EXPECT_EQ(all_groups(blocks, tiles_of(picture, 16)), all_groups(blocks, {picture}));
 }
 
 TEST(PixelGroups, lie_within_one_block_and_are_even) {
-  const ReuseBlocks blocks{4, 1, 2};
+  const ReuseBlocks blocks(4, 0.9, {0.25, 0.5});
   std::map<std::pair<int, int>, std::set<std::size_t>> sizes;
   for (const auto& group : all_groups(blocks, tiles_of(picture, 16))) {
     std::set<std::pair<int, int>> places;
     for (std::uint32_t pixel : group) {
       const int x = picture.x0 + int(pixel) % picture.width(), y = picture.y0 + int(pixel) / picture.width();
-      places.insert({(x + blocks.x) / blocks.side, (y + blocks.y) / blocks.side});
+      places.insert(blocks.block_of(x + 0.5, y + 0.5));
     }
     ASSERT_EQ(places.size(), 1u);
     EXPECT_LE(group.size(), size);
