@@ -85,6 +85,17 @@ Result<std::string> parse_choice(const std::string& text, const std::vector<std:
   return Failure{message};
 }
 
+Result<ShutterTimes> parse_shutter(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto open = number_in<double>(std::string_view(text).substr(0, colon));
+    const auto close = number_in<double>(std::string_view(text).substr(colon + 1));
+    if (open && close && std::abs(*open) < 1e9 && std::abs(*close) < 1e9 && *open <= *close)
+      return ShutterTimes{*open, *close};
+  }
+  return Failure{fmt::format("takes OPEN:CLOSE, two times of which the second is not before the first; found \"{}\"", text)};
+}
+
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) return Failure{fmt::format("takes key=value; found \"{}\"", text)};
@@ -125,9 +136,24 @@ Status check_folder_of(const std::string& file) {
 }
 
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {
-  verb.add_option("SCENE", file, "scene file (pbrt-v4)")->required()->type_name("FILE");
+  verb.add_option("SCENE", file, "scene file (.pbrt, .pbrt.gz, .gltf, .glb)")->required()->type_name("FILE");
   add_option(verb, {"--resolution", "WxH", "size of the picture in pixels, instead of the file's"},
              into(options.resolution, parse_resolution));
+  add_option(verb, {"--camera", "NAME|N", "camera of a glTF scene, by its name or number; default: the first"},
+             [&options](const std::string& text) -> Status {
+               options.camera = text;
+               return Done{};
+             });
+  add_option(verb, {"--animation", "NAME|N", "animation of a glTF scene, by its name or number; default: the first"},
+             [&options](const std::string& text) -> Status {
+               options.animation = text;
+               return Done{};
+             });
+  add_option(verb,
+             {"--shutter", "OPEN:CLOSE",
+              "when the shutter is open, in the scene's unit of time (glTF: seconds; of --frames, in frame 0), instead of "
+              "as the file says; the brightness stays"},
+             into(options.shutter, parse_shutter));
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }
 

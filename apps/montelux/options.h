@@ -23,6 +23,8 @@ Result<std::pair<int, int>> parse_resolution(const std::string& text);
 Result<PixelBounds> parse_crop(const std::string& text);
 // One of the names; a failure names them all and the nearest.
 Result<std::string> parse_choice(const std::string& text, const std::vector<std::string>& names);
+// "OPEN:CLOSE", two numbers.
+Result<ShutterTimes> parse_shutter(const std::string& text);
 // "key=value".
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text);
 

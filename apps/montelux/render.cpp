@@ -42,6 +42,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --time 10m --resolution 1920x1080
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
   montelux render flight.pbrt --frames 0:23 -o flight.####.exr
+  montelux render walk.glb --frames 0:47 --fps 24 --shutter 0:0.02 -o walk.####.exr
   montelux render flight.pbrt --frames 0:23 --interactive-budget 33ms --integrator restir-di
   montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
 
@@ -226,22 +227,55 @@ Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const Sce
   return one;
 }
 
-int render_frames(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals) {
-  if (!scene.info().moves && !all.quiet) warn("nothing moves in the scene: its frames differ by their seeds alone");
+// What came of some frames of a sequence.
+struct FramesOutcome {
+  int status = done;
+  int late = 0;
+};
+
+// The frames from `first` to `last`, which the scene has motion for.
+FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals, int first,
+                          int last) {
   const bool visible = !all.quiet && !all.no_progress;
   Result<PictureSequence> sequence = PictureSequence::prepare(scene, all.render);
-  if (!sequence) return complain(sequence.error());
+  if (!sequence) return {complain(sequence.error())};
   int late = 0;
-  for (int frame = all.frames->first; frame <= all.frames->last; ++frame) {
+  for (int frame = first; frame <= last; ++frame) {
     const Result<RenderArguments> one = arguments_of_frame(all, scene.info(), frame);
-    if (!one) return complain(one.error());
+    if (!one) return {complain(one.error()), late};
     ProgressLine observer(visible, signals,
                           fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last),
                           frame - all.frames->first, all.frames->count());
     const ShutterTimes before = frame_shutter(scene.info(), *all.frames, frame - 1);
     const Result<Rendering> rendering = sequence->render({one->render.seed, *one->render.shutter, before}, observer);
     late += one->is_late(*rendering);
-    if (const int status = finish_picture(*one, rendering, signals); status != done) return status;
+    if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
+  }
+  return {done, late};
+}
+
+int render_frames(const RenderArguments& all, LoadedScene loaded_first, const StopSignals& signals) {
+  std::optional<LoadedScene> scene(std::move(loaded_first));
+  if (!scene->info().moves && !all.quiet) warn("nothing moves in the scene: its frames differ by their seeds alone");
+  int late = 0;
+  for (int first = all.frames->first; first <= all.frames->last;) {
+    const int last = int(std::min<std::int64_t>(std::int64_t(first) + scene->info().frames_held - 1, all.frames->last));
+    const FramesOutcome part = render_part(all, *scene, signals, first, last);
+    late += part.late;
+    if (part.status != done) return part.status;
+    first = last + 1;
+    if (first > all.frames->last) break;
+    // A scene holds so many moments of its motion: what follows is loaded anew, and histories begin again.
+    if (!all.quiet) warn(fmt::format("frames from {} on: the scene is loaded with its next moments", first));
+    LoadOptions load = all.load;
+    load.frames->first = first;
+    scene.reset();
+    LoadResult loaded = load_scene(all.scene, load);
+    if (!loaded.scene) {
+      print_diagnostics(loaded.diagnostics, all.quiet);
+      return bad_input;
+    }
+    scene.emplace(*std::move(loaded.scene));
   }
   if (late > 0 && !all.quiet)
     warn(fmt::format("{} of {} pictures took longer than the budget of {}", late, all.frames->count(),
@@ -262,12 +296,13 @@ int run_render(RenderArguments& arguments) {
   if (Status good = check_files(*first); !good) return complain(good.error());
 
   arguments.load.threads = arguments.render.threads;
+  arguments.load.frames = arguments.frames;
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
 
   StopSignals signals;
-  if (arguments.frames) return render_frames(arguments, *loaded.scene, signals);
+  if (arguments.frames) return render_frames(arguments, *std::move(loaded.scene), signals);
   ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
   return finish_picture(arguments, render_scene(*loaded.scene, arguments.render, observer), signals);
 }

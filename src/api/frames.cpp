@@ -77,8 +77,9 @@ Result<FrameRange> parse_frames(const std::string& text) {
 
 ShutterTimes frame_shutter(const SceneInfo& scene, const FrameRange& range, int frame) {
   const double open = scene.shutter_open, close = scene.shutter_close;
-  if (range.fps) return {open + frame / *range.fps, close + frame / *range.fps};
-  const double start = scene.transforms_start, length = scene.transforms_end - start;
+  const std::optional<double> fps = range.fps || range.of ? range.fps : scene.frame_rate;
+  if (fps) return {open + frame / *fps, close + frame / *fps};
+  const double start = scene.time_start, length = scene.time_end - start;
   const int slice = range.of ? frame : frame - range.first, n = range.of.value_or(range.count());
   return {start + (slice * length + open - start) / n, start + (slice * length + close - start) / n};
 }

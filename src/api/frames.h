@@ -3,31 +3,19 @@
 #include <optional>
 #include <string>
 
+#include "api/frame_range.h"
 #include "api/scene.h"
 #include "math/result.h"
 
 namespace montelux {
 
-// Frames first, ..., last. The time of the scene's transforms falls into equal frames: those of the range, or, with
-// `of`, that many, counted from 0. With `fps`, a frame lasts 1 / fps of the scene's unit of time instead.
-struct FrameRange {
-  int first = 0, last = 0;
-  std::optional<int> of;
-  std::optional<double> fps;
-  int count() const { return last - first + 1; }
-};
-
 // "A:B" or "A:B/N" with 0 <= A <= B (< N) below a million.
 Result<FrameRange> parse_frames(const std::string& text);
 
-// In the scene's unit of time.
-struct ShutterTimes {
-  double open = 0, close = 0;
-};
-
 // By equal frames, the scene's whole time, its shutter with it, is drawn together into that of the frame: slice i of n
 // of [t0, t1] with the shutter of the scene from a to b looks from t0 + (i (t1 - t0) + a - t0) / n to the same with b.
-// By fps, the shutter of frame f is the scene's, f / fps later.
+// By fps, the shutter of frame f is the scene's, f / fps later; so it is by the scene's own frame rate, where it has one
+// and neither fps nor `of` is stated.
 ShutterTimes frame_shutter(const SceneInfo& scene, const FrameRange& range, int frame);
 
 // The seed of a frame of a sequence: a hash of both, so that frames are independent realisations. It is below 2^31, and

@@ -6,9 +6,10 @@
 #include <chrono>
 #include <map>
 
+#include "api/frames.h"
 #include "api/parts.h"
-#include "io/pbrt.h"
 #include "io/report.h"
+#include "io/scene_file.h"
 #include "scene/prepare.h"
 
 namespace montelux {
@@ -69,6 +70,9 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   info.moves = parts.scene.moves();
   info.transforms_start = picture.transforms_start, info.transforms_end = picture.transforms_end;
   info.shutter_open = picture.shutter_open, info.shutter_close = picture.shutter_close;
+  const auto whole = desc.whole_time.value_or(std::pair{desc.transforms_start, desc.transforms_end});
+  info.time_start = whole.first, info.time_end = whole.second;
+  info.frame_rate = desc.frame_rate, info.frames_held = desc.frames_held;
   count_geometry(parts.scene.geometry, info);
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
   std::map<std::string, std::size_t> lights;
@@ -84,6 +88,24 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   return info;
 }
 
+// The part of an animation that the pictures need: each frame's moment and that of the frame before the first.
+AnimationWindow window_of(const LoadOptions& options, const AnimationTime& time) {
+  const ShutterTimes shutter = options.shutter.value_or(ShutterTimes{time.start, time.start});
+  const bool open = shutter.close > shutter.open;
+  if (!options.frames) return {shutter.open, shutter.close, 1, open};
+  SceneInfo info;
+  info.time_start = time.start, info.time_end = time.end, info.frame_rate = time.frame_rate;
+  info.shutter_open = shutter.open, info.shutter_close = shutter.close;
+  const FrameRange& frames = *options.frames;
+  const double start = frame_shutter(info, frames, frames.first - 1).open;
+  const double step = frame_shutter(info, frames, frames.first).open - start;
+  int intervals = frames.count();
+  // With an open shutter, up to the end of the last exposure.
+  const double end = frame_shutter(info, frames, frames.last).close;
+  while (open && step > 0 && start + step * intervals < end && intervals < 1 << 20) ++intervals;
+  return {start, start + step * intervals, intervals, open};
+}
+
 }  // namespace
 
 LoadedScene::LoadedScene(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -95,9 +117,11 @@ LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& opti
   Stopwatch watch;
   LoadResult result;
   try {
-    ReadResult read = read_pbrt(file, {options.lenient});
+    ReadResult read = read_scene(file.string(), {options.lenient, options.camera, options.animation,
+                                                 [&](const AnimationTime& time) { return window_of(options, time); }});
     result.diagnostics = std::move(read.diagnostics);
     if (!read.scene) return result;
+    if (options.shutter) read.scene->shutter = std::pair{options.shutter->open, options.shutter->close};
     const double read_seconds = watch.lap();
     std::optional<PreparedScene> prepared = prepare(*read.scene, {options.resolution}, result.diagnostics);
     if (!prepared || result.diagnostics.has_errors()) return result;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/frame_range.h"
 #include "image/pixel_sample.h"
 #include "parameter/diagnostic.h"
 
@@ -16,6 +17,12 @@ struct LoadOptions {
   bool lenient = false;  // unknown parameters and what Montelux cannot do yet are warnings, not errors
   std::optional<std::pair<int, int>> resolution;  // width, height instead of the file's
   int threads = 0;                                // for building; 0: all of the machine
+  // Of a file that may hold several: by name or number; default: the first.
+  std::optional<std::string> camera{}, animation{};
+  // When the shutter is open, in the scene's unit of time, instead of as the file says; of a sequence, at frame 0. The
+  // brightness of the picture does not hang on it.
+  std::optional<ShutterTimes> shutter{};
+  std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed
 };
 
 // What is in a scene, for people.
@@ -28,6 +35,11 @@ struct SceneInfo {
   std::optional<int> max_depth;                                                          // that the file asks for
   bool moves = false;                                                                    // the camera or a shape
   double transforms_start = 0, transforms_end = 1, shutter_open = 0, shutter_close = 1;  // in the scene's unit of time
+  // What the frames of a sequence share out, how many there are in a unit of time where nothing else is asked for, and
+  // how many of those asked for (from the first) the scene has motion for.
+  double time_start = 0, time_end = 1;
+  std::optional<double> frame_rate;
+  int frames_held = 1 << 30;
   std::size_t triangles = 0;                                                             // in memory
   std::size_t instanced_triangles = 0;                                                   // as rays see them
   std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;

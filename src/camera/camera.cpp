@@ -34,8 +34,9 @@ ScreenWindow screen_window(const Entity& entity, int width, int height, Diagnost
     aspect = entity.parameters.find("frameaspectratio") ? double(stated) : aspect;
   else
     diagnostics.error(entity.where, "frameaspectratio must be positive");
+  const bool of_height = entity.parameters.string("fovaxis", "shorter") == "y";
   ScreenWindow window =
-      aspect > 1 ? ScreenWindow{-aspect, aspect, -1, 1} : ScreenWindow{-1, 1, -1 / aspect, 1 / aspect};
+      aspect > 1 || of_height ? ScreenWindow{-aspect, aspect, -1, 1} : ScreenWindow{-1, 1, -1 / aspect, 1 / aspect};
   const std::vector<float>& given = entity.parameters.array<float>("screenwindow");
   if (given.empty()) return window;
   if (given.size() != 4 || given[0] == given[1] || given[2] == given[3]) {

@@ -23,6 +23,13 @@ List lens(List more) {
              most,
              {},
              true},
+            {"fovaxis",
+             {string},
+             "what the field of view and the default screen window are of: the shorter side, or always the height; "
+             "default shorter (Montelux alone)",
+             0,
+             0,
+             {"shorter", "y"}},
             {"lensradius", {number}, "radius of the aperture; default 0", 0, most},
             {"focaldistance", {number}, "distance in focus; default 1e6", 1e-30, most},
             {"apertureblades",

@@ -41,6 +41,10 @@ inline constexpr std::size_t largest_sample_count = std::size_t(1) << 29;
 // are appended as layers. Fails for missing, corrupt and absurdly large files; never throws.
 Result<Image> read_image(const std::filesystem::path& path, std::optional<ColorEncoding> encoding = std::nullopt);
 
+// The same for a file in memory; messages call it by `name`.
+Result<Image> read_image(const std::filesystem::path& name, const std::string& bytes,
+                         std::optional<ColorEncoding> encoding = std::nullopt);
+
 // Header entries of an EXR and the channels to be stored as half; the others are 32-bit floats.
 struct ExrOptions {
   std::vector<Attribute> attributes;

@@ -1,5 +1,7 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
 #include <system_error>
 
 #include "image/image_file.h"
@@ -87,15 +89,40 @@ void decode_colors(PixelBuffer& pixels, const ColorEncoding& encoding, int alpha
   }
 }
 
-Result<Image> read_open(const std::filesystem::path& path, std::optional<ColorEncoding> encoding) {
-  std::error_code error;
-  std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return Failure{"no such file"};
-  if (std::filesystem::is_directory(status)) return Failure{"it is a directory"};
+// A name by whose ending the library finds the format of a file that is in memory.
+std::optional<std::string> name_by_content(const std::string& bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> beginnings{{{"\x89PNG"sv, "image.png"},
+                                                                                {"\xff\xd8\xff"sv, "image.jpg"},
+                                                                                {"\x76\x2f\x31\x01"sv, "image.exr"},
+                                                                                {"#?"sv, "image.hdr"},
+                                                                                {"RIFF"sv, "image.webp"},
+                                                                                {"GIF8"sv, "image.gif"}}};
+  for (const auto& [beginning, name] : beginnings)
+    if (bytes.starts_with(beginning)) return name;
+  return std::nullopt;
+}
+
+// Either a file, or bytes in memory.
+Result<Image> read_open(const std::filesystem::path& path, const std::string* bytes,
+                        std::optional<ColorEncoding> encoding) {
+  std::optional<std::string> name = path.string();
+  if (bytes) {
+    name = name_by_content(*bytes);
+    if (!name) return Failure{"unknown or corrupt format"};
+  } else {
+    std::error_code error;
+    std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) return Failure{"no such file"};
+    if (std::filesystem::is_directory(status)) return Failure{"it is a directory"};
+  }
 
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &wishes);
+  std::optional<OIIO::Filesystem::IOMemReader> memory;
+  if (bytes) memory.emplace(bytes->data(), bytes->size());
+  std::unique_ptr<OIIO::ImageInput> input =
+      OIIO::ImageInput::open(*name, &wishes, memory ? &*memory : nullptr);
   if (!input) return Failure{OIIO::geterror()};
 
   const OIIO::ImageSpec spec = input->spec();
@@ -111,17 +138,27 @@ Result<Image> read_open(const std::filesystem::path& path, std::optional<ColorEn
   return image;
 }
 
-}  // namespace
-
-Result<Image> read_image(const std::filesystem::path& path, std::optional<ColorEncoding> encoding) {
+Result<Image> read_safely(const std::filesystem::path& path, const std::string* bytes,
+                          std::optional<ColorEncoding> encoding) {
   std::string prefix = "cannot read image '" + path.string() + "': ";
   try {
-    Result<Image> image = read_open(path, encoding);
+    Result<Image> image = read_open(path, bytes, encoding);
     if (image) return image;
     return Failure{prefix + (image.error().empty() ? "unknown or corrupt format" : image.error())};
   } catch (const std::exception& e) {
     return Failure{prefix + e.what()};
   }
+}
+
+}  // namespace
+
+Result<Image> read_image(const std::filesystem::path& path, std::optional<ColorEncoding> encoding) {
+  return read_safely(path, nullptr, encoding);
+}
+
+Result<Image> read_image(const std::filesystem::path& name, const std::string& bytes,
+                         std::optional<ColorEncoding> encoding) {
+  return read_safely(name, &bytes, encoding);
 }
 
 }  // namespace montelux

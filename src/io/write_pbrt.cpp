@@ -86,11 +86,12 @@ std::string transform_text(const Transform& transform) {
   return text + " ]\n";
 }
 
-std::string moving_transform_text(const Transform& start, const std::optional<Transform>& end) {
-  if (!end) return transform_text(start);
+// Of the moments after the start the last one: pbrt's format has no others.
+std::string moving_transform_text(const Transform& start, const std::vector<Transform>& later) {
+  if (later.empty()) return transform_text(start);
   // The transform before may be another one at either end.
   const auto whole = [](const Transform& t) { return t.is_identity() ? std::string("Identity\n") : transform_text(t); };
-  return "ActiveTransform StartTime\n" + whole(start) + "ActiveTransform EndTime\n" + whole(*end) +
+  return "ActiveTransform StartTime\n" + whole(start) + "ActiveTransform EndTime\n" + whole(later.back()) +
          "ActiveTransform All\n";
 }
 
@@ -116,7 +117,7 @@ class Writer {
     for (const InstanceDesc& instance : scene_.instances)
       write_block(instance.object_to_world,
                   "ObjectInstance " + quoted(scene_.objects[static_cast<std::size_t>(instance.object)].name),
-                  instance.object_to_world_at_end);
+                  instance.object_to_world_later);
     return std::move(text_);
   }
 
@@ -158,8 +159,8 @@ class Writer {
   }
 
   void write_block(const Transform& transform, const std::string& content,
-                   const std::optional<Transform>& at_end = std::nullopt) {
-    text_ += "AttributeBegin\n" + moving_transform_text(transform, at_end) + content + "\nAttributeEnd\n";
+                   const std::vector<Transform>& later = {}) {
+    text_ += "AttributeBegin\n" + moving_transform_text(transform, later) + content + "\nAttributeEnd\n";
   }
 
   void write_options() {
@@ -171,7 +172,7 @@ class Writer {
     text_ += "Accelerator " + entity_text(scene_.accelerator) + "\n";
     if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
       text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
-    text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_at_end);
+    text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_later);
     text_ += "Camera " + entity_text(scene_.camera) + "\n";
   }
 
@@ -218,7 +219,7 @@ class Writer {
     text += "Shape " + entity_text(shape.entity);
     // The mesh of a file stays there.
     if (shape.mesh && shape.entity.type != "plymesh") text += mesh_text(*shape.mesh);
-    write_block(shape.object_to_world, text, shape.object_to_world_at_end);
+    write_block(shape.object_to_world, text, shape.object_to_world_later);
   }
 
   const SceneDesc& scene_;

@@ -8,7 +8,8 @@
 namespace montelux {
 
 // The scene in the text format of pbrt-v4; reading it from the folder of the scene gives the same description, save
-// that materials without a name get one. The rgb values of one entity must share a colour space.
+// that materials without a name get one, and that what moves through more than two places goes from the first to the
+// last. The rgb values of one entity must share a colour space.
 std::string write_pbrt(const SceneDesc& scene);
 
 // The same into a file, which should stand in the scene's folder: the paths in it are relative to that.

@@ -63,7 +63,7 @@ std::uint32_t LightSetBuilder::number_of(const Transform& to_world) {
 LightSetBuilder::Surface LightSetBuilder::surface(const Emission& emission, float area, bool flip) {
   begin_group(emission.group);
   Surface s{};
-  Rgb factor = emission.image ? gray(emission.scale) : emission.radiance * emission.scale;
+  Rgb factor = emission.image ? emission.tint * emission.scale : emission.radiance * emission.scale;
   Rgb mean = emission.image ? emission.image->mean() : gray(1.0f);
   float sides = emission.two_sided ? 2.0f : 1.0f;
   if (emission.power && area > 0) {
@@ -222,17 +222,24 @@ LightId LightSetBuilder::add_point(Vec3f p, Rgb intensity) {
   return add_row(LightKind::point, row, b, 4 * pi * b.intensity);
 }
 
-LightId LightSetBuilder::add_spot(Vec3f p, Vec3f axis, float end_angle, float edge_angle, Rgb intensity) {
+float solid_angle(const SpotCone& cone) {
+  const float cos_end = std::cos(radians(cone.end)), cos_edge = std::cos(radians(std::max(cone.edge, 0.0f)));
+  // The mean of the edge is a half, of its square a third.
+  return two_pi * (1 - (cone.squared ? (cos_end + 2 * cos_edge) / 3 : 0.5f * (cos_edge + cos_end)));
+}
+
+LightId LightSetBuilder::add_spot(Vec3f p, Vec3f axis, const SpotCone& cone, Rgb intensity) {
   using T = SpotEmitter<float>;
   LightRow row;
-  float cos_end = std::cos(radians(end_angle)), cos_edge = std::cos(radians(std::max(edge_angle, 0.0f)));
+  float cos_end = std::cos(radians(cone.end)), cos_edge = std::cos(radians(std::max(cone.edge, 0.0f)));
   row.set(light_slot::emission, intensity);
   row.set(T::place, p), row.set(T::axis, unit_or_z(axis)), row.set(T::cos_end, cos_end), row.set(T::cos_edge, cos_edge);
+  row.set(T::bend, cone.squared ? 0.0f : 2.0f);
   LightBounds b;
   b.low = b.high = p;
   b.axis = unit_or_z(axis), b.cos_spread = cos_end, b.cos_emission = 1;
   b.intensity = average(intensity);
-  return add_row(LightKind::spot, row, b, two_pi * (1 - 0.5f * (cos_edge + cos_end)) * b.intensity);
+  return add_row(LightKind::spot, row, b, solid_angle(cone) * b.intensity);
 }
 
 LightId LightSetBuilder::add_goniometric(const Transform& to_world, Rgb intensity,

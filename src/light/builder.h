@@ -16,6 +16,7 @@ struct Emission {
   bool two_sided = false;                     // else on the side of the normal
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
   std::string group = "default";              // of lights that share a layer of a picture
+  Rgb tint = gray(1.0f);                      // factor of the image
 };
 
 // Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.
@@ -64,6 +65,14 @@ struct LightInputs {
 // The emission that an area light states ("diffuse").
 Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics);
 
+// Half angles in degrees: where a spot ends, and where it begins to fall off; and how.
+struct SpotCone {
+  float end, edge;
+  bool squared = false;  // else a smooth step
+};
+// The whole sphere weighted by the cone.
+float solid_angle(const SpotCone& cone);
+
 class LightSetBuilder {
  public:
   // The light's number. Shapes without area are taken too; they are never sampled.
@@ -80,8 +89,7 @@ class LightSetBuilder {
 
   // The same one by one. All scales are included.
   LightId add_point(Vec3f p, Rgb intensity);
-  // Half angles in degrees: where it ends, and where it begins to fall off.
-  LightId add_spot(Vec3f p, Vec3f axis, float end_angle, float edge_angle, Rgb intensity);
+  LightId add_spot(Vec3f p, Vec3f axis, const SpotCone& cone, Rgb intensity);
   // The image is square and equal-area; null: constant.
   LightId add_goniometric(const Transform& to_world, Rgb intensity, std::shared_ptr<const LightImage> image);
   LightId add_projection(const Transform& to_world, float fov, Rgb factor, std::shared_ptr<const LightImage> image);

@@ -80,21 +80,46 @@ float illuminance(const LightImage& image) {
   return float(4 * double(pi) * sum / (double(width) * height));
 }
 
+// A longitude-latitude image (+z on top, azimuth from +x toward +y along the rows) on the equal-area square. Each texel
+// is the mean of as many of the image's as it covers, so that the light as a whole stays.
+LightImage equal_area_image(const LightImage& angles) {
+  LightImage square;
+  // As fine as the image at its equator.
+  square.width = square.height = std::clamp(int(std::lround(0.57 * angles.width)), 1, 8192);
+  constexpr int parts = 4;
+  square.texels.resize(std::size_t(square.width) * std::size_t(square.height));
+  for (int y = 0; y < square.height; ++y)
+    for (int x = 0; x < square.width; ++x) {
+      Rgb sum = gray(0.0f);
+      for (int part = 0; part < parts * parts; ++part) {
+        const float u = (float(x) + (float(part % parts) + 0.5f) / parts) / float(square.width);
+        const float v = (float(y) + (float(part / parts) + 0.5f) / parts) / float(square.height);
+        const Vec3f w = sphere_from_square(Vec2f{u, v});
+        const float turn = std::atan2(w.y, w.x) * inv_two_pi;
+        sum += angles.nearest({turn - std::floor(turn), std::acos(std::clamp(w.z, -1.0f, 1.0f)) * inv_pi});
+      }
+      square.texels[std::size_t(y) * std::size_t(square.width) + std::size_t(x)] = sum * (1.0f / (parts * parts));
+    }
+  return square;
+}
+
 std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read) {
   if (read.light.parameters.string("filename", "").empty())
     return builder.add_uniform_infinite(read.spectrum("L") * (read.scale() * read.factor_for("illuminance", pi)));
-  auto image = read.image(true);
+  const bool by_angles = read.light.parameters.string("mapping", "equalarea") == "latlong";
+  auto image = read.image(!by_angles);
   if (!image) return std::nullopt;
+  if (by_angles) image = std::make_shared<const LightImage>(equal_area_image(*image));
   float factor = read.scale() * read.factor_for("illuminance", illuminance(*image));
   return builder.add_image_infinite(read.to_world, gray(factor), image);
 }
 
 std::optional<LightId> add_spot(LightSetBuilder& builder, const Reader& read) {
-  float end = read.light.parameters.number("coneangle", 30);
-  float edge = std::max(end - read.light.parameters.number("conedeltaangle", 5), 0.0f);
-  float mean_cos = 0.5f * (std::cos(end * (pi / 180)) + std::cos(edge * (pi / 180)));
-  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", two_pi * (1 - mean_cos)));
-  return builder.add_spot(read.to_world.point(read.from()), read.to_world.direction(read.to() - read.from()), end, edge,
+  const ParameterList& p = read.light.parameters;
+  const float end = p.number("coneangle", 30), edge = std::max(end - p.number("conedeltaangle", 5), 0.0f);
+  const SpotCone cone{end, edge, p.string("falloff", "smooth") == "squared"};
+  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", solid_angle(cone)));
+  return builder.add_spot(read.to_world.point(read.from()), read.to_world.direction(read.to() - read.from()), cone,
                           intensity);
 }
 
@@ -141,6 +166,7 @@ Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagno
   e.scale = list.number("scale", 1);
   if (float power = list.number("power", -1); power > 0) e.power = power;
   e.two_sided = list.boolean("twosided", false);
+  if (auto tint = list.spectrum("tint")) e.tint = inputs.emission(*tint);
   if (std::string name = list.string("filename", ""); !name.empty()) e.image = inputs.image(name, area_light.where);
   return e;
 }

@@ -18,23 +18,25 @@ struct PointEmitter {
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F>, Mask<F>) const { return emission; }
 };
 
-// 0 below `low`, 1 above `high`, a cubic with level ends between; a step where the two are equal.
+// 0 below `low`, 1 above `high`, between them t^2 (1 + bend - bend t): for a bend of 2 a cubic with level ends, for 0 a
+// square. A step where low and high are equal.
 template <class F>
-MONTELUX_INLINE F smooth_step(F x, F low, F high) {
+MONTELUX_INLINE F soft_step(F x, F low, F high, F bend) {
   F t = clamp((x - low) / max(high - low, F(1e-30f)), 0.0f, 1.0f);
-  return t * t * (F(3.0f) - 2.0f * t);
+  return t * t * (F(1.0f) + bend - bend * t);
 }
 
 // A cone with a soft edge, by the cosines of its whole half angle and of where the edge begins.
 template <class F>
 struct SpotEmitter {
-  enum Slot { place = light_slot::shape, axis = place + 3, cos_end = axis + 3, cos_edge };
+  enum Slot { place = light_slot::shape, axis = place + 3, cos_end = axis + 3, cos_edge, bend };
   Vec3<F> p;
   LightRows<F> rows;
 
   explicit MONTELUX_INLINE SpotEmitter(const LightRows<F>& r) : p(r.vec3(place)), rows(r) {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F>) const {
-    return rows.emission() * smooth_step(dot(rows.vec3(axis), w), rows.number(cos_end), rows.number(cos_edge));
+    return rows.emission() * soft_step(dot(rows.vec3(axis), w), rows.number(cos_end),
+                                        rows.number(cos_edge), rows.number(bend));
   }
 };
 

@@ -49,6 +49,12 @@ class RowBuilder {
           std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), scale});
   }
 
+  // A factor that may be above one.
+  void unbounded(int slot, std::string_view name, Rgb otherwise) {
+    bind({std::uint8_t(slot), RowEncoding::plain, true,
+          std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), 1});
+  }
+
   // Both slots from "u" + name and "v" + name, or name for both; `prefix` as in "interface.".
   void roughness(int slot, const std::string& prefix) {
     RowEncoding encoding =
@@ -204,6 +210,17 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
          b.spectrum(PhongSlots::specular, "ks", gray(0.3f));
          b.number(PhongSlots::exponent, "exponent", 32);
        }},
+      {"metallicroughness", BsdfKind::metallic_roughness,
+       [](RowBuilder& b, const Entity&) {
+         using Slots = MetallicRoughnessSlots;
+         b.spectrum(Slots::base, "basecolor", gray(1.0f));
+         b.number(Slots::metallic, "metallic", 1, RowEncoding::unit);
+         b.number(Slots::roughness, "roughness", 1, RowEncoding::unit);
+         b.number(Slots::specular, "specular", 1, RowEncoding::unit);
+         b.unbounded(Slots::specular_color, "specularcolor", gray(1.0f));
+         const float eta = b.index("eta", 1.5f), ratio = (eta - 1) / (eta + 1);
+         b.put(Slots::reflected, ratio * ratio);
+       }},
   }};
   return rows;
 }
@@ -227,6 +244,10 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
   row->fill(b, entity);
   if (entity.parameters.find("normalmap"))
     b.material().normal_map = inputs.textures.image(entity, "normalmap", ColorEncoding{});
+  if (entity.parameters.find("normaltexture"))
+    b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray(0.5f));
+  if (const auto& scale = entity.parameters.array<float>("normalscale"); scale.size() == 2)
+    b.material().normal_scale = {scale[0], scale[1]};
   if (const Parameter* p = entity.parameters.find("displacement"))
     inputs.diagnostics.warning(p->where, "displacement of materials is not applied: the surface stays smooth",
                                "a normalmap is applied");
@@ -275,20 +296,25 @@ BsdfRow material_row(const Material& material, const TextureSet& textures, const
 }
 
 template <class F>
-Vec3<F> mapped_normal(const Material& material, const Vec2<F>& uv, Mask<F> on) {
-  const Vec2<F> st{uv.x, 1.0f - uv.y};
+Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
+                      Mask<F> on) {
+  const Vec2<F> st{points.uv.x, 1.0f - points.uv.y};
   Spectrum<F> c;
-  if constexpr (lanes_of<F> == 1)
+  if (material.normal_texture)
+    c = textures.spectrum(*material.normal_texture, points, on);
+  else if constexpr (lanes_of<F> == 1)
     c = material.normal_map->bilinear(st, Wrap::repeat);
   else
     c = material.normal_map->bilinear(st, Wrap::repeat, on);
-  return {2.0f * c.c[0] - 1.0f, 2.0f * c.c[1] - 1.0f, 2.0f * c.c[2] - 1.0f};
+  const Vec2f s = material.normal_scale;
+  return {s.x * (2.0f * c.c[0] - 1.0f), s.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};
 }
 
 template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<float>&, bool, BsdfSlots<float>&);
 template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&, Mask<NativeFloats>,
                             BsdfSlots<NativeFloats>&);
-template Vec3f mapped_normal(const Material&, const Vec2f&, bool);
-template Vec3<NativeFloats> mapped_normal(const Material&, const Vec2<NativeFloats>&, Mask<NativeFloats>);
+template Vec3f mapped_normal(const Material&, const TextureSet&, const TexturePoints<float>&, bool);
+template Vec3<NativeFloats> mapped_normal(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&,
+                                          Mask<NativeFloats>);
 
 }  // namespace montelux

@@ -41,10 +41,14 @@ struct Material {
   std::vector<RowBinding> bindings;
   std::optional<Mixture> mixture;
   std::shared_ptr<const TexelImage> normal_map;
+  std::optional<SpectrumTextureId> normal_texture;  // instead of the image
+  Vec2f normal_scale{1, 1};                         // factors of x and y of the mapped normal
   bool is_interface = false;
 
+  bool has_normal_map() const { return normal_map || normal_texture; }
+
   // Nothing has to be looked up at a point.
-  bool is_plain() const { return bindings.empty() && !mixture && !normal_map && !is_interface; }
+  bool is_plain() const { return bindings.empty() && !mixture && !has_normal_map() && !is_interface; }
 };
 
 // What the builder asks the scene for.
@@ -68,8 +72,9 @@ void look_up_slots(const Material& material, const TextureSet& textures, const T
                    BsdfSlots<F>& slots);
 // All parameters at a point.
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point);
-// The normal of the map at uv in the tangent frame, not unit. Only where there is a map.
+// The normal of the map at the points in the tangent frame, not unit. Only where there is a map.
 template <class F>
-Vec3<F> mapped_normal(const Material& material, const Vec2<F>& uv, Mask<F> on);
+Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
+                      Mask<F> on);
 
 }  // namespace montelux

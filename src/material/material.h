@@ -10,6 +10,7 @@
 #include "material/dielectric.h"
 #include "material/diffuse.h"
 #include "material/diffuse_transmission.h"
+#include "material/metallic_roughness.h"
 #include "material/phong.h"
 #include "material/thin_dielectric.h"
 
@@ -24,14 +25,15 @@ enum class BsdfKind : std::uint32_t {
   coated_conductor,
   diffuse_transmission,
   thin_dielectric,
-  phong
+  phong,
+  metallic_roughness
 };
 
 template <class F>
 using BsdfModels = std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>,
-                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>>;
+                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>, MetallicRoughness<F>>;
 inline constexpr std::size_t bsdf_kind_count = std::tuple_size_v<BsdfModels<float>>;
-static_assert(bsdf_kind_count == std::size_t(BsdfKind::phong) + 1);
+static_assert(bsdf_kind_count == std::size_t(BsdfKind::metallic_roughness) + 1);
 
 template <BsdfKind kind, class F>
 using BsdfOf = std::tuple_element_t<std::size_t(kind), BsdfModels<F>>;

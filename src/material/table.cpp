@@ -20,7 +20,17 @@ List join(std::initializer_list<List> lists) {
 // Every material takes these.
 List common() {
   return {{"displacement", number_map, "bump height in scene units; default none", -most, most},
-          {"normalmap", {string}, "file of an image of tangent-space normals; default none"}};
+          {"normalmap", {string}, "file of an image of tangent-space normals; default none"},
+          {"normaltexture",
+           spectrum_map,
+           "tangent-space normals as a texture of spectra, instead of normalmap; default none (Montelux alone)"},
+          {"normalscale",
+           {number},
+           "factors of x and y of the mapped normal; default 1 1 (Montelux alone)",
+           -most,
+           most,
+           {},
+           true}};
 }
 
 List roughness(std::string_view value, std::string_view u, std::string_view v) {
@@ -72,6 +82,15 @@ std::vector<EntitySpec> opaque_materials() {
        join({{{"kd", spectrum_map, "diffuse albedo; default 0.5", 0, 1},
               {"ks", spectrum_map, "glossy albedo; default 0.3", 0, 1},
               {"exponent", number_map, "exponent of the glossy lobe; default 32", 0, 1e6}},
+             common()})},
+      {"metallicroughness",
+       "the material of glTF 2.0: a dielectric coat over a diffuse base, or a metal (Montelux alone)",
+       join({{{"basecolor", spectrum_map, "albedo of the diffuse part, and colour of the metal; default 1", 0, 1},
+              {"metallic", number_map, "share of the metal; default 1", 0, 1},
+              {"roughness", number_map, "alpha of the facets is its square; default 1", 0, 1},
+              {"specular", number_map, "strength of the dielectric's reflection; default 1", 0, 1},
+              {"specularcolor", spectrum_map, "its colour at normal incidence; default 1", 0, most},
+              {"eta", index, "index of refraction of the dielectric; default 1.5", 1, most}},
              common()})},
       {"mix", "a choice between two materials, point by point",
        join({{{"materials", {string}, "the names of two materials", -most, most, {}, true},

@@ -122,7 +122,44 @@ Motion::Motion(const Transform& start, const Transform& end)
     half_angle_ = 0;
 }
 
+// What lanes gather of each part, and where.
+namespace part {
+constexpr std::uint32_t translation = 0, rotation = 6, across = 10, half_angle = 14, stretch = 15, size = 33;
+}
+
+Motion::Motion(const Transform& start, const std::vector<Transform>& later)
+    : Motion(start, later.empty() ? start : later.front()) {
+  if (later.size() < 2) return;
+  parts_.push_back(*this);
+  for (std::size_t i = 1; i < later.size(); ++i) parts_.emplace_back(later[i - 1], later[i]);
+  for (const Motion& p : parts_) {
+    const auto put = [&](const auto& numbers) {
+      for (double x : numbers) table_.push_back(float(x));
+    };
+    put(p.key0_.translation), put(p.key1_.translation);
+    put(p.key0_.rotation), put(p.across_);
+    table_.push_back(float(p.half_angle_));
+    put(p.key0_.stretch), put(p.key1_.stretch);
+  }
+}
+
+bool Motion::moves() const {
+  if (parts_.empty()) return !(start_.matrix() == end_.matrix());
+  return std::any_of(parts_.begin(), parts_.end(), [](const Motion& p) { return p.moves(); });
+}
+
+double Motion::angle() const {
+  double most = 2 * half_angle_;
+  for (const Motion& p : parts_) most = std::max(most, p.angle());
+  return most;
+}
+
 Transform Motion::at(double t) const {
+  if (!parts_.empty()) {
+    const double scaled = std::clamp(t, 0.0, 1.0) * double(parts_.size());
+    const std::size_t i = std::min(std::size_t(scaled), parts_.size() - 1);
+    return parts_[i].at(scaled - double(i));
+  }
   if (!(t > 0) || !moves()) return start_;
   if (t >= 1) return end_;
   const Quaternion q =
@@ -138,6 +175,27 @@ Transform Motion::at(double t) const {
 
 template <class F>
 Affine<F> Motion::at(F t) const {
+  if (!parts_.empty()) {
+    const F scaled = t * float(parts_.size());
+    const F first = clamp(floor(scaled), 0.0f, float(parts_.size() - 1)), u = scaled - first;
+    const Uint<F> at = to_uint(first) * Uint<F>(part::size);
+    const auto number = [&](std::uint32_t i) -> F { return gather(table_.data() + i, at); };
+    const auto between = [&](std::uint32_t i, std::uint32_t count) -> F {
+      return number(i) * (F(1.0f) - u) + number(i + count) * u;
+    };
+    const SinCos<F> turn = sin_cos(u * number(part::half_angle));
+    std::array<F, 4> q;
+    for (std::uint32_t i = 0; i < 4; ++i)
+      q[i] = turn.cos * number(part::rotation + i) + turn.sin * number(part::across + i);
+    std::array<F, 3> shift;
+    for (std::uint32_t i = 0; i < 3; ++i) shift[i] = between(part::translation + i, 3);
+    std::array<F, 9> stretch;
+    for (std::uint32_t i = 0; i < 9; ++i) stretch[i] = between(part::stretch + i, 9);
+    const std::array<F, 12> rows = composed(shift, q, stretch);
+    Affine<F> r;
+    for (std::size_t i = 0; i < 12; ++i) r.m[i] = rows[i];
+    return r;
+  }
   const SinCos<F> turn = sin_cos(t * float(half_angle_));
   std::array<F, 4> q;
   for (std::size_t i = 0; i < 4; ++i) q[i] = turn.cos * float(key0_.rotation[i]) + turn.sin * float(across_[i]);
@@ -148,7 +206,10 @@ Affine<F> Motion::at(F t) const {
   return r;
 }
 
-int Motion::steps() const { return std::clamp(int(std::ceil(angle() / 0.01)), 1, 128); }
+int Motion::steps() const {
+  const int parts = std::max(int(parts_.size()), 1);
+  return parts * std::clamp(int(std::ceil(angle() / 0.01)), 1, std::max(128 / parts, 1));
+}
 
 template Affine<float> Motion::at(float) const;
 template Affine<NativeFloats> Motion::at(NativeFloats) const;

@@ -1,5 +1,6 @@
 // A scene as a file states it: plain data that can be printed, changed and written again.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,7 +35,8 @@ struct ShapeDesc {
   std::optional<Entity> area_light;
   // Vertices in object space, for trianglemesh, plymesh (already read), and the control mesh of loopsubdiv.
   std::shared_ptr<const Mesh> mesh;
-  std::optional<Transform> object_to_world_at_end;  // where it moves; object_to_world is that of the start
+  // Where it moves, at moments evenly spaced up to the end of the transforms' time; object_to_world is that of the start.
+  std::vector<Transform> object_to_world_later;
 };
 
 struct LightDesc {
@@ -52,16 +54,25 @@ struct InstanceDesc {
   ObjectDescId object{};
   Transform object_to_world;
   SourceLocation where;
-  std::optional<Transform> object_to_world_at_end;  // where it moves
+  std::vector<Transform> object_to_world_later;  // where it moves, as that of a shape
 };
 
 struct SceneDesc {
   std::string file;    // the file that was read; paths of the description are relative to `folder`
   std::string folder;  // absolute or relative to the working directory
+  // Bytes of image files that are a part of the scene file, by the names that the description has for them.
+  std::map<std::string, std::shared_ptr<const std::string>> embedded;
   Entity camera{"perspective", {}, {}};
   Transform world_to_camera;
-  std::optional<Transform> world_to_camera_at_end;  // where the camera moves
-  double transforms_start = 0, transforms_end = 1;  // the time from the one to the other
+  std::vector<Transform> world_to_camera_later;     // where the camera moves, as that of a shape
+  double transforms_start = 0, transforms_end = 1;  // the time from the first transform to the last
+  // When the shutter is open, in the same unit, for pictures whose brightness does not hang on that; none: as the
+  // camera's shutteropen and shutterclose say.
+  std::optional<std::pair<double, double>> shutter;
+  std::optional<double> frame_rate;  // pictures a unit of time, where nothing else is asked for
+  // The time that the frames of a sequence share out; none: that of the transforms.
+  std::optional<std::pair<double, double>> whole_time;
+  int frames_held = 1 << 30;         // of those asked for, from the first on, as many as the transforms are good for
   Entity film{"rgb", {}, {}};
   Entity filter{"gaussian", {}, {}};
   Entity sampler{"zsobol", {}, {}};

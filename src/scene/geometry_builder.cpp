@@ -83,7 +83,7 @@ CurveDesc curve_of(const ShapeDesc& shape) {
 }  // namespace
 
 void GeometryBuilder::add_world_shape(const ShapeDesc& shape) {
-  if (shape.object_to_world_at_end)
+  if (!shape.object_to_world_later.empty())
     moving_.push_back(&shape);
   else
     add_shape(shape, true);
@@ -103,7 +103,7 @@ std::uint32_t GeometryBuilder::add_store_object(const std::function<void()>& add
 std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
   ShapeDesc still = moving;
   still.object_to_world = Transform();
-  still.object_to_world_at_end.reset();
+  still.object_to_world_later.clear();
   // Normals of quadrics turn round with a map that mirrors; those of meshes and curves go with it.
   if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
     still.reverse_orientation = !moving.reverse_orientation;
@@ -114,18 +114,18 @@ void GeometryBuilder::add_object(const ObjectDesc& object) {
   ObjectParts parts{};
   parts.still = add_store_object([&] {
     for (const ShapeDesc& shape : object.shapes)
-      if (!shape.object_to_world_at_end) add_shape(shape, false);
+      if (shape.object_to_world_later.empty()) add_shape(shape, false);
   });
   for (const ShapeDesc& shape : object.shapes)
-    if (shape.object_to_world_at_end)
-      parts.moving.emplace_back(add_object_of(shape), Motion(shape.object_to_world, *shape.object_to_world_at_end));
+    if (!shape.object_to_world_later.empty())
+      parts.moving.emplace_back(add_object_of(shape), Motion(shape.object_to_world, shape.object_to_world_later));
   objects_.push_back(std::move(parts));
 }
 
 void GeometryBuilder::add_instance(const InstanceDesc& instance) {
   const ObjectParts& parts = objects_[std::size_t(instance.object)];
   const Transform& start = instance.object_to_world;
-  const Motion motion(start, instance.object_to_world_at_end.value_or(start));
+  const Motion motion(start, instance.object_to_world_later);
   if (motion.moves())
     place_moving(parts.still, {[&](double t) { return motion.at(t); }, motion.steps()});
   else
@@ -174,7 +174,7 @@ void GeometryBuilder::place_moving(std::uint32_t object, const Placing& placing)
 
 GeometryStore GeometryBuilder::take() {
   for (const ShapeDesc* shape : moving_) {
-    const Motion motion(shape->object_to_world, *shape->object_to_world_at_end);
+    const Motion motion(shape->object_to_world, shape->object_to_world_later);
     place_moving(add_object_of(*shape), {[&](double t) { return motion.at(t); }, motion.steps()});
   }
   if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());

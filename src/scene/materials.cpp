@@ -24,6 +24,8 @@ std::uint32_t slots_of(BsdfKind kind) {
       return DiffuseTransmissionSlots::transmittance + spectrum;
     case BsdfKind::phong:
       return PhongSlots::exponent + 1;
+    case BsdfKind::metallic_roughness:
+      return MetallicRoughnessSlots::reflected + 1;
     case BsdfKind::coated_conductor:
       break;
   }
@@ -58,7 +60,7 @@ MaterialSet::MaterialSet(std::vector<Material> materials, const TextureSet* text
     : materials_(std::move(materials)), textures_(textures) {
   for (const Material& m : materials_) {
     kinds_.push_back(std::uint32_t(m.kind));
-    traits_.push_back((m.bindings.empty() && !m.normal_map ? 0u : needs_look_up) | (m.mixture ? is_mixture : 0u) |
+    traits_.push_back((m.bindings.empty() && !m.has_normal_map() ? 0u : needs_look_up) | (m.mixture ? is_mixture : 0u) |
                       (m.is_interface ? is_interface : 0u) | slots_of(m.kind) << slots_shift);
     rows_.push_back(m.row);
     has_mixtures_ = has_mixtures_ || m.mixture;
@@ -90,8 +92,8 @@ template <class F>
 void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, const TexturePoints<F>& points,
                           Mask<F> on, SurfaceScattering<F>& s) const {
   look_up_slots<F>(material, *textures_, points, on, s.slots);
-  if (!material.normal_map) return;
-  const Frame<F> turned = with_normal<F>(s.frame, at.dpdu, mapped_normal<F>(material, at.uv, on));
+  if (!material.has_normal_map()) return;
+  const Frame<F> turned = with_normal<F>(s.frame, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
   s.frame = {select<F>(on, turned.s, s.frame.s), select<F>(on, turned.t, s.frame.t),
              select<F>(on, turned.n, s.frame.n)};
 }

@@ -47,7 +47,8 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
               close = scene.camera.parameters.number("shutterclose", 1), exposure_time = close - open;
   s.transforms_start = scene.transforms_start, s.transforms_end = scene.transforms_end;
   s.shutter_open = double(open), s.shutter_close = double(close);
-  s.imaging_ratio = exposure_time * film.number("iso", 100) / 100;
+  s.imaging_ratio = (scene.shutter ? 1.0f : exposure_time) * film.number("iso", 100) / 100;
+  if (scene.shutter) s.shutter_open = scene.shutter->first, s.shutter_close = scene.shutter->second;
 
   const ParameterList& sampler = scene.sampler.parameters;
   s.samples = scene.sampler.type == "stratified" ? sampler.integer("xsamples", 4) * sampler.integer("ysamples", 4)

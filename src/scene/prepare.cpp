@@ -24,6 +24,8 @@ class Preparation {
         texture_builder_(*textures_, desc.folder, reflectance_rgb, diagnostics) {}
 
   PreparedScene run() {
+    for (const auto& [name, bytes] : desc_.embedded)
+      textures_->embed(std::filesystem::path(desc_.folder) / name, bytes);
     for (const TextureDesc& t : desc_.textures)
       texture_builder_.add(t.name, t.is_spectrum, t.entity, t.texture_to_world);
     std::vector<Material> materials = make_materials();
@@ -64,6 +66,7 @@ class Preparation {
   PictureSettings picture_;
   std::unique_ptr<TextureSet> textures_;
   TextureBuilder texture_builder_;
+  std::map<std::string, std::shared_ptr<const LightImage>> light_images_;  // by file
   Bounds3 bounds_;
 };
 
@@ -92,8 +95,10 @@ Camera Preparation::make_camera() {
   auto built = [&](const Transform& place) {
     return build_camera(desc_.camera, place, picture_.width, picture_.height, diagnostics_);
   };
-  if (!desc_.world_to_camera_at_end) return built(desc_.world_to_camera);
-  return built(Transform()).moved({desc_.world_to_camera.inverted(), desc_.world_to_camera_at_end->inverted()});
+  if (desc_.world_to_camera_later.empty()) return built(desc_.world_to_camera);
+  std::vector<Transform> later;
+  for (const Transform& t : desc_.world_to_camera_later) later.push_back(t.inverted());
+  return built(Transform()).moved({desc_.world_to_camera.inverted(), later});
 }
 
 // A mixture that leads to itself has no value: it is reported, and stands as a diffuse surface.
@@ -149,6 +154,8 @@ void Preparation::add_light(const LightDesc& light, LightSetBuilder& lights) {
 }
 
 std::shared_ptr<const LightImage> Preparation::light_image(const std::string& file, const SourceLocation& where) {
+  auto [place, is_new] = light_images_.try_emplace(file);
+  if (!is_new) return place->second;
   auto image = textures_->image(std::filesystem::path(desc_.folder) / file);
   if (!image) {
     diagnostics_.error(where, image.error());
@@ -156,6 +163,7 @@ std::shared_ptr<const LightImage> Preparation::light_image(const std::string& fi
   }
   const TexelImage& texels = **image;
   auto light_image = std::make_shared<LightImage>();
+  place->second = light_image;
   light_image->width = texels.width(), light_image->height = texels.height();
   light_image->texels.reserve(std::size_t(texels.width()) * std::size_t(texels.height()));
   for (int y = 0; y < texels.height(); ++y)

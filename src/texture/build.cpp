@@ -179,12 +179,25 @@ std::optional<ImageTexture> TextureBuilder::build_image(const Entity& entity, co
     diagnostics_.error(entity.where, "unknown texture filter \"" + filter + "\"", "point, bilinear, trilinear or ewa");
   std::shared_ptr<const TexelImage> texels = image(entity, "filename", encoding);
   if (!texels) return std::nullopt;
-  return ImageTexture{build_mapping(entity, texture_to_world, diagnostics_),
-                      std::move(texels),
-                      wrap.value_or(Wrap::repeat),
-                      filter == "point",
-                      p.number("scale", 1),
-                      p.boolean("invert", false)};
+  ImageTexture t;
+  t.mapping = build_mapping(entity, texture_to_world, diagnostics_);
+  t.image = std::move(texels);
+  t.wrap = wrap.value_or(Wrap::repeat), t.nearest = filter == "point";
+  t.scale = p.number("scale", 1), t.invert = p.boolean("invert", false);
+  if (const std::string channel = p.string("channel", ""); !channel.empty())
+    t.channel = int(std::string("rgba").find(channel));
+  if (auto tint = p.spectrum("tint")) t.tint = to_rgb_(*tint);
+  const char* axes[2] = {"uwrap", "vwrap"};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string fold = p.string(axes[axis], "");
+    t.folds[axis] = fold == "clamp" ? Fold::clamp : fold == "mirror" ? Fold::mirror : Fold::none;
+  }
+  return t;
+}
+
+NumberTextureId TextureBuilder::build_threshold(const Entity& entity) {
+  const ThresholdTexture t{number(entity, "tex", 1), entity.parameters.number("edge", 0.5f)};
+  return folded<float>(textures_.add(NumberTexture(t)), textures_.is_constant(t.texture));
 }
 
 template <class V>
@@ -232,6 +245,7 @@ auto TextureBuilder::build(const Entity& entity, const Transform& texture_to_wor
     return build_flat<V>(entity, texture_to_world);
   if constexpr (std::is_same_v<V, float>) {
     if (type == "fbm" || type == "wrinkled" || type == "windy") return build_noise(entity, texture_to_world);
+    if (type == "threshold") return build_threshold(entity);
   } else if (type == "marble") {
     return textures_.add(
         SpectrumTexture(MarbleTexture{texture_to_world.inverted(), p.number("roughness", 0.5f), p.integer("octaves", 8),

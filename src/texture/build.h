@@ -55,6 +55,7 @@ class TextureBuilder {
   TextureId<V> build_combination(const Entity& entity, const Transform& texture_to_world);
   template <class V>
   TextureId<V> build_flat(const Entity& entity, const Transform& texture_to_world);
+  NumberTextureId build_threshold(const Entity& entity);
   NumberTextureId build_noise(const Entity& entity, const Transform& texture_to_world);
   std::optional<ImageTexture> build_image(const Entity& entity, const Transform& texture_to_world);
   template <class V>

@@ -1,5 +1,7 @@
 #include "texture/mapping.h"
 
+#include <algorithm>
+
 namespace montelux {
 
 namespace {
@@ -33,6 +35,13 @@ Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, D
     return PlanarMapping{texture_to_world.inverted(), p.vec3("v1", {1, 0, 0}), p.vec3("v2", {0, 1, 0}), delta};
   if (name != "uv")
     diagnostics.error(entity.where, "unknown texture mapping \"" + name + "\"", "uv, spherical, cylindrical or planar");
+  if (const std::vector<float>& m = p.array<float>("uvmatrix"); m.size() == 6) {
+    AffineUvMapping affine;
+    std::copy(m.begin(), m.end(), affine.m.begin());
+    return affine;
+  } else if (!m.empty()) {
+    diagnostics.error(entity.where, "uvmatrix takes six numbers");
+  }
   return UvMapping{{p.number("uscale", 1), p.number("vscale", 1)}, delta};
 }
 

@@ -1,5 +1,6 @@
 // How a point of a surface becomes a place (s, t) of a flat texture.
 #pragma once
+#include <array>
 #include <variant>
 
 #include "math/transform.h"
@@ -13,6 +14,14 @@ struct UvMapping {
   Vec2f scale{1, 1}, delta{0, 0};
   Vec2f operator()(const TexturePoint& point) const {
     return {scale.x * point.uv.x + delta.x, scale.y * point.uv.y + delta.y};
+  }
+};
+
+// Any affine map of the surface parameters, by the rows of its matrix.
+struct AffineUvMapping {
+  std::array<float, 6> m{1, 0, 0, 0, 1, 0};
+  Vec2f operator()(const TexturePoint& point) const {
+    return {m[0] * point.uv.x + m[1] * point.uv.y + m[2], m[3] * point.uv.x + m[4] * point.uv.y + m[5]};
   }
 };
 
@@ -39,13 +48,13 @@ struct PlanarMapping {
   }
 };
 
-using Mapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping>;
+using Mapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping, AffineUvMapping>;
 
 inline Vec2f apply(const Mapping& mapping, const TexturePoint& point) {
   return std::visit([&](const auto& m) { return m(point); }, mapping);
 }
 
-// From the parameters mapping, uscale, vscale, udelta, vdelta, v1, v2. Reports an unknown mapping.
+// From the parameters mapping, uscale, vscale, udelta, vdelta, uvmatrix, v1, v2. Reports an unknown mapping.
 Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, Diagnostics& diagnostics);
 
 }  // namespace montelux

@@ -1,7 +1,9 @@
 // The textures themselves: plain data, in which other textures are links. V is float for a texture of numbers and Rgb
 // for one of spectra.
 #pragma once
+#include <array>
 #include <memory>
+#include <optional>
 
 #include "texture/mapping.h"
 #include "texture/texel_image.h"
@@ -46,6 +48,9 @@ struct DirectionMixTexture {
   Vec3f direction;  // unit, in world space
 };
 
+// What lies beyond an edge of an image along one axis, where it is not as the wrap mode has it.
+enum class Fold { none, clamp, mirror };
+
 // scale * image, or 1 less that and then not below 0; spectra are never below 0. t runs up the image.
 struct ImageTexture {
   Mapping mapping;
@@ -54,6 +59,32 @@ struct ImageTexture {
   bool nearest = false;  // else bilinear
   float scale = 1;
   bool invert = false;
+  std::optional<int> channel{};  // of numbers: 0 to 2, or 3 for alpha; none: alpha where there is one, else the mean
+  std::optional<Rgb> tint{};     // factor of spectra
+  std::array<Fold, 2> folds{};   // along s and t
+
+  // Places on the image whose texels, by the wrap mode, are those beyond its edges.
+  template <class F>
+  MONTELUX_INLINE Vec2<F> folded(const Vec2<F>& st) const {
+    if (folds[0] == Fold::none && folds[1] == Fold::none) return st;
+    return {folded(st.x, folds[0], image->width()), folded(st.y, folds[1], image->height())};
+  }
+
+ private:
+  // Between the middles of the outermost texels nothing beyond the edge is looked up.
+  template <class F>
+  static MONTELUX_INLINE F folded(F s, Fold fold, int size) {
+    if (fold == Fold::none) return s;
+    if (fold == Fold::mirror) s = F(1.0f) - abs(s - 2.0f * floor(s * 0.5f) - F(1.0f));
+    const float half = 0.5f / float(size);
+    return clamp(s, half, 1 - half);
+  }
+};
+
+// 1 where a texture of numbers is at least `edge`, else 0.
+struct ThresholdTexture {
+  NumberTextureId texture;
+  float edge = 0.5f;
 };
 
 // Cells of size 1: `even` where their coordinates add up to an even number.
@@ -104,7 +135,8 @@ struct MarbleTexture {
 
 using NumberTexture = std::variant<ConstantTexture<float>, ScaleTexture<float>, MixTexture<float>,
                                    DirectionMixTexture<float>, ImageTexture, CheckerboardTexture<float>,
-                                   BilerpTexture<float>, DotsTexture<float>, FbmTexture, WrinkledTexture, WindyTexture>;
+                                   BilerpTexture<float>, DotsTexture<float>, FbmTexture, WrinkledTexture, WindyTexture,
+                                   ThresholdTexture>;
 using SpectrumTexture =
     std::variant<ConstantTexture<Rgb>, ScaleTexture<Rgb>, MixTexture<Rgb>, DirectionMixTexture<Rgb>, ImageTexture,
                  CheckerboardTexture<Rgb>, BilerpTexture<Rgb>, DotsTexture<Rgb>, MarbleTexture>;

@@ -15,6 +15,10 @@ TexturePoint point_of(const Points& points, int k) {
 Vec2<F> map_points(const Mapping& mapping, const Points& at, Mask<F> on) {
   if (const auto* uv = std::get_if<UvMapping>(&mapping))
     return {uv->scale.x * at.uv.x + uv->delta.x, uv->scale.y * at.uv.y + uv->delta.y};
+  if (const auto* affine = std::get_if<AffineUvMapping>(&mapping)) {
+    const auto& m = affine->m;
+    return {m[0] * at.uv.x + m[1] * at.uv.y + m[2], m[3] * at.uv.x + m[4] * at.uv.y + m[5]};
+  }
   if (const auto* plane = std::get_if<PlanarMapping>(&mapping)) {
     const Vec3<F> p = plane->world_to_texture.point(at.p);
     return {plane->delta.x + dot(p, splat<F>(plane->s_axis)), plane->delta.y + dot(p, splat<F>(plane->t_axis))};
@@ -79,6 +83,9 @@ struct PackLookUp {
     const Pack odd = value(set, t.odd, at, in_odd);
     return any(in_even) ? select(in_even, value(set, t.even, at, in_even), odd) : odd;
   }
+  Pack operator()(const ThresholdTexture& t) const {
+    return select(set.number(t.texture, at, on) >= F(t.edge), F(1.0f), F(0.0f));
+  }
   Pack operator()(const BilerpTexture<V>& t) const {
     const Vec2<F> st = map_points(t.mapping, at, on);
     const F sx = 1.0f - st.x, sy = 1.0f - st.y;
@@ -90,8 +97,10 @@ struct PackLookUp {
       if (!t.nearest) {
         Vec2<F> st = map_points(t.mapping, at, on);
         st.y = 1.0f - st.y;
+        st = t.folded(st);
         const Spectrum<F> x = t.image->bilinear(st, t.wrap, on) * F(t.scale);
-        return per_component([&](F c) { return max(t.invert ? 1.0f - c : c, 0.0f); }, x);
+        const Spectrum<F> y = per_component([&](F c) { return max(t.invert ? 1.0f - c : c, 0.0f); }, x);
+        return t.tint ? y * splat<F>(*t.tint) : y;
       }
     }
     return point_by_point();

@@ -112,19 +112,30 @@ Result<TexelImage> TexelImage::read(const std::filesystem::path& path, std::opti
   // The values as stored; integers are decoded here.
   Result<Image> file = read_image(path, ColorEncoding{});
   if (!file) return file.failure();
-  const bool is_integer = file->stored == SampleType::uint8 || file->stored == SampleType::uint16;
+  return from(*file, encoding);
+}
+
+Result<TexelImage> TexelImage::read(const std::filesystem::path& name, const std::string& bytes,
+                                    std::optional<ColorEncoding> encoding) {
+  Result<Image> file = read_image(name, bytes, ColorEncoding{});
+  if (!file) return file.failure();
+  return from(*file, encoding);
+}
+
+TexelImage TexelImage::from(const Image& file, std::optional<ColorEncoding> encoding) {
+  const bool is_integer = file.stored == SampleType::uint8 || file.stored == SampleType::uint16;
   const ColorEncoding code =
       is_integer ? encoding.value_or(ColorEncoding{ColorEncoding::Kind::srgb, 1.0f}) : ColorEncoding{};
-  const PixelBuffer& pixels = file->pixels;
+  const PixelBuffer& pixels = file.pixels;
   const Selection selection = select_channels(pixels);
   TexelImage image(pixels.width, pixels.height, int(selection.channels.size()), selection.alpha);
-  if (file->stored == SampleType::uint8) {
+  if (file.stored == SampleType::uint8) {
     for (int i = 0; i < 256; ++i) image.decoded_[i] = decode(code, float(i) / 255.0f);
     auto codes = packed<std::uint8_t>(
         pixels, selection, [](float x, bool) { return std::uint8_t(std::clamp(std::lround(x * 255.0f), 0l, 255l)); });
     codes.insert(codes.end(), 3, 0);
     image.texels_ = std::move(codes);
-  } else if (file->stored == SampleType::half) {
+  } else if (file.stored == SampleType::half) {
     image.texels_ = packed<std::uint16_t>(pixels, selection, [](float x, bool) { return float_to_half(x); });
   } else {
     image.texels_ = packed<float>(pixels, selection,
@@ -174,6 +185,11 @@ float TexelImage::number_texel(int x, int y) const {
   return is_gray() ? value(x, y, 0) : montelux::average(texel(x, y));
 }
 
+float TexelImage::channel_texel(int x, int y, int channel) const {
+  if (channel == 3) return alpha_texel(x, y);
+  return value(x, y, is_gray() ? 0 : channel);
+}
+
 template <class Texel>
 auto TexelImage::nearest_of(Vec2f st, Wrap wrap, Texel texel_at) const {
   Place p = wrapped(int(std::floor(in_texels(st.x, width_, wrap))), int(std::floor(in_texels(st.y, height_, wrap))),
@@ -206,6 +222,13 @@ float TexelImage::bilinear_number(Vec2f st, Wrap wrap) const {
 }
 float TexelImage::bilinear_alpha(Vec2f st, Wrap wrap) const {
   return bilinear_of(st, wrap, [this](int x, int y) { return alpha_texel(x, y); });
+}
+
+float TexelImage::nearest_channel(Vec2f st, Wrap wrap, int channel) const {
+  return nearest_of(st, wrap, [this, channel](int x, int y) { return channel_texel(x, y, channel); });
+}
+float TexelImage::bilinear_channel(Vec2f st, Wrap wrap, int channel) const {
+  return bilinear_of(st, wrap, [this, channel](int x, int y) { return channel_texel(x, y, channel); });
 }
 
 Spectrum<NativeFloats> TexelImage::texels(Uint<NativeFloats> number) const {

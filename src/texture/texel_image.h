@@ -27,6 +27,9 @@ class TexelImage {
   // 8-bit and half-precision values are kept as such. Of integers `encoding` says what they stand for (sRGB without);
   // floating-point values are linear. An alpha channel that is 1 throughout is dropped.
   static Result<TexelImage> read(const std::filesystem::path& path, std::optional<ColorEncoding> encoding);
+  // The same for a file in memory; messages call it by the name.
+  static Result<TexelImage> read(const std::filesystem::path& name, const std::string& bytes,
+                                 std::optional<ColorEncoding> encoding);
   // From linear values.
   static TexelImage from(const PixelBuffer& pixels);
 
@@ -48,6 +51,9 @@ class TexelImage {
   float nearest_number(Vec2f st, Wrap wrap) const;
   float bilinear_number(Vec2f st, Wrap wrap) const;
   float bilinear_alpha(Vec2f st, Wrap wrap) const;
+  // One channel of the image: red, green, blue, or alpha (3).
+  float nearest_channel(Vec2f st, Wrap wrap, int channel) const;
+  float bilinear_channel(Vec2f st, Wrap wrap, int channel) const;
   // bilinear() for a pack, to the last bit, with the look-ups of all lanes under way together. Zero in idle lanes.
   Spectrum<NativeFloats> bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const;
 
@@ -59,8 +65,10 @@ class TexelImage {
   TexelImage(int width, int height, int channels, bool has_alpha)
       : width_(width), height_(height), color_channels_(channels - int(has_alpha)), has_alpha_(has_alpha) {}
 
+  static TexelImage from(const Image& file, std::optional<ColorEncoding> encoding);
   float value(int x, int y, int channel) const;
   float number_texel(int x, int y) const;
+  float channel_texel(int x, int y, int channel) const;
   int channels() const { return color_channels_ + int(has_alpha_); }
   template <class Texel>
   auto nearest_of(Vec2f st, Wrap wrap, Texel texel) const;

@@ -76,14 +76,17 @@ struct LookUp {
   V operator()(const ImageTexture& t) const {
     Vec2f st = apply(t.mapping, point);
     st.y = 1 - st.y;
+    st = t.folded(st);
     if constexpr (std::is_same_v<V, float>) {
-      float x = t.scale * (t.nearest ? t.image->nearest_number(st, t.wrap) : t.image->bilinear_number(st, t.wrap));
+      float x = t.scale * number_of(t, st);
       return t.invert ? max(1 - x, 0.0f) : x;
     } else {
       Rgb x = (t.nearest ? t.image->nearest(st, t.wrap) : t.image->bilinear(st, t.wrap)) * t.scale;
-      return per_component([&](float c) { return max(t.invert ? 1 - c : c, 0.0f); }, x);
+      x = per_component([&](float c) { return max(t.invert ? 1 - c : c, 0.0f); }, x);
+      return t.tint ? x * *t.tint : x;
     }
   }
+  V operator()(const ThresholdTexture& t) const { return set.number(t.texture, point) >= t.edge ? 1.0f : 0.0f; }
   V operator()(const FbmTexture& t) const {
     return fractional_brownian_motion(t.world_to_texture.point(point.p), t.roughness, t.octaves);
   }
@@ -102,6 +105,12 @@ struct LookUp {
   }
 
  private:
+  static float number_of(const ImageTexture& t, Vec2f st) {
+    if (t.channel)
+      return t.nearest ? t.image->nearest_channel(st, t.wrap, *t.channel)
+                       : t.image->bilinear_channel(st, t.wrap, *t.channel);
+    return t.nearest ? t.image->nearest_number(st, t.wrap) : t.image->bilinear_number(st, t.wrap);
+  }
   V blend(TextureId<V> a, TextureId<V> b, float t) const {
     return set.value(a, point) * (1 - t) + set.value(b, point) * t;
   }
@@ -143,7 +152,9 @@ Result<std::shared_ptr<const TexelImage>> TextureSet::image(const std::filesyste
   auto [place, is_new] =
       images_.try_emplace({path.lexically_normal().string(), encoding ? to_string(*encoding) : std::string()});
   if (is_new) {
-    Result<TexelImage> image = TexelImage::read(path, encoding);
+    const auto embedded = embedded_.find(path.lexically_normal().string());
+    Result<TexelImage> image = embedded == embedded_.end() ? TexelImage::read(path, encoding)
+                                                           : TexelImage::read(path, *embedded->second, encoding);
     if (!image) {
       images_.erase(place);
       return image.failure();
@@ -151,6 +162,10 @@ Result<std::shared_ptr<const TexelImage>> TextureSet::image(const std::filesyste
     place->second = std::make_shared<const TexelImage>(std::move(image).value());
   }
   return place->second;
+}
+
+void TextureSet::embed(const std::filesystem::path& path, std::shared_ptr<const std::string> bytes) {
+  embedded_[path.lexically_normal().string()] = std::move(bytes);
 }
 
 std::size_t TextureSet::image_bytes() const {

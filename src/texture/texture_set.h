@@ -46,6 +46,8 @@ class TextureSet {
   // at a time.
   Result<std::shared_ptr<const TexelImage>> image(const std::filesystem::path& path,
                                                   std::optional<ColorEncoding> encoding = std::nullopt);
+  // The bytes of an image file, which image() takes for the file of that path.
+  void embed(const std::filesystem::path& path, std::shared_ptr<const std::string> bytes);
   // Memory of the images' texels.
   std::size_t image_bytes() const;
 
@@ -56,6 +58,7 @@ class TextureSet {
   std::vector<NumberTexture> numbers_;
   std::vector<SpectrumTexture> spectra_;
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const TexelImage>> images_;  // by path and encoding
+  std::map<std::string, std::shared_ptr<const std::string>> embedded_;                       // by path
 };
 
 }  // namespace montelux

@@ -194,7 +194,7 @@ std::optional<std::string> not_diffuse(const Scene& scene) {
     const Material& m = scene.materials[row.material];
     if (m.is_interface) return "a surface is an interface of media";
     if (m.mixture) return "a material is a mixture";
-    if (m.normal_map) return "a material has a normal map";
+    if (m.has_normal_map()) return "a material has a normal map";
     if (m.kind != BsdfKind::diffuse) return "a material is not \"diffuse\"";
   }
   return {};

@@ -87,7 +87,7 @@ void Parser::directive_camera() {
   stated_option(Family::camera, scene_.camera);
   if (!outside) return;
   scene_.world_to_camera = state_.transform.start;
-  scene_.world_to_camera_at_end = transform_at_end("camera");
+  scene_.world_to_camera_later = transform_at_end("camera");
   coordinate_systems_["camera"] = {state_.transform.start.inverted(), state_.transform.end.inverted()};
 }
 

@@ -106,7 +106,7 @@ class Parser {
   std::optional<Matrix4> matrix_argument();
   void set_transform(const Transform& transform, bool concatenate);
   Transform still_transform(std::string_view owner);
-  std::optional<Transform> transform_at_end(std::string_view owner);
+  std::vector<Transform> transform_at_end(std::string_view owner);
 
   // entities.cpp
   ParameterList parameters();

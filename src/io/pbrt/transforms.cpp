@@ -38,16 +38,16 @@ Transform Parser::still_transform(std::string_view owner) {
   return state_.transform.start;
 }
 
-// Where something that can move is at the end, if it moves.
-std::optional<Transform> Parser::transform_at_end(std::string_view owner) {
+// Where something that can move is at the end, if it moves; else nothing.
+std::vector<Transform> Parser::transform_at_end(std::string_view owner) {
   const MovingTransform& t = state_.transform;
-  if (!t.moves()) return std::nullopt;
+  if (!t.moves()) return {};
   if (t.start.swaps_handedness() != t.end.swaps_handedness()) {
     report_.error(here(), "this " + std::string(owner) + " turns into its mirror image on its way",
                   "the transform mirrors at one end and not at the other");
-    return std::nullopt;
+    return {};
   }
-  return t.end;
+  return {t.end};
 }
 
 void Parser::directive_identity() { set_transform(Transform(), false); }

@@ -43,6 +43,31 @@ struct CasesOf<BsdfKind::phong> {
   }
 };
 
+inline BsdfCase metallic_roughness_case(std::string label, std::initializer_list<float> base, float metallic,
+                                        float roughness, float specular = 1) {
+  BsdfCase c{std::move(label), {}};
+  using Slots = MetallicRoughnessSlots;
+  put(c.row, Slots::base, base);
+  put(c.row, Slots::metallic, {metallic, roughness, specular, 1, 1, 1, 0.04f});
+  return c;
+}
+template <>
+struct CasesOf<BsdfKind::metallic_roughness> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase tinted = metallic_roughness_case("strong tinted reflection", {0.6f, 0.7f, 0.8f}, 0.1f, 0.5f, 0.7f);
+    put(tinted.row, MetallicRoughnessSlots::specular_color, {9, 4, 1});
+    return {metallic_roughness_case("plastic", {0.8f, 0.4f, 0.2f}, 0, 0.4f),
+            metallic_roughness_case("white plastic", {1, 1, 1}, 0, 0.3f),
+            metallic_roughness_case("white, rough", {1, 1, 1}, 0, 1),
+            metallic_roughness_case("white, smooth", {1, 1, 1}, 0, 0),
+            metallic_roughness_case("metal", {0.9f, 0.7f, 0.3f}, 1, 0.45f),
+            metallic_roughness_case("mirror", {0.9f, 0.7f, 0.3f}, 1, 0),
+            metallic_roughness_case("half a metal", {0.5f, 0.6f, 0.7f}, 0.5f, 0.6f),
+            metallic_roughness_case("no reflection", {0.5f, 0.6f, 0.7f}, 0, 0.5f, 0),
+            tinted};
+  }
+};
+
 inline BsdfCase conductor_case(std::string label, float alpha_x, float alpha_y, int first = 0) {
   BsdfCase c{std::move(label), {}};
   put(c.row, first + ConductorSlots::alpha_x, {alpha_x, alpha_y, 0.2f, 0.92f, 1.1f, 3.9f, 2.45f, 2.14f});

@@ -51,8 +51,8 @@ std::vector<fs::path> scene_files() {
 }
 
 bool same_matrix(const Transform& a, const Transform& b) { return a.matrix() == b.matrix(); }
-bool same_motion(const std::optional<Transform>& a, const std::optional<Transform>& b) {
-  return a.has_value() == b.has_value() && (!a || same_matrix(*a, *b));
+bool same_motion(const std::vector<Transform>& a, const std::vector<Transform>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_matrix);
 }
 bool same_mesh(const Mesh& a, const Mesh& b) {
   auto same = [](const auto& x, const auto& y) {
@@ -70,7 +70,7 @@ void expect_same_shapes(const std::vector<ShapeDesc>& a, const std::vector<Shape
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].entity.type, b[i].entity.type);
     EXPECT_TRUE(same_matrix(a[i].object_to_world, b[i].object_to_world));
-    EXPECT_TRUE(same_motion(a[i].object_to_world_at_end, b[i].object_to_world_at_end));
+    EXPECT_TRUE(same_motion(a[i].object_to_world_later, b[i].object_to_world_later));
     EXPECT_EQ(a[i].material, b[i].material);
     EXPECT_EQ(a[i].reverse_orientation, b[i].reverse_orientation);
     EXPECT_EQ(a[i].area_light.has_value(), b[i].area_light.has_value());
@@ -80,7 +80,7 @@ void expect_same_shapes(const std::vector<ShapeDesc>& a, const std::vector<Shape
 }
 void expect_same(const SceneDesc& a, const SceneDesc& b) {
   EXPECT_TRUE(same_matrix(a.world_to_camera, b.world_to_camera));
-  EXPECT_TRUE(same_motion(a.world_to_camera_at_end, b.world_to_camera_at_end));
+  EXPECT_TRUE(same_motion(a.world_to_camera_later, b.world_to_camera_later));
   EXPECT_EQ(a.transforms_start, b.transforms_start);
   EXPECT_EQ(a.transforms_end, b.transforms_end);
   expect_same_shapes(a.shapes, b.shapes);
@@ -90,7 +90,7 @@ void expect_same(const SceneDesc& a, const SceneDesc& b) {
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
     EXPECT_EQ(a.instances[i].object, b.instances[i].object);
     EXPECT_TRUE(same_matrix(a.instances[i].object_to_world, b.instances[i].object_to_world));
-    EXPECT_TRUE(same_motion(a.instances[i].object_to_world_at_end, b.instances[i].object_to_world_at_end));
+    EXPECT_TRUE(same_motion(a.instances[i].object_to_world_later, b.instances[i].object_to_world_later));
   }
   ASSERT_EQ(a.materials.size(), b.materials.size());
   for (std::size_t i = 0; i < a.materials.size(); ++i)

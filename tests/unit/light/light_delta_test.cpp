@@ -28,7 +28,7 @@ TEST(PointLight, falls_with_the_square_of_the_distance) {
 
 TEST(SpotLight, falls_off_by_a_smooth_step_in_the_cosine) {
   LightSetBuilder b;
-  b.add_spot({0, 0, 0}, {0, 0, 2}, 30, 20, gray(1.0f));
+  b.add_spot({0, 0, 0}, {0, 0, 2}, {30, 20}, gray(1.0f));
   LightSet lights = alone(std::move(b));
   auto at = [&](double degrees) {
     double a = degrees * std::numbers::pi / 180;
@@ -110,7 +110,7 @@ LightSet one_of_each(LightSelection selection) {
   b.add(SphereShape{translate(-3, 3, 0), 0.7f}, picture);
   b.add(CylinderShape{translate(0, -3, 0), 0.3f}, picture);
   b.add_point({0, 4, 0}, gray(2.0f));
-  b.add_spot({4, 4, 0}, {-1, -1, 0}, 60, 20, gray(2.0f));
+  b.add_spot({4, 4, 0}, {-1, -1, 0}, {60, 20}, gray(2.0f));
   b.add_goniometric(translate(4, 0, 0), gray(1.0f), test_image());
   b.add_projection(translate(0, 0, -5), 90, gray(1.0f), test_image());
   b.add_distant({1, 1, 1}, gray(1.0f));

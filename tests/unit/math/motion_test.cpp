@@ -100,5 +100,37 @@ TEST(Affine, normals_stay_at_right_angles_and_on_their_side) {
   EXPECT_LT(length(a - b), 1e-6f);
 }
 
+TEST(Motion, goes_through_all_maps_at_even_moments) {
+  const std::vector<Transform> later{rotate(60, 0, 0, 1), translate(1, 0, 0) * rotate(90, 0, 0, 1),
+                                     translate(1, 4, 0) * scale(2, 2, 2)};
+  const Motion motion(Transform(), later);
+  EXPECT_TRUE(motion.moves());
+  EXPECT_NEAR(motion.angle(), std::numbers::pi / 2, 1e-12);
+  expect_near(motion.at(1.0 / 6).matrix(), rotate(30, 0, 0, 1).matrix());
+  expect_near(motion.at(0.5).matrix(), (translate(0.5, 0, 0) * rotate(75, 0, 0, 1)).matrix());
+  expect_near(motion.at(5.0 / 6).matrix(), (translate(1, 2, 0) * rotate(45, 0, 0, 1) * scale(1.5, 1.5, 1.5)).matrix());
+  for (double t : {1.0, 3.0}) expect_near(motion.at(t).matrix(), later.back().matrix());
+  // Every map is at the end of a step.
+  EXPECT_EQ(motion.steps() % 3, 0);
+  EXPECT_LE(motion.steps(), 128);
+}
+
+TEST(Motion, through_many_maps_is_the_same_in_lanes) {
+  std::vector<Transform> later;
+  for (int i = 1; i <= 7; ++i) later.push_back(translate(i * i, -i, 1) * rotate(25 * i, 1, 2, i) * scale(1, i, 2));
+  const Motion motion(Transform(), later);
+  for (double t : {0.0, 0.1, 1.0 / 7, 0.33, 0.5, 0.9, 1.0}) {
+    const Affine<float> one = motion.at(float(t));
+    const Affine<NativeFloats> all = motion.at(NativeFloats(float(t)));
+    for (std::size_t i = 0; i < 12; ++i) {
+      EXPECT_EQ(one.m[i], lane(all.m[i], 0));
+      EXPECT_NEAR(one.m[i], motion.at(t).matrix().m[i / 4][i % 4], 1e-4);
+    }
+  }
+  EXPECT_EQ(Motion(Transform(), std::vector<Transform>{later[0]}).at(0.3).matrix(),
+            Motion(Transform(), later[0]).at(0.3).matrix());
+  EXPECT_FALSE(Motion(Transform(), std::vector<Transform>{}).moves());
+}
+
 }  // namespace
 }  // namespace montelux

@@ -1,0 +1,76 @@
+// Values of a glTF document, read with checks: what is wrong is reported with its place, and stands as if absent.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/gltf/json_value.h"
+#include "io/reporter.h"
+
+namespace montelux::gltf {
+
+// Where messages go, and what they name.
+struct Source {
+  Reporter& report;
+  std::shared_ptr<const std::string> file;
+  bool has_lines = true;            // no: the JSON is a part of a binary file
+  std::set<std::string> told = {};  // so that nothing is said twice
+};
+
+// The largest whole number that JSON holds exactly.
+inline constexpr double largest_whole = 9007199254740991.0;
+
+// A value or its absence, with its JSON pointer (RFC 6901).
+class Element {
+ public:
+  Element(const JsonValue* value, std::string pointer, Source& source)
+      : value_(value), pointer_(std::move(pointer)), source_(&source) {}
+
+  explicit operator bool() const { return value_ != nullptr; }
+  bool is_object() const { return value_ && value_->kind == JsonValue::Kind::object; }
+  bool is_text() const { return value_ && value_->kind == JsonValue::Kind::text; }
+  const std::string& pointer() const { return pointer_; }
+  SourceLocation where() const;
+
+  // Each begins with the pointer.
+  void error(std::string_view message, std::string hint = {}) const;
+  void warning(std::string_view message, std::string hint = {}) const;
+  void tolerable(std::string_view message, std::string hint = {}) const;
+
+  // A member of an object, an item of a list; absent where there is none. Another kind of value is reported.
+  Element operator[](std::string_view name) const;
+  Element operator[](const char* name) const { return (*this)[std::string_view(name)]; }
+  Element operator[](std::size_t i) const;
+  // The same; its absence is an error.
+  Element required(std::string_view name) const;
+  // Of a list; 0 where absent.
+  std::size_t size() const;
+  // Names of an object's members.
+  std::vector<std::string_view> names() const;
+
+  // The value, where it is there and right.
+  std::optional<double> number() const;
+  std::optional<double> number(double low, double high) const;
+  std::optional<std::uint64_t> whole(std::uint64_t highest = std::uint64_t(largest_whole)) const;
+  std::optional<bool> boolean() const;
+  std::optional<std::string> text() const;
+  // A list of exactly that many numbers.
+  std::optional<std::vector<double>> numbers(std::size_t count) const;
+  // One of the choices; another text is reported with the nearest.
+  std::optional<std::string> choice(const std::vector<std::string_view>& choices) const;
+  // The number of an item of `list`, of which there are list.size(); `kind` names one ("a mesh").
+  std::optional<std::size_t> index_of(const Element& list, std::string_view kind) const;
+
+ private:
+  void report_kind(std::string_view wanted) const;
+  // The message with the pointer; empty where it has been said before.
+  std::string once(std::string_view message) const;
+
+  const JsonValue* value_;
+  std::string pointer_;
+  Source* source_;
+};
+
+}  // namespace montelux::gltf

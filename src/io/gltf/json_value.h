@@ -1,0 +1,35 @@
+// JSON as a tree that knows where its values stand.
+#pragma once
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "math/result.h"
+
+namespace montelux::gltf {
+
+struct JsonValue {
+  enum class Kind { null, boolean, number, text, list, object };
+  Kind kind = Kind::null;
+  bool boolean = false;
+  double number = 0;
+  std::string text;
+  std::vector<JsonValue> items;                            // of a list
+  std::vector<std::pair<std::string, JsonValue>> members;  // of an object, in the order of the file
+  int line = 0, column = 0;                                // from 1: where the value ends, or its list or object begins
+
+  // Null where the object has no such member, or where this is no object.
+  const JsonValue* find(std::string_view name) const;
+};
+
+// What is wrong with a text that is no JSON, and where.
+struct JsonProblem {
+  std::string message;
+  int line = 0, column = 0;
+};
+
+// Values nested more than 200 deep are a problem, too.
+std::variant<JsonValue, JsonProblem> parse_json(std::string_view text);
+
+}  // namespace montelux::gltf

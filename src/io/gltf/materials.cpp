@@ -1,0 +1,251 @@
+#include "io/gltf/materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf/parameters.h"
+
+namespace montelux::gltf {
+
+namespace {
+
+Rgb rgb_of(const std::vector<double>& v) { return Rgb{{float(v[0]), float(v[1]), float(v[2])}}; }
+
+bool is_black(const Rgb& c) { return c[0] <= 0 && c[1] <= 0 && c[2] <= 0; }
+
+// Reflectances and the like are from 0 to 1.
+std::vector<double> shares(const Element& element, std::vector<double> otherwise) {
+  auto list = element.numbers(otherwise.size());
+  if (!list) return otherwise;
+  for (double& x : *list)
+    if (!(x >= 0 && x <= 1)) {
+      element.error("each number must be from 0 to 1");
+      return otherwise;
+    }
+  return *list;
+}
+
+double share(const Element& element, double otherwise) { return element.number(0, 1).value_or(otherwise); }
+
+}  // namespace
+
+void MaterialReader::note_uv_set(const std::optional<TextureUse>& use, const Element& material) {
+  if (!use) return;
+  if (!uv_set_) uv_set_ = use->uv_set;
+  if (*uv_set_ != use->uv_set)
+    material.warning("textures with different sets of texture coordinates: set " + std::to_string(*uv_set_) +
+                     " is taken for all");
+}
+
+void MaterialReader::put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning) {
+  if (factor.texture)
+    put_texture(e, name, textures_.spectrum(*factor.texture, factor.value, meaning));
+  else
+    put_rgb(e, name, factor.value);
+}
+
+void MaterialReader::put_channel(Entity& e, const char* name, const Factor& factor, const char* channel) {
+  const double value = double(factor.value[0]);
+  if (factor.texture && value != 0)
+    put_texture(e, name, textures_.number(*factor.texture, channel, value));
+  else
+    put_number(e, name, value);
+}
+
+MaterialReader::Factor MaterialReader::base_color(const Element& material) {
+  const Element model = material["pbrMetallicRoughness"];
+  Factor factor{rgb_of(shares(model["baseColorFactor"], {1, 1, 1, 1})), textures_.use(model["baseColorTexture"])};
+  note_uv_set(factor.texture, material);
+  return factor;
+}
+
+double MaterialReader::base_alpha(const Element& material) const {
+  return shares(material["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1})[3];
+}
+
+// KHR_materials_ior and KHR_materials_specular.
+void MaterialReader::put_specular(Entity& e, const Element& extensions) {
+  const Element ior = extensions["KHR_materials_ior"]["ior"];
+  if (const auto eta = ior.number()) {
+    if (*eta != 0 && *eta < 1)
+      ior.error("an index of refraction must be at least 1");
+    else
+      // 0 means that the dielectric reflects like a mirror: an index without end does.
+      put_number(e, "eta", *eta == 0 ? 1e6 : *eta);
+  }
+  const Element specular = extensions["KHR_materials_specular"];
+  if (!specular) return;
+  Factor weight{gray(float(share(specular["specularFactor"], 1))), textures_.use(specular["specularTexture"])};
+  note_uv_set(weight.texture, specular);
+  put_channel(e, "specular", weight, "a");
+  Factor color{gray(1.0f), textures_.use(specular["specularColorTexture"])};
+  note_uv_set(color.texture, specular);
+  if (const auto stated = specular["specularColorFactor"].numbers(3)) {
+    if (std::any_of(stated->begin(), stated->end(), [](double x) { return x < 0; }))
+      specular["specularColorFactor"].error("must not be negative");
+    else
+      color.value = rgb_of(*stated);
+  }
+  put_spectrum(e, "specularcolor", color, TexelMeaning::color);
+}
+
+bool MaterialReader::put_normal_map(Entity& e, const Element& material) {
+  const Element info = material["normalTexture"];
+  const auto use = textures_.use(info);
+  if (!use) return false;
+  note_uv_set(use, material);
+  put_texture(e, "normaltexture", textures_.spectrum(*use, gray(1.0f), TexelMeaning::data));
+  const double scale = info["scale"].number().value_or(1);
+  if (scale != 1) put_numbers(e, "normalscale", {float(scale), float(scale)});
+  return true;
+}
+
+MaterialDescId MaterialReader::add(Entity e, const std::string& name) {
+  const auto id = MaterialDescId(scene_.materials.size());
+  std::string unique = std::to_string(scene_.materials.size());
+  if (!name.empty()) unique += " " + name;
+  scene_.materials.push_back({std::move(unique), std::move(e)});
+  return id;
+}
+
+// KHR_materials_transmission: a share of the light goes through, as through glass, or a pane where there is no volume.
+MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& material, const std::string& name) {
+  const Element extensions = material["extensions"], transmission = extensions["KHR_materials_transmission"];
+  const Element volume = extensions["KHR_materials_volume"], model = material["pbrMetallicRoughness"];
+  Factor amount{gray(float(share(transmission["transmissionFactor"], 0))),
+                textures_.use(transmission["transmissionTexture"])};
+  note_uv_set(amount.texture, material);
+  if (is_black(amount.value)) return add(base, name);
+  const bool is_solid = volume && volume["thicknessFactor"].number().value_or(0) > 0;
+  const double roughness = share(model["roughnessFactor"], 1);
+  const float eta = base.parameters.number("eta", 1.5f);
+  Entity glass{is_solid ? "dielectric" : "thindielectric", {}, material.where()};
+  put_number(glass, "eta", double(eta));
+  std::string lost;
+  const auto lose = [&](bool is_lost, const char* what) {
+    if (is_lost) (lost += lost.empty() ? "" : ", ") += what;
+  };
+  if (is_solid) {
+    put_number(glass, "roughness", roughness * roughness);
+    put_boolean(glass, "remaproughness", false);
+    lose(bool(model["metallicRoughnessTexture"]), "the texture of its roughness");
+    const auto tint = volume["attenuationColor"].numbers(3).value_or(std::vector<double>{1, 1, 1});
+    lose(volume["attenuationDistance"] && tint != std::vector<double>{1, 1, 1}, "absorption in the volume");
+  } else {
+    lose(roughness > 0.05, "its roughness");
+  }
+  const Factor base_factor = base_color(material);
+  lose(base_factor.texture || base_factor.value[0] < 1 || base_factor.value[1] < 1 || base_factor.value[2] < 1,
+       "the base colour of what goes through");
+  if (!lost.empty()) transmission.warning("glass that transmits is shown without " + lost);
+  if (const Parameter* map = base.parameters.find("normaltexture")) glass.parameters.add(*map);
+  const MaterialDescId through = add(std::move(glass), name.empty() ? "glass" : name + " glass");
+  if (!amount.texture && amount.value[0] >= 1) return through;
+  const MaterialDescId opaque = add(base, name.empty() ? "opaque" : name + " opaque");
+  Entity mix{"mix", {}, material.where()};
+  put_strings(mix, "materials",
+              {scene_.materials[std::size_t(opaque)].name, scene_.materials[std::size_t(through)].name});
+  put_channel(mix, "amount", amount, "r");
+  return add(std::move(mix), name);
+}
+
+std::optional<Entity> MaterialReader::emission_of(const Factor& factor, double scale, const Element& where) {
+  if (is_black(factor.value) || scale <= 0) return std::nullopt;
+  Entity light{"diffuse", {}, where.where()};
+  put_rgb(light, factor.texture ? "tint" : "L", factor.value);
+  if (factor.texture) {
+    put_string(light, "filename", factor.texture->file);
+    if (factor.texture->uv_map != TextureUse().uv_map)
+      where.warning("the KHR_texture_transform of an emissive texture is not applied");
+  }
+  if (scale != 1) put_number(light, "scale", scale);
+  return light;
+}
+
+std::optional<Entity> MaterialReader::emission(const Element& material) {
+  Factor factor{rgb_of(shares(material["emissiveFactor"], {0, 0, 0})), textures_.use(material["emissiveTexture"])};
+  const Element strength = material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
+  const double scale = strength.number(0, 1e30).value_or(1);
+  note_uv_set(factor.texture, material);
+  std::optional<Entity> light = emission_of(factor, scale, material);
+  if (light && material["doubleSided"].boolean().value_or(false)) put_boolean(*light, "twosided", true);
+  return light;
+}
+
+std::optional<Parameter> MaterialReader::alpha(const Element& material) {
+  const auto mode = material["alphaMode"].choice({"OPAQUE", "MASK", "BLEND"}).value_or("OPAQUE");
+  const double cutoff = material["alphaCutoff"].number(0, 1e30).value_or(0.5);
+  if (mode == "OPAQUE") return std::nullopt;
+  const double factor = base_alpha(material);
+  const auto texture = textures_.use(material["pbrMetallicRoughness"]["baseColorTexture"]);
+  Entity e{"", {}, material.where()};
+  if (texture && factor > 0) {
+    std::string name = textures_.number(*texture, "a", factor);
+    put_texture(e, "alpha", mode == "MASK" ? textures_.threshold(name, cutoff) : name);
+  } else {
+    put_number(e, "alpha", mode == "BLEND" ? factor : factor >= cutoff ? 1.0 : 0.0);
+  }
+  return e.parameters.all().front();
+}
+
+// KHR_materials_unlit: a black surface that shines in its base colour, on both sides.
+MaterialUse MaterialReader::read_unlit(const Element& material) {
+  MaterialUse use;
+  Entity black{"diffuse", {}, material.where()};
+  put_rgb(black, "reflectance", gray(0.0f));
+  use.id = add(std::move(black), material["name"].text().value_or(""));
+  use.area_light = emission_of(base_color(material), 1, material);
+  if (use.area_light) put_boolean(*use.area_light, "twosided", true);
+  use.alpha = alpha(material);
+  return use;
+}
+
+MaterialUse MaterialReader::read(const Element& material) {
+  uv_set_.reset();
+  const Element extensions = material["extensions"];
+  if (extensions["KHR_materials_unlit"]) {
+    MaterialUse use = read_unlit(material);
+    use.uv_set = uv_set_.value_or(0);
+    return use;
+  }
+  const Element model = material["pbrMetallicRoughness"];
+  const std::string name = material["name"].text().value_or("");
+  const Factor base = base_color(material);
+  Factor metallic{gray(float(share(model["metallicFactor"], 1))), textures_.use(model["metallicRoughnessTexture"])};
+  Factor roughness{gray(float(share(model["roughnessFactor"], 1))), metallic.texture};
+  note_uv_set(metallic.texture, material);
+
+  Entity e{"metallicroughness", {}, material.where()};
+  put_specular(e, extensions);
+  // Without a specular part it is Lambert's law.
+  const bool is_diffuse = is_black(metallic.value) && e.parameters.number("specular", 1) == 0;
+  if (is_diffuse) e = Entity{"diffuse", {}, material.where()};
+  put_spectrum(e, is_diffuse ? "reflectance" : "basecolor", base, TexelMeaning::color);
+  if (!is_diffuse) {
+    put_channel(e, "metallic", metallic, "b");
+    put_channel(e, "roughness", roughness, "g");
+  }
+  const bool has_normal_map = put_normal_map(e, material);
+  MaterialUse use;
+  use.id = transmitting(e, material, name);
+  if (has_normal_map && !extensions["KHR_materials_transmission"]) {
+    const double scale = material["normalTexture"]["scale"].number().value_or(1);
+    Entity mirrored = e;
+    put_numbers(mirrored, "normalscale", {float(scale), float(-scale)});
+    use.mirrored = add(std::move(mirrored), name.empty() ? "mirrored" : name + " mirrored");
+  }
+  use.area_light = emission(material);
+  use.alpha = alpha(material);
+  use.uv_set = uv_set_.value_or(0);
+  return use;
+}
+
+const MaterialUse& MaterialReader::use(std::optional<std::size_t> number) {
+  auto [place, is_new] = uses_.try_emplace(number);
+  // An absent element has all the defaults.
+  if (is_new)
+    place->second = read(number ? document_.list("materials")[*number] : document_.root()["materials"][std::size_t(-1)]);
+  return place->second;
+}
+
+}  // namespace montelux::gltf

@@ -1,0 +1,53 @@
+// Materials of a glTF document, as materials, area lights and masks of the description.
+#pragma once
+#include "io/gltf/textures.h"
+
+namespace montelux::gltf {
+
+// What a surface of one material is made of.
+struct MaterialUse {
+  MaterialDescId id{};
+  // Where a normal map lies on the surface as in a mirror: the same, with the map's green turned round.
+  std::optional<MaterialDescId> mirrored;
+  std::optional<Entity> area_light;
+  std::optional<Parameter> alpha;  // of the shapes
+  int uv_set = 0;
+};
+
+class MaterialReader {
+ public:
+  MaterialReader(Document& document, SceneDesc& scene) : document_(document), scene_(scene), textures_(document, scene) {}
+
+  // Of the material with that number (which must be one), or of none: glTF's default. Each is read once.
+  const MaterialUse& use(std::optional<std::size_t> number);
+
+ private:
+  // A factor, and the texture that it is of.
+  struct Factor {
+    Rgb value = gray(1.0f);
+    std::optional<TextureUse> texture;
+  };
+  MaterialUse read(const Element& material);
+  MaterialUse read_unlit(const Element& material);
+  void put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning);
+  void put_channel(Entity& e, const char* name, const Factor& factor, const char* channel);
+  void put_specular(Entity& e, const Element& extensions);
+  bool put_normal_map(Entity& e, const Element& material);
+  MaterialDescId add(Entity e, const std::string& name);
+  MaterialDescId transmitting(const Entity& base, const Element& material, const std::string& name);
+  std::optional<Entity> emission(const Element& material);
+  std::optional<Entity> emission_of(const Factor& factor, double scale, const Element& where);
+  std::optional<Parameter> alpha(const Element& material);
+  Factor base_color(const Element& material);
+  double base_alpha(const Element& material) const;
+  // Remembers which set of texture coordinates a material takes, and warns where textures differ.
+  void note_uv_set(const std::optional<TextureUse>& use, const Element& material);
+
+  Document& document_;
+  SceneDesc& scene_;
+  TextureReader textures_;
+  std::map<std::optional<std::size_t>, MaterialUse> uses_;
+  std::optional<int> uv_set_;  // of the material at hand
+};
+
+}  // namespace montelux::gltf

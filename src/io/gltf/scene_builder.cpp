@@ -1,0 +1,253 @@
+#include "io/gltf/scene_builder.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/gltf/lights_cameras.h"
+#include "io/gltf/parameters.h"
+#include "io/mesh_check.h"
+#include "io/text_file.h"
+
+namespace montelux::gltf {
+
+namespace {
+
+// From this many triangles on, a mesh that is shown more than once is kept once.
+constexpr std::size_t fewest_to_instance = 256;
+// Bytes of all poses of a mesh that changes its form.
+constexpr std::size_t most_pose_bytes = std::size_t(8) << 30;
+
+std::string shown_name(const Node& node, std::size_t number) {
+  return node.name.empty() ? "node " + std::to_string(number) : "node '" + printable(node.name) + "'";
+}
+
+bool same(const MeshPose& a, const MeshPose& b) {
+  const auto equal = [](const std::vector<Vec3f>& x, const std::vector<Vec3f>& y) {
+    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+  };
+  return equal(a.positions, b.positions) && equal(a.normals, b.normals);
+}
+
+}  // namespace
+
+SceneDesc SceneBuilder::build() {
+  scene_.file = *document_.whole().file;
+  scene_.folder = document_.folder();
+  scene_.materials.push_back({"", {"diffuse", {}, {}}});
+  scene_.integrator = {"path", {}, {}};
+  read_animation_and_time();
+  read_meshes();
+  place_meshes();
+  place_lights();
+  place_camera();
+  return std::move(scene_);
+}
+
+void SceneBuilder::read_animation_and_time() {
+  const std::optional<Animation> animation = read_animation(document_, tree_, options_.animation);
+  const AnimationTime time{0, animation ? animation->end : 0};
+  const AnimationWindow window = options_.window ? options_.window(time) : AnimationWindow{};
+  moments_ = moments_of(document_, tree_, animation, window);
+  scene_.transforms_start = moments_.start, scene_.transforms_end = moments_.end;
+  scene_.shutter = std::pair{0.0, 0.0};
+  scene_.frame_rate = time.frame_rate;
+  scene_.whole_time = std::pair{time.start, time.end};
+  scene_.frames_held = moments_.frames_held;
+}
+
+void SceneBuilder::read_meshes() {
+  const auto traits = [this](std::optional<std::size_t> material) -> MaterialTraits {
+    const MaterialUse& use = materials_.use(material);
+    return {use.uv_set, use.mirrored.has_value()};
+  };
+  for (std::size_t i : tree_.shown) {
+    if (!tree_.nodes[i].mesh) continue;
+    const std::size_t mesh = *tree_.nodes[i].mesh;
+    if (++times_used_[mesh] == 1) meshes_.emplace(mesh, read_mesh(document_, mesh, traits));
+  }
+}
+
+bool SceneBuilder::must_stand(const Element& where, std::string_view what) {
+  where.tolerable(std::string(what) + " moves; only cameras and surfaces that do not shine can",
+                  document_.report().lenient() ? "it stays where it is at first" : "lenient reading leaves it there");
+  return true;
+}
+
+std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) {
+  const Element& element = tree_.nodes[node].element;
+  const std::string name = shown_name(tree_.nodes[node], node);
+  const auto first = from_matrix(moments_.world.front()[node]);
+  if (!first) {
+    element.warning(name + " is flattened to nothing by its scale: it is not shown");
+    return std::nullopt;
+  }
+  Placing placing{*first, {}, first->swaps_handedness()};
+  if (!moments_.moves(node)) return placing;
+  for (std::size_t k = 1; k < moments_.count(); ++k) {
+    const auto next = from_matrix(moments_.world[k][node]);
+    if (!next || next->swaps_handedness() != placing.mirrored) {
+      element.tolerable(name + " turns into its mirror image on its way, or is flattened to nothing",
+                        "lenient reading leaves it where it starts");
+      placing.later.clear();
+      return placing;
+    }
+    placing.later.push_back(*next);
+  }
+  return placing;
+}
+
+// The mesh without what shines: lights on objects that are instanced do not. Nothing where it is not worth while.
+std::optional<ObjectDescId> SceneBuilder::object_of(std::size_t mesh, bool mirrored) {
+  auto [place, is_new] = objects_.try_emplace({mesh, mirrored});
+  if (!is_new) return place->second;
+  ObjectDesc object{"mesh " + std::to_string(mesh) + (mirrored ? " mirrored" : ""), {}};
+  std::size_t triangles = 0;
+  for (const Primitive& primitive : meshes_[mesh].primitives) {
+    // What changes its form does so at each node in its own way.
+    if (!primitive.targets.empty() || primitive.skin) return std::nullopt;
+    if (shines(primitive)) continue;
+    triangles += primitive.mesh->triangles.size() / 3;
+    object.shapes.push_back(shape_of(primitive, mirrored));
+  }
+  if (times_used_[mesh] < 2 || triangles < fewest_to_instance) return std::nullopt;
+  place->second = ObjectDescId(scene_.objects.size());
+  scene_.objects.push_back(std::move(object));
+  return place->second;
+}
+
+ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
+  const MaterialUse& material = materials_.use(primitive.material);
+  // Texture coordinates lie as in a mirror once more where the map mirrors.
+  const bool turned = primitive.is_mirrored != mirrored;
+  ShapeDesc shape;
+  shape.entity = {"trianglemesh", {}, primitive.where.where()};
+  if (material.alpha) shape.entity.parameters.add(*material.alpha);
+  shape.material = turned ? material.mirrored.value_or(material.id) : material.id;
+  shape.area_light = material.area_light;
+  shape.mesh = primitive.mesh;
+  return shape;
+}
+
+const Skin* SceneBuilder::skin_of(const Node& node, const Primitive& primitive) {
+  if (!node.skin || !primitive.skin) return nullptr;
+  auto [place, is_new] = skins_.try_emplace(*node.skin);
+  if (is_new) place->second = read_skin(document_, *node.skin);
+  if (!place->second) return nullptr;
+  for (const auto& joints : primitive.skin->joints)
+    for (std::uint32_t joint : joints)
+      if (joint >= place->second->joints.size()) {
+        primitive.where["attributes"]["JOINTS_0"].error("joint " + std::to_string(joint) + " is beyond the " +
+                                                        std::to_string(place->second->joints.size()) +
+                                                        " joints of skin " + std::to_string(*node.skin));
+        return nullptr;
+      }
+  return &*place->second;
+}
+
+const std::vector<double>& SceneBuilder::weights_of(std::size_t node, std::size_t moment) {
+  const std::vector<double>& own = moments_.weights[moment][node];
+  return own.empty() ? meshes_[*tree_.nodes[node].mesh].weights : own;
+}
+
+// In the world: each moment with its own vertices.
+void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive) {
+  const Node& n = tree_.nodes[node];
+  const Skin* skin = skin_of(n, primitive);
+  if (n.skin && primitive.skin && !skin) return;
+  const std::size_t bytes = moments_.count() * primitive.mesh->positions.size() * 2 * sizeof(Vec3f);
+  if (bytes > most_pose_bytes) {
+    primitive.where.error("takes more than 8 GiB in the " + std::to_string(moments_.count()) + " moments of its form",
+                          "render fewer frames at a time");
+    return;
+  }
+  auto mesh = std::make_shared<Mesh>(*primitive.mesh);
+  bool changes = false;
+  for (std::size_t k = 0; k < moments_.count(); ++k) {
+    const auto& world = moments_.world[k];
+    MeshPose pose = pose_of(primitive, {weights_of(node, k), skin, world, world[node]});
+    for (const Vec3f& p : pose.positions) bounds_ = join(bounds_, p);
+    if (k == 0) {
+      mesh->positions = std::move(pose.positions), mesh->normals = std::move(pose.normals);
+      continue;
+    }
+    changes = changes || !same(pose, {mesh->positions, mesh->normals});
+    mesh->later.push_back(std::move(pose));
+  }
+  if (!changes || (shines(primitive) && must_stand(n.element, "a surface that shines"))) mesh->later.clear();
+  drop_degenerate_faces(*mesh);
+  if (mesh->triangles.empty()) return;
+  const Transform placed(moments_.world.front()[node], Matrix4{});
+  ShapeDesc shape = shape_of(primitive, !skin && placed.swaps_handedness());
+  shape.mesh = std::move(mesh);
+  scene_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::place_mesh(std::size_t node) {
+  const Node& n = tree_.nodes[node];
+  const std::vector<Primitive>& primitives = meshes_[*n.mesh].primitives;
+  std::optional<Placing> placing;
+  std::optional<ObjectDescId> object;
+  // A skin's node may have any matrix: it is not used.
+  const bool is_rigid = std::any_of(primitives.begin(), primitives.end(), [&](const auto& p) { return !deforms(n, p); });
+  if (is_rigid) {
+    placing = placing_of(node);
+    if (placing) object = object_of(*n.mesh, placing->mirrored);
+  }
+  if (object) scene_.instances.push_back({*object, placing->first, n.element.where(), placing->later});
+  for (const Primitive& primitive : primitives) {
+    if (deforms(n, primitive)) {
+      place_deforming(node, primitive);
+      continue;
+    }
+    if (!placing) continue;
+    for (const Vec3f& p : primitive.mesh->positions) bounds_ = join(bounds_, placing->first.point(p));
+    if (object && !shines(primitive)) continue;
+    ShapeDesc shape = shape_of(primitive, placing->mirrored);
+    shape.object_to_world = placing->first;
+    shape.object_to_world_later = placing->later;
+    if (shines(primitive) && !placing->later.empty() && must_stand(n.element, "a surface that shines"))
+      shape.object_to_world_later.clear();
+    scene_.shapes.push_back(std::move(shape));
+  }
+}
+
+void SceneBuilder::place_meshes() {
+  for (std::size_t i : tree_.shown)
+    if (tree_.nodes[i].mesh) place_mesh(i);
+}
+
+void SceneBuilder::place_lights() {
+  for (std::size_t i : tree_.shown) {
+    const Node& node = tree_.nodes[i];
+    if (!node.light) continue;
+    if (moments_.moves(i)) must_stand(node.element, "a light");
+    if (std::optional<LightDesc> light = light_of(document_, *node.light, moments_.world.front()[i]))
+      scene_.lights.push_back(*std::move(light));
+  }
+  if (std::optional<LightDesc> sky = environment_of(document_, tree_.scene)) scene_.lights.push_back(*std::move(sky));
+  const bool shines = std::any_of(scene_.shapes.begin(), scene_.shapes.end(),
+                                  [](const ShapeDesc& shape) { return shape.area_light.has_value(); });
+  if (!scene_.lights.empty() || shines) return;
+  document_.report().note(document_.whole(), "the scene has no light: a sky of radiance 1 all round lights it");
+  Entity sky{"infinite", {}, document_.whole()};
+  put_rgb(sky, "L", gray(1.0f));
+  scene_.lights.push_back({std::move(sky), {}});
+}
+
+void SceneBuilder::place_camera() {
+  const std::optional<std::size_t> node = choose_camera(document_, tree_, options_.camera);
+  if (!node) {
+    if (!options_.camera)
+      document_.report().note(document_.whole(), "the scene has no camera: one that shows all of it stands in");
+    state_default_camera(bounds_, scene_);
+    return;
+  }
+  const std::size_t camera = *tree_.nodes[*node].camera;
+  state_camera(document_, camera, moments_.world.front()[*node], scene_);
+  if (!moments_.moves(*node)) return;
+  for (std::size_t k = 1; k < moments_.count(); ++k)
+    if (const auto placed = from_matrix(camera_to_world(document_, camera, moments_.world[k][*node])))
+      scene_.world_to_camera_later.push_back(placed->inverted());
+}
+
+}  // namespace montelux::gltf

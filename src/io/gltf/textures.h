@@ -1,0 +1,47 @@
+// Textures of a glTF document, as textures of the description.
+#pragma once
+#include "io/gltf/document.h"
+
+namespace montelux::gltf {
+
+// How the texels of an image are meant.
+enum class TexelMeaning { color, data };
+
+// What a textureInfo says, checked.
+struct TextureUse {
+  std::string file;                                   // image, relative to the scene's folder, or embedded
+  int uv_set = 0;                                     // of TEXCOORD_0, 1, ...
+  std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};     // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
+  std::array<std::string, 2> wrap{"repeat", "repeat"};  // of u and v
+  bool nearest = false;
+  SourceLocation where;
+};
+
+class TextureReader {
+ public:
+  TextureReader(Document& document, SceneDesc& scene) : document_(document), scene_(scene) {}
+
+  // The texture that a material names ({"index": ...}); nothing where there is none, or none that can be read.
+  std::optional<TextureUse> use(const Element& info);
+
+  // The name of a texture of spectra: the image times the factor.
+  std::string spectrum(const TextureUse& use, const Rgb& factor, TexelMeaning meaning);
+  // The name of a texture of numbers: one channel ("r", "g", "b", "a") of the image times the factor.
+  std::string number(const TextureUse& use, std::string_view channel, double factor);
+  // The name of a texture that is 1 where the texture of that name is at least `edge`, else 0.
+  std::string threshold(const std::string& texture, double edge);
+
+ private:
+  std::optional<std::string> image_file(const Element& image, std::size_t number);
+  void read_sampler(const Element& sampler, TextureUse& use) const;
+  void read_transform(const Element& transform, TextureUse& use) const;
+  Entity image_entity(const TextureUse& use) const;
+  // The name of a texture with this content, new or old.
+  std::string add(bool is_spectrum, Entity entity);
+
+  Document& document_;
+  SceneDesc& scene_;
+  std::map<std::size_t, std::optional<std::string>> files_;  // by number of the image
+};
+
+}  // namespace montelux::gltf

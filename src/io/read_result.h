@@ -1,0 +1,44 @@
+// What the readers of scene files have in common.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "parameter/diagnostic.h"
+#include "scene/description.h"
+
+namespace montelux {
+
+// What a file says about the time of its animation.
+struct AnimationTime {
+  double start = 0, end = 0;  // in its own unit, s in glTF
+  double frame_rate = 24;     // where nothing else is asked for
+};
+
+// The part of an animation's time that pictures need: moments at the ends of equal intervals, and, where the shutter is
+// open, what lies between. Empty: the start alone.
+struct AnimationWindow {
+  double start = 0, end = 0;
+  int intervals = 1;
+  bool open = false;
+};
+
+struct ReadOptions {
+  // Unknown parameters, and what Montelux cannot do yet (motion, media, some materials), are warnings instead of
+  // errors; stand-ins take their places.
+  bool lenient = false;
+  // Of a file that may hold several cameras: the name or the number of one; default: the first.
+  std::optional<std::string> camera{};
+  // Of a file that may hold several animations: the name or the number of one; default: the first.
+  std::optional<std::string> animation{};
+  // Which part of the animation is needed; default: its beginning, as a still picture.
+  std::function<AnimationWindow(const AnimationTime&)> window{};
+};
+
+// A scene, or no scene where an error was found. Diagnostics may hold warnings and notes beside a scene.
+struct ReadResult {
+  std::optional<SceneDesc> scene;
+  Diagnostics diagnostics;
+};
+
+}  // namespace montelux

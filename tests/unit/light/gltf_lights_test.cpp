@@ -1,0 +1,61 @@
+// What lights take beyond pbrt's parameters: the squared edge of a spot, and images by longitude and latitude.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "light/builder.h"
+#include "light/point.h"
+
+namespace montelux {
+namespace {
+
+TEST(SpotEdge, may_be_the_square_of_a_ramp_of_the_cosine) {
+  const float low = std::cos(0.8f), high = std::cos(0.3f);
+  for (float x : {0.5f, low, 0.75f, 0.9f, high, 1.0f}) {
+    const double t = std::clamp(double(x - low) / double(high - low), 0.0, 1.0);
+    EXPECT_NEAR(soft_step(x, low, high, 0.0f), t * t, 1e-6);
+    EXPECT_NEAR(soft_step(x, low, high, 2.0f), t * t * (3 - 2 * t), 1e-6);
+  }
+}
+
+TEST(SpotEdge, keeps_its_share_of_the_sphere) {
+  // The integral of the edge over the sphere, by midpoints over the cosine.
+  for (const bool squared : {false, true}) {
+    const SpotCone cone{50, 20, squared};
+    const float low = std::cos(50 * pi / 180), high = std::cos(20 * pi / 180);
+    double sum = 0;
+    const int n = 100000;
+    for (int i = 0; i < n; ++i)
+      sum += double(soft_step(float((i + 0.5) / n), low, high, squared ? 0.0f : 2.0f)) / n * 2 * std::numbers::pi;
+    EXPECT_NEAR(solid_angle(cone), sum, 1e-4);
+  }
+}
+
+// An image with one bright texel; the light from there, and nothing from elsewhere.
+TEST(LatitudeImage, shines_from_where_it_has_its_light) {
+  auto image = std::make_shared<LightImage>();
+  image->width = 64, image->height = 32;
+  image->texels.assign(64 * 32, gray(0.0f));
+  // Azimuth (20.5 / 64) of a turn from +x toward +y, polar angle (9.5 / 32) of half a turn from +z.
+  image->texels[9 * 64 + 20] = gray(100.0f);
+  Entity light{"infinite", {}, {}};
+  light.parameters.add({"filename", ParameterType::string, std::vector<std::string>{"sky"}, {}});
+  light.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"latlong"}, {}});
+  const LightInputs inputs{[](const SpectrumValue&) { return gray(1.0f); },
+                           [&](const std::string&, const SourceLocation&) { return image; }};
+  LightSetBuilder builder;
+  Diagnostics diagnostics;
+  ASSERT_TRUE(builder.add(light, {}, inputs, diagnostics));
+  const LightSet lights = std::move(builder).build({}, {0, 0, 0}, 1);
+  const double azimuth = 20.5 / 64 * 2 * std::numbers::pi, polar = 9.5 / 32 * std::numbers::pi;
+  const Vec3f w{float(std::sin(polar) * std::cos(azimuth)), float(std::sin(polar) * std::sin(azimuth)),
+                float(std::cos(polar))};
+  const auto radiance = [&](Vec3f d) { return lights.escaped<float>(0, {0, 0, 0}, {0, 0, 0}, d, true).radiance[0]; };
+  EXPECT_NEAR(radiance(w), 100, 1);
+  EXPECT_EQ(radiance(-w), 0);
+  EXPECT_EQ(radiance({w.x, -w.y, w.z}), 0);
+}
+
+}  // namespace
+}  // namespace montelux
