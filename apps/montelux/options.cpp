@@ -93,7 +93,8 @@ Result<ShutterTimes> parse_shutter(const std::string& text) {
     if (open && close && std::abs(*open) < 1e9 && std::abs(*close) < 1e9 && *open <= *close)
       return ShutterTimes{*open, *close};
   }
-  return Failure{fmt::format("takes OPEN:CLOSE, two times of which the second is not before the first; found \"{}\"", text)};
+  return Failure{
+      fmt::format("takes OPEN:CLOSE, two times of which the second is not before the first; found \"{}\"", text)};
 }
 
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text) {
@@ -149,11 +150,12 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
                options.animation = text;
                return Done{};
              });
-  add_option(verb,
-             {"--shutter", "OPEN:CLOSE",
-              "when the shutter is open, in the scene's unit of time (glTF: seconds; of --frames, in frame 0), instead of "
-              "as the file says; the brightness stays"},
-             into(options.shutter, parse_shutter));
+  add_option(
+      verb,
+      {"--shutter", "OPEN:CLOSE",
+       "when the shutter is open, in the scene's unit of time (glTF: seconds; of --frames, in frame 0), instead of "
+       "as the file says; the brightness stays"},
+      into(options.shutter, parse_shutter));
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }
 

@@ -14,8 +14,8 @@ Result<FrameRange> parse_frames(const std::string& text);
 
 // By equal frames, the scene's whole time, its shutter with it, is drawn together into that of the frame: slice i of n
 // of [t0, t1] with the shutter of the scene from a to b looks from t0 + (i (t1 - t0) + a - t0) / n to the same with b.
-// By fps, the shutter of frame f is the scene's, f / fps later; so it is by the scene's own frame rate, where it has one
-// and neither fps nor `of` is stated.
+// By fps, the shutter of frame f is the scene's, f / fps later; so it is by the scene's own frame rate, where it has
+// one and neither fps nor `of` is stated.
 ShutterTimes frame_shutter(const SceneInfo& scene, const FrameRange& range, int frame);
 
 // The seed of a frame of a sequence: a hash of both, so that frames are independent realisations. It is below 2^31, and

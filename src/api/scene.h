@@ -40,8 +40,8 @@ struct SceneInfo {
   double time_start = 0, time_end = 1;
   std::optional<double> frame_rate;
   int frames_held = 1 << 30;
-  std::size_t triangles = 0;                                                             // in memory
-  std::size_t instanced_triangles = 0;                                                   // as rays see them
+  std::size_t triangles = 0;            // in memory
+  std::size_t instanced_triangles = 0;  // as rays see them
   std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;
   std::size_t materials = 0, textures = 0, images = 0;
   std::vector<std::pair<std::string, std::size_t>> lights;  // by kind, with how many there are

@@ -192,8 +192,9 @@ class Camera {
 };
 
 // The camera for a picture of width x height pixels (the whole, not a crop). Parameters: fov (degrees, of the shorter
-// axis, or the height by fovaxis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius, focaldistance, apertureblades,
-// aperturerotation; mapping. Values that make no camera are reported, and the usual ones taken in their place.
+// axis, or the height by fovaxis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius,
+// focaldistance, apertureblades, aperturerotation; mapping. Values that make no camera are reported, and the usual ones
+// taken in their place.
 Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
                     Diagnostics& diagnostics);
 

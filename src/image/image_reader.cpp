@@ -120,9 +120,11 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
   OIIO::ImageSpec wishes;
   wishes["oiio:UnassociatedAlpha"] = 1;
   std::optional<OIIO::Filesystem::IOMemReader> memory;
-  if (bytes) memory.emplace(bytes->data(), bytes->size());
-  std::unique_ptr<OIIO::ImageInput> input =
-      OIIO::ImageInput::open(*name, &wishes, memory ? &*memory : nullptr);
+  if (bytes) {
+    OIIO::Filesystem::IOProxy* proxy = &memory.emplace(bytes->data(), bytes->size());
+    wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  }
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(*name, &wishes);
   if (!input) return Failure{OIIO::geterror()};
 
   const OIIO::ImageSpec spec = input->spec();

@@ -16,9 +16,8 @@ constexpr std::array<std::string_view, 4> endings{".pbrt", ".pbrt.gz", ".gltf", 
 
 bool ends_like(const std::string& path, std::string_view ending) {
   return path.size() > ending.size() &&
-         std::equal(ending.begin(), ending.end(), path.end() - std::ptrdiff_t(ending.size()), [](char a, char b) {
-           return a == (b >= 'A' && b <= 'Z' ? char(b - 'A' + 'a') : b);
-         });
+         std::equal(ending.begin(), ending.end(), path.end() - std::ptrdiff_t(ending.size()),
+                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b - 'A' + 'a') : b); });
 }
 
 }  // namespace

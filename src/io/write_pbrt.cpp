@@ -158,8 +158,7 @@ class Writer {
           }
   }
 
-  void write_block(const Transform& transform, const std::string& content,
-                   const std::vector<Transform>& later = {}) {
+  void write_block(const Transform& transform, const std::string& content, const std::vector<Transform>& later = {}) {
     text_ += "AttributeBegin\n" + moving_transform_text(transform, later) + content + "\nAttributeEnd\n";
   }
 

@@ -1,5 +1,6 @@
 #include "light/builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -28,6 +29,28 @@ double mean_over_square(AreaAt area_at, int n) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) sum += area_at((float(i) + 0.5f) / float(n), (float(j) + 0.5f) / float(n));
   return sum / (double(n) * n);
+}
+
+Rgb row_emission(const LightRow& row) {
+  Rgb e;
+  for (int i = 0; i < spectrum_size; ++i) e.c[i] = row.v[light_slot::emission + i];
+  return e;
+}
+
+// Of the texels in the box around the triangle's part of an image; of a large box, of 64 by 64 of them.
+Rgb texel_mean(const LightImage& image, const TriangleShape& shape) {
+  const auto range = [](float a, float b, float c, int size) {
+    const auto place = [size](float x) { return std::clamp(int(std::floor(x * float(size))), 0, size - 1); };
+    return std::pair{place(std::min({a, b, c})), place(std::max({a, b, c}))};
+  };
+  const auto [x0, x1] = range(shape.uv0.x, shape.uv1.x, shape.uv2.x, image.width);
+  const auto [y0, y1] = range(1 - shape.uv0.y, 1 - shape.uv1.y, 1 - shape.uv2.y, image.height);
+  const int x_step = (x1 - x0) / 64 + 1, y_step = (y1 - y0) / 64 + 1;
+  Rgb sum = gray(0.0f);
+  int count = 0;
+  for (int y = y0; y <= y1; y += y_step)
+    for (int x = x0; x <= x1; x += x_step, ++count) sum += image.at(x, y);
+  return sum * (1 / float(std::max(count, 1)));
 }
 
 }  // namespace
@@ -64,7 +87,8 @@ LightSetBuilder::Surface LightSetBuilder::surface(const Emission& emission, floa
   begin_group(emission.group);
   Surface s{};
   Rgb factor = emission.image ? emission.tint * emission.scale : emission.radiance * emission.scale;
-  Rgb mean = emission.image ? emission.image->mean() : gray(1.0f);
+  const bool known = emission.image && emission.image_mean;
+  Rgb mean = known ? *emission.image_mean : emission.image ? emission.image->mean() : gray(1.0f);
   float sides = emission.two_sided ? 2.0f : 1.0f;
   if (emission.power && area > 0) {
     // Without an image, L is taken to have luminance 1.
@@ -88,6 +112,11 @@ LightId LightSetBuilder::add(const TriangleShape& shape, const Emission& emissio
   float area = 0.5f * length(c);
   Vec3f n = unit_or_z(c) * (shape.flip ? -1.0f : 1.0f);
   auto [row, bounds, power] = surface(emission, area, shape.flip);
+  if (emission.image && emission.local_power) {
+    const float local = average(texel_mean(*emission.image, shape) * row_emission(row)) * area;
+    power *= bounds.intensity > 0 ? local / bounds.intensity : 0.0f;
+    bounds.intensity = local;
+  }
   row.set(T::corner, shape.p0), row.set(T::edge1, e1), row.set(T::edge2, e2), row.set(T::normal, n);
   row.set(T::area, area);
   row.set(T::uv0, shape.uv0), row.set(T::uv1, shape.uv1), row.set(T::uv2, shape.uv2);

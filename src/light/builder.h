@@ -17,6 +17,8 @@ struct Emission {
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
   std::string group = "default";              // of lights that share a layer of a picture
   Rgb tint = gray(1.0f);                      // factor of the image
+  std::optional<Rgb> image_mean{};            // of the image, where it has been taken: images are large
+  bool local_power = false;  // triangles are chosen by the image's texels on them instead of by its mean
 };
 
 // Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.

@@ -84,21 +84,21 @@ float illuminance(const LightImage& image) {
 // is the mean of as many of the image's as it covers, so that the light as a whole stays.
 LightImage equal_area_image(const LightImage& angles) {
   LightImage square;
-  // As fine as the image at its equator.
-  square.width = square.height = std::clamp(int(std::lround(0.57 * angles.width)), 1, 8192);
-  constexpr int parts = 4;
+  // Finer than the image everywhere: texels are constant, and their edges would show.
+  square.width = square.height = std::clamp(angles.width, 1, 8192);
+  const int parts = square.width > 2048 ? 2 : 4;
   square.texels.resize(std::size_t(square.width) * std::size_t(square.height));
   for (int y = 0; y < square.height; ++y)
     for (int x = 0; x < square.width; ++x) {
       Rgb sum = gray(0.0f);
       for (int part = 0; part < parts * parts; ++part) {
-        const float u = (float(x) + (float(part % parts) + 0.5f) / parts) / float(square.width);
-        const float v = (float(y) + (float(part / parts) + 0.5f) / parts) / float(square.height);
+        const float u = (float(x) + (float(part % parts) + 0.5f) / float(parts)) / float(square.width);
+        const float v = (float(y) + (float(part / parts) + 0.5f) / float(parts)) / float(square.height);
         const Vec3f w = sphere_from_square(Vec2f{u, v});
         const float turn = std::atan2(w.y, w.x) * inv_two_pi;
         sum += angles.nearest({turn - std::floor(turn), std::acos(std::clamp(w.z, -1.0f, 1.0f)) * inv_pi});
       }
-      square.texels[std::size_t(y) * std::size_t(square.width) + std::size_t(x)] = sum * (1.0f / (parts * parts));
+      square.texels[std::size_t(y) * std::size_t(square.width) + std::size_t(x)] = sum * (1.0f / float(parts * parts));
     }
   return square;
 }
@@ -168,6 +168,8 @@ Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagno
   e.two_sided = list.boolean("twosided", false);
   if (auto tint = list.spectrum("tint")) e.tint = inputs.emission(*tint);
   if (std::string name = list.string("filename", ""); !name.empty()) e.image = inputs.image(name, area_light.where);
+  if (e.image) e.image_mean = e.image->mean();
+  e.local_power = list.boolean("localpower", false);
   return e;
 }
 

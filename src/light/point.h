@@ -35,8 +35,8 @@ struct SpotEmitter {
 
   explicit MONTELUX_INLINE SpotEmitter(const LightRows<F>& r) : p(r.vec3(place)), rows(r) {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F>) const {
-    return rows.emission() * soft_step(dot(rows.vec3(axis), w), rows.number(cos_end),
-                                        rows.number(cos_edge), rows.number(bend));
+    return rows.emission() *
+           soft_step(dot(rows.vec3(axis), w), rows.number(cos_end), rows.number(cos_edge), rows.number(bend));
   }
 };
 

@@ -90,15 +90,20 @@ std::span<const EntitySpec> light_table() {
 }
 
 std::span<const EntitySpec> area_light_table() {
-  static const std::vector<EntitySpec> table{{"diffuse",
-                                              "the same radiance in all directions",
-                                              {{"L", {spectrum}, "radiance; default 1", 0, most},
-                                               {"filename", {string}, "image over (u, v), instead of L"},
-                                               {"tint", {spectrum}, "factor of the image; default 1 (Montelux alone)", 0, most},
-                                               {"twosided", {boolean}, "emits on both sides; default false"},
-                                               power(),
-                                               scale(),
-                                               group()}}};
+  static const std::vector<EntitySpec> table{
+      {"diffuse",
+       "the same radiance in all directions",
+       {{"L", {spectrum}, "radiance; default 1", 0, most},
+        {"filename", {string}, "image over (u, v), instead of L"},
+        {"localpower",
+         {boolean},
+         "triangles are chosen by the image's texels on them instead of by its "
+         "mean; default false (Montelux alone)"},
+        {"tint", {spectrum}, "factor of the image; default 1 (Montelux alone)", 0, most},
+        {"twosided", {boolean}, "emits on both sides; default false"},
+        power(),
+        scale(),
+        group()}}};
   return table;
 }
 

@@ -74,7 +74,6 @@ void look_up_slots(const Material& material, const TextureSet& textures, const T
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point);
 // The normal of the map at the points in the tangent frame, not unit. Only where there is a map.
 template <class F>
-Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
-                      Mask<F> on);
+Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on);
 
 }  // namespace montelux

@@ -48,7 +48,8 @@ class MetallicRoughness {
     const F o_m = abs_dot(wo, m), p = mirror_share(wo);
     const F seen = select(facets_.is_smooth(), F(0.0f), facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f)));
     const F cosine = cosine_density(wi);
-    const Spectrum<F> value = diffuse_ * (under(o_m, wo, wi) * cosine) + fresnel(o_m) * (seen * facets_.unshadowed(wo, wi));
+    const Spectrum<F> value =
+        diffuse_ * (under(o_m, wo, wi) * cosine) + fresnel(o_m) * (seen * facets_.unshadowed(wo, wi));
     const F density = p * seen + (F(1.0f) - p) * cosine;
     return {select(same, value, gray(F(0.0f))), {select(same, density, F(0.0f))}};
   }
@@ -61,8 +62,8 @@ class MetallicRoughness {
     if (!all(smooth)) m = select(smooth, m, facets_.sample(wo, u2));
     const Vec3<F> wi = select(mirrors, reflect(wo, m), sample_cosine_side(wo, u2));
     const BsdfValue<F> value = evaluate(wo, wi, context);
-    const Spectrum<F> weight = select(delta, fresnel(abs(wo.z)) / max(p, F(1e-10f)),
-                                      value.f_cos / max(value.density.value, F(1e-30f)));
+    const Spectrum<F> weight =
+        select(delta, fresnel(abs(wo.z)) / max(p, F(1e-10f)), value.f_cos / max(value.density.value, F(1e-30f)));
     const Mask<F> valid = same_side(wo, wi) & (delta | (value.density.value > F(0.0f)));
     return {wi, weight, value.density, F(1.0f), valid, delta};
   }

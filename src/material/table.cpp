@@ -21,8 +21,7 @@ List join(std::initializer_list<List> lists) {
 List common() {
   return {{"displacement", number_map, "bump height in scene units; default none", -most, most},
           {"normalmap", {string}, "file of an image of tangent-space normals; default none"},
-          {"normaltexture",
-           spectrum_map,
+          {"normaltexture", spectrum_map,
            "tangent-space normals as a texture of spectra, instead of normalmap; default none (Montelux alone)"},
           {"normalscale",
            {number},

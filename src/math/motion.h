@@ -18,8 +18,8 @@ struct MotionKey {
 MotionKey decompose(const Transform& transform);
 
 // The way from one map to another over t in [0, 1]: translation and stretch on straight lines, the rotation along the
-// shorter arc at constant angular speed (Shoemake 1985), as pbrt-v4 has it. Where there are maps between, evenly spaced,
-// from each to the next in this way.
+// shorter arc at constant angular speed (Shoemake 1985), as pbrt-v4 has it. Where there are maps between, evenly
+// spaced, from each to the next in this way.
 class Motion {
  public:
   Motion() = default;
@@ -37,7 +37,8 @@ class Motion {
   // Equal steps into which [0, 1] falls so that chords between the maps at their ends serve for the motion: none turns
   // by more than 0.01 radians as long as 128 steps do for that. A chord stays closer to the arc than angle^2 / 8 of a
   // step times the distance from the axis: 1.3e-5, and 7.6e-5 for half a turn. 1 where nothing turns: exact then. Every
-  // map that was stated stands at the end of a step; where there are more than 128 from map to map, there are no others.
+  // map that was stated stands at the end of a step; where there are more than 128 from map to map, there are no
+  // others.
   int steps() const;
 
  private:

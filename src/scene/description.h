@@ -35,7 +35,8 @@ struct ShapeDesc {
   std::optional<Entity> area_light;
   // Vertices in object space, for trianglemesh, plymesh (already read), and the control mesh of loopsubdiv.
   std::shared_ptr<const Mesh> mesh;
-  // Where it moves, at moments evenly spaced up to the end of the transforms' time; object_to_world is that of the start.
+  // Where it moves, at moments evenly spaced up to the end of the transforms' time; object_to_world is that of the
+  // start.
   std::vector<Transform> object_to_world_later;
 };
 
@@ -72,7 +73,7 @@ struct SceneDesc {
   std::optional<double> frame_rate;  // pictures a unit of time, where nothing else is asked for
   // The time that the frames of a sequence share out; none: that of the transforms.
   std::optional<std::pair<double, double>> whole_time;
-  int frames_held = 1 << 30;         // of those asked for, from the first on, as many as the transforms are good for
+  int frames_held = 1 << 30;  // of those asked for, from the first on, as many as the transforms are good for
   Entity film{"rgb", {}, {}};
   Entity filter{"gaussian", {}, {}};
   Entity sampler{"zsobol", {}, {}};

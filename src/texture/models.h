@@ -133,10 +133,10 @@ struct MarbleTexture {
   float scale = 1, variation = 0.2f;
 };
 
-using NumberTexture = std::variant<ConstantTexture<float>, ScaleTexture<float>, MixTexture<float>,
-                                   DirectionMixTexture<float>, ImageTexture, CheckerboardTexture<float>,
-                                   BilerpTexture<float>, DotsTexture<float>, FbmTexture, WrinkledTexture, WindyTexture,
-                                   ThresholdTexture>;
+using NumberTexture =
+    std::variant<ConstantTexture<float>, ScaleTexture<float>, MixTexture<float>, DirectionMixTexture<float>,
+                 ImageTexture, CheckerboardTexture<float>, BilerpTexture<float>, DotsTexture<float>, FbmTexture,
+                 WrinkledTexture, WindyTexture, ThresholdTexture>;
 using SpectrumTexture =
     std::variant<ConstantTexture<Rgb>, ScaleTexture<Rgb>, MixTexture<Rgb>, DirectionMixTexture<Rgb>, ImageTexture,
                  CheckerboardTexture<Rgb>, BilerpTexture<Rgb>, DotsTexture<Rgb>, MarbleTexture>;

@@ -13,15 +13,13 @@ struct ComponentType {
   int code;
   std::size_t size;
 };
-constexpr std::array<ComponentType, 6> component_types{{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}};
+constexpr std::array<ComponentType, 6> component_types{
+    {{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}};
 
-const std::vector<std::string_view>& type_names() {
-  static const std::vector<std::string_view> names{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-  return names;
-}
+constexpr std::array<std::string_view, 7> type_names{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 std::size_t components_of(std::string_view type) {
   constexpr std::array<std::size_t, 7> counts{1, 2, 3, 4, 4, 9, 16};
-  return counts[std::size_t(std::find(type_names().begin(), type_names().end(), type) - type_names().begin())];
+  return counts[std::size_t(std::find(type_names.begin(), type_names.end(), type) - type_names.begin())];
 }
 
 template <class T>
@@ -91,7 +89,8 @@ std::optional<Range> range_of(Document& document, const Element& element, std::u
     return std::nullopt;
   }
   // No sum overflows: every number is below 2^53.
-  const bool fits = count == 0 || (start <= bytes && size <= bytes - start && count - 1 <= (bytes - start - size) / stride);
+  const bool fits =
+      count == 0 || (start <= bytes && size <= bytes - start && count - 1 <= (bytes - start - size) / stride);
   if (!fits) {
     element.error(std::to_string(count) + " elements reach beyond the end of buffer view " + std::to_string(*number) +
                   ", which has " + std::to_string(bytes) + " bytes");
@@ -135,7 +134,7 @@ std::optional<Numbers> read_accessor(Document& document, const Element& user, co
   const Element accessor = accessors[*number];
   const auto count = accessor.required("count").whole();
   const auto type = accessor.required("componentType") ? component_type(accessor["componentType"]) : std::nullopt;
-  const auto shape = accessor.required("type").choice(type_names());
+  const auto shape = accessor.required("type").choice({type_names.begin(), type_names.end()});
   const bool normalized = accessor["normalized"].boolean().value_or(false);
   if (!count || !type || !shape) return std::nullopt;
   if (std::find(use.types.begin(), use.types.end(), *shape) == use.types.end()) {

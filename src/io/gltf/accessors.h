@@ -7,7 +7,7 @@ namespace montelux::gltf {
 // What a use of an accessor takes.
 struct AccessorUse {
   std::vector<std::string_view> types;  // "SCALAR", "VEC3", ...
-  bool integers = false;                // whole numbers as they are, without a sign; else reals, normalised where stated
+  bool integers = false;  // whole numbers as they are, without a sign; else reals, normalised where stated
 };
 
 struct Numbers {

@@ -73,7 +73,8 @@ std::optional<Track> read_track(Document& document, const NodeTree& tree, const 
   const bool is_free = track.path == AnimatedPath::weights;
   if (is_free ? values->count == 0 || values->count % keys != 0 : values->count != keys) {
     sampler["output"].error("has " + std::to_string(values->count) + " values for " + std::to_string(times->size()) +
-                            " keys" + (track.interpolation == Interpolation::cubic ? ", of which each takes three" : ""));
+                            " keys" +
+                            (track.interpolation == Interpolation::cubic ? ", of which each takes three" : ""));
     return std::nullopt;
   }
   if (!is_free && tree.nodes[*node].pose.fixed) {

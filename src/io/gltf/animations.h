@@ -13,9 +13,9 @@ struct Track {
   std::size_t node = 0;
   AnimatedPath path = AnimatedPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times;       // s, rising
-  std::size_t width = 0;           // numbers of a value
-  std::vector<float> values;       // of all keys
+  std::vector<double> times;  // s, rising
+  std::size_t width = 0;      // numbers of a value
+  std::vector<float> values;  // of all keys
 
   // At a time; before the first key and after the last one as there (glTF 2.0, appendix C). Rotations are unit.
   std::vector<double> at(double time) const;

@@ -25,8 +25,7 @@ Vec3f moved_normal(const Matrix4& m, Vec3f n) {
     const std::size_t r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
     return a[r][c] * a[s][d] - a[r][d] * a[s][c];
   };
-  const double determinant =
-      a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
+  const double determinant = a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
   const double sign = determinant < 0 ? -1 : 1;
   double v[3], squared = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,6 +1,7 @@
 #include "io/gltf/document.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 
@@ -71,18 +72,10 @@ std::optional<std::string> from_base64(std::string_view text) {
 }
 
 // Extensions that the reader knows, in part or in whole.
-const std::vector<std::string_view>& known_extensions() {
-  static const std::vector<std::string_view> names{"KHR_lights_punctual",
-                                                   "KHR_materials_emissive_strength",
-                                                   "KHR_materials_ior",
-                                                   "KHR_materials_specular",
-                                                   "KHR_materials_transmission",
-                                                   "KHR_materials_unlit",
-                                                   "KHR_materials_volume",
-                                                   "KHR_mesh_quantization",
-                                                   "KHR_texture_transform"};
-  return names;
-}
+constexpr std::array<std::string_view, 9> known_extensions{
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_materials_volume",   "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 }  // namespace
 
@@ -153,8 +146,10 @@ void Document::check_asset() const {
   const Element asset = root().required("asset");
   if (const auto version = asset.required("version").text(); version && !version->starts_with("2."))
     asset["version"].error("glTF of version " + printable(*version) + "; version 2 is read");
-  const auto& known = known_extensions();
-  const auto is_known = [&](const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); };
+  const std::vector<std::string_view> known(known_extensions.begin(), known_extensions.end());
+  const auto is_known = [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) != known.end();
+  };
   std::set<std::string> required;
   const Element needed = list("extensionsRequired");
   for (std::size_t i = 0; i < needed.size(); ++i) {

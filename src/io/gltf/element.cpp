@@ -56,8 +56,7 @@ std::string Element::once(std::string_view message) const {
 }
 
 void Element::error(std::string_view message, std::string hint) const {
-  if (std::string text = once(message); !text.empty())
-    source_->report.error(where(), std::move(text), std::move(hint));
+  if (std::string text = once(message); !text.empty()) source_->report.error(where(), std::move(text), std::move(hint));
 }
 void Element::warning(std::string_view message, std::string hint) const {
   if (std::string text = once(message); !text.empty())

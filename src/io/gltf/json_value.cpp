@@ -141,8 +141,8 @@ const JsonValue* JsonValue::find(std::string_view name) const {
 std::variant<JsonValue, JsonProblem> parse_json(std::string_view text) {
   Place place;
   TreeBuilder tree(place);
-  const bool good =
-      Json::sax_parse(CountingIterator(text.data(), &place), CountingIterator(text.data() + text.size(), &place), &tree);
+  const bool good = Json::sax_parse(CountingIterator(text.data(), &place),
+                                    CountingIterator(text.data() + text.size(), &place), &tree);
   if (tree.problem_) return *std::move(tree.problem_);
   if (!good) return JsonProblem{"this is not JSON", place.line, std::max(place.column, 1)};
   return std::move(tree.root);

@@ -137,7 +137,9 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   const Factor base_factor = base_color(material);
   lose(base_factor.texture || base_factor.value[0] < 1 || base_factor.value[1] < 1 || base_factor.value[2] < 1,
        "the base colour of what goes through");
-  if (!lost.empty()) transmission.warning("glass that transmits is shown without " + lost);
+  // Once, however many materials lose the same.
+  if (!lost.empty() && lost_.insert(lost).second)
+    transmission.warning("glass that transmits is shown without " + lost + ", here and in all materials like this one");
   if (const Parameter* map = base.parameters.find("normaltexture")) glass.parameters.add(*map);
   const MaterialDescId through = add(std::move(glass), name.empty() ? "glass" : name + " glass");
   if (!amount.texture && amount.value[0] >= 1) return through;
@@ -155,6 +157,7 @@ std::optional<Entity> MaterialReader::emission_of(const Factor& factor, double s
   put_rgb(light, factor.texture ? "tint" : "L", factor.value);
   if (factor.texture) {
     put_string(light, "filename", factor.texture->file);
+    put_boolean(light, "localpower", true);
     if (factor.texture->uv_map != TextureUse().uv_map)
       where.warning("the KHR_texture_transform of an emissive texture is not applied");
   }
@@ -244,7 +247,8 @@ const MaterialUse& MaterialReader::use(std::optional<std::size_t> number) {
   auto [place, is_new] = uses_.try_emplace(number);
   // An absent element has all the defaults.
   if (is_new)
-    place->second = read(number ? document_.list("materials")[*number] : document_.root()["materials"][std::size_t(-1)]);
+    place->second =
+        read(number ? document_.list("materials")[*number] : document_.root()["materials"][std::size_t(-1)]);
   return place->second;
 }
 

@@ -16,7 +16,8 @@ struct MaterialUse {
 
 class MaterialReader {
  public:
-  MaterialReader(Document& document, SceneDesc& scene) : document_(document), scene_(scene), textures_(document, scene) {}
+  MaterialReader(Document& document, SceneDesc& scene)
+      : document_(document), scene_(scene), textures_(document, scene) {}
 
   // Of the material with that number (which must be one), or of none: glTF's default. Each is read once.
   const MaterialUse& use(std::optional<std::size_t> number);
@@ -47,7 +48,8 @@ class MaterialReader {
   SceneDesc& scene_;
   TextureReader textures_;
   std::map<std::optional<std::size_t>, MaterialUse> uses_;
-  std::optional<int> uv_set_;  // of the material at hand
+  std::optional<int> uv_set_;   // of the material at hand
+  std::set<std::string> lost_;  // what has been said to be left out of glass
 };
 
 }  // namespace montelux::gltf

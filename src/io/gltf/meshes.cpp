@@ -165,7 +165,8 @@ class PrimitiveReader {
     std::array<std::vector<std::uint32_t>, 2> sides;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
       auto& side = sides[is_mirrored(mesh, mesh.triangles.data() + i) ? 1 : 0];
-      side.insert(side.end(), mesh.triangles.begin() + std::ptrdiff_t(i), mesh.triangles.begin() + std::ptrdiff_t(i + 3));
+      side.insert(side.end(), mesh.triangles.begin() + std::ptrdiff_t(i),
+                  mesh.triangles.begin() + std::ptrdiff_t(i + 3));
     }
     std::vector<Primitive> parts;
     for (std::size_t side = 0; side < 2; ++side) {

@@ -37,7 +37,8 @@ struct MeshUse {
 // What the reader of meshes asks about materials.
 struct MaterialTraits {
   int uv_set = 0;
-  bool parts_mirrored = false;  // triangles whose texture coordinates lie as in a mirror go into a primitive of their own
+  bool parts_mirrored =
+      false;  // triangles whose texture coordinates lie as in a mirror go into a primitive of their own
 };
 using TraitsOfMaterial = std::function<MaterialTraits(std::optional<std::size_t>)>;
 

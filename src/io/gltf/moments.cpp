@@ -109,7 +109,8 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
       document.report().tolerable(
           document.whole(),
           "node " + std::to_string(worst.node) +
-              (tree.nodes[worst.node].name.empty() ? std::string() : " '" + printable(tree.nodes[worst.node].name) + "'") +
+              (tree.nodes[worst.node].name.empty() ? std::string()
+                                                   : " '" + printable(tree.nodes[worst.node].name) + "'") +
               " turns or jumps too fast for its way to be followed while the shutter is open",
           "a step of its way is off by " + std::to_string(worst.error) +
               " of the distance from its axis; a shorter exposure or more frames a second are followed");

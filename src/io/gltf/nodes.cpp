@@ -38,8 +38,8 @@ Node read_node(Document& document, const Element& element) {
   node.camera = element["camera"].index_of(document.list("cameras"), "a camera");
   node.skin = element["skin"].index_of(document.list("skins"), "a skin");
   if (const Element light = element["extensions"]["KHR_lights_punctual"])
-    node.light = light.required("light").index_of(
-        document.root()["extensions"]["KHR_lights_punctual"]["lights"], "a light");
+    node.light =
+        light.required("light").index_of(document.root()["extensions"]["KHR_lights_punctual"]["lights"], "a light");
   if (const Element weights = element["weights"])
     for (std::size_t i = 0; i < weights.size(); ++i) node.weights.push_back(weights[i].number().value_or(0));
   return node;
@@ -80,8 +80,8 @@ std::vector<std::size_t> roots_of(Document& document, NodeTree& tree) {
   }
   tree.scene = scenes[document.root()["scene"].index_of(scenes, "a scene").value_or(0)];
   if (scenes.size() > 1)
-    document.report().note(document.whole(), "the file has " + std::to_string(scenes.size()) +
-                                                 " scenes; the one at " + tree.scene.pointer() + " is shown");
+    document.report().note(document.whole(), "the file has " + std::to_string(scenes.size()) + " scenes; the one at " +
+                                                 tree.scene.pointer() + " is shown");
   const Element list = tree.scene["nodes"];
   std::set<std::size_t> seen;
   for (std::size_t i = 0; i < list.size(); ++i) {

@@ -27,7 +27,8 @@ inline void put_point(Entity& e, std::string name, Vec3f x) {
 }
 // Linear, in the primaries of sRGB.
 inline void put_rgb(Entity& e, std::string name, const Rgb& x) {
-  e.parameters.add({std::move(name), ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{x, "srgb"}}, e.where});
+  e.parameters.add(
+      {std::move(name), ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{x, "srgb"}}, e.where});
 }
 inline void put_texture(Entity& e, std::string name, std::string texture) {
   e.parameters.add({std::move(name), ParameterType::texture, TextureName{std::move(texture)}, e.where});

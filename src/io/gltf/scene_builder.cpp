@@ -188,7 +188,8 @@ void SceneBuilder::place_mesh(std::size_t node) {
   std::optional<Placing> placing;
   std::optional<ObjectDescId> object;
   // A skin's node may have any matrix: it is not used.
-  const bool is_rigid = std::any_of(primitives.begin(), primitives.end(), [&](const auto& p) { return !deforms(n, p); });
+  const bool is_rigid =
+      std::any_of(primitives.begin(), primitives.end(), [&](const auto& p) { return !deforms(n, p); });
   if (is_rigid) {
     placing = placing_of(node);
     if (placing) object = object_of(*n.mesh, placing->mirrored);

@@ -51,8 +51,8 @@ class SceneBuilder {
   NodeTree tree_;
   Moments moments_;
   MaterialReader materials_;
-  std::map<std::size_t, MeshUse> meshes_;          // those that are shown
-  std::map<std::size_t, std::size_t> times_used_;  // how many nodes show a mesh
+  std::map<std::size_t, MeshUse> meshes_;                                        // those that are shown
+  std::map<std::size_t, std::size_t> times_used_;                                // how many nodes show a mesh
   std::map<std::pair<std::size_t, bool>, std::optional<ObjectDescId>> objects_;  // of meshes that are instanced
   std::map<std::size_t, std::optional<Skin>> skins_;
   Bounds3 bounds_;

@@ -12,8 +12,8 @@ namespace montelux::gltf {
 std::optional<std::string> TextureReader::image_file(const Element& image, std::size_t number) {
   const auto embed = [&](std::string bytes) {
     // A name that no file beside the scene has.
-    std::string name = std::filesystem::path(*document_.whole().file).filename().string() + "#images/" +
-                       std::to_string(number);
+    std::string name =
+        std::filesystem::path(*document_.whole().file).filename().string() + "#images/" + std::to_string(number);
     scene_.embedded[name] = std::make_shared<const std::string>(std::move(bytes));
     return name;
   };

@@ -9,9 +9,9 @@ enum class TexelMeaning { color, data };
 
 // What a textureInfo says, checked.
 struct TextureUse {
-  std::string file;                                   // image, relative to the scene's folder, or embedded
-  int uv_set = 0;                                     // of TEXCOORD_0, 1, ...
-  std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};     // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
+  std::string file;                                     // image, relative to the scene's folder, or embedded
+  int uv_set = 0;                                       // of TEXCOORD_0, 1, ...
+  std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};       // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
   std::array<std::string, 2> wrap{"repeat", "repeat"};  // of u and v
   bool nearest = false;
   SourceLocation where;

@@ -58,7 +58,11 @@ TEST(GltfTrack, of_rotations_turns_at_constant_speed_along_the_shorter_arc) {
 
 TEST(GltfTrack, of_a_cubic_spline_is_the_cubic_that_its_tangents_state) {
   // x(t) = t^3 - 2 t over [1, 3]: values -1 and 21, slopes 1 and 25.
-  const Track track{0, AnimatedPath::translation, Interpolation::cubic, {1, 3}, 3,
+  const Track track{0,
+                    AnimatedPath::translation,
+                    Interpolation::cubic,
+                    {1, 3},
+                    3,
                     {0, 0, 0, -1, 0, 0, 1, 0, 0, 25, 0, 0, 21, 0, 0, 0, 0, 0}};
   for (double t : {1.0, 1.3, 2.0, 2.9, 3.0}) EXPECT_NEAR(track.at(t)[0], t * t * t - 2 * t, 1e-9) << t;
   EXPECT_EQ(track.at(0)[0], -1);
@@ -79,13 +83,17 @@ std::string turning(double angle, const std::string& path = "rotation", const st
       R"(, "animations": [{"name": "spin", "samplers": [{"input": 2, "output": 3, "interpolation": ")" + interpolation +
           R"("}], "channels": [{"sampler": 0, "target": {"node": 0, "path": ")" + path + R"("}}]}])" + more,
       buffers_of(bytes));
-  const auto replace = [&](const std::string& from, const std::string& to) { json.replace(json.find(from), from.size(), to); };
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    json.replace(json.find(from), from.size(), to);
+  };
   replace(R"("byteOffset": 36, "byteLength": 6})",
           std::string(R"("byteOffset": 36, "byteLength": 6}, {"buffer": 0, "byteOffset": 44, "byteLength": 8},
-             {"buffer": 0, "byteOffset": 52, "byteLength": )") + (four ? "32}" : "24}"));
+             {"buffer": 0, "byteOffset": 52, "byteLength": )") +
+              (four ? "32}" : "24}"));
   replace(R"("type": "SCALAR"}], )",
           std::string(R"("type": "SCALAR"}, {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
-             {"bufferView": 3, "componentType": 5126, "count": 2, "type": ")") + (four ? "VEC4" : "VEC3") + "\"}], ");
+             {"bufferView": 3, "componentType": 5126, "count": 2, "type": ")") +
+              (four ? "VEC4" : "VEC3") + "\"}], ");
   return json;
 }
 
@@ -153,10 +161,10 @@ TEST(GltfAnimation, that_is_too_fast_for_its_steps_holds_fewer_frames_or_is_refu
 }
 
 TEST(GltfAnimation, moves_cameras) {
-  const ReadResult result = read_window(
-      turning(4, "translation", "LINEAR", R"("camera": 0}, {"mesh": 0)",
-              R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 1}}])"),
-      {0, 2, 2, false});
+  const ReadResult result =
+      read_window(turning(4, "translation", "LINEAR", R"("camera": 0}, {"mesh": 0)",
+                          R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 1}}])"),
+                  {0, 2, 2, false});
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
   ASSERT_EQ(result.scene->world_to_camera_later.size(), 2u);
   EXPECT_NEAR(result.scene->world_to_camera_later[0].point(Vec3f{0, 0, -1}).x, -2, 1e-6);
@@ -164,9 +172,9 @@ TEST(GltfAnimation, moves_cameras) {
 }
 
 TEST(GltfAnimation, of_lights_is_refused_or_left_at_its_start) {
-  const std::string lamp = turning(
-      4, "translation", "LINEAR", R"("mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}})",
-      R"(, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
+  const std::string lamp =
+      turning(4, "translation", "LINEAR", R"("mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}})",
+              R"(, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
   const ReadResult result = read_window(lamp, {0, 2, 2, false});
   EXPECT_FALSE(result.scene);
   EXPECT_NE(render(result.diagnostics).find("a light moves"), std::string::npos) << render(result.diagnostics);
@@ -189,13 +197,13 @@ TEST(GltfAnimation, is_chosen_by_name_or_number) {
 
 // The triangle with a skin of two joints (nodes 1 and 2) and a morph target that lifts its last corner by one.
 std::string deforming(const std::string& path, bool skinned) {
-  Bytes bytes = triangle_bytes();                                     // 0: positions, 36: indices
-  bytes.put<float>({0, 2});                                           // 44: times
-  bytes.put<float>({0, 0, 0, 0, 0, 0, 0, 1, 0});                      // 52: target
-  bytes.put<std::uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});      // 88: joints
-  bytes.put<float>({1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0});       // 100: weights
-  bytes.put<float>({0, 1});                                           // 148: weights of the target
-  bytes.put<float>({0, 0, 0, 4, 0, 0});                               // 156: translations
+  Bytes bytes = triangle_bytes();                                 // 0: positions, 36: indices
+  bytes.put<float>({0, 2});                                       // 44: times
+  bytes.put<float>({0, 0, 0, 0, 0, 0, 0, 1, 0});                  // 52: target
+  bytes.put<std::uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});  // 88: joints
+  bytes.put<float>({1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0});   // 100: weights
+  bytes.put<float>({0, 1});                                       // 148: weights of the target
+  bytes.put<float>({0, 0, 0, 4, 0, 0});                           // 156: translations
   std::string json = triangle_json(
       std::string(R"("attributes": {"POSITION": 0)") + (skinned ? R"(, "JOINTS_0": 4, "WEIGHTS_0": 5)" : "") +
           R"(}, "indices": 1, "targets": [{"POSITION": 3}])",
@@ -205,12 +213,14 @@ std::string deforming(const std::string& path, bool skinned) {
           std::string(path == "weights" ? "6" : "7") + R"(}], "channels": [{"sampler": 0, "target": {"node": )" +
           (path == "weights" ? "0" : "2") + R"(, "path": ")" + path + R"("}}]}])",
       buffers_of(bytes));
-  const auto replace = [&](const std::string& from, const std::string& to) { json.replace(json.find(from), from.size(), to); };
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    json.replace(json.find(from), from.size(), to);
+  };
   std::string views = R"("byteOffset": 36, "byteLength": 6})", accessors = R"("type": "SCALAR"})";
   const struct {
     int offset, length, type, count;
     const char* shape;
-  } parts[] = {{44, 8, 5126, 2, "SCALAR"}, {52, 36, 5126, 3, "VEC3"}, {88, 12, 5121, 3, "VEC4"},
+  } parts[] = {{44, 8, 5126, 2, "SCALAR"}, {52, 36, 5126, 3, "VEC3"},   {88, 12, 5121, 3, "VEC4"},
                {100, 48, 5126, 3, "VEC4"}, {148, 8, 5126, 2, "SCALAR"}, {156, 24, 5126, 2, "VEC3"}};
   int view = 2;
   for (const auto& p : parts) {

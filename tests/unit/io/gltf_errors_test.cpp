@@ -37,8 +37,8 @@ std::vector<Fault> faults() {
        "its own descendant"},
       {"two parents", triangle_json(triangle, R"("children": [1, 2]}, {"mesh": 0}, {"children": [1])"),
        "/nodes/2/children", "another parent"},
-      {"root that is a child", with(R"("nodes": [0])", R"("nodes": [1])",
-                                    triangle_json(triangle, R"("children": [1]}, {"mesh": 0)")),
+      {"root that is a child",
+       with(R"("nodes": [0])", R"("nodes": [1])", triangle_json(triangle, R"("children": [1]}, {"mesh": 0)")),
        "/scenes/0/nodes/0", "no root"},
       {"matrix", triangle_json(triangle, R"("mesh": 0, "matrix": [1, 2, 3])"), "/nodes/0/matrix", "16 numbers"},
       {"projective", triangle_json(triangle, R"("mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
@@ -54,48 +54,62 @@ std::vector<Fault> faults() {
       {"no attributes", triangle_json(R"("indices": 1)"), "/meshes/0/primitives/0", "\"attributes\" is missing"},
       {"indices of reals", triangle_json(R"("attributes": {"POSITION": 0}, "indices": 0)"),
        "/meshes/0/primitives/0/indices", "SCALAR is needed"},
-      {"count", with("\"count\": 3,\n\"type\": \"VEC3\"", "\"count\": 4,\n\"type\": \"VEC3\"",
-                     with(R"("byteLength": 36)", R"("byteLength": 40)")),
+      {"count",
+       with("\"count\": 3,\n\"type\": \"VEC3\"", "\"count\": 4,\n\"type\": \"VEC3\"",
+            with(R"("byteLength": 36)", R"("byteLength": 40)")),
        "/accessors/0", "beyond the end of buffer view 0"},
-      {"huge count", with("\"count\": 3,\n\"type\"", "\"count\": 9007199254740991,\n\"type\""), "/accessors/0", "beyond the end"},
+      {"huge count", with("\"count\": 3,\n\"type\"", "\"count\": 9007199254740991,\n\"type\""), "/accessors/0",
+       "beyond the end"},
       {"component", with("5126", "5127"), "/accessors/0/componentType", "no type of component"},
       {"type", with("\"VEC3\"", "\"VECT3\""), "/accessors/0/type", "did you mean \"VEC3\""},
       {"view", with(R"("byteLength": 36)", R"("byteLength": 3600)"), "/bufferViews/0", "beyond the end of buffer 0"},
-      {"view offset", with(R"("byteOffset": 36)", R"("byteOffset": 9007199254740991)"), "/bufferViews/1", "beyond the end"},
+      {"view offset", with(R"("byteOffset": 36)", R"("byteOffset": 9007199254740991)"), "/bufferViews/1",
+       "beyond the end"},
       {"view's buffer", with(R"({"buffer": 0, "byteLength")", R"({"buffer": 1, "byteLength")"), "/bufferViews/0/buffer",
        "not the number of a buffer"},
       {"stride", with(R"("byteLength": 36)", R"("byteLength": 36, "byteStride": 5)"), "/bufferViews/0/byteStride",
        "multiple of 4"},
-      {"short stride", with(R"("byteLength": 36)", R"("byteLength": 36, "byteStride": 8)"), "/accessors/0", "do not fit"},
+      {"short stride", with(R"("byteLength": 36)", R"("byteLength": 36, "byteStride": 8)"), "/accessors/0",
+       "do not fit"},
       {"buffer length", with(R"({"byteLength": 44)", R"({"byteLength": 4400)"), "/buffers/0", "only 44 bytes"},
       {"base64", with("base64,", "base64,*"), "/buffers/0/uri", "not in base64"},
       {"data", with(";base64", ""), "/buffers/0/uri", "data:...;base64"},
-      {"missing file", triangle_json(triangle, R"("mesh": 0)", "", R"("buffers": [{"byteLength": 44, "uri": "no.bin"}])"),
+      {"missing file",
+       triangle_json(triangle, R"("mesh": 0)", "", R"("buffers": [{"byteLength": 44, "uri": "no.bin"}])"),
        "/buffers/0/uri", "there is no file"},
       {"no data", triangle_json(triangle, R"("mesh": 0)", "", R"("buffers": [{"byteLength": 44}])"), "/buffers/0",
        "no \"uri\""},
-      {"far away", triangle_json(triangle, R"("mesh": 0)", "",
-                                 R"("buffers": [{"byteLength": 44, "uri": "http://example.org/a.bin"}])"),
+      {"far away",
+       triangle_json(triangle, R"("mesh": 0)", "",
+                     R"("buffers": [{"byteLength": 44, "uri": "http://example.org/a.bin"}])"),
        "/buffers/0/uri", "only files beside the scene"},
-      {"index", triangle_json(triangle, R"("mesh": 0)", "",
-                              buffers_of(Bytes().put<float>({0, 0, 0, 2, 0, 0, 0, 3, 0}).put<std::uint16_t>({0, 1, 3}).pad())),
+      {"index",
+       triangle_json(triangle, R"("mesh": 0)", "",
+                     buffers_of(Bytes().put<float>({0, 0, 0, 2, 0, 0, 0, 3, 0}).put<std::uint16_t>({0, 1, 3}).pad())),
        "/meshes/0/primitives/0/indices", "index 3 is beyond the 3 vertices"},
-      {"not finite", triangle_json(triangle, R"("mesh": 0)", "",
-                                   buffers_of(Bytes().put<float>({0, 0, 0, NAN, 0, 0, 0, 3, 0}).put<std::uint16_t>({0, 1, 2}).pad())),
+      {"not finite",
+       triangle_json(triangle, R"("mesh": 0)", "",
+                     buffers_of(Bytes().put<float>({0, 0, 0, NAN, 0, 0, 0, 3, 0}).put<std::uint16_t>({0, 1, 2}).pad())),
        "/accessors/0", "not finite"},
-      {"required extension", triangle_json(triangle, R"("mesh": 0)", R"(, "extensionsRequired": ["KHR_materials_spectral"])"),
+      {"required extension",
+       triangle_json(triangle, R"("mesh": 0)", R"(, "extensionsRequired": ["KHR_materials_spectral"])"),
        "/extensionsRequired/0", "KHR_materials_spectral"},
-      {"material", triangle_json(triangle + R"(, "material": 0)"), "/meshes/0/primitives/0/material", "the file has none"},
-      {"alpha mode", triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)", R"(, "materials": [{"alphaMode": "MASKED"}])"),
+      {"material", triangle_json(triangle + R"(, "material": 0)"), "/meshes/0/primitives/0/material",
+       "the file has none"},
+      {"alpha mode",
+       triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)", R"(, "materials": [{"alphaMode": "MASKED"}])"),
        "/materials/0/alphaMode", "did you mean \"MASK\""},
-      {"colour", triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
-                               R"(, "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 2, 0, 1]}}])"),
+      {"colour",
+       triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
+                     R"(, "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 2, 0, 1]}}])"),
        "/materials/0/pbrMetallicRoughness/baseColorFactor", "from 0 to 1"},
-      {"texture", triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
-                                R"(, "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}])"),
+      {"texture",
+       triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
+                     R"(, "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}])"),
        "/materials/0/emissiveTexture/index", "not the number of a texture"},
-      {"image", triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
-                              R"(, "images": [{"uri": "no.png"}], "textures": [{"source": 0}],
+      {"image",
+       triangle_json(triangle + R"(, "material": 0)", R"("mesh": 0)",
+                     R"(, "images": [{"uri": "no.png"}], "textures": [{"source": 0}],
                                  "materials": [{"emissiveTexture": {"index": 0}}])"),
        "/images/0/uri", "there is no file"},
       {"camera", triangle_json(triangle, R"("mesh": 0, "camera": 0)", R"(, "cameras": [{"type": "perspective",
@@ -108,7 +122,8 @@ std::vector<Fault> faults() {
       {"keys", triangle_json(triangle, R"("mesh": 0)", R"(, "animations": [{"samplers": [{"input": 1, "output": 0}],
                                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "position"}}]}])"),
        "/animations/0/channels/0/target/path", "valid: translation, rotation"},
-      {"key times", triangle_json(triangle, R"("mesh": 0)", R"(, "animations": [{"samplers": [{"input": 0, "output": 0}],
+      {"key times",
+       triangle_json(triangle, R"("mesh": 0)", R"(, "animations": [{"samplers": [{"input": 0, "output": 0}],
                                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])"),
        "/animations/0/samplers/0/input", "SCALAR is needed"},
   };
@@ -127,7 +142,8 @@ TEST(GltfErrors, name_what_is_wrong_and_where) {
 }
 
 TEST(GltfErrors, come_all_at_once_with_lines_and_columns) {
-  const ReadResult result = read_text("{\"asset\": {\"version\": \"2.0\"},\n\"nodes\": [{\"mesh\": 3},\n {\"camera\": true}]}");
+  const ReadResult result =
+      read_text("{\"asset\": {\"version\": \"2.0\"},\n\"nodes\": [{\"mesh\": 3},\n {\"camera\": true}]}");
   const std::string text = render(result.diagnostics);
   EXPECT_NE(text.find("scene.gltf:2:21: error: /nodes/0/mesh: 3 is not"), std::string::npos) << text;
   EXPECT_NE(text.find("scene.gltf:3:"), std::string::npos) << text;
@@ -191,7 +207,9 @@ TEST(GltfRobustness, damaged_files_do_no_harm) {
   std::mt19937 random(7);
   TemporaryFolder folder;
   Bytes bytes = triangle_bytes();
-  bytes.put<float>({0, 1, 2}).put<std::uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}).put<float>({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0});
+  bytes.put<float>({0, 1, 2})
+      .put<std::uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0})
+      .put<float>({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0});
   std::string json = rich_json(R"("buffers": [{"byteLength": )" + std::to_string(bytes.size()) + "}]");
   json = with(R"("bufferViews": [)", R"("bufferViews": [)", json);
   json = with(R"("byteOffset": 36, "byteLength": 6})",
@@ -209,7 +227,8 @@ TEST(GltfRobustness, damaged_files_do_no_harm) {
   ReadOptions moving;
   moving.lenient = true;
   moving.window = [](const AnimationTime&) { return AnimationWindow{0, 2, 4, true}; };
-  const std::vector<std::string> words{"-1", "1e999", "9007199254740991", "null", "{}", "[]", "\"\"", "0.5", "true", "1"};
+  const std::vector<std::string> words{"-1",   "1e999", "9007199254740991", "null", "{}", "[]", "\"\"", "0.5",
+                                       "true", "1"};
   int read = 0;
   for (int i = 0; i < 4000; ++i) {
     std::string text = i % 2 == 0 ? whole : json;
@@ -234,7 +253,8 @@ TEST(GltfRobustness, damaged_files_do_no_harm) {
         text[at] = char(text[at] ^ (1 << random() % 8));
         text.erase(random() % text.size(), 1 + random() % 3);
     }
-    read += read_gltf(folder.write(i % 2 == 0 ? "x.glb" : "x.gltf", text), i % 3 == 0 ? moving : ReadOptions{}).scene.has_value();
+    read += read_gltf(folder.write(i % 2 == 0 ? "x.glb" : "x.gltf", text), i % 3 == 0 ? moving : ReadOptions{})
+                .scene.has_value();
   }
   EXPECT_GT(read, 0);
 }

@@ -47,11 +47,11 @@ TEST(GltfMesh, has_every_type_of_component) {
     Bytes bytes;
     for (const auto& p : {std::array<T, 3>{0, 0, 0}, {one, 0, 0}, {0, one, 0}}) bytes.put<T>({p[0], p[1], p[2]}).pad();
     const std::string stride = std::to_string(bytes.size() / 3), size = std::to_string(bytes.size());
-    const ReadResult result = read_text(
-        mesh_json(bytes, R"({"buffer": 0, "byteLength": )" + size + R"(, "byteStride": )" + stride + "}",
-                  R"({"bufferView": 0, "componentType": )" + std::to_string(type) +
-                      R"(, "count": 3, "type": "VEC3", "normalized": )" + normalized + "}",
-                  R"("attributes": {"POSITION": 0})"));
+    const ReadResult result =
+        read_text(mesh_json(bytes, R"({"buffer": 0, "byteLength": )" + size + R"(, "byteStride": )" + stride + "}",
+                            R"({"bufferView": 0, "componentType": )" + std::to_string(type) +
+                                R"(, "count": 3, "type": "VEC3", "normalized": )" + normalized + "}",
+                            R"("attributes": {"POSITION": 0})"));
     return only_mesh(result).positions;
   };
   EXPECT_EQ(positions(5120, std::int8_t(127), "true")[1].x, 1);
@@ -69,14 +69,14 @@ TEST(GltfMesh, may_lie_interleaved_and_partly_in_a_sparse_part) {
   Bytes bytes;
   bytes.put<float>({0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1});
   bytes.put<std::uint8_t>({1}).pad().put<float>({5, 0, 0});
-  const ReadResult result = read_text(mesh_json(
-      bytes,
-      R"({"buffer": 0, "byteLength": 72, "byteStride": 24}, {"buffer": 0, "byteOffset": 72, "byteLength": 4},
+  const ReadResult result = read_text(
+      mesh_json(bytes,
+                R"({"buffer": 0, "byteLength": 72, "byteStride": 24}, {"buffer": 0, "byteOffset": 72, "byteLength": 4},
          {"buffer": 0, "byteOffset": 76, "byteLength": 12})",
-      R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
+                R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
           "indices": {"bufferView": 1, "componentType": 5121}, "values": {"bufferView": 2}}},
          {"bufferView": 0, "byteOffset": 12, "componentType": 5126, "count": 3, "type": "VEC3"})",
-      R"("attributes": {"POSITION": 0, "NORMAL": 1})"));
+                R"("attributes": {"POSITION": 0, "NORMAL": 1})"));
   const Mesh& mesh = only_mesh(result);
   EXPECT_EQ(mesh.positions[1].x, 5);
   EXPECT_EQ(mesh.positions[2].y, 1);
@@ -118,8 +118,9 @@ TEST(GltfNode, is_translated_after_it_is_turned_after_it_is_scaled) {
 }
 
 TEST(GltfNode, has_its_matrix_by_columns_and_that_of_its_parents_before_it) {
-  const std::string json = triangle_json(R"("attributes": {"POSITION": 0}, "indices": 1)",
-                                         R"("children": [1], "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 7,8,9,1]}, {"mesh": 0,
+  const std::string json =
+      triangle_json(R"("attributes": {"POSITION": 0}, "indices": 1)",
+                    R"("children": [1], "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 7,8,9,1]}, {"mesh": 0,
                                             "translation": [1, 0, 0])");
   const ReadResult result = read_text(json);
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
@@ -154,10 +155,10 @@ TEST(GltfCamera, may_be_orthographic_with_half_its_height_in_the_screen_window) 
 }
 
 TEST(GltfCamera, is_chosen_by_name_or_number) {
-  const std::string json = triangle_json(
-      R"("attributes": {"POSITION": 0}, "indices": 1)",
-      R"("mesh": 0, "children": [1, 2]}, {"camera": 1, "name": "far"}, {"camera": 0)",
-      R"(, "cameras": [{"type": "perspective", "name": "near", "perspective": {"yfov": 1}},
+  const std::string json =
+      triangle_json(R"("attributes": {"POSITION": 0}, "indices": 1)",
+                    R"("mesh": 0, "children": [1, 2]}, {"camera": 1, "name": "far"}, {"camera": 0)",
+                    R"(, "cameras": [{"type": "perspective", "name": "near", "perspective": {"yfov": 1}},
                        {"type": "perspective", "perspective": {"yfov": 0.5}}])");
   const auto fov = [&](const std::optional<std::string>& choice) {
     ReadOptions options;

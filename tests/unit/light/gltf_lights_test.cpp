@@ -1,6 +1,7 @@
 // What lights take beyond pbrt's parameters: the squared edge of a spot, and images by longitude and latitude.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,13 +33,14 @@ TEST(SpotEdge, keeps_its_share_of_the_sphere) {
   }
 }
 
-// An image with one bright texel; the light from there, and nothing from elsewhere.
+// An image with a bright square of texels; the light from its middle, and nothing from elsewhere.
 TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   auto image = std::make_shared<LightImage>();
   image->width = 64, image->height = 32;
   image->texels.assign(64 * 32, gray(0.0f));
   // Azimuth (20.5 / 64) of a turn from +x toward +y, polar angle (9.5 / 32) of half a turn from +z.
-  image->texels[9 * 64 + 20] = gray(100.0f);
+  for (int y = 7; y <= 11; ++y)
+    for (int x = 18; x <= 22; ++x) image->texels[std::size_t(y * 64 + x)] = gray(100.0f);
   Entity light{"infinite", {}, {}};
   light.parameters.add({"filename", ParameterType::string, std::vector<std::string>{"sky"}, {}});
   light.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"latlong"}, {}});
@@ -54,6 +56,16 @@ TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   const auto radiance = [&](Vec3f d) { return lights.escaped<float>(0, {0, 0, 0}, {0, 0, 0}, d, true).radiance[0]; };
   EXPECT_NEAR(radiance(w), 100, 1);
   EXPECT_EQ(radiance(-w), 0);
+  // All of the light is there still.
+  double whole = 0, expected = 0;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double z = 1 - 2 * (i + 0.5) / n, r = std::sqrt(1 - z * z), phi = (j + 0.5) / n * 2 * std::numbers::pi;
+      whole += double(radiance({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)})) / (double(n) * n);
+    }
+  expected = 100 * 5.0 / 64 * 0.5 * (std::cos(7 * std::numbers::pi / 32) - std::cos(12 * std::numbers::pi / 32));
+  EXPECT_NEAR(whole, expected, 0.02 * expected);
   EXPECT_EQ(radiance({w.x, -w.y, w.z}), 0);
 }
 

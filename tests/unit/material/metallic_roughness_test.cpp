@@ -41,7 +41,8 @@ Parts appendix_b(const Parameters& p, Vec3f l, Vec3f v) {
   const auto fresnel = [&](double c) { return f0 + (f90 - f0) * std::pow(1 - c, 5); };
   const double pi_ = 3.14159265358979323846, a = p.roughness * p.roughness, a2 = a * a;
   const double d = a2 / (pi_ * std::pow(n_h * n_h * (a2 - 1) + 1, 2));
-  const double visibility = 0.5 / (n_l * std::sqrt(a2 + (1 - a2) * n_v * n_v) + n_v * std::sqrt(a2 + (1 - a2) * n_l * n_l));
+  const double visibility =
+      0.5 / (n_l * std::sqrt(a2 + (1 - a2) * n_v * n_v) + n_v * std::sqrt(a2 + (1 - a2) * n_l * n_l));
   const double lambert = p.base * (1 - p.metallic) / pi_ * n_l;
   return {lambert * (1 - fresnel(v_h)), lambert * (1 - fresnel(std::min({v_h, n_l, n_v}))),
           fresnel(v_h) * d * visibility * n_l};

@@ -296,7 +296,7 @@ TEST(TextureBuilder, builds_every_texture_of_the_table) {
   Picture picture;
   for (const EntitySpec& spec : texture_table())
     for (bool is_spectrum : {false, true}) {
-      bool noise = spec.name == "fbm" || spec.name == "wrinkled" || spec.name == "windy";
+      bool noise = spec.name == "fbm" || spec.name == "wrinkled" || spec.name == "windy" || spec.name == "threshold";
       if ((noise && is_spectrum) || (spec.name == "marble" && !is_spectrum)) continue;
       Bench b;
       b.builder.add("x", is_spectrum, entity(std::string(spec.name).c_str(), {text("filename", picture.name)}), {});
