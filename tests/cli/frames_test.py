@@ -5,7 +5,7 @@ import signal
 import time
 import unittest
 
-from program import ProgramTest, read_pfm
+from program import ROOT, ProgramTest, read_pfm
 
 # A black square comes in from the left over a sky of radiance 1: at time t of 0 to 2 it hides t / 2 of the picture.
 SCENE = """
@@ -190,6 +190,63 @@ class Frames(ProgramTest):
         result = self.run_program("render", "still.pbrt", "--resolution", "8x8", "--spp", "1", "--frames", "0:1")
         self.assertIn("nothing moves", result.stderr)
         self.assertTrue((self.folder / "still.0001.exr").is_file())
+
+    def test_a_gltf_animation_is_rendered_at_its_own_rate_or_in_parts(self):
+        clockwork = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
+
+        def told(*arguments):
+            result = self.run_program("render", clockwork, "--resolution", "32x18", "--json", "--no-progress", *arguments)
+            return [json.loads(line) for line in result.stdout.splitlines()], result.stderr
+
+        def still(time, seed):
+            return json.loads(self.run_program(
+                "render", clockwork, "--resolution", "32x18", "--json", "--no-progress", "--quiet", "--spp", "4",
+                "--shutter", f"{time}:{time}", "--seed", seed, "-o", "still.pfm").stdout)
+
+        frames, _ = told("--frames", "11:13", "--spp", "4", "-o", "a.#.pfm")
+        self.assertEqual([f["shutter"] for f in frames], [[n / 24, n / 24] for n in (11, 12, 13)])
+        parts, _ = told("--frames", "1:2/4", "--spp", "4", "-o", "b.#.pfm")
+        self.assertEqual([f["shutter"] for f in parts], [[0.5, 0.5], [1, 1]])
+        # A frame is the still picture of its moment, however the scene came to it.
+        for frame in frames + parts:
+            alone = still(frame["shutter"][0], frame["seed"])
+            for a, b in zip(frame["mean"], alone["mean"], strict=True):
+                self.assertAlmostEqual(a, b, delta=2e-3 * b)
+        other = still(0.9, frames[0]["seed"])
+        self.assertGreater(abs(other["mean"][1] - frames[0]["mean"][1]), 2e-3 * other["mean"][1])
+        # More frames than a scene has moments for are loaded part by part.
+        many, notes = told("--frames", "0:129", "--fps", "65", "--spp", "1", "-o", "c.#.pfm")
+        self.assertEqual(len(many), 130)
+        self.assertIn("frames from 127 on", notes)
+        late, _ = told("--frames", "128:129", "--fps", "65", "--spp", "1", "-o", "d.#.pfm")
+        for a, b in zip(many[128]["mean"], late[0]["mean"], strict=True):
+            self.assertAlmostEqual(a, b, delta=2e-3 * b)
+
+    def test_a_gltf_animation_carries_histories_and_blurs(self):
+        clockwork = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
+
+        def told(*arguments):
+            result = self.run_program("render", clockwork, "--resolution", "32x18", "--json", "--no-progress", "--frames",
+                                      "6:8", *arguments)
+            return [json.loads(line) for line in result.stdout.splitlines()]
+
+        for shutter in [], ["--shutter", "0:0.03"]:
+            reused = told(*shutter, "--integrator", "restir-di:chain=2,candidates=2", "--spp", "32", "-o", "a.#.pfm")
+            paths = told(*shutter, "--integrator", "path", "--spp", "128", "-o", "b.#.pfm")
+            for one, other in zip(reused, paths, strict=True):
+                self.assertGreater(one["history_bytes"], 0)
+                self.assertAlmostEqual(one["shutter"][1] - one["shutter"][0], 0.03 if shutter else 0)
+                error = math.hypot(one["standard_error"][1], other["standard_error"][1])
+                self.assertAlmostEqual(one["mean"][1], other["mean"][1], delta=5 * error)
+
+    def test_what_a_gltf_scene_does_not_have_is_named(self):
+        clockwork = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
+        for arguments, word in [(["--animation", "tock"], "did you mean 'tick'"), (["--camera", "4"], "no camera '4'"),
+                                (["--shutter", "2:1"], "OPEN:CLOSE"),
+                                (["--frames", "0:1", "--shutter", "0:2", "--fps", "0.1"], "too fast")]:
+            with self.subTest(arguments=arguments):
+                result = self.run_program("render", clockwork, *arguments, "-o", "a.#.exr", status=2)
+                self.assertIn(word, result.stderr)
 
 
 if __name__ == "__main__":

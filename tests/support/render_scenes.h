@@ -36,8 +36,9 @@ inline std::string replaced(std::string text, const std::string& old, const std:
 class TestScene {
  public:
   explicit TestScene(std::string_view text, const std::string& folder = ".",
-                     std::optional<std::pair<int, int>> resolution = {}) {
-    ReadResult read = read_pbrt_text(text, folder);
+                     std::optional<std::pair<int, int>> resolution = {})
+      : TestScene(read_pbrt_text(text, folder), resolution) {}
+  explicit TestScene(ReadResult read, std::optional<std::pair<int, int>> resolution = {}) {
     if (read.scene) prepared_ = prepare(*read.scene, {resolution}, read.diagnostics);
     if (!prepared_ || read.diagnostics.has_errors()) {
       std::string all;

@@ -70,7 +70,7 @@ class TreeBuilder {
   bool start_object(std::size_t) { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t) { return open(JsonValue::Kind::list); }
   bool key(std::string& name) {
-    open_.back()->members.emplace_back(std::move(name), JsonValue{});
+    open_.back()->members.push_back({std::move(name), {}});
     return true;
   }
   bool end_object() { return close(); }
@@ -103,7 +103,7 @@ class TreeBuilder {
   JsonValue& slot() {
     if (open_.empty()) return root;
     JsonValue& parent = *open_.back();
-    if (parent.kind == JsonValue::Kind::object) return parent.members.back().second;
+    if (parent.kind == JsonValue::Kind::object) return parent.members.back().value;
     return parent.items.emplace_back();
   }
   bool put(JsonValue value) {

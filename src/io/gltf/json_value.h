@@ -2,12 +2,14 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "math/result.h"
 
 namespace montelux::gltf {
+
+struct JsonMember;
 
 struct JsonValue {
   enum class Kind { null, boolean, number, text, list, object };
@@ -15,12 +17,17 @@ struct JsonValue {
   bool boolean = false;
   double number = 0;
   std::string text;
-  std::vector<JsonValue> items;                            // of a list
-  std::vector<std::pair<std::string, JsonValue>> members;  // of an object, in the order of the file
-  int line = 0, column = 0;                                // from 1: where the value ends, or its list or object begins
+  std::vector<JsonValue> items;     // of a list
+  std::vector<JsonMember> members;  // of an object, in the order of the file
+  int line = 0, column = 0;         // from 1: where the value ends, or its list or object begins
 
   // Null where the object has no such member, or where this is no object.
   const JsonValue* find(std::string_view name) const;
+};
+
+struct JsonMember {
+  std::string name;
+  JsonValue value;
 };
 
 // What is wrong with a text that is no JSON, and where.

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 #include "gltf_files.h"
 #include "io/scene_file.h"
+#include "scene/prepare.h"
 
 namespace montelux {
 namespace {
@@ -298,6 +301,36 @@ TEST(GltfScene, names_files_with_escapes) {
                                          R"("buffers": [{"byteLength": 44, "uri": "a%20b.bin"}])");
   const ReadResult result = read_scene(folder.write("scene.gltf", json));
   EXPECT_EQ(only_mesh(result).positions[2].y, 3);
+}
+
+// The folder of development scenes; empty where there is none.
+std::filesystem::path scene_folder() {
+  if (const char* folder = std::getenv("MONTELUX_SCENES")) return folder;
+  for (const char* beside : {"/../shared/scenes", "/../../shared/scenes"})
+    if (std::filesystem::exists(MONTELUX_SOURCE_DIR + std::string(beside)))
+      return MONTELUX_SOURCE_DIR + std::string(beside);
+  return {};
+}
+
+TEST(GltfScene, of_other_makers_are_read_without_an_error) {
+  if (scene_folder().empty()) GTEST_SKIP() << "no folder of scenes: set MONTELUX_SCENES";
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scene_folder())) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".gltf" && ending != ".glb") continue;
+    ReadResult result = read_scene(entry.path().string());
+    ASSERT_TRUE(result.scene) << render(result.diagnostics);
+    // Images are decoded, too, those inside of the file among them.
+    EXPECT_TRUE(prepare(*result.scene, {}, result.diagnostics)) << render(result.diagnostics);
+    ++count;
+  }
+  EXPECT_GE(count, 11);
+}
+
+TEST(GltfScene, that_is_bundled_is_read_without_a_word) {
+  const ReadResult result = read_scene(MONTELUX_SOURCE_DIR "/scenes/clockwork/clockwork.gltf");
+  ASSERT_TRUE(result.scene);
+  EXPECT_TRUE(result.diagnostics.all().empty()) << render(result.diagnostics);
 }
 
 TEST(SceneFile, is_read_by_its_ending) {

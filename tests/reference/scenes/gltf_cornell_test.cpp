@@ -1,0 +1,60 @@
+// The Cornell box in glTF, its colours made grey, against another renderer's picture of the same box in its own format:
+// orientation, camera, units and emission of the glTF reader have to be right for that.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/gltf.h"
+#include "reference_scenes.h"
+
+namespace montelux::test {
+namespace {
+
+Parameter gray_parameter(const std::string& name, float value) {
+  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{gray(value), "srgb"}}, {}};
+}
+
+// As the grey twin has it: colours by their luminance, and emission in the same way.
+SceneDesc made_gray(SceneDesc scene) {
+  for (MaterialDesc& m : scene.materials)
+    if (auto c = m.entity.parameters.spectrum("reflectance"))
+      m.entity.parameters.add(gray_parameter("reflectance", luminance(std::get<RgbValue>(*c).rgb)));
+  for (ShapeDesc& shape : scene.shapes)
+    if (shape.area_light)
+      if (auto c = shape.area_light->parameters.spectrum("L"))
+        shape.area_light->parameters.add(gray_parameter("L", luminance(std::get<RgbValue>(*c).rgb)));
+  scene.filter.parameters.add({"sigma", ParameterType::number, std::vector<float>{0.5f}, {}});
+  scene.integrator.parameters.add({"maxdepth", ParameterType::integer, std::vector<int>{16}, {}});
+  return scene;
+}
+
+TEST(GltfCornellBox, agrees_with_the_reference_of_its_twin) {
+  for (const ReferenceScene& s : reference_scenes()) {
+    if (s.name != "cornell-box-gray") continue;
+    ReadResult read = read_gltf((s.scene.parent_path() / "cornell-box.gltf").string());
+    ASSERT_TRUE(read.scene);
+    read.scene = made_gray(*std::move(read.scene));
+    const TestScene scene(std::move(read), std::pair{128, 128});
+    constexpr int samples = 128;
+    const PassPlan plan{samples / reference_passes, reference_passes};
+    const GrayPicture ours = gray_picture(scene.render(PointSetKind::padded_sobol, plan, 2, Lanes::native, 0).film);
+    const GrayPicture reference = read_reference(s);
+    const Comparison c = compare(ours, reference);
+    std::printf("%s\n%s\n", table_head, table_row("cornell-box.gltf", c, samples, reference_level).c_str());
+    EXPECT_TRUE(c.agrees(reference_level));
+    EXPECT_LE(c.relative_error(), 0.003);
+
+    // Mirrored, or with its lamp 3 % too bright, it must not agree.
+    GrayPicture mirrored = ours;
+    for (int y = 0; y < ours.height; ++y)
+      std::reverse(mirrored.mean.begin() + y * ours.width, mirrored.mean.begin() + (y + 1) * ours.width);
+    EXPECT_FALSE(compare(mirrored, reference).agrees(reference_level));
+    EXPECT_FALSE(compare(scaled(ours, 1.03, 0, 0, ours.width, ours.height), reference).agrees(reference_level));
+    return;
+  }
+  ASSERT_FALSE(reference_folder());
+  GTEST_SKIP() << "no folder of reference scenes: set MONTELUX_SCENES";
+}
+
+}  // namespace
+}  // namespace montelux::test
