@@ -13,7 +13,7 @@ namespace {
 // Chains as long as they are by default. An image gives one interval of its mean and many of its pixels: small images
 // serve the former.
 constexpr PassPlan plan{16, 8};
-constexpr int seeds = 100, seeds_of_small_images = 400, last_picture = 2;
+constexpr int seeds = 200, seeds_of_small_images = 800, last_picture = 2;
 constexpr double low = 0.93, high = 0.97, ratio_low = 0.9, ratio_high = 1.1;
 constexpr double family = 0.01;
 
