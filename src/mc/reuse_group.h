@@ -7,10 +7,9 @@
 namespace montelux {
 
 // What a group asks of its domains:
-//   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)   of a sample of domain `from`, in domain `to`;
-//   may
-//                                                                       say more. From a domain to itself it is the
-//                                                                       sample, and nothing needs to be asked anew.
+//   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)
+//       of a sample of domain `from`, in domain `to`; may be of a type that says more. From a domain to itself it is
+//       the sample, and nothing needs to be asked anew.
 // The maps must compose: what leads from i to k leads there over j, too, wherever there is an image in j.
 template <class D, class T, class F>
 concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> on) {

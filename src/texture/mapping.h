@@ -12,17 +12,21 @@ namespace montelux {
 // Scaled and shifted surface parameters.
 struct UvMapping {
   Vec2f scale{1, 1}, delta{0, 0};
-  Vec2f operator()(const TexturePoint& point) const {
-    return {scale.x * point.uv.x + delta.x, scale.y * point.uv.y + delta.y};
+  template <class F>
+  Vec2<F> map(const Vec2<F>& uv) const {
+    return {scale.x * uv.x + delta.x, scale.y * uv.y + delta.y};
   }
+  Vec2f operator()(const TexturePoint& point) const { return map(point.uv); }
 };
 
 // Any affine map of the surface parameters, by the rows of its matrix.
 struct AffineUvMapping {
   std::array<float, 6> m{1, 0, 0, 0, 1, 0};
-  Vec2f operator()(const TexturePoint& point) const {
-    return {m[0] * point.uv.x + m[1] * point.uv.y + m[2], m[3] * point.uv.x + m[4] * point.uv.y + m[5]};
+  template <class F>
+  Vec2<F> map(const Vec2<F>& uv) const {
+    return {m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
   }
+  Vec2f operator()(const TexturePoint& point) const { return map(point.uv); }
 };
 
 // s: the polar angle from +z over pi; t: the azimuth over 2 pi; of the point in texture space.
@@ -42,10 +46,12 @@ struct PlanarMapping {
   Transform world_to_texture;
   Vec3f s_axis{1, 0, 0}, t_axis{0, 1, 0};
   Vec2f delta{0, 0};
-  Vec2f operator()(const TexturePoint& point) const {
-    Vec3f p = world_to_texture.point(point.p);
-    return {delta.x + dot(p, s_axis), delta.y + dot(p, t_axis)};
+  template <class F>
+  Vec2<F> map(const Vec3<F>& world) const {
+    const Vec3<F> p = world_to_texture.point(world);
+    return {delta.x + dot(p, splat<F>(s_axis)), delta.y + dot(p, splat<F>(t_axis))};
   }
+  Vec2f operator()(const TexturePoint& point) const { return map(point.p); }
 };
 
 using Mapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping, AffineUvMapping>;

@@ -13,16 +13,9 @@ TexturePoint point_of(const Points& points, int k) {
 }
 
 Vec2<F> map_points(const Mapping& mapping, const Points& at, Mask<F> on) {
-  if (const auto* uv = std::get_if<UvMapping>(&mapping))
-    return {uv->scale.x * at.uv.x + uv->delta.x, uv->scale.y * at.uv.y + uv->delta.y};
-  if (const auto* affine = std::get_if<AffineUvMapping>(&mapping)) {
-    const auto& m = affine->m;
-    return {m[0] * at.uv.x + m[1] * at.uv.y + m[2], m[3] * at.uv.x + m[4] * at.uv.y + m[5]};
-  }
-  if (const auto* plane = std::get_if<PlanarMapping>(&mapping)) {
-    const Vec3<F> p = plane->world_to_texture.point(at.p);
-    return {plane->delta.x + dot(p, splat<F>(plane->s_axis)), plane->delta.y + dot(p, splat<F>(plane->t_axis))};
-  }
+  if (const auto* uv = std::get_if<UvMapping>(&mapping)) return uv->map(at.uv);
+  if (const auto* affine = std::get_if<AffineUvMapping>(&mapping)) return affine->map(at.uv);
+  if (const auto* plane = std::get_if<PlanarMapping>(&mapping)) return plane->map(at.p);
   Vec2<F> st{F(0.0f), F(0.0f)};
   for_each_lane(on, [&](int k) {
     const TexturePoint point = point_of(at, k);

@@ -66,9 +66,7 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
       {"weights",
        {string},
-       "how reservoirs share; naive is biased; default pairwise without groups, generalised in them, where the others "
-       "need "
-       "groups=off",
+       "how reservoirs share; naive is biased; default pairwise; in groups always generalised",
        0,
        0,
        {"naive", "unbiased", "pairwise", "generalised"}},

@@ -7,24 +7,12 @@
 
 #include "noise.h"
 #include "statistics.h"
+#include "work_clock.h"
 
 namespace montelux::lab {
 namespace {
 
 using namespace montelux::test;
-
-// The time that all work of a contest has taken, by its own account: nobody waits, and the machine's load plays no
-// part.
-class WorkClock {
- public:
-  void pass(double seconds) { seconds_ += seconds; }
-  SecondsClock clock() const {
-    return [this] { return seconds_.load(); };
-  }
-
- private:
-  std::atomic<double> seconds_{0};
-};
 
 // Every sample is `mean` plus noise of standard deviation `sigma`, uniform in distribution, and takes so many
 // nanoseconds of the clock, if there is one. `together`: all pixels have the same noise. Two of the same `first`

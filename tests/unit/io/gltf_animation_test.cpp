@@ -239,9 +239,9 @@ TEST(GltfAnimation, of_morph_targets_makes_poses_of_the_mesh) {
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
   const Mesh& mesh = *result.scene->shapes.at(0).mesh;
   ASSERT_EQ(mesh.later.size(), 4u);
-  EXPECT_NEAR(mesh.positions[2].y, 3, 1e-6);
-  EXPECT_NEAR(mesh.positions[2].z, 7, 1e-6);  // in the world
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(mesh.later[k].positions[2].y, 3 + 0.25 * double(k + 1), 1e-6);
+  EXPECT_FLOAT_EQ(mesh.positions[2].y, 3);
+  EXPECT_FLOAT_EQ(mesh.positions[2].z, 7);  // in the world
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_FLOAT_EQ(mesh.later[k].positions[2].y, 3 + 0.25f * float(k + 1));
 }
 
 TEST(GltfAnimation, of_joints_moves_vertices_by_their_weights) {

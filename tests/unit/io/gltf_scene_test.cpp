@@ -168,12 +168,12 @@ TEST(GltfCamera, is_chosen_by_name_or_number) {
     options.camera = choice;
     const ReadResult result = read_text(json, options);
     EXPECT_TRUE(result.scene) << render(result.diagnostics);
-    return result.scene ? double(result.scene->camera.parameters.number("fov", 0)) * std::numbers::pi / 180 : 0;
+    return result.scene ? float(result.scene->camera.parameters.number("fov", 0)) * std::numbers::pi_v<float> / 180 : 0;
   };
-  EXPECT_NEAR(fov(std::nullopt), 0.5, 1e-5);  // the first of the scene
-  EXPECT_NEAR(fov("far"), 0.5, 1e-5);
-  EXPECT_NEAR(fov("near"), 1, 1e-5);
-  EXPECT_NEAR(fov("0"), 1, 1e-5);
+  EXPECT_FLOAT_EQ(fov(std::nullopt), 0.5f);  // the first of the scene
+  EXPECT_FLOAT_EQ(fov("far"), 0.5f);
+  EXPECT_FLOAT_EQ(fov("near"), 1);
+  EXPECT_FLOAT_EQ(fov("0"), 1);
   ReadOptions options;
   options.camera = "neer";
   const ReadResult wrong = read_text(json, options);
@@ -218,9 +218,9 @@ TEST(GltfLight, has_its_intensity_color_and_cone) {
   const auto emission = std::get<RgbValue>(*spot.entity.parameters.spectrum("I")).rgb;
   EXPECT_EQ(emission[0], 8);
   EXPECT_EQ(emission[2], 2);
-  const double degrees = 180 / std::numbers::pi;
-  EXPECT_NEAR(spot.entity.parameters.number("coneangle", 0), 0.3 * degrees, 1e-4);
-  EXPECT_NEAR(spot.entity.parameters.number("conedeltaangle", 0), 0.2 * degrees, 1e-4);
+  const float degrees = 180 / std::numbers::pi_v<float>;
+  EXPECT_FLOAT_EQ(spot.entity.parameters.number("coneangle", 0), 0.3f * degrees);
+  EXPECT_FLOAT_EQ(spot.entity.parameters.number("conedeltaangle", 0), 0.2f * degrees);
   // Turned a quarter about x, -z becomes -y.
   EXPECT_EQ(sun.entity.type, "distant");
   expect_point(sun.light_to_world.direction(sun.entity.parameters.vec3("to", {})), 0, -1, 0);

@@ -1,24 +1,13 @@
 // The time of frames that are not shown, by a clock that the work itself moves on: all seconds are exact.
 #include <gtest/gtest.h>
 
-#include <atomic>
-
 #include "render/render.h"
+#include "work_clock.h"
 
 namespace montelux {
 namespace {
 
-// Seconds that work takes by its own account, all of them sums of powers of two.
-class WorkClock {
- public:
-  void pass(double seconds) { seconds_ += seconds; }
-  SecondsClock clock() const {
-    return [this] { return seconds_.load(); };
-  }
-
- private:
-  std::atomic<double> seconds_{0};
-};
+using test::WorkClock;
 
 constexpr PixelBounds bounds{0, 0, 40, 24};
 constexpr int tiles = 3 * 2, warm_up = 3, stages = 2;
