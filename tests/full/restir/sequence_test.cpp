@@ -54,7 +54,7 @@ TEST_P(SequenceWithHistory, has_the_mean_of_the_path_tracer) {
   for (const SequenceCase& each : cases()) ways += each.ways.size();
   const TestScene scene(sequence_scene(size, c.box_moves, c.max_depth));
   const std::vector<PassMeans> truth = measured_well(scene, scene.integrator("path"), {64, 48, 500});
-  std::uint32_t seed = 1;
+  std::uint32_t seed = 100;
   for (const char* way : c.ways) {
     const std::vector<PassMeans> reuse = measured_well(scene, scene.integrator(way), {4, 96, seed += 10});
     const SequenceVerdict v = compare_sequence(reuse, truth, sidak_level(level, double(ways)));
