@@ -1,5 +1,8 @@
 #include "accel/callbacks.h"
 
+#include <array>
+#include <cmath>
+
 namespace montelux {
 
 namespace {
@@ -37,13 +40,34 @@ void shape_bounds(const RTCBoundsFunctionArguments* a) {
   a->bounds_o->upper_x = b.high.x, a->bounds_o->upper_y = b.high.y, a->bounds_o->upper_z = b.high.z;
 }
 
+// Which of the kernel's rays come into the ball around a shape before they end: by far not all that come into its box,
+// not least those that end on it. Rounding only ever says yes.
+std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
+  constexpr unsigned most = 16;
+  std::array<std::int32_t, most> into{};
+  for (unsigned i = 0; i < n; ++i) {
+    const Vec3f o =
+        Vec3f{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)} - ball.centre;
+    const Vec3f d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+    const float squared = dot(d, d), nearest = -dot(o, d) / squared, end = RTCRayN_tfar(rays, n, i);
+    const float t = nearest < 0.0f ? 0.0f : nearest < end ? nearest : end;
+    const Vec3f p = o + d * t;
+    const float reach = ball.radius + 0x1p-19f * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z));
+    into[i] = !(squared > 1e-30f && dot(p, p) > reach * reach);
+  }
+  std::uint32_t bits = 0;
+  for (unsigned i = 0; i < n; ++i) bits |= std::uint32_t(into[i]) << i;
+  return bits;
+}
+
 void intersect_shape(const RTCIntersectFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
   RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
   RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
+  const std::uint32_t near = rays_into(context.ball, rays, a->N);
   for (unsigned i = 0; i < a->N; ++i) {
-    if (a->valid[i] == 0) continue;
+    if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
     Ray<float> ray = ray_of(rays, a->N, i);
     auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
     if (!found) continue;
@@ -61,8 +85,9 @@ void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
   if (row.flags & GeometryRow::invisible_to_shadow_rays) return;
+  const std::uint32_t near = rays_into(context.ball, a->ray, a->N);
   for (unsigned i = 0; i < a->N; ++i) {
-    if (a->valid[i] == 0) continue;
+    if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
     Ray<float> ray = ray_of(a->ray, a->N, i);
     auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
     if (!found) continue;
@@ -122,6 +147,7 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
       break;
     case GeometryKind::shape:
       geometry = make_shape(device);
+      context->ball = ball_around(store.shapes[row.first]);
       break;
     case GeometryKind::curves:
       geometry = make_curves(device, store.curves[row.first]);

@@ -10,6 +10,7 @@ struct GeometryContext {
   const GeometryStore* store;
   std::uint32_t row;
   const AlphaTest* alpha;
+  Ball ball;  // around a shape
 };
 
 // A kernel geometry for one row, with its buffers shared with the store; not committed.

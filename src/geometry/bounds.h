@@ -23,4 +23,10 @@ struct Bounds3 {
 inline Bounds3 join(const Bounds3& a, const Bounds3& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
 inline Bounds3 join(const Bounds3& a, Vec3f p) { return {min(a.low, p), max(a.high, p)}; }
 
+// The closed ball of that radius about the centre.
+struct Ball {
+  Vec3f centre{0, 0, 0};
+  float radius = 0;
+};
+
 }  // namespace montelux

@@ -200,6 +200,18 @@ Bounds3 bounds(const Sphere& s) { return round_bounds(s.object_to_world, s.radiu
 Bounds3 bounds(const Disk& s) { return round_bounds(s.object_to_world, s.radius, s.height, s.height, false); }
 Bounds3 bounds(const Cylinder& s) { return round_bounds(s.object_to_world, s.radius, s.z_min, s.z_max, false); }
 
+Ball ball_around(const Sphere& s) {
+  const auto& a = s.object_to_world.matrix().m;
+  const auto column = [&](int j) { return Vec3d{a[0][j], a[1][j], a[2][j]}; };
+  const Vec3d x = column(0), y = column(1), z = column(2), centre = column(3);
+  const double longest = std::max({norm(x), norm(y), norm(z)});
+  // |M v| <= |v| sqrt(longest^2 + the sum of the products of different columns), by Gershgorin's circles of M^T M.
+  const double off = std::max({std::abs(dot(x, y)) + std::abs(dot(x, z)), std::abs(dot(x, y)) + std::abs(dot(y, z)),
+                               std::abs(dot(x, z)) + std::abs(dot(y, z))});
+  const double radius = s.radius * std::sqrt(longest * longest + off);
+  return {to_float(centre), float(radius * (1 + 0x1p-20) + norm(centre) * 0x1p-22)};
+}
+
 std::optional<ShapeHit> intersect(const Sphere& s, const Ray<float>& ray, float t_min) {
   ObjectRay r = object_ray(s, ray);
   auto roots = solve_round(r.o, r.d, s.radius);

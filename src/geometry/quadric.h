@@ -41,6 +41,9 @@ Bounds3 bounds(const Sphere& s);
 Bounds3 bounds(const Disk& s);
 Bounds3 bounds(const Cylinder& s);
 
+// A ball in world space that holds the whole sphere, little wider than it if it stays round.
+Ball ball_around(const Sphere& s);
+
 // The nearest hit with t_min < t < ray.t_max of a ray in world space; ray.d need not be unit.
 std::optional<ShapeHit> intersect(const Sphere& s, const Ray<float>& ray, float t_min);
 std::optional<ShapeHit> intersect(const Disk& s, const Ray<float>& ray, float t_min);

@@ -5,6 +5,12 @@ namespace montelux {
 Bounds3 bounds(const Shape& s) {
   return std::visit([](const auto& x) { return bounds(x); }, s);
 }
+Ball ball_around(const Shape& s) {
+  if (const auto* sphere = std::get_if<Sphere>(&s)) return ball_around(*sphere);
+  const Bounds3 box = bounds(s);
+  const Vec3f centre = (box.low + box.high) * 0.5f, reach = max(box.high - centre, centre - box.low);
+  return {centre, length(reach) * (1 + 0x1p-20f)};
+}
 std::optional<ShapeHit> intersect(const Shape& s, const Ray<float>& ray, float t_min) {
   return std::visit([&](const auto& x) { return intersect(x, ray, t_min); }, s);
 }

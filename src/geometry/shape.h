@@ -11,6 +11,8 @@ namespace montelux {
 using Shape = std::variant<Sphere, Disk, Cylinder, BilinearPatch>;
 
 Bounds3 bounds(const Shape& s);
+// A ball in world space that holds the shape: little wider than a sphere that stays round.
+Ball ball_around(const Shape& s);
 std::optional<ShapeHit> intersect(const Shape& s, const Ray<float>& ray, float t_min);
 // At the parameters of a ShapeHit.
 SurfacePoint<float> surface_point(const Shape& s, Vec2f uv);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <type_traits>
 
+#include "geometry_samples.h"
 #include "mc/random.h"
 
 namespace montelux {
@@ -68,8 +69,9 @@ std::vector<Answer> ask(const Accel& accel, const std::vector<Ray<float>>& rays)
       ++next;
     }
     Mask<F> on = bits != Uint<F>(0u);
-    Accel::Trace<F> trace = accel.trace<F>(pack, on, next % 2 == 0 ? Coherence::coherent : Coherence::none);
-    Mask<F> occluded = accel.occluded<F>(pack, on);
+    const Coherence coherence = next % 2 == 0 ? Coherence::coherent : Coherence::none;
+    Accel::Trace<F> trace = accel.trace<F>(pack, on, coherence);
+    Mask<F> occluded = accel.occluded<F>(pack, on, coherence);
     for (int k = 0; k < lanes_of<F>; ++k) {
       Hit<float> hit{lane(trace.hit.t, k),        lane(trace.hit.u, k),         lane(trace.hit.v, k),
                      lane(trace.hit.geometry, k), lane(trace.hit.primitive, k), lane(trace.hit.instance, k)};
@@ -238,6 +240,37 @@ TYPED_TEST(AccelFor, a_hit_names_its_row_primitive_and_instance) {
     EXPECT_EQ(answers[i].hit.instance, cases[i].instance) << i;
   }
   EXPECT_FALSE(answers.back().found || answers.back().occluded);
+}
+
+// Rays that begin near and far, outside of it and within, and end far before the shape, just before it, behind it.
+TYPED_TEST(AccelFor, a_shape_is_met_by_the_rays_that_its_own_equation_says_and_no_others) {
+  for (const float scale : {1e-3f, 1.0f, 1e4f})
+    for (const test::NamedShape& k : test::shapes_at(scale)) {
+      StoreBuilder builder;
+      builder.shape(k.shape);
+      builder.end_of_world();
+      const Accel accel(builder.store, opaque);
+      RandomStream<float> random(11, 0);
+      std::vector<Ray<float>> rays;
+      for (int i = 0; i < 3000; ++i) {
+        const Vec3f target = surface_point(k.shape, random.next2()).p;
+        const float distance = k.size * (i % 3 == 0 ? 0.3f : i % 3 == 1 ? 3.0f : 100.0f);
+        const Vec3f from = target + test::random_direction(random) * distance;
+        const float ends[] = {0.5f, 1 - 1e-4f, 1 + 1e-4f, 1e30f};
+        const Vec3f past = test::random_direction(random) * (i % 5 == 0 ? k.size * random.next() : 0.0f);
+        rays.push_back({from, (target + past - from) / distance, distance * ends[std::size_t(random.next() * 4)]});
+      }
+      const std::vector<Answer> answers = ask<TypeParam>(accel, rays);
+      int met = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const bool meets = intersect(k.shape, rays[i], 0).has_value();
+        met += meets;
+        ASSERT_EQ(answers[i].found, meets) << k.name << " at scale " << scale << ", ray " << i;
+        ASSERT_EQ(answers[i].occluded, meets) << k.name << " at scale " << scale << ", ray " << i;
+      }
+      EXPECT_GT(met, 1000) << k.name;
+      EXPECT_LT(met, 2500) << k.name;
+    }
 }
 
 // The mask lets through where u > 1/2. For a disk u is the azimuth, so its half y < 0 is cut out.

@@ -79,9 +79,11 @@ TEST(Shape, no_hit_lies_outside_the_ray_and_every_hit_lies_in_the_bounds) {
   for (float s : {1e-4f, 1.0f, 1e6f})
     for (const NamedShape& k : shapes_at(s)) {
       Bounds3 box = bounds(k.shape);
+      const Ball ball = ball_around(k.shape);
       for (int i = 0; i < 1000; ++i) {
         SurfacePoint<float> q = surface_point(k.shape, r.next2());
         ASSERT_TRUE(box.contains(q.p)) << k.name;
+        ASSERT_LE(norm(to_double(q.p) - to_double(ball.centre)), ball.radius) << k.name;
         Ray<float> ray = ray_toward(q.p, k.size, r);
         auto hit = intersect(k.shape, ray, 0);
         if (!hit) continue;
@@ -94,6 +96,15 @@ TEST(Shape, no_hit_lies_outside_the_ray_and_every_hit_lies_in_the_bounds) {
         }
       }
     }
+}
+
+TEST(Shape, the_ball_around_a_sphere_that_stays_round_is_hardly_wider) {
+  for (const Transform& m : {translate(3, -2, 5), rotate(40, 1, 2, 3) * scale(0.1, -0.1, 0.1), translate(0, 1e3, 0)}) {
+    const Ball ball = ball_around(Sphere{m, false, 2, -2, 2, 360});
+    const double radius = norm(transform_direction(m.matrix(), {2, 0, 0})), away = norm(to_double(ball.centre));
+    EXPECT_GT(ball.radius, radius);
+    EXPECT_LT(ball.radius, radius * (1 + 1e-5) + away * 1e-6);
+  }
 }
 
 TEST(Shape, hits_agree_with_a_dense_tessellation) {
