@@ -2,6 +2,8 @@
 // that n domains need n (n - 1) evaluations for balance weights over all of them, which n neighbourhoods of their own
 // would need n times over.
 #pragma once
+#include <memory>
+
 #include "mc/reuse.h"
 
 namespace montelux {
@@ -9,12 +11,24 @@ namespace montelux {
 // What a group asks of its domains:
 //   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)
 //       of a sample of domain `from`, in domain `to`; may be of a type that says more. From a domain to itself it is
-//       the sample, and nothing needs to be asked anew.
+//       the sample, and nothing needs to be asked anew;
+//   void images(int from, const T& value, std::span<const Mask<F>> on, std::span<Image> all)
+//       the same for all domains at once, if there is a faster way than one by one.
 // The maps must compose: what leads from i to k leads there over j, too, wherever there is an image in j.
 template <class D, class T, class F>
 concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> on) {
   { domains.image(0, 1, value, on) } -> std::convertible_to<Shifted<T, F>>;
 };
+
+// The images of a sample in all domains, where on[k].
+template <class T, class F, class Domains, class Image>
+void find_images(const Domains& domains, std::size_t from, const T& value, std::span<const Mask<F>> on,
+                 std::span<Image> images) {
+  if constexpr (requires { domains.images(int(from), value, on, images); })
+    domains.images(int(from), value, on, images);
+  else
+    for (std::size_t k = 0; k < images.size(); ++k) images[k] = domains.image(int(from), int(k), value, on[k]);
+}
 
 // One reservoir for each domain out of those of all, in their place; all get the confidence of all. Domains of
 // confidence 0 are not there. `stream` gives numbers from its start on.
@@ -34,6 +48,7 @@ void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, con
   const std::size_t n = group.size();
   std::vector<Choice> choices(n);
   std::vector<ImageOf> images(n);
+  const auto asked = std::make_unique<Mask<F>[]>(n);
   F all = 0.0f;
   for (std::size_t k = 0; k < n; ++k) choices[k].chosen.value = group[k].value, all = all + group[k].confidence;
   for (std::size_t i = 0; i < n; ++i) {
@@ -42,11 +57,11 @@ void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, con
     if (!any(live)) continue;
     const F own = sample.confidence * sample.target;
     F sum = own;
+    for (std::size_t k = 0; k < n; ++k) asked[k] = live & (group[k].confidence > F(0.0f));
+    find_images<T, F>(domains, i, sample.value, std::span<const Mask<F>>(asked.get(), n), std::span<ImageOf>(images));
     for (std::size_t k = 0; k < n; ++k) {
-      const Mask<F> there = live & (group[k].confidence > F(0.0f));
-      images[k] = domains.image(int(i), int(k), sample.value, there);
       if (k == i) images[k].target = sample.target, images[k].jacobian = F(1.0f);
-      images[k].target = select(there & (images[k].jacobian > F(0.0f)), images[k].target, F(0.0f));
+      images[k].target = select(asked[k] & (images[k].jacobian > F(0.0f)), images[k].target, F(0.0f));
       if (k != i)
         sum = sum +
               select(images[k].target > F(0.0f), group[k].confidence * images[k].target * images[k].jacobian, F(0.0f));

@@ -2,6 +2,9 @@
 // their own measure (area, direction, choice), which all surfaces share, so the Jacobian is 1 (Bitterli et al. 2020,
 // sec. 4; Lin et al. 2022, sec. 5: reconnection at the light).
 #pragma once
+#include <memory>
+
+#include "integrator/restir/side_by_side.h"
 #include "integrator/restir/vertex.h"
 
 namespace montelux {
@@ -31,6 +34,21 @@ struct LightPointDomains {
     const Connection<F> way =
         from == to ? connect(lights, vertices[std::size_t(to)], value, on) : seen_from(to, value, on);
     return {{value, F(1.0f), way.target}, way.value};
+  }
+  void images(int from, const LightPoint<F>& value, std::span<const Mask<F>> on,
+              std::span<ShiftedLight<F>> images) const {
+    std::vector<Ray<F>> ways(images.size());
+    const auto open = std::make_unique<Mask<F>[]>(images.size());
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      const Connection<F> way = connect(lights, vertices[k], value, on[k]);
+      images[k] = {{value, F(1.0f), way.target}, way.value};
+      open[k] = on[k] & (way.target > F(0.0f)) & Mask<F>(int(k) != from);
+      ways[k] = shadow_ray(vertices[k], way.wi, way.distance);
+    }
+    if (!sees) return;
+    keep_open<F>(rays, std::span<const Ray<F>>(ways), std::span<Mask<F>>(open.get(), images.size()), counts);
+    for (std::size_t k = 0; k < images.size(); ++k)
+      if (int(k) != from) images[k].target = select(open[k], images[k].target, F(0.0f));
   }
 
  private:

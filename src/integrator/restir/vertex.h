@@ -86,14 +86,18 @@ Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, cons
           scattered,     view.radiance};
 }
 
+template <class F>
+Ray<F> shadow_ray(const ReuseVertex<F>& vertex, const Vec3<F>& wi, F distance) {
+  return {offset_origin(vertex.p, vertex.p_error, vertex.ng, wi), wi, distance * (1.0f - shadow_shortening),
+          vertex.time};
+}
 // Where nothing is in the way, along the unit wi.
 template <class F, class Rays>
 Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Vec3<F>& wi, F distance, Mask<F> on,
                 RayCounts& counts) {
   if (!any(on)) return on;
   counts.shadow += std::uint64_t(count(on));
-  const Vec3<F> o = offset_origin(vertex.p, vertex.p_error, vertex.ng, wi);
-  return on & !rays.template occluded<F>({o, wi, distance * (1.0f - shadow_shortening), vertex.time}, on);
+  return on & !rays.template occluded<F>(shadow_ray(vertex, wi, distance), on);
 }
 template <class F, class Rays>
 Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection<F>& to, Mask<F> on,
