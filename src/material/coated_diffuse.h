@@ -24,7 +24,8 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>> {
   explicit CoatedDiffuse(const BsdfRows<F>& rows)
       : Layered<F, Diffuse<F>>(rows),
         reflectance_(rows.spectrum(CoatedDiffuseSlots::reflectance)),
-        internal_(rows.number(CoatedDiffuseSlots::internal)) {}
+        internal_(rows.number(CoatedDiffuseSlots::internal)),
+        reflections_(reflections()) {}
 
   BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
@@ -46,6 +47,7 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>> {
 
   Spectrum<F> reflectance_;
   F internal_;
+  Spectrum<F> reflections_;
 };
 
 template <class F>
@@ -88,7 +90,7 @@ Spectrum<F> CoatedDiffuse<F>::reflections() const {
   return per_component(
       [&](F r) {
         const F ratio = r * internal_;
-        return r * (F(1.0f) - pow(ratio, count)) / max(F(1.0f) - ratio, F(1e-6f));
+        return r * (F(1.0f) - whole_power(ratio, count)) / max(F(1.0f) - ratio, F(1e-6f));
       },
       reflectance_);
 }
@@ -96,7 +98,7 @@ Spectrum<F> CoatedDiffuse<F>::reflections() const {
 template <class F>
 F CoatedDiffuse<F>::coat_share(Vec3<F> o) const {
   const F reflected = fresnel_dielectric(o.z, coat_.eta());
-  const F base = (F(1.0f) - reflected) * (F(1.0f) - internal_) * max_component(reflections());
+  const F base = (F(1.0f) - reflected) * (F(1.0f) - internal_) * max_component(reflections_);
   return reflected / max(reflected + base, F(1e-30f));
 }
 
@@ -106,7 +108,7 @@ BsdfValue<F> CoatedDiffuse<F>::value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>&
   const WalkDraws<F> draws{context.random.fork(Uint<F>(std::uint32_t(purpose)))};
   const F in = passes(o, draws.pair(0), context.mode), out = passes(i, draws.pair(2), adjoint(context.mode));
   const F cosine = cosine_density(i), share = coat_share(o);
-  return {gray(coat.f_cos) + reflections() * (in * out * cosine), {lerp(share, cosine, coat.density)}};
+  return {gray(coat.f_cos) + reflections_ * (in * out * cosine), {lerp(share, cosine, coat.density)}};
 }
 
 template <class F>

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "math/functions.h"
 #include "math/transform.h"
 
@@ -29,6 +31,7 @@ TEST(Lanes, every_function_gives_one_lane_the_bits_of_a_float) {
   expect_same_bits_in_lane_and_float(1e-6f, 50, [](auto x) { return montelux::log(x); });
   expect_same_bits_in_lane_and_float(-1, 1, [](auto x) { return montelux::acos(x); });
   expect_same_bits_in_lane_and_float(-3, 3, [](auto x) { return montelux::atan2(x, x * x - 1.0f); });
+  expect_same_bits_in_lane_and_float(0, 40, [](auto x) { return whole_power(x * 0.03f, floor(x)); });
   expect_same_bits_in_lane_and_float(-3, 3, [](auto x) { return round(x) + floor(x) + abs(x); });
 }
 
@@ -45,6 +48,17 @@ TEST(Functions, agree_with_the_standard_library_within_their_stated_error) {
     EXPECT_NEAR(montelux::acos(c), std::acos(double(c)), 5e-7) << c;
     EXPECT_NEAR(montelux::atan2(c, 0.3f), std::atan2(double(c), double(0.3f)), 4e-7);
   }
+}
+
+TEST(Functions, a_whole_power_is_as_exact_as_its_products) {
+  for (int n = 0; n <= 200; ++n)
+    for (float x : {0.0f, 0.3f, 0.97f, 1.0f, -0.9f, 1.2f}) {
+      const double truth = std::pow(double(x), n);
+      if (truth != 0 && std::abs(truth) < 1e-37) continue;
+      // Of n factors each product is rounded once, and what is squared carries its error along.
+      EXPECT_NEAR(whole_power(x, float(n)), truth, std::abs(truth) * (n + 1) * 0x1p-24) << x << " to the " << n;
+    }
+  EXPECT_EQ(whole_power(1.0f, std::numeric_limits<float>::infinity()), 1.0f);  // and ends
 }
 
 TEST(Lanes, masks_round_trip_through_bits) {
