@@ -151,6 +151,10 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   return add(std::move(mix), name);
 }
 
+bool MaterialReader::repeats(const std::optional<TextureUse>& texture) {
+  return texture && (texture->wrap[0] != "clamp" || texture->wrap[1] != "clamp");
+}
+
 std::optional<Entity> MaterialReader::emission_of(const Factor& factor, double scale, const Element& where) {
   if (is_black(factor.value) || scale <= 0) return std::nullopt;
   Entity light{"diffuse", {}, where.where()};
@@ -199,6 +203,7 @@ MaterialUse MaterialReader::read_unlit(const Element& material) {
   use.id = add(std::move(black), material["name"].text().value_or(""));
   use.area_light = emission_of(base_color(material), 1, material);
   if (use.area_light) put_boolean(*use.area_light, "twosided", true);
+  use.repeats_emission = repeats(base_color(material).texture);
   use.alpha = alpha(material);
   return use;
 }
@@ -238,6 +243,7 @@ MaterialUse MaterialReader::read(const Element& material) {
     use.mirrored = add(std::move(mirrored), name.empty() ? "mirrored" : name + " mirrored");
   }
   use.area_light = emission(material);
+  use.repeats_emission = use.area_light && repeats(textures_.use(material["emissiveTexture"]));
   use.alpha = alpha(material);
   use.uv_set = uv_set_.value_or(0);
   return use;

@@ -10,6 +10,7 @@ struct MaterialUse {
   // Where a normal map lies on the surface as in a mirror: the same, with the map's green turned round.
   std::optional<MaterialDescId> mirrored;
   std::optional<Entity> area_light;
+  bool repeats_emission = false;   // its texture goes on beyond its edges, which that of an area light does not
   std::optional<Parameter> alpha;  // of the shapes
   int uv_set = 0;
 };
@@ -39,6 +40,7 @@ class MaterialReader {
   std::optional<Entity> emission(const Element& material);
   std::optional<Entity> emission_of(const Factor& factor, double scale, const Element& where);
   std::optional<Parameter> alpha(const Element& material);
+  static bool repeats(const std::optional<TextureUse>& texture);
   Factor base_color(const Element& material);
   double base_alpha(const Element& material) const;
   // Remembers which set of texture coordinates a material takes, and warns where textures differ.

@@ -139,10 +139,10 @@ class PrimitiveReader {
     read_uvs(attributes, traits, *mesh);
     check_colors(document_, attributes, positions->count);
     auto corners = corners_of(document_, element, mode, positions->count);
-    if (!corners) return {};
-    mesh->triangles = *std::move(corners);
     auto skin = read_skin(document_, attributes, positions->count);
     auto targets = read_targets(document_, element["targets"], positions->count);
+    if (!corners) return {};
+    mesh->triangles = *std::move(corners);
     // What has no area at rest may get some.
     if (!skin && targets.empty()) drop_degenerate_faces(*mesh);
     if (mesh->triangles.empty()) return {};

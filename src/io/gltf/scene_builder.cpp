@@ -67,10 +67,9 @@ void SceneBuilder::read_meshes() {
   }
 }
 
-bool SceneBuilder::must_stand(const Element& where, std::string_view what) {
+void SceneBuilder::report_moves(const Element& where, std::string_view what) {
   where.tolerable(std::string(what) + " moves; only cameras and surfaces that do not shine can",
                   document_.report().lenient() ? "it stays where it is at first" : "lenient reading leaves it there");
-  return true;
 }
 
 std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) {
@@ -124,6 +123,13 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   if (material.alpha) shape.entity.parameters.add(*material.alpha);
   shape.material = turned ? material.mirrored.value_or(material.id) : material.id;
   shape.area_light = material.area_light;
+  const auto& uvs = primitive.mesh->uvs;
+  // Of a texel's breadth beyond the edge nobody need be told.
+  const auto is_beyond = [](const Vec2f& uv) {
+    return std::min(uv.x, uv.y) < -1e-3f || std::max(uv.x, uv.y) > 1 + 1e-3f;
+  };
+  if (material.repeats_emission && std::any_of(uvs.begin(), uvs.end(), is_beyond))
+    primitive.where.warning("texture coordinates go beyond [0, 1], where a texture that shines is that of its edge");
   shape.mesh = primitive.mesh;
   return shape;
 }
@@ -173,7 +179,8 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
     changes = changes || !same(pose, {mesh->positions, mesh->normals});
     mesh->later.push_back(std::move(pose));
   }
-  if (!changes || (shines(primitive) && must_stand(n.element, "a surface that shines"))) mesh->later.clear();
+  if (changes && shines(primitive)) report_moves(n.element, "a surface that shines");
+  if (!changes || shines(primitive)) mesh->later.clear();
   drop_degenerate_faces(*mesh);
   if (mesh->triangles.empty()) return;
   const Transform placed(moments_.world.front()[node], Matrix4{});
@@ -206,8 +213,10 @@ void SceneBuilder::place_mesh(std::size_t node) {
     ShapeDesc shape = shape_of(primitive, placing->mirrored);
     shape.object_to_world = placing->first;
     shape.object_to_world_later = placing->later;
-    if (shines(primitive) && !placing->later.empty() && must_stand(n.element, "a surface that shines"))
+    if (shines(primitive) && !placing->later.empty()) {
+      report_moves(n.element, "a surface that shines");
       shape.object_to_world_later.clear();
+    }
     scene_.shapes.push_back(std::move(shape));
   }
 }
@@ -221,7 +230,7 @@ void SceneBuilder::place_lights() {
   for (std::size_t i : tree_.shown) {
     const Node& node = tree_.nodes[i];
     if (!node.light) continue;
-    if (moments_.moves(i)) must_stand(node.element, "a light");
+    if (moments_.moves(i)) report_moves(node.element, "a light");
     if (std::optional<LightDesc> light = light_of(document_, *node.light, moments_.world.front()[i]))
       scene_.lights.push_back(*std::move(light));
   }

@@ -36,8 +36,8 @@ class SceneBuilder {
   ShapeDesc shape_of(const Primitive& primitive, bool mirrored);
   const Skin* skin_of(const Node& node, const Primitive& primitive);
   const std::vector<double>& weights_of(std::size_t node, std::size_t moment);
-  // What shines must not move: an error, or it stays as it is at the first moment.
-  bool must_stand(const Element& where, std::string_view what);
+  // What shines must not move: an error, or (lenient reading) it stays as it is at the first moment.
+  void report_moves(const Element& where, std::string_view what);
   void place_lights();
   void place_camera();
   bool shines(const Primitive& primitive) { return materials_.use(primitive.material).area_light.has_value(); }

@@ -169,6 +169,26 @@ TEST(GltfErrors, that_lenient_reading_lets_pass_are_warnings) {
   EXPECT_NE(render(result.diagnostics).find("warning"), std::string::npos);
 }
 
+TEST(GltfErrors, of_a_shining_texture_that_is_repeated_are_warnings) {
+  const auto warns = [](const std::string& wrap) {
+    std::string json =
+        triangle_json(R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0)", R"("mesh": 0)",
+                      R"(, "images": [{"uri": "data:image/png;base64,AAAA"}], "samplers": [{"wrapS": )" + wrap +
+                          R"(, "wrapT": )" + wrap + R"(}], "textures": [{"source": 0, "sampler": 0}],
+            "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}])");
+    // Texture coordinates up to 2: the first six numbers of the positions.
+    const std::string last = R"("type": "SCALAR"}])";
+    json.replace(json.find(last), last.size(), R"("type": "SCALAR"},
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}])");
+    const ReadResult result = read_text(json);
+    EXPECT_TRUE(result.scene) << render(result.diagnostics);
+    return render(result.diagnostics).find("go beyond [0, 1]") != std::string::npos;
+  };
+  EXPECT_TRUE(warns("10497"));
+  EXPECT_TRUE(warns("33648"));
+  EXPECT_FALSE(warns("33071"));
+}
+
 TEST(GltfErrors, of_a_binary_file_are_found_before_its_parts_are_read) {
   TemporaryFolder folder;
   const std::string good = binary_file(
