@@ -39,6 +39,7 @@ REFERENCES = {
     "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,chain=16", 512),
     "building-5": Reference("building.pbrt", f"restir-pt:maxdepth=5,{LEARNS}", 96),
     "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,chain=16", 320),
+    "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,chain=16", 320),
     "glossy": Reference("glossy-indirect.pbrt", f"restir-pt:{LEARNS}", 512, options=["--resolution", "160x120"]),
     "ajar": Reference("veach-ajar.pbrt", f"restir-pt:{LEARNS}", 256, options=["--resolution", "320x180"]),
 }
@@ -58,6 +59,7 @@ PT_5, PT_5_ON = "restir-pt:maxdepth=5", "restir-pt:maxdepth=5,temporal=on"
 COMPARISONS = {
     "building-1-warm": warm("building-1", "path:maxdepth=1", f"{DI_1},{WARM}"),
     "terrace-1-warm": warm("terrace-1", "path:maxdepth=1", f"{DI_1},{WARM}"),
+    "gallery-1-warm": warm("gallery-1", "path:maxdepth=1", f"{DI_1},{WARM}"),
     "building-5-warm": warm("building-5", "path:maxdepth=5", f"{PT_5_ON},{WARM}", repeats=6),
     "building-5-warm-di": warm("building-5", "path:maxdepth=5", f"{DI_5},{WARM}", repeats=4),
     "glossy-warm": warm("glossy", "path", f"restir-pt:temporal=on,{WARM}"),
@@ -65,11 +67,13 @@ COMPARISONS = {
     "building-1-10s": progressive("building-1", 10, "path:maxdepth=1", DI_1),
     "building-5-10s": progressive("building-5", 10, "path:maxdepth=5", PT_5, f"{PT_5},{LEARNS}"),
     "terrace-1-10s": progressive("terrace-1", 10, "path:maxdepth=1", DI_1),
+    "gallery-1-10s": progressive("gallery-1", 10, "path:maxdepth=1", DI_1),
     "glossy-10s": progressive("glossy", 10, "path", "restir-gi", "restir-pt", f"restir-pt:{LEARNS}"),
     "ajar-10s": progressive("ajar", 10, "path", "restir-pt", f"restir-pt:{LEARNS}"),
     "building-5-60s": progressive("building-5", 60, "path:maxdepth=5", f"{PT_5},{LEARNS}"),
     "building-1-60s": progressive("building-1", 60, "path:maxdepth=1", DI_1),
     "terrace-1-60s": progressive("terrace-1", 60, "path:maxdepth=1", DI_1),
+    "gallery-1-60s": progressive("gallery-1", 60, "path:maxdepth=1", DI_1),
     "glossy-60s": progressive("glossy", 60, "path", f"restir-pt:{LEARNS}"),
 }
 

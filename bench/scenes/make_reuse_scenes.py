@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Two scenes with very many lights, for docs/reuse.md: the same bytes in every run.
+"""Scenes with many lights, for docs/reuse.md: the same bytes in every run.
 
 usage: make_reuse_scenes.py FOLDER
 
 building.pbrt four storeys with columns, screens and coffered ceilings, and 1280 lanterns of 8 triangles in the
               coffers: a place sees few of the 10,240 triangles, whose strengths go over two and a half decades
 terrace.pbrt  320 lamps (spheres and panels) in shades, between columns under a pergola, and a sky with a small sun
+gallery.pbrt  320 lamps (spheres and panels) in the coffers of a hall with 24 windows to that sky
 slats.pbrt    two lamps behind slats, small, for a map of the bias of naive weights
 sky.pfm       that sky, in equal-area octahedral coordinates
 """
@@ -214,6 +215,60 @@ def terrace(rng):
             + "".join(lamps))
 
 
+def gallery(rng):
+    floor, walls, cloth, metal = Mesh(), Mesh(), Mesh(), Mesh()
+    lamps = []
+    side, top, cells = 12.0, 5.7, 16
+    step, low = 2 * side / cells, top - 0.6
+    floor.polygon([(-30, 0, -30), (-30, 0, 30), (30, 0, 30), (30, 0, -30)])
+    walls.box((-side - 0.4, top, -side - 0.4), (side + 0.4, top + 0.3, side + 0.4))
+    for i in range(cells + 1):
+        c = -side + i * step
+        walls.box((c - 0.03, low, -side), (c + 0.03, top, side))
+        walls.box((-side, low, c - 0.03), (side, top, c + 0.03))
+    # Walls with six windows each: a sill, a lintel, piers.
+    for sign in (-1, 1):
+        inner, outer = sorted((sign * side, sign * (side + 0.4)))
+        for y0, y1 in (0, 0.9), (4.2, top):
+            walls.box((inner, y0, -side), (outer, y1, side))
+            walls.box((-side, y0, inner), (side, y1, outer))
+        for k in range(7):
+            c = -side + 4 * k
+            walls.box((inner, 0.9, c - 1.1), (outer, 4.2, c + 1.1))
+            walls.box((c - 1.1, 0.9, inner), (c + 1.1, 4.2, outer))
+    for x in (-6, 0, 6):
+        for z in (-6, 0, 6):
+            walls.box((x - 0.35, 0, z - 0.35), (x + 0.35, low, z + 0.35))
+    for _ in range(12):
+        x, z, w, h = rng.uniform(-9, 10), rng.uniform(-6, 11), rng.uniform(0.6, 1.6), rng.uniform(1.2, 2.6)
+        if rng.random() < 0.5:
+            cloth.box((x - w, 0, z - 0.04), (x + w, h, z + 0.04))
+        else:
+            cloth.box((x - 0.04, 0, z - w), (x + 0.04, h, z + w))
+    for _ in range(40):
+        x, z, r = rng.uniform(-10, 11), rng.uniform(-7, 11), rng.uniform(0.2, 0.6)
+        metal.octahedron((x, r, z), r)
+    for i in range(320):
+        x, z = (-side + (rng.randrange(cells) + rng.uniform(0.2, 0.8)) * step for _ in range(2))
+        y, light = top - rng.uniform(0.15, 0.4), radiance(rng, 2, 60)
+        if i % 2:
+            r = rng.uniform(0.02, 0.05)
+            lamps.append(lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, y, z, r)))
+        else:
+            s = rng.uniform(0.02, 0.06)
+            panel = Mesh()
+            panel.polygon([(x - s, y, z - s), (x + s, y, z - s), (x + s, y, z + s), (x - s, y, z + s)])
+            lamps.append(lamp(light, panel.text()))
+    # The picture has neither windows nor lamps in it: their edges are noise that no way to sample light changes.
+    return (head((-10, 4.3, -10.5), (1.5, -7, 2), 45)
+            + 'AttributeBegin\nRotate -90 1 0 0\nLightSource "infinite" "string filename" [ "sky.pfm" ]\nAttributeEnd\n'
+            + material('"coateddiffuse" "rgb reflectance" [ 0.4 0.38 0.35 ] "float roughness" [ 0.25 ]', floor)
+            + material('"diffuse" "rgb reflectance" [ 0.6 0.58 0.55 ]', walls)
+            + material('"diffuse" "rgb reflectance" [ 0.5 0.3 0.25 ]', cloth)
+            + material('"conductor" "float roughness" [ 0.25 ]', metal)
+            + "".join(lamps))
+
+
 def slats(_):
     grey, floor = Mesh(), Mesh()
     floor.polygon([(-3, 0, -3), (-3, 0, 3), (3, 0, 3), (3, 0, -3)])
@@ -232,7 +287,7 @@ def slats(_):
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    for name, make in ("building", building), ("terrace", terrace), ("slats", slats):
+    for name, make in ("building", building), ("terrace", terrace), ("gallery", gallery), ("slats", slats):
         with open(os.path.join(folder, name + ".pbrt"), "w") as f:
             f.write(make(random.Random(name)))
     write_sky(os.path.join(folder, "sky.pfm"))
