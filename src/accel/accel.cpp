@@ -44,20 +44,21 @@ Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence)
 }
 
 template <class F>
-Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
+Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> on) const {
   constexpr int n = lanes_of<F>;
   alignas(64) RTCRayNt<n> r;
   alignas(64) int valid[n];
   put_ray<F>(r, ray);
   store_lanes(valid, valid_lanes<F>(on));
-  Arguments arguments(coherence);
+  // Embree 3.13 does not come back from packets of shadow rays that are called coherent, where there are instances.
+  Arguments arguments(Coherence::none);
   if (n > 1 || any(on)) kernel_occluded<n>(valid, kernel_->world.get(), &r, arguments);
   return on & (load_lanes<F>(r.tfar) < F(0.0f));
 }
 
 template Accel::Trace<float> Accel::trace(const Ray<float>&, bool, Coherence) const;
-template bool Accel::occluded(const Ray<float>&, bool, Coherence) const;
+template bool Accel::occluded(const Ray<float>&, bool) const;
 template Accel::Trace<NativeFloats> Accel::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
-template Mask<NativeFloats> Accel::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Mask<NativeFloats> Accel::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
 
 }  // namespace montelux

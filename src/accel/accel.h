@@ -31,7 +31,7 @@ class Accel {
   Trace<F> trace(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
   // Whether anything lies in (0, t_max): yes only in lanes that are on.
   template <class F>
-  Mask<F> occluded(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
+  Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;
 
   // Memory that the kernel holds, in bytes.
   std::size_t memory() const;

@@ -37,7 +37,7 @@ struct Arguments {
   explicit Arguments(Coherence coherence) {
     rtcInitIntersectArguments(&intersect);
     rtcInitOccludedArguments(&occluded);
-    if (coherence == Coherence::coherent) intersect.flags = occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    if (coherence == Coherence::coherent) intersect.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   }
 };
 template <int N>

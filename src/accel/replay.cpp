@@ -67,9 +67,9 @@ Accel::Trace<F> RayRecorder::trace(const Ray<F>& ray, Mask<F> on, Coherence cohe
 }
 
 template <class F>
-Mask<F> RayRecorder::occluded(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
-  if (any(on)) packets_->add<F>(ray, on, true, coherence);
-  return accel_.occluded<F>(ray, on, coherence);
+Mask<F> RayRecorder::occluded(const Ray<F>& ray, Mask<F> on) const {
+  if (any(on)) packets_->add<F>(ray, on, true, Coherence::none);
+  return accel_.occluded<F>(ray, on);
 }
 
 RayRecorder::Replay RayRecorder::replay() const {
@@ -78,8 +78,8 @@ RayRecorder::Replay RayRecorder::replay() const {
 }
 
 template Accel::Trace<float> RayRecorder::trace(const Ray<float>&, bool, Coherence) const;
-template bool RayRecorder::occluded(const Ray<float>&, bool, Coherence) const;
+template bool RayRecorder::occluded(const Ray<float>&, bool) const;
 template Accel::Trace<NativeFloats> RayRecorder::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
-template Mask<NativeFloats> RayRecorder::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Mask<NativeFloats> RayRecorder::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
 
 }  // namespace montelux

@@ -16,7 +16,7 @@ class RayRecorder {
   template <class F>
   Accel::Trace<F> trace(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
   template <class F>
-  Mask<F> occluded(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
+  Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;
 
   struct Replay {
     std::size_t rays = 0;  // that were on

@@ -23,7 +23,7 @@ void keep_open(const Rays& rays, std::span<const Ray<F>> ways, std::span<Mask<F>
   std::vector<F> hidden(ways.size(), F(0.0f));
   const auto trace = [&] {
     const Mask<F> on = mask_of_bits<F>((1u << filled) - 1u);
-    for_each_lane(rays.template occluded<F>(pack, on, Coherence::coherent),
+    for_each_lane(rays.template occluded<F>(pack, on),
                   [&](int j) { set_lane(hidden[places[std::size_t(j)].i], places[std::size_t(j)].lane, 1.0f); });
     counts.shadow += filled;
     filled = 0;

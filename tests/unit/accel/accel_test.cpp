@@ -71,7 +71,7 @@ std::vector<Answer> ask(const Accel& accel, const std::vector<Ray<float>>& rays)
     Mask<F> on = bits != Uint<F>(0u);
     const Coherence coherence = next % 2 == 0 ? Coherence::coherent : Coherence::none;
     Accel::Trace<F> trace = accel.trace<F>(pack, on, coherence);
-    Mask<F> occluded = accel.occluded<F>(pack, on, coherence);
+    Mask<F> occluded = accel.occluded<F>(pack, on);
     for (int k = 0; k < lanes_of<F>; ++k) {
       Hit<float> hit{lane(trace.hit.t, k),        lane(trace.hit.u, k),         lane(trace.hit.v, k),
                      lane(trace.hit.geometry, k), lane(trace.hit.primitive, k), lane(trace.hit.instance, k)};

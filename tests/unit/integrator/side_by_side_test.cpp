@@ -16,7 +16,7 @@ struct NumberedRays {
   static float hash(float x) { return x * 0.6180339887f - std::floor(x * 0.6180339887f); }
 
   template <class F>
-  Mask<F> occluded(const Ray<F>& ray, Mask<F> on, Coherence) const {
+  Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const {
     packs->push_back(count(on));
     const F x = ray.o.x + ray.d.y * 10.0f + ray.t_max * 100.0f + ray.time * 1000.0f;
     Uint<F> hidden(0u);
@@ -41,7 +41,7 @@ void expect_the_same_answers(std::size_t count_of_packs) {
     }
     open[i] = on != Uint<F>(0u);
     asked += std::uint64_t(count(open[i]));
-    expected[i] = open[i] & !NumberedRays{&unused}.occluded<F>(ways[i], open[i], Coherence::none);
+    expected[i] = open[i] & !NumberedRays{&unused}.occluded<F>(ways[i], open[i]);
   }
   RayCounts counts;
   keep_open<F>(NumberedRays{&sizes}, std::span<const Ray<F>>(ways), std::span<Mask<F>>(open.get(), count_of_packs),
