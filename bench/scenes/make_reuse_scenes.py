@@ -76,12 +76,25 @@ WorldBegin
 """ % (" ".join("%g" % v for v in eye), " ".join("%g" % v for v in target), fov)
 
 
+SKY = 'AttributeBegin\nRotate -90 1 0 0\nLightSource "infinite" "string filename" [ "sky.pfm" ]\nAttributeEnd\n'
+
 COLOURS = [(1.0, 0.75, 0.45), (1.0, 0.5, 0.2), (1.0, 0.85, 0.7), (0.4, 0.65, 1.0), (1.0, 0.3, 0.35), (0.5, 1.0, 0.6)]
 
 
 def radiance(rng, decades, middle):
     strength = middle * 10 ** (decades * (rng.random() - 0.5))
     return [strength * c for c in rng.choice(COLOURS)]
+
+
+def ball_or_panel(rng, number, place, light):
+    x, y, z = place
+    if number % 2:
+        r = rng.uniform(0.02, 0.05)
+        return lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, y, z, r))
+    s = rng.uniform(0.02, 0.06)
+    panel = Mesh()
+    panel.polygon([(x - s, y, z - s), (x + s, y, z - s), (x + s, y, z + s), (x - s, y, z + s)])
+    return lamp(light, panel.text())
 
 
 def building(rng):
@@ -197,16 +210,9 @@ def terrace(rng):
             a = (x + sx * w - sz * w, z + sz * w + sx * w)
             b = (x + sx * w + sz * w, z + sz * w - sx * w)
             shades.polygon([(a[0], low, a[1]), (b[0], low, b[1]), (b[0], high, b[1]), (a[0], high, a[1])])
-        if i % 2:
-            r = rng.uniform(0.02, 0.05)
-            lamps.append(lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, y, z, r)))
-        else:
-            s = rng.uniform(0.02, 0.06)
-            panel = Mesh()
-            panel.polygon([(x - s, y, z - s), (x + s, y, z - s), (x + s, y, z + s), (x - s, y, z + s)])
-            lamps.append(lamp(light, panel.text()))
+        lamps.append(ball_or_panel(rng, i, (x, y, z), light))
     return (head((-8, 2.45, -3), (0.3, -1.75, 2.5), 45)
-            + 'AttributeBegin\nRotate -90 1 0 0\nLightSource "infinite" "string filename" [ "sky.pfm" ]\nAttributeEnd\n'
+            + SKY
             + material('"coateddiffuse" "rgb reflectance" [ 0.4 0.38 0.35 ] "float roughness" [ 0.25 ]', floor)
             + material('"diffuse" "rgb reflectance" [ 0.6 0.56 0.5 ]', walls)
             + material('"diffuse" "rgb reflectance" [ 0.35 0.22 0.14 ]', beams)
@@ -251,17 +257,10 @@ def gallery(rng):
     for i in range(320):
         x, z = (-side + (rng.randrange(cells) + rng.uniform(0.2, 0.8)) * step for _ in range(2))
         y, light = top - rng.uniform(0.15, 0.4), radiance(rng, 2, 60)
-        if i % 2:
-            r = rng.uniform(0.02, 0.05)
-            lamps.append(lamp(light, 'Translate %.4f %.4f %.4f\nShape "sphere" "float radius" [ %.4f ]\n' % (x, y, z, r)))
-        else:
-            s = rng.uniform(0.02, 0.06)
-            panel = Mesh()
-            panel.polygon([(x - s, y, z - s), (x + s, y, z - s), (x + s, y, z + s), (x - s, y, z + s)])
-            lamps.append(lamp(light, panel.text()))
+        lamps.append(ball_or_panel(rng, i, (x, y, z), light))
     # The picture has neither windows nor lamps in it: their edges are noise that no way to sample light changes.
     return (head((-10, 4.3, -10.5), (1.5, -7, 2), 45)
-            + 'AttributeBegin\nRotate -90 1 0 0\nLightSource "infinite" "string filename" [ "sky.pfm" ]\nAttributeEnd\n'
+            + SKY
             + material('"coateddiffuse" "rgb reflectance" [ 0.4 0.38 0.35 ] "float roughness" [ 0.25 ]', floor)
             + material('"diffuse" "rgb reflectance" [ 0.6 0.58 0.55 ]', walls)
             + material('"diffuse" "rgb reflectance" [ 0.5 0.3 0.25 ]', cloth)

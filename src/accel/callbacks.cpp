@@ -43,7 +43,7 @@ void shape_bounds(const RTCBoundsFunctionArguments* a) {
 // Which of the kernel's rays come into the ball around a shape before they end: by far not all that come into its box,
 // not least those that end on it. Rounding only ever says yes.
 std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
-  constexpr unsigned most = 16;
+  constexpr unsigned most = 16;  // rays of a packet, of any kernel
   std::array<std::int32_t, most> into{};
   for (unsigned i = 0; i < n; ++i) {
     const Vec3f o =
@@ -147,7 +147,6 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
       break;
     case GeometryKind::shape:
       geometry = make_shape(device);
-      context->ball = ball_around(store.shapes[row.first]);
       break;
     case GeometryKind::curves:
       geometry = make_curves(device, store.curves[row.first]);

@@ -70,7 +70,8 @@ struct Accel::Kernel {
 
   void attach(RTCScene scene, std::uint32_t row_number, std::uint32_t id) {
     const GeometryRow& row = store.rows[row_number];
-    contexts.push_back(std::make_unique<GeometryContext>(GeometryContext{&store, row_number, &alpha, {}}));
+    const Ball ball = row.kind == GeometryKind::shape ? ball_around(store.shapes[row.first]) : Ball{};
+    contexts.push_back(std::make_unique<GeometryContext>(GeometryContext{&store, row_number, &alpha, ball}));
     RTCGeometry geometry = make_geometry(device.get(), store, row, contexts.back().get());
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcCommitGeometry(geometry);

@@ -66,7 +66,7 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
       {"weights",
        {string},
-       "how reservoirs share; naive is biased; default pairwise; in groups always generalised",
+       "how reservoirs share without groups, which stating them turns off; naive is biased; default pairwise",
        0,
        0,
        {"naive", "unbiased", "pairwise", "generalised"}},
