@@ -242,6 +242,54 @@ TYPED_TEST(AccelFor, a_hit_names_its_row_primitive_and_instance) {
   EXPECT_FALSE(answers.back().found || answers.back().occluded);
 }
 
+// A crowd of copies of a tent and a ball, once as instances and once as rows of the world, and bundles of rays that
+// lead from neighbouring places to one point, as shadow rays do: both see the same.
+TYPED_TEST(AccelFor, bundles_of_rays_see_instances_as_they_see_what_stands_in_the_world) {
+  const Vec3f corners[] = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0.5f}, {0, 0, 1.5f}};
+  const int faces[][3] = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  RandomStream<float> random(13, 0);
+  std::vector<Transform> places;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3f at{20 * random.next(), 20 * random.next(), 20 * random.next()};
+    const Vec3f axis = test::random_direction(random);
+    places.push_back(translate(at.x, at.y, at.z) * rotate(360 * random.next(), axis.x, axis.y, axis.z));
+  }
+  StoreBuilder instanced, flat;
+  const auto add_copy = [&](StoreBuilder& to, const Transform& at) {
+    for (const auto& f : faces) to.triangle(at.point(corners[f[0]]), at.point(corners[f[1]]), at.point(corners[f[2]]));
+    return to.shape(Sphere{at * translate(0, 0, 2)});
+  };
+  for (const Transform& at : places) add_copy(flat, at);
+  flat.end_of_world();
+  instanced.end_of_world();
+  const std::uint32_t last = add_copy(instanced, Transform());
+  instanced.store.objects = {{0, last + 1}};
+  for (const Transform& at : places) instanced.store.instances.push_back({0, at});
+
+  std::vector<Ray<float>> rays;
+  for (int bundle = 0; bundle < 400; ++bundle) {
+    const Vec3f from{20 * random.next(), 20 * random.next(), 20 * random.next()};
+    const Vec3f to{20 * random.next(), 20 * random.next(), 20 * random.next()};
+    for (int i = 0; i < 16; ++i) {
+      const Vec3f o = from + 0.2f * test::random_direction(random);
+      rays.push_back({o, to - o, 0.999f});
+    }
+  }
+  const std::vector<Answer> a = ask<TypeParam>(Accel(instanced.store, opaque), rays);
+  const std::vector<Answer> b = ask<TypeParam>(Accel(flat.store, opaque), rays);
+  ASSERT_EQ(a.size(), rays.size());
+  int met = 0, apart = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(a[i].found, a[i].occluded) << i;
+    met += b[i].found;
+    apart += a[i].found != b[i].found || a[i].occluded != b[i].occluded;
+    if (a[i].found && b[i].found && std::abs(a[i].hit.t - b[i].hit.t) > 1e-4f) ++apart;
+  }
+  EXPECT_GT(met, int(rays.size()) / 5);
+  EXPECT_LT(met, int(rays.size()) * 4 / 5);
+  EXPECT_LE(apart, 2);  // rays that graze an edge, where roundings of the two decide
+}
+
 // Rays that begin near and far, outside of it and within, and end far before the shape, just before it, behind it.
 TYPED_TEST(AccelFor, a_shape_is_met_by_the_rays_that_its_own_equation_says_and_no_others) {
   for (const float scale : {1e-3f, 1.0f, 1e4f})
