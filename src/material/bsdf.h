@@ -40,15 +40,23 @@ enum class TransportMode { radiance, importance };
 // What a model may need beside directions: random numbers of its own (for models that walk), independent of all others.
 // The models read the stream by place and never advance it, so that a lane's numbers do not depend on its neighbours:
 // who calls the same operation twice at one vertex forks the stream in between. `on` are the lanes that matter.
+// `densities` tells models whose density is an estimate whether that will do.
+enum class Densities { may_be_estimates, exact };
 template <class F>
 struct BsdfContext {
   TransportMode mode = TransportMode::radiance;
   RandomStream<F> random;
   Mask<F> on = Mask<F>(true);
+  Densities densities = Densities::may_be_estimates;
+
+  MONTELUX_INLINE BsdfContext in(Mask<F> lanes) const { return {mode, random, lanes, densities}; }
 };
 
 // f(wo, wi) |cos wi| and the density with which sample() draws wi; both zero where the model has only deltas there.
 // A model whose value is itself an estimate (layers) returns an unbiased one, and a density that is independent of it.
+// That density may be an estimate, too, which does for weights that add up to one in the mean, as those of multiple
+// importance sampling, but not for 1 / density, as in resampling: who needs that asks for exact densities, and gets
+// other directions, whose density is known.
 template <class F>
 struct BsdfValue {
   Spectrum<F> f_cos;

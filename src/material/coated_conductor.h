@@ -11,11 +11,64 @@ struct CoatedConductorSlots : LayeredSlots {
                        conductor_k = base + ConductorSlots::k;
 };
 
+// One reflection off the metal, seen through a plane coat, over a floor of a cosine lobe. Its facets are wider by what
+// a rough coat bends light: a facet of slope a turns it by (1 - 1/eta) a on the way in and on the way out, and one of
+// the metal by twice its slope.
 template <class F>
-class CoatedConductor : public Layered<F, Conductor<F>> {
+class MetalUnderCoat {
+ public:
+  explicit MetalUnderCoat(const BsdfRows<F>& rows)
+      : eta_(rows.number(CoatedConductorSlots::eta)),
+        facets_(widened(rows, CoatedConductorSlots::conductor_alpha_x, CoatedConductorSlots::alpha_x),
+                widened(rows, CoatedConductorSlots::conductor_alpha_y, CoatedConductorSlots::alpha_y)) {}
+
+  Vec3<F> sample(Vec3<F> wo, F u, Vec2<F> u2) const {
+    const Direction in = inside(wo);
+    const Direction out = outside(reflect(in.w, facets_.sample(in.w, u2)));
+    const Vec3<F> none{F(0.0f), F(0.0f), F(-1.0f)};
+    return select(u < F(floor_share), sample_cosine_hemisphere(u2), select(in.exists & out.exists, out.w, none));
+  }
+  F density(Vec3<F> wo, Vec3<F> wi) const {
+    const Direction o = inside(wo), i = inside(wi);
+    const Vec3<F> m = normalize(o.w + i.w);
+    const F reflected = facets_.seen(o.w, m) * 0.25f / max(abs_dot(o.w, m), F(1e-10f));
+    // Snell's law squeezes solid angles: d w inside / d w outside.
+    const F squeeze = wi.z / max(square(eta_) * i.w.z, F(1e-10f));
+    const F metal = select(o.exists & i.exists, reflected * squeeze, F(0.0f));
+    return lerp(F(floor_share), metal, cosine_density(wi));
+  }
+
+ private:
+  static constexpr float floor_share = 0.25f;
+
+  struct Direction {
+    Vec3<F> w;
+    Mask<F> exists;
+  };
+  // The directions above the metal and above the coat that refraction at a plane takes into each other.
+  Direction inside(Vec3<F> w) const { return refracted(w, F(1.0f) / eta_); }
+  Direction outside(Vec3<F> w) const {
+    const Direction d = refracted(w, eta_);
+    return {d.w, Mask<F>(d.exists & (w.z > F(0.0f)))};
+  }
+  static Direction refracted(Vec3<F> w, F ratio) {
+    const F x = w.x * ratio, y = w.y * ratio, z2 = F(1.0f) - x * x - y * y;
+    return {{x, y, sqrt(max(z2, F(1e-12f)))}, z2 > F(1e-12f)};
+  }
+  static F widened(const BsdfRows<F>& rows, int metal, int coat) {
+    const F bent = (F(1.0f) - F(1.0f) / rows.number(CoatedConductorSlots::eta)) * rows.number(coat);
+    return max(sqrt(square(rows.number(metal)) + 0.5f * square(bent)), F(0.02f));
+  }
+
+  F eta_;
+  GgxFacets<F> facets_;
+};
+
+template <class F>
+class CoatedConductor : public Layered<F, Conductor<F>, MetalUnderCoat<F>> {
  public:
   static constexpr std::string_view name = "coatedconductor";
-  using Layered<F, Conductor<F>>::Layered;
+  using Layered<F, Conductor<F>, MetalUnderCoat<F>>::Layered;
 };
 
 }  // namespace montelux

@@ -11,18 +11,26 @@ struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int internal = reflectance + spectrum_size;
 };
 
+// Lambert's law forgets where light came from.
+template <class F>
+struct CosineLobe {
+  explicit CosineLobe(const BsdfRows<F>&) {}
+  MONTELUX_INLINE Vec3<F> sample(Vec3<F>, F, Vec2<F> u2) const { return sample_cosine_hemisphere(u2); }
+  MONTELUX_INLINE F density(Vec3<F>, Vec3<F> wi) const { return cosine_density(wi); }
+};
+
 // Where the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law forgets
 // where light came from, so after n reflections at the base, between which the coat sends back the part K, there is
 // r (r K)^(n - 1) of what entered, distributed by the cosine. What remains to be drawn is one facet for the way in and
 // one for the way out, each an unbiased estimate of a transmittance. Directions come from the coat's facets or from a
 // cosine lobe, so that the density is exact. Elsewhere it is a random walk.
 template <class F>
-class CoatedDiffuse : public Layered<F, Diffuse<F>> {
+class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
   static constexpr std::string_view name = "coateddiffuse";
 
   explicit CoatedDiffuse(const BsdfRows<F>& rows)
-      : Layered<F, Diffuse<F>>(rows),
+      : Layered<F, Diffuse<F>, CosineLobe<F>>(rows),
         reflectance_(rows.spectrum(CoatedDiffuseSlots::reflectance)),
         internal_(rows.number(CoatedDiffuseSlots::internal)),
         reflections_(reflections()) {}
@@ -31,7 +39,7 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>> {
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
 
  private:
-  using Walk = Layered<F, Diffuse<F>>;
+  using Walk = Layered<F, Diffuse<F>, CosineLobe<F>>;
   using Walk::coat_, Walk::medium_, Walk::max_depth_;
 
   // Both directions above the surface.
@@ -54,7 +62,7 @@ template <class F>
 BsdfValue<F> CoatedDiffuse<F>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
   const Mask<F> summed = internal_ > F(0.0f), walks = context.on & !summed;
   if (!any(walks)) return summed_value(wo, wi, context);
-  const BsdfValue<F> walked = Walk::evaluate(wo, wi, {context.mode, context.random, walks});
+  const BsdfValue<F> walked = Walk::evaluate(wo, wi, context.in(walks));
   if (!any(context.on & summed)) return walked;
   const BsdfValue<F> s = summed_value(wo, wi, context);
   return {select(walks, walked.f_cos, s.f_cos), {select(walks, walked.density.value, s.density.value)}};
@@ -64,7 +72,7 @@ template <class F>
 BsdfSample<F> CoatedDiffuse<F>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
   const Mask<F> summed = internal_ > F(0.0f), walks = context.on & !summed;
   if (!any(walks)) return summed_sample(wo, u, u2, context);
-  const BsdfSample<F> walked = Walk::sample(wo, u, u2, {context.mode, context.random, walks});
+  const BsdfSample<F> walked = Walk::sample(wo, u, u2, context.in(walks));
   if (!any(context.on & summed)) return walked;
   const BsdfSample<F> s = summed_sample(wo, u, u2, context);
   const Mask<F> valid = (walked.valid & walks) | (s.valid & summed);

@@ -23,7 +23,13 @@ struct LayeredSlots {
 // two techniques of multiple importance sampling add up to one, which is all that an unbiased combination needs. The
 // estimate's mean follows the walks of one reflection off the base, over a floor of a cosine lobe, and integrates to
 // at most one.
-template <class F, class Base>
+//
+// Where densities must be exact, directions come from the coat's facets or from Lobe, which says roughly where light
+// leaves that has been at the base:
+//   explicit Lobe(const BsdfRows<F>&): the rows of the whole model;
+//   Vec3<F> sample(Vec3<F> wo, F u, Vec2<F> u2): at most a part 1 of the directions; below the surface: none;
+//   F density(Vec3<F> wo, Vec3<F> wi): of these; greater than zero for all wi above.
+template <class F, class Base, class Lobe>
 class Layered {
  public:
   static constexpr bool has_reflection = true, has_transmission = false;
@@ -31,6 +37,7 @@ class Layered {
   explicit Layered(const BsdfRows<F>& rows)
       : coat_({rows.number(LayeredSlots::alpha_x), rows.number(LayeredSlots::alpha_y)}, rows.number(LayeredSlots::eta)),
         base_(BsdfRows<F>{rows.slots, rows.first + LayeredSlots::base}),
+        lobe_(rows),
         medium_{rows.number(LayeredSlots::thickness), rows.number(LayeredSlots::g),
                 rows.spectrum(LayeredSlots::albedo)},
         max_depth_(rows.number(LayeredSlots::max_depth)),
@@ -44,6 +51,14 @@ class Layered {
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
 
  protected:
+  // With wo above the surface: by a walk, and by directions of known density.
+  BsdfSample<F> sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+  BsdfSample<F> sample_by_lobes(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+  F density_of_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const;
+  F top_share(Vec3<F> wo) const;
+  // Made of deltas, but for what the medium scatters.
+  Mask<F> is_between_mirrors() const { return coat_.is_delta() & base_.is_delta(); }
+
   using CoatSample = typename Dielectric<F>::LobeSample;
   using CoatValue = typename Dielectric<F>::LobeValue;
 
@@ -64,6 +79,7 @@ class Layered {
 
   Dielectric<F> coat_;
   Base base_;
+  Lobe lobe_;
   LayerMedium<F> medium_;
   F max_depth_, samples_;
 };
@@ -80,8 +96,8 @@ MONTELUX_INLINE TransportMode adjoint(TransportMode mode) {
   return mode == TransportMode::radiance ? TransportMode::importance : TransportMode::radiance;
 }
 
-template <class F, class Base>
-BsdfValue<F> Layered<F, Base>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+template <class F, class Base, class Lobe>
+BsdfValue<F> Layered<F, Base, Lobe>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
   F side = copysign(F(1.0f), wo.z);
   Vec3<F> o = wo * side, i = wi * side;
   Mask<F> delta = is_delta(), same = same_side(o, i), on = context.on & same & !delta;
@@ -97,20 +113,23 @@ BsdfValue<F> Layered<F, Base>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContex
   }
   F coat = coat_.template evaluate_lobes<Lobes::reflection>(o, i, context.mode).f_cos;
   Spectrum<F> value = gray(coat) + sum / max(samples_, F(1.0f));
-  F density = density_estimate(o, i, {context.random.fork(Uint<F>(evaluated_density))});
+  const F density = context.densities == Densities::exact
+                        ? density_of_lobes(o, i, context.mode)
+                        : density_estimate(o, i, {context.random.fork(Uint<F>(evaluated_density))});
   return {select(on, value, gray(F(0.0f))), {select(on, density, F(0.0f))}};
 }
 
-template <class F, class Base>
-auto Layered<F, Base>::draw_exit(Vec3<F> wi, const WalkDraws<F>& draws, const BsdfContext<F>& context) const -> Exit {
+template <class F, class Base, class Lobe>
+auto Layered<F, Base, Lobe>::draw_exit(Vec3<F> wi, const WalkDraws<F>& draws, const BsdfContext<F>& context) const
+    -> Exit {
   CoatSample s = coat_.template sample_lobes<Lobes::transmission>(wi, F(0.0f), draws.pair(2), adjoint(context.mode));
   F weight = s.weight * abs(wi.z) / max(abs(s.wi.z), F(1e-10f));
   return {wi, -s.wi, select(s.valid, weight, F(0.0f)), s.density, context};
 }
 
-template <class F, class Base>
-Spectrum<F> Layered<F, Base>::connected_walk(Vec3<F> wo, const Exit& exit, const WalkDraws<F>& draws,
-                                             Mask<F> on) const {
+template <class F, class Base, class Lobe>
+Spectrum<F> Layered<F, Base, Lobe>::connected_walk(Vec3<F> wo, const Exit& exit, const WalkDraws<F>& draws,
+                                                   Mask<F> on) const {
   const TransportMode mode = exit.context.mode;
   CoatSample entry = coat_.template sample_lobes<Lobes::transmission>(wo, F(0.0f), draws.pair(0), mode);
   LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(on & entry.valid)};
@@ -134,9 +153,9 @@ Spectrum<F> Layered<F, Base>::connected_walk(Vec3<F> wo, const Exit& exit, const
 
 // At the base: what reaches wi by the exit drawn before and, through a rough coat, by the direction that the base
 // draws; both weighted by the power heuristic.
-template <class F, class Base>
-Spectrum<F> Layered<F, Base>::meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
-                                        Mask<F> on) const {
+template <class F, class Base, class Lobe>
+Spectrum<F> Layered<F, Base, Lobe>::meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
+                                              Mask<F> on) const {
   BsdfValue<F> value = base_.evaluate(-walk.w, exit.up, exit.context);
   Mask<F> rough = !coat_.is_delta();
   F share = select(rough, power_weight(exit.density, value.density.value), F(1.0f));
@@ -153,9 +172,9 @@ Spectrum<F> Layered<F, Base>::meet_base(LayerWalk<F>& walk, const Exit& exit, co
 }
 
 // The same where the medium scatters.
-template <class F, class Base>
-Spectrum<F> Layered<F, Base>::meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
-                                          Mask<F> on) const {
+template <class F, class Base, class Lobe>
+Spectrum<F> Layered<F, Base, Lobe>::meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
+                                                Mask<F> on) const {
   F phase = henyey_greenstein(dot(walk.w, exit.up), medium_.g);
   Mask<F> rough = !coat_.is_delta();
   F share = select(rough, power_weight(exit.density, phase), F(1.0f));
@@ -175,9 +194,9 @@ Spectrum<F> Layered<F, Base>::meet_medium(LayerWalk<F>& walk, const Exit& exit, 
 
 // Where base and coat are both smooth, no event on them can be connected to wi: the walk is followed from where the
 // medium scatters through all reflections, first down or first up, that end in the exit's direction.
-template <class F, class Base>
-Spectrum<F> Layered<F, Base>::leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth,
-                                                    Mask<F> on) const {
+template <class F, class Base, class Lobe>
+Spectrum<F> Layered<F, Base, Lobe>::leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth,
+                                                          Mask<F> on) const {
   const F zero = F(0.0f);
   const Vec3<F> up = exit.up, down{up.x, up.y, -up.z};
   const Spectrum<F> base = base_.sample(-down, zero, {zero, zero}, exit.context).weight;
@@ -200,8 +219,9 @@ Spectrum<F> Layered<F, Base>::leave_between_mirrors(const LayerWalk<F>& walk, co
 }
 
 // What a walk that turned to walk.w with `density` sends through the rough coat to wi.
-template <class F, class Base>
-Spectrum<F> Layered<F, Base>::leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density, Mask<F> on) const {
+template <class F, class Base, class Lobe>
+Spectrum<F> Layered<F, Base, Lobe>::leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density,
+                                                    Mask<F> on) const {
   const TransportMode mode = exit.context.mode;
   CoatValue out = coat_.template evaluate_lobes<Lobes::transmission>(-walk.w, exit.wi, mode);
   CoatValue back = coat_.template evaluate_lobes<Lobes::transmission>(exit.wi, -walk.w, adjoint(mode));
@@ -210,11 +230,60 @@ Spectrum<F> Layered<F, Base>::leave_by_chance(const LayerWalk<F>& walk, const Ex
   return select(on, walk.beta * arrives, gray(F(0.0f)));
 }
 
-template <class F, class Base>
-BsdfSample<F> Layered<F, Base>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
-  F side = copysign(F(1.0f), wo.z);
-  Vec3<F> o = wo * side;
-  CoatSample entry = coat_.template sample_lobes<Lobes::both>(o, u, u2, context.mode);
+template <class F, class Base, class Lobe>
+BsdfSample<F> Layered<F, Base, Lobe>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+  const F side = copysign(F(1.0f), wo.z);
+  BsdfSample<F> s = context.densities == Densities::exact ? sample_by_lobes(wo * side, u, u2, context)
+                                                          : sample_by_walk(wo * side, u, u2, context);
+  s.wi = s.wi * side;
+  return s;
+}
+
+// The probability with which sample_by_lobes() looks at the coat; where all is smooth, at the walks that meet deltas
+// alone.
+template <class F, class Base, class Lobe>
+F Layered<F, Base, Lobe>::top_share(Vec3<F> wo) const {
+  const Mask<F> mirrors = is_between_mirrors(), delta = is_delta();
+  const F reflected = min(max(fresnel_dielectric(wo.z, coat_.eta()), F(0.1f)), F(0.75f));
+  return select(delta, F(1.0f), select(mirrors, F(0.5f), reflected));
+}
+
+template <class F, class Base, class Lobe>
+F Layered<F, Base, Lobe>::density_of_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const {
+  const F coat = coat_.template evaluate_lobes<Lobes::reflection>(wo, wi, mode).density;
+  return lerp(top_share(wo), lobe_.density(wo, wi), coat);
+}
+
+template <class F, class Base, class Lobe>
+BsdfSample<F> Layered<F, Base, Lobe>::sample_by_lobes(Vec3<F> wo, F u, Vec2<F> u2,
+                                                      const BsdfContext<F>& context) const {
+  const F share = top_share(wo);
+  const Mask<F> by_top = u < share, delta = by_top & coat_.is_delta(),
+                walks = context.on & by_top & is_between_mirrors();
+  const F rest = min(select(by_top, u / share, (u - share) / max(F(1.0f) - share, F(1e-6f))), F(one_minus_epsilon));
+  const CoatSample facet = coat_.template sample_lobes<Lobes::reflection>(wo, F(0.0f), u2, context.mode);
+  const Vec3<F> wi = select(by_top, facet.wi, lobe_.sample(wo, rest, u2));
+  const Mask<F> good = context.on & (wi.z > F(0.0f)) & (facet.valid | !by_top);
+  BsdfSample<F> s{wi, gray(facet.weight / share), {F(0.0f)}, F(1.0f), good, delta};
+  if (any(walks)) {
+    const BsdfSample<F> walked = sample_by_walk(wo, rest, u2, context.in(walks));
+    s.wi = select(walks, walked.wi, s.wi);
+    s.weight = select(walks, walked.weight / share, s.weight);
+    s.valid = (s.valid & !walks) | (walks & walked.valid & walked.delta);
+  }
+  if (const Mask<F> spread = s.valid & !delta; any(spread)) {
+    const BsdfValue<F> v = evaluate(wo, s.wi, context.in(spread));
+    const Mask<F> has_density = v.density.value > F(0.0f);
+    s.density = v.density;
+    s.weight = select(spread, v.f_cos * (F(1.0f) / select(has_density, v.density.value, F(1.0f))), s.weight);
+    s.valid = s.valid & (delta | has_density);
+  }
+  return s;
+}
+
+template <class F, class Base, class Lobe>
+BsdfSample<F> Layered<F, Base, Lobe>::sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+  CoatSample entry = coat_.template sample_lobes<Lobes::both>(wo, u, u2, context.mode);
   Mask<F> left = context.on & entry.valid & (entry.wi.z > F(0.0f));
   LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(context.on & entry.valid & !left)};
   Mask<F> delta = coat_.is_delta();
@@ -247,15 +316,15 @@ BsdfSample<F> Layered<F, Base>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfCo
   }
   F density = F(0.0f);
   Mask<F> smooth = left & !delta;
-  if (any(smooth)) density = density_estimate(o, walk.w, {context.random.fork(Uint<F>(sampled_density))});
-  return {walk.w * side, walk.beta, {density}, F(1.0f), left, delta};
+  if (any(smooth)) density = density_estimate(wo, walk.w, {context.random.fork(Uint<F>(sampled_density))});
+  return {walk.w, walk.beta, {density}, F(1.0f), left, delta};
 }
 
 // Reflection at the coat, plus one reflection off the base between entry and exit, plus a floor. The middle part is
 // an integral over the direction between base and coat, p(base draws w) p(coat takes w to wi): estimated by w drawn
 // from the base and by w drawn backward from wi, under the balance heuristic; where the coat is smooth, w is known.
-template <class F, class Base>
-F Layered<F, Base>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const {
+template <class F, class Base, class Lobe>
+F Layered<F, Base, Lobe>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const {
   constexpr TransportMode mode = TransportMode::importance;
   const BsdfContext<F> context{mode, draws.stream};
   F coat = coat_.template evaluate_lobes<Lobes::both>(wo, wi, mode).density;

@@ -46,7 +46,7 @@ template <class F>
 Scattering<F> scatter(const BsdfLanes<F>& lanes, const ScatterQuery<F>& query, const BsdfContext<F>& context) {
   Scattering<F> all{no_value<F>(), no_sample<F>()};
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
-    scatter_model<Model, F>(lanes, query, {context.mode, context.random, mask}, all);
+    scatter_model<Model, F>(lanes, query, context.in(mask), all);
   });
   return all;
 }
@@ -55,8 +55,7 @@ template <class F>
 BsdfValue<F> evaluate(const BsdfLanes<F>& lanes, Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) {
   BsdfValue<F> all = no_value<F>();
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
-    const BsdfContext<F> part{context.mode, context.random, mask};
-    merge(all, Model(BsdfRows<F>{lanes.slots}).evaluate(wo, wi, part), mask);
+    merge(all, Model(BsdfRows<F>{lanes.slots}).evaluate(wo, wi, context.in(mask)), mask);
   });
   return all;
 }
@@ -65,8 +64,7 @@ template <class F>
 BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, const BsdfContext<F>& context) {
   BsdfSample<F> all = no_sample<F>();
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
-    const BsdfContext<F> part{context.mode, context.random, mask};
-    merge(all, Model(BsdfRows<F>{lanes.slots}).sample(wo, u3.x, Vec2<F>{u3.y, u3.z}, part), mask);
+    merge(all, Model(BsdfRows<F>{lanes.slots}).sample(wo, u3.x, Vec2<F>{u3.y, u3.z}, context.in(mask)), mask);
   });
   return all;
 }

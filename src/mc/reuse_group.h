@@ -9,15 +9,17 @@
 namespace montelux {
 
 // What a group asks of its domains:
+//   Shifted<T, F> own(int of, const T& value, Mask<F> on)
+//       a sample of domain `of` as it is there; may be of a type that says more;
+//   and one of these two:
 //   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)
-//       of a sample of domain `from`, in domain `to`; may be of a type that says more. From a domain to itself it is
-//       the sample, and nothing needs to be asked anew;
+//       of a sample of domain `from`, in another one, `to`, of the same type as own();
 //   void images(int from, const T& value, std::span<const Mask<F>> on, std::span<Image> all)
-//       the same for all domains at once, if there is a faster way than one by one.
+//       in all domains at once, its own among them, if that is faster than one by one.
 // The maps must compose: what leads from i to k leads there over j, too, wherever there is an image in j.
 template <class D, class T, class F>
 concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> on) {
-  { domains.image(0, 1, value, on) } -> std::convertible_to<Shifted<T, F>>;
+  { domains.own(0, value, on) } -> std::convertible_to<Shifted<T, F>>;
 };
 
 // The images of a sample in all domains, where on[k].
@@ -27,7 +29,8 @@ void find_images(const Domains& domains, std::size_t from, const T& value, std::
   if constexpr (requires { domains.images(int(from), value, on, images); })
     domains.images(int(from), value, on, images);
   else
-    for (std::size_t k = 0; k < images.size(); ++k) images[k] = domains.image(int(from), int(k), value, on[k]);
+    for (std::size_t k = 0; k < images.size(); ++k)
+      images[k] = k == from ? domains.own(int(from), value, on[k]) : domains.image(int(from), int(k), value, on[k]);
 }
 
 // One reservoir for each domain out of those of all, in their place; all get the confidence of all. Domains of
@@ -40,7 +43,7 @@ void find_images(const Domains& domains, std::size_t from, const T& value, std::
 template <class T, class F, class Domains, class Each>
 void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, const RandomStream<F>& stream, Mask<F> on,
                    Each&& each) requires ReuseGroupDomains<Domains, T, F> {
-  using ImageOf = decltype(domains.image(0, 1, group[0].value, on));
+  using ImageOf = decltype(domains.own(0, group[0].value, on));
   struct Choice {
     WeightedReservoir<T, F> chosen;
     F target = 0.0f;

@@ -37,6 +37,12 @@ Material "conductor" "float roughness" [ 0.05 ]
 Shape "sphere" "float radius" [ 0.4 ]
 AttributeEnd
 )"});
+  scenes.push_back({"walked coats", head + R"(AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 12 11 9 ]
+Shape "bilinearmesh" "point3 P" [ -1.2 2.6 -0.4  -0.2 2.6 -0.4  -1.2 2.6 0.6  -0.2 2.6 0.6 ]
+AttributeEnd
+LightSource "infinite" "rgb L" [ 0.1 0.15 0.2 ]
+)" + walked_coats() + grey + walls});
   // Deltas between the first rough surface and the light, and before it.
   scenes.push_back({"mirrors and glass", head + R"(AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 14 14 12 ]

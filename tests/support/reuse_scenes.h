@@ -63,6 +63,33 @@ inline std::string reuse_floor(const char* material) {
   return std::string(material) + "\nShape \"bilinearmesh\" \"point3 P\" [ -3 0 -3  3 0 -3  -3 0 3  3 0 3 ]\n";
 }
 
+// Coats under which light walks at random, so that value and density are estimates: of a rough and a smooth coat, over
+// metal and Lambert's law, with scatterers and without. Where few events are allowed, many walks do not come out, and
+// the estimated density is far from that of directions.
+inline std::string walked_coats() {
+  return reuse_floor(
+             R"(Material "coatedconductor" "float interface.roughness" [ 0.1 ] "float conductor.roughness" [ 0.1 ]
+    "float thickness" [ 0.3 ] "float g" [ 0.3 ] "rgb albedo" [ 0.8 0.7 0.5 ] "integer maxdepth" [ 3 ])") +
+         R"(AttributeBegin
+Translate -0.6 0.45 -0.5
+Material "coateddiffuse" "float roughness" [ 0.2 ] "rgb reflectance" [ 0.5 0.3 0.2 ]
+    "float thickness" [ 0.5 ] "rgb albedo" [ 0.9 0.8 0.9 ]
+Shape "sphere" "float radius" [ 0.45 ]
+AttributeEnd
+AttributeBegin
+Translate 0.5 0.4 -0.7
+Material "coatedconductor" "float interface.roughness" [ 0 ] "float conductor.roughness" [ 0.15 ]
+Shape "sphere" "float radius" [ 0.4 ]
+AttributeEnd
+AttributeBegin
+Translate 0.9 0.35 0.5
+Material "coateddiffuse" "float roughness" [ 0 ] "rgb reflectance" [ 0.3 0.5 0.6 ] "rgb albedo" [ 0.5 0.5 0.5 ]
+    "integer maxdepth" [ 2 ]
+Shape "sphere" "float radius" [ 0.35 ]
+AttributeEnd
+)";
+}
+
 inline std::vector<ReuseScene> reuse_scenes(int size) {
   const std::string head = reuse_scene_head(size, reuse_camera, 2);
   const char* grey = R"(Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ])";
@@ -138,6 +165,17 @@ AreaLightSource "diffuse" "rgb L" [ 6 3 2 ]
 Shape "sphere" "float radius" [ 0.15 ]
 AttributeEnd
 )" + reuse_floor(grey) + boards});
+  scenes.push_back({"walked coats", head + R"(AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 5 5 5 ]
+Shape "bilinearmesh" "point3 P" [ -1.5 0.4 2  -0.2 0.4 2  -1.5 1.4 2  -0.2 1.4 2 ]
+AttributeEnd
+AttributeBegin
+Translate 0.9 1.4 -0.6
+AreaLightSource "diffuse" "rgb L" [ 12 10 6 ]
+Shape "sphere" "float radius" [ 0.15 ]
+AttributeEnd
+LightSource "infinite" "rgb L" [ 0.4 0.5 0.6 ]
+)" + walked_coats()});
   // The first rough surface is behind a mirror, glass, or an interface.
   scenes.push_back({"specular first", reuse_scene_head(size, reuse_camera, 4) + R"(AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 9 9 7 ]

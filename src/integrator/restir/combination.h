@@ -76,7 +76,7 @@ class ReuseCombination {
       inputs[0] = combine<T, F>(settings_.weights, all_inputs, domains, numbers, on);
       return gray(F(0.0f));
     }
-    LightOfAll all{light_of(domains.image(0, 0, inputs[0].value, on))};
+    LightOfAll all{light_of(domains.own(0, inputs[0].value, on))};
     inputs[0] = combine<T, F>(settings_.weights, all_inputs, domains, numbers, on, all);
     return all.sum;
   }

@@ -28,6 +28,7 @@ struct RestirScene {
 // Streams of one pixel in one frame, told apart.
 namespace restir_stream {
 inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
+inline constexpr std::uint32_t direction = 1u << 29;  // of the sampler, beyond all vertices: of a rough vertex
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
 }  // namespace restir_stream
 
@@ -88,7 +89,7 @@ class FirstStage {
     const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
-    const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own)};
+    const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own), on, Densities::exact};
     const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
     const M passes = scatters & bsdf.is_interface;
     scatters = scatters & !bsdf.is_interface;
@@ -155,16 +156,19 @@ class FirstStage {
 
   bool reuses_paths() const { return shared_.settings.indirect.on; }
 
-  // The direction in which a path leaves its vertex: by the numbers of `path`, save where other pixels will scatter
-  // with the same ones. Those are independent of what decides where the pixels' own vertices are.
+  // The direction in which a path leaves its vertex. At a rough one, whose sample is handed to other pixels, its
+  // numbers are none that decide where the vertices of other pixels or frames are, as those of a smooth one do: points
+  // of one set are not independent. Where paths are reused, others will scatter with the same numbers.
   BsdfSample<F> leave(const SurfaceScattering<F>& bsdf, const Vec3<F>& wo, const Sampler<F>& sampler, U dimension,
                       const BsdfContext<F>& context, const RandomStream<F>& path_numbers, M on) const {
-    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
-    const Vec3<F> own{sampler.get1(dimension + U(path_dimension::lobe)), u.x, u.y};
+    const M smooth = bsdf.is_delta;
+    const U place = select(smooth, dimension, U(restir_stream::direction));
+    const Vec2<F> u = sampler.get2(place + U(path_dimension::direction));
+    const Vec3<F> own{sampler.get1(place + U(path_dimension::lobe)), u.x, u.y};
     if (!reuses_paths()) return sample<F>(bsdf.lanes(on), wo, own, context);
     const EventNumbers<F> first(path_numbers, U(0u));
-    const M smooth = bsdf.is_delta;
-    const BsdfContext<F> chosen{TransportMode::radiance, select_words(smooth, context.random, first.model())};
+    const BsdfContext<F> chosen{TransportMode::radiance, select_words(smooth, context.random, first.model()), on,
+                                Densities::exact};
     return sample<F>(bsdf.lanes(on), wo, select(smooth, own, first.direction()), chosen);
   }
 

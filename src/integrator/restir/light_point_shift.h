@@ -30,9 +30,8 @@ struct LightPointDomains {
   }
   F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
   // A surface sees what it has.
-  ShiftedLight<F> image(int from, int to, const LightPoint<F>& value, Mask<F> on) const {
-    const Connection<F> way =
-        from == to ? connect(lights, vertices[std::size_t(to)], value, on) : seen_from(to, value, on);
+  ShiftedLight<F> own(int of, const LightPoint<F>& value, Mask<F> on) const {
+    const Connection<F> way = connect(lights, vertices[std::size_t(of)], value, on);
     return {{value, F(1.0f), way.target}, way.value};
   }
   void images(int from, const LightPoint<F>& value, std::span<const Mask<F>> on,

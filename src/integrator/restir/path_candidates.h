@@ -132,10 +132,10 @@ class PathCandidates {
   void meet_sky(M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
     if (!any(on)) return;
-    // What a delta meets is found again as a whole.
+    // What a delta meets is found again as a whole. Choice 0 is that of next-event estimation where the event was.
     if (const M smooth = on & (w.density == F(0.0f)); any(smooth)) {
       const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};
-      meet({}, all, M(false), numbers.choice(0), smooth);
+      meet({}, all, M(false), numbers.choice(1), smooth);
     }
     const M spread = on & (w.density > F(0.0f));
     for (int i = 0; i < shared_.lights.infinite_count() && any(spread); ++i) {
@@ -241,7 +241,7 @@ class PathCandidates {
   M scatter(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
     PathWalk<F>& w = walk_;
     const EventNumbers<F> numbers(w.numbers, w.events);
-    const BsdfContext<F> context{TransportMode::radiance, numbers.model()};
+    const BsdfContext<F> context{TransportMode::radiance, numbers.model(), on, Densities::exact};
     const BsdfSample<F> next =
         montelux::sample<F>(BsdfLanes<F>{vertex.kind, &vertex.slots, on}, vertex.wo, numbers.direction(), context);
     const PathEvent<F> event = event_at(vertex, next, on);

@@ -28,7 +28,7 @@ struct JoinedSurface {
   RandomStream<F> random;
 
   BsdfValue<F> scattered(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
-    const BsdfContext<F> context{TransportMode::radiance, random, on};
+    const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
     return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, frame.to_local(wo), frame.to_local(wi), context);
   }
 };

@@ -57,7 +57,7 @@ class PathReplay {
   // Scatters once more, to the next surface; in the lanes `last`, to the light that is met there, which is the result.
   Spectrum<F> scatter(std::uint32_t event, M on, M last) {
     const EventNumbers<F> numbers(sample_.numbers, U(event));
-    const BsdfContext<F> context{TransportMode::radiance, numbers.model()};
+    const BsdfContext<F> context{TransportMode::radiance, numbers.model(), on, Densities::exact};
     const BsdfSample<F> next =
         sample<F>(BsdfLanes<F>{vertex_.kind, &vertex_.slots, on}, vertex_.wo, numbers.direction(), context);
     const PathEvent<F> taken = event_at(vertex_, next, on);
@@ -137,9 +137,12 @@ struct PathDomains {
   Shifted<PathSample<F>, F> shift(int from, const PathSample<F>& value, Mask<F> on) const {
     return image(from, 0, value, on);
   }
-  Shifted<PathSample<F>, F> image(int from, int to, const PathSample<F>& value, Mask<F> on) const {
+  Shifted<PathSample<F>, F> own(int, const PathSample<F>& value, Mask<F>) const {
+    return {value, F(1.0f), usable_weight(average(value.brings))};
+  }
+  Shifted<PathSample<F>, F> image(int, int to, const PathSample<F>& value, Mask<F> on) const {
     PathSample<F> there = value;
-    if (from != to) there.brings = brought(to, value, on);
+    there.brings = brought(to, value, on);
     return {there, F(1.0f), usable_weight(average(there.brings))};
   }
   F target_at(int to, const PathSample<F>& value, Mask<F> on) const {

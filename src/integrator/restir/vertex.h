@@ -29,7 +29,7 @@ struct ReuseVertex {
 
   // f |cos| toward a direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const {
-    const BsdfContext<F> context{TransportMode::radiance, random, on};
+    const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
     return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
   }
 };

@@ -206,5 +206,11 @@ inline BsdfContext<float> context_of(RandomStream<float>& stream, TransportMode 
   const std::uint32_t key = std::uint32_t(stream.next() * 0x1p24f);
   return {mode, RandomStream<float>(key, 0x6d2b79f5u)};
 }
+// The same, asking for densities that are no estimates.
+inline BsdfContext<float> exact_context_of(RandomStream<float>& stream) {
+  BsdfContext<float> context = context_of(stream);
+  context.densities = Densities::exact;
+  return context;
+}
 
 }  // namespace montelux::test

@@ -46,12 +46,14 @@ struct Sums {
 
 // The least p-value over the cells that the light reflected into a cell is the same by sample() and by evaluate().
 template <class Model>
-double sample_against_value(const Model& model, Vec3f wo, double fault, std::uint32_t seed) {
+double sample_against_value(const Model& model, Vec3f wo, double fault, std::uint32_t seed,
+                            Densities densities = Densities::may_be_estimates) {
   constexpr int count = 50000;
   Sums drawn, uniform;
   RandomStream<float> stream(seed, 9u);
   for (int i = 0; i < count; ++i) {
-    const BsdfContext<float> context = context_of(stream);
+    BsdfContext<float> context = context_of(stream);
+    context.densities = densities;
     const float u = stream.next();
     const BsdfSample<float> s = model.sample(wo, u, stream.next2(), context);
     if (s.valid && !s.delta) drawn.add(cell_of(s.wi), s.weight[0] * fault);
@@ -81,6 +83,52 @@ TEST(LayeredBsdf, sampled_weights_integrate_the_value) {
 
 TEST(LayeredBsdf, sampled_weights_with_a_planted_loss_are_rejected) {
   EXPECT_LT(sample_against_value(coated_diffuse({}, 0.8f), outgoing_directions()[1], 0.97, 5), family_level);
+}
+
+TEST(LayeredBsdf, weights_of_directions_of_exact_density_integrate_the_value) {
+  std::uint32_t seed = 1100;
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if constexpr (is_layered<Model>) {
+      if (model.is_delta()) return;
+      for (const Vec3f wo : outgoing_directions())
+        EXPECT_GT(sample_against_value(model, wo, 1.0, seed++, Densities::exact), sidak_level(family_level, 80))
+            << Model::name << ", " << c.label << ", wo.z = " << wo.z;
+    }
+  });
+  EXPECT_LT(sample_against_value(coated_diffuse({}, 0.8f), outgoing_directions()[1], 0.97, 5, Densities::exact),
+            family_level);
+}
+
+// What is reflected in deltas, by walks and beside directions of exact density; `fault` scales the latter.
+template <class Model>
+double walked_against_exact_deltas(const Model& model, Vec3f wo, double fault, std::uint32_t seed) {
+  std::vector<double> walked, exact;
+  RandomStream<float> stream(seed, 5u);
+  for (int i = 0; i < 50000; ++i)
+    for (std::vector<double>* all : {&walked, &exact}) {
+      const BsdfContext<float> context = all == &exact ? exact_context_of(stream) : context_of(stream);
+      const float u = stream.next();
+      const BsdfSample<float> s = model.sample(wo, u, stream.next2(), context);
+      all->push_back(s.valid && s.delta ? s.weight[0] * (all == &exact ? fault : 1.0) : 0.0);
+    }
+  const SampleSummary a = summarize(walked), b = summarize(exact);
+  // Where there are none, nothing is to be said.
+  if (a.mean == 0 && b.mean == 0) return 1;
+  return welch_test(a, b).p_value;
+}
+
+TEST(LayeredBsdf, deltas_beside_exact_densities_are_those_of_walks) {
+  std::uint32_t seed = 1300;
+  int seen = 0;
+  for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
+    if constexpr (is_layered<Model>)
+      for (const Vec3f wo : outgoing_directions()) {
+        EXPECT_GT(walked_against_exact_deltas(model, wo, 1.0, ++seed), sidak_level(family_level, 80))
+            << Model::name << ", " << c.label << ", wo.z = " << wo.z;
+        seen += walked_against_exact_deltas(model, wo, 1.2, seed) < sidak_level(family_level, 80) ? 1 : 0;
+      }
+  });
+  EXPECT_GT(seen, 10);  // the planted fault, wherever there are deltas
 }
 
 // ---- against closed forms

@@ -132,6 +132,7 @@ TEST(Reuse, the_sum_over_all_inputs_is_off_by_confidence_alone) {
 // The same domains as a group, whose maps compose. A fault: no Jacobian.
 template <class F, bool has_jacobian = true>
 struct IntervalGroup {
+  Shifted<F, F> own(int of, const F& value, Mask<F> on) const { return image(of, of, value, on); }
   Shifted<F, F> image(int from, int to, const F& value, Mask<F>) const {
     const F x = from == 2 ? sqrt(value) : value, y = to == 2 ? x * x : x;
     F jacobian = 1.0f;
