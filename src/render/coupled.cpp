@@ -61,6 +61,9 @@ class ChainJob {
   }
 
   RenderResult take_result(bool interrupted) {
+    // What chains of an earlier picture have left that this one has none of is not of the picture before the next.
+    if (settings_.memories && settings_.memories->size() > std::size_t(pass_))
+      settings_.memories->resize(std::size_t(pass_));
     const double seconds = since_start_.seconds();
     const double ending = settings_.budget ? seconds - frame_began_ : 0;
     return {std::move(film_), rays_, seconds, interrupted, ending, warm_up_seconds(seconds)};

@@ -15,7 +15,7 @@ class ReuseChain final : public Chain {
   ReuseChain(const RestirScene<Rays>& shared, const ChainPass& pass)
       : shared_(shared), pass_(pass), before_(std::dynamic_pointer_cast<const ReuseMemory>(pass.before)) {
     const auto pixels = std::size_t(pass.bounds.area());
-    if (before_ && !(before_->bounds == pass.bounds)) before_.reset();
+    if (before_ && (!shared.settings.temporal || !(before_->bounds == pass.bounds))) before_.reset();
     if (before_) earlier_.resize(pixels);
     for (auto& vertices : vertices_) vertices.resize(pixels);
     lights_.resize(pixels);
@@ -31,12 +31,12 @@ class ReuseChain final : public Chain {
       return step.stage <= settings().rounds ? share_in_groups(step, tile) : show_frame(step, tile, out);
     }
     RayCounts counts = find(step.frame, tile);
-    if (step.frame == 0 ? before_ != nullptr : settings().temporal) counts += recall(step.frame, tile);
+    if (settings().temporal && (step.frame > 0 || before_)) counts += recall(step.frame, tile);
     return counts;
   }
 
   std::unique_ptr<ChainMemory> remember(int frames) override {
-    if (!settings().carry) return nullptr;
+    if (!settings().temporal || !settings().carry) return nullptr;
     auto memory = std::make_unique<ReuseMemory>();
     memory->bounds = pass_.bounds, memory->shutter = shutter();
     memory->vertices = std::move(vertices(frames - 1));

@@ -47,7 +47,7 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
        {number},
        paths ? "how far they are, in pixels: groups are of one block of twice as many; default 4, without groups 6"
              : "how far they are, in pixels: groups are of one block of twice as many; default 2, without groups 8",
-       0.5,
+       1,
        most},
       {"rounds",
        {integer},
@@ -62,8 +62,8 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"temporal",
        {boolean},
        paths ? "learn from the frame before; default off" : "learn from the frame before; default on"},
-      {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on"},
-      {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20", 0, 1e6},
+      {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on with temporal=on"},
+      {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20; with temporal=on", 0, 1e6},
       {"weights",
        {string},
        "how reservoirs share without groups, which stating them turns off; naive is biased; default pairwise",
@@ -72,7 +72,7 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
        {"naive", "unbiased", "pairwise", "generalised"}},
       {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
       {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
-      {"warm-up", {integer}, "frames before those, which are not shown; default 0", 0, 1024},
+      {"warm-up", {integer}, "frames before those, which are not shown; default 0; with temporal=on", 0, 1024},
       {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
       {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
 }
@@ -124,15 +124,34 @@ EntitySpec restir_pt_spec() {
 
 namespace {
 
-Status read_path_reuse(std::string_view name, const ParameterList& list, RestirSettings& s) {
+void read_path_reuse(std::string_view name, const ParameterList& list, RestirSettings& s) {
   s.direct = list.boolean("direct", s.direct);
   s.indirect.footprint = list.number("footprint", s.indirect.footprint);
-  if (name == "restir-gi") return Done{};
+  if (name == "restir-gi") return;
   const std::string shift = list.string("shift", "hybrid");
-  if (shift == "reconnection" && list.find("replayed") != nullptr)
-    return Failure{"restir-pt:shift=reconnection scatters nothing again: replayed is for the other shifts"};
   s.indirect.joins = shift != "replay";
   s.indirect.most_replayed = shift == "reconnection" ? 0 : list.integer("replayed", s.indirect.most_replayed);
+}
+
+// What is stated and would decide nothing, with what it needs.
+Status refuse_idle(std::string_view name, const ParameterList& list, const RestirSettings& s) {
+  const bool spatial = s.rounds > 0 && s.neighbours > 0;
+  struct Need {
+    const char* setting;
+    bool is_met;
+    const char* needs;
+  };
+  const Need needs[] = {
+      {"m-cap", s.temporal, "temporal=on"},
+      {"carry", s.temporal || !s.carry, "temporal=on"},
+      {"warm-up", s.temporal || s.warm_up == 0, "temporal=on, without which frames teach nothing"},
+      {"radius", spatial, "at least one round and one neighbour"},
+      {"similar", spatial, "at least one round and one neighbour"},
+      {"footprint", s.indirect.joins, "shift=reconnection or shift=hybrid: others join no paths"},
+      {"replayed", s.indirect.most_replayed > 0, "shift=replay or shift=hybrid: others scatter nothing again"}};
+  for (const Need& need : needs)
+    if (list.find(need.setting) != nullptr && !need.is_met)
+      return Failure{fmt::format("{}: {} decides nothing here: it needs {}", name, need.setting, need.needs)};
   return Done{};
 }
 
@@ -163,8 +182,8 @@ Result<RestirSettings> restir_settings(std::string_view name, const ParameterLis
   if (s.candidates + s.power_candidates == 0)
     return Failure{
         fmt::format("{} needs candidates on lights: candidates or power-candidates must be at least 1", name)};
-  if (name != "restir-di")
-    if (Status read = read_path_reuse(name, list, s); !read) return read.failure();
+  if (name != "restir-di") read_path_reuse(name, list, s);
+  if (Status idle = refuse_idle(name, list, s); !idle) return idle.failure();
   return s;
 }
 

@@ -54,8 +54,19 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_NE(failure_of(scene, "restir-di:weights=biased").find("naive, unbiased, pairwise"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:groups=on,weights=pairwise").find("needs groups=off"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbors=3").find("did you mean \"neighbours\""), std::string::npos);
-  EXPECT_NE(failure_of(scene, "restir-di:neighbours=99"), "");
-  EXPECT_NE(failure_of(scene, "restir-di:chain=0"), "");
+  EXPECT_NE(failure_of(scene, "restir-di:neighbours=99").find("from 0 to 16"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:chain=0").find("from 1 to 1024"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:radius=0.5").find("from 1 to 4096"), std::string::npos);
+  for (const char* idle : {"m-cap=5", "warm-up=3", "carry=on"})
+    EXPECT_NE(failure_of(scene, std::string("restir-di:temporal=off,") + idle).find("needs temporal=on"),
+              std::string::npos)
+        << idle;
+  EXPECT_NE(failure_of(scene, "restir-pt:warm-up=12").find("needs temporal=on"), std::string::npos);
+  EXPECT_EQ(failure_of(scene, "restir-di:temporal=off,warm-up=0,carry=off"), "");
+  for (const char* idle : {"rounds=0,radius=3", "neighbours=0,similar=off"})
+    EXPECT_NE(failure_of(scene, std::string("restir-di:") + idle).find("one round and one neighbour"),
+              std::string::npos)
+        << idle;
   EXPECT_NE(failure_of(scene, "restir-di:candidates=0").find("must be at least 1"), std::string::npos);
   EXPECT_TRUE(scene.integrator("restir-di").biases.empty());
   EXPECT_EQ(scene.integrator("restir-di:weights=naive").biases, std::vector<std::string>{"weights=naive"});
@@ -67,7 +78,9 @@ TEST(IntegratorCatalogue, says_what_the_reuse_of_paths_takes) {
   EXPECT_EQ(failure_of(scene, "restir-gi:direct=off,footprint=0.01,radius=5"), "");
   EXPECT_EQ(failure_of(scene, "restir-pt:shift=replay,replayed=3"), "");
   EXPECT_EQ(failure_of(scene, "restir-pt:shift=reconnection"), "");
-  EXPECT_NE(failure_of(scene, "restir-pt:shift=reconnection,replayed=3").find("scatters nothing again"),
+  EXPECT_NE(failure_of(scene, "restir-pt:shift=reconnection,replayed=3").find("needs shift=replay or shift=hybrid"),
+            std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-pt:shift=replay,footprint=0.1").find("needs shift=reconnection or shift=hybrid"),
             std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-pt:shift=reply").find("reconnection, replay, hybrid"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-gi:shift=replay"), "");
