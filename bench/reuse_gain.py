@@ -36,10 +36,10 @@ class Comparison:
 
 
 REFERENCES = {
-    "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,chain=16", 512),
+    "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
     "building-5": Reference("building.pbrt", f"restir-pt:maxdepth=5,{LEARNS}", 96),
-    "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,chain=16", 320),
-    "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,chain=16", 320),
+    "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
+    "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
     "glossy": Reference("glossy-indirect.pbrt", f"restir-pt:{LEARNS}", 512, options=["--resolution", "160x120"]),
     "ajar": Reference("veach-ajar.pbrt", f"restir-pt:{LEARNS}", 256, options=["--resolution", "320x180"]),
 }
@@ -50,7 +50,8 @@ def warm(reference, *methods, samples=2, repeats=8):
 
 
 def progressive(reference, seconds, *methods, repeats=4):
-    return Comparison(reference, list(methods), ["--time", f"{seconds}s", "--repeats", repeats])
+    """Each picture takes these seconds."""
+    return Comparison(reference, list(methods), ["--time", f"{seconds * repeats}s", "--repeats", repeats])
 
 
 DI_1, DI_5 = "restir-di:maxdepth=1", "restir-di:maxdepth=5"

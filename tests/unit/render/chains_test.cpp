@@ -78,6 +78,21 @@ TEST(Chains, keep_to_the_crop) {
   EXPECT_GT(r.film.pixel(20, 20).mean[0], 0);
 }
 
+// Smaller than a tile, than a block of pixels that share, than a group.
+TEST(Chains, are_lit_in_the_smallest_pictures) {
+  for (const char* way : {"restir-di", "restir-di:groups=off", "restir-pt:temporal=on"})
+    for (const PixelBounds crop : {PixelBounds{20, 20, 21, 21}, {18, 20, 21, 22}, {17, 25, 34, 26}}) {
+      const RenderResult r = chains(way, {4, 4}, 2, 0, crop);
+      EXPECT_EQ(r.film.bounds(), crop);
+      EXPECT_EQ(r.film.non_finite(), 0u);
+      for (int y = crop.y0; y < crop.y1; ++y)
+        for (int x = crop.x0; x < crop.x1; ++x) {
+          EXPECT_EQ(r.film.samples(x, y), 16);
+          EXPECT_GT(r.film.pixel(x, y).mean[0], 0) << way << " " << x << " " << y;
+        }
+    }
+}
+
 TEST(Chains, do_not_show_their_warm_up) {
   const RenderResult r = chains("restir-di:warm-up=3,candidates=2", {2, 2}, 2);
   EXPECT_EQ(r.film.samples(5, 5), 4);
