@@ -250,6 +250,11 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
     const Result<Rendering> rendering = sequence->render({one->render.seed, *one->render.shutter, before}, observer);
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
+    // A frame may be over before anybody asks for signals.
+    if (const int signal = signals.received(); signal != 0 && frame < all.frames->last) {
+      warn(fmt::format("interrupted after frame {}", frame));
+      return {128 + signal, late};
+    }
   }
   return {done, late};
 }

@@ -57,7 +57,7 @@ class ChainJob {
     pool.clear();
     if (failure_) std::rethrow_exception(failure_);
     observer.progress(last);
-    return interrupted && pass_ < settings_.plan.passes;
+    return interrupted && !is_whole_;
   }
 
   RenderResult take_result(bool interrupted) {
@@ -120,6 +120,7 @@ class ChainJob {
       const bool ends = step_.frame == frames_ || (stops && chain_counts());
       if (ends) end_chain();
       over_ = stops || pass_ == settings_.plan.passes;
+      is_whole_ = pass_ == settings_.plan.passes && step_.frame == frames_;
       if (ends && !over_) begin_chain();
     }
     next_tile_ = tiles_done_ = 0;
@@ -195,7 +196,8 @@ class ChainJob {
   const int frames_;  // of a chain, those of the warm-up included
   const Stopwatch since_start_{settings_.clock};
   std::atomic<bool> stop_{false};
-  std::mutex mutex_;  // guards what follows, save what a tile's owner writes
+  bool is_whole_ = false;  // all chains to their last frames
+  std::mutex mutex_;       // guards what follows, save what a tile's owner writes
   std::condition_variable changed_;
   Film film_;
   std::vector<ChainTile> tiles_;

@@ -44,10 +44,11 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.crop = crop_of(scene.film, s.width, s.height, resolution.has_value(), diagnostics);
   if (float clamp = film.number("maxcomponentvalue", ray_infinity); clamp < ray_infinity) s.max_component = clamp;
   const float open = scene.camera.parameters.number("shutteropen", 0),
-              close = scene.camera.parameters.number("shutterclose", 1), exposure_time = close - open;
+              close = scene.camera.parameters.number("shutterclose", 1);
   s.transforms_start = scene.transforms_start, s.transforms_end = scene.transforms_end;
   s.shutter_open = double(open), s.shutter_close = double(close);
-  s.imaging_ratio = (scene.shutter ? 1.0f : exposure_time) * film.number("iso", 100) / 100;
+  // Of the exposure that the file states, whichever another one is asked for.
+  s.imaging_ratio = (close - open) * film.number("iso", 100) / 100;
   if (scene.shutter) s.shutter_open = scene.shutter->first, s.shutter_close = scene.shutter->second;
 
   const ParameterList& sampler = scene.sampler.parameters;

@@ -132,6 +132,31 @@ class Frames(ProgramTest):
         for number in frames:
             self.assertEqual(read_pfm(self.folder / f"a.{number}.pfm")[:2], (16, 16))
 
+    def test_an_interrupt_ends_a_sequence_of_frames_that_are_cut_to_a_time(self):
+        (self.folder / "slide.pbrt").write_text(LIT_SCENE)
+        # Frames over which a signal is seen while they are rendered, and shorter ones.
+        for budget in "300ms", "2ms":
+            program = self.start("render", "slide.pbrt", "--frames", "0:99999", "--interactive-budget", budget,
+                                 "--integrator", "restir-di", "--quiet", "-o", "b.#.pfm")
+            deadline = time.monotonic() + 60
+            while not (self.folder / "b.1.pfm").exists() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            program.send_signal(signal.SIGINT)
+            program.communicate(timeout=60)
+            self.assertEqual(program.returncode, 130)
+            for picture in self.folder.glob("b.*.pfm"):
+                picture.unlink()
+
+    def test_the_shutter_does_not_change_the_brightness(self):
+        self.write_scene()
+        whole = self.told("--frames", "0:0/1", "--spp", "256", "-o", "a.pfm")[0]
+        half = json.loads(self.run_program("render", "slide.pbrt", "--json", "--quiet", "--spp", "256", "--shutter",
+                                           "0.5:1.5", "-o", "a.pfm").stdout)
+        # The panel slides evenly, so that the middle of its way is as bright as the whole.
+        error = math.hypot(whole["standard_error"][0], half["standard_error"][0])
+        self.assertLess(abs(whole["mean"][0] - half["mean"][0]), 4 * error)
+        self.assertGreater(whole["mean"][0], 20 * error)
+
     def test_chains_go_on_from_frame_to_frame(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
         way = ["--integrator", "restir-di:chain=2,candidates=2", "--spp", "8"]

@@ -53,6 +53,8 @@ void check_camera(const Entity& camera, Reporter& report) {
   check_window<float>(camera, "screenwindow", report);
   float open = camera.parameters.number("shutteropen", 0), close = camera.parameters.number("shutterclose", 1);
   if (open > close) report.error(place_of(camera, "shutterclose"), "the shutter closes before it opens");
+  if (open == close)
+    report.error(place_of(camera, "shutterclose"), "the shutter closes when it opens, so that every picture is black");
 }
 
 void check_material(const Entity& material, Reporter& report) {

@@ -136,7 +136,7 @@ void Parser::directive_active_transform() {
 void Parser::directive_transform_times() {
   std::array<double, 2> times;
   if (!numbers(times) || !is_in_world(false)) return;
-  if (times[0] > times[1]) return report_.error(here(), "TransformTimes takes a start and a later end");
+  if (!(times[0] < times[1])) return report_.error(here(), "TransformTimes takes a start and a later end");
   scene_.transforms_start = times[0], scene_.transforms_end = times[1];
 }
 

@@ -202,6 +202,8 @@ INSTANTIATE_TEST_SUITE_P(
         head("wide_angle", "Camera \"perspective\" \"float fov\" 180", 22, "at most 179.99"),
         head("empty_window", "Camera \"perspective\" \"float screenwindow\" [ 1 0 0 1 ]", 22, "is empty"),
         head("shutter", "Camera \"perspective\" \"float shutteropen\" 2", 1, "closes before it opens"),
+        head("noshutter", "Camera \"perspective\" \"float shutteropen\" 1", 1, "closes when it opens"),
+        head("notimes", "TransformTimes 1 1", 1, "a later end"),
         head("realistic", "Camera \"realistic\"", 8, "comes later", "perspective"),
         head("unknown_filter", "PixelFilter \"gauss\"", 13, "no filter 'gauss'", "gaussian"),
         head("negative_filter", "PixelFilter \"box\" \"float xradius\" -2", 19, "at least"),

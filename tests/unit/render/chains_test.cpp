@@ -133,6 +133,16 @@ TEST(Chains, that_are_stopped_end_between_frames_with_a_picture) {
   EXPECT_EQ(r.film.non_finite(), 0u);
 }
 
+// A chain that is broken off counts as a pass, and is none of the passes that were planned.
+TEST(Chains, that_are_broken_off_are_not_whole) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di");
+  StopsAtOnce observer;
+  EXPECT_TRUE(render(chosen.any(), scene().settings(PointSetKind::independent, {1024, 1}, 1, 2), observer).interrupted);
+  RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(chosen.any()), 1, 2);
+  s.budget = {600, 0};
+  EXPECT_TRUE(render(chosen.any(), s, observer).interrupted);
+}
+
 TEST(Chains, end_in_time) {
   const ChosenIntegrator chosen = scene().integrator("restir-di:chain=4");
   RenderSettings s = scene().settings(PointSetKind::independent, {}, 1, 2);
