@@ -211,6 +211,12 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
   if (arguments.load.resolution)
     line += fmt::format(" --resolution {}x{}", arguments.load.resolution->first, arguments.load.resolution->second);
   if (c.crop) line += fmt::format(" --crop {},{},{},{}", c.crop->x0, c.crop->y0, c.crop->x1, c.crop->y1);
+  if (arguments.load.camera) line += fmt::format(" --camera '{}'", *arguments.load.camera);
+  if (arguments.load.animation) line += fmt::format(" --animation '{}'", *arguments.load.animation);
+  if (arguments.load.shutter)
+    line += fmt::format(" --shutter {}:{}", arguments.load.shutter->open, arguments.load.shutter->close);
+  if (arguments.load.lenient) line += " --lenient";
+  if (c.confidence != ContestOptions{}.confidence) line += fmt::format(" --confidence {}", c.confidence);
   if (c.warm_frames) line += " --warm-frames";
   if (c.processor_time) line += " --clock processor";
   if (!c.slopes) line += " --no-slopes";
@@ -222,7 +228,8 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
 Result<SavedContest> resumed(CompareArguments& arguments) {
   ContestOptions& now = arguments.contest;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
-      arguments.load.resolution || arguments.load.lenient || now.confidence != ContestOptions{}.confidence ||
+      arguments.load.resolution || arguments.load.lenient || arguments.load.camera || arguments.load.animation ||
+      arguments.load.shutter || arguments.no_cache || now.confidence != ContestOptions{}.confidence ||
       arguments.no_attribution || arguments.no_slopes || now.warm_frames || now.processor_time)
     return Failure{
         "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "

@@ -129,7 +129,15 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
 
 // ---- the cache of references ----------------------------------------------------------------------------------------
 
-// Changes with any file beside the scene or below, with the size of the picture, and with what biases it.
+// What the picture is of, of all that the scene's files may hold.
+std::string view_of(const LoadOptions& load) {
+  return fmt::format(
+      "camera {}, animation {}, shutter {}, lenient {}", load.camera.value_or("-"), load.animation.value_or("-"),
+      load.shutter ? fmt::format("{} to {}", load.shutter->open, load.shutter->close) : "-", load.lenient);
+}
+
+// Changes with any file beside the scene or below, with the camera, the moment and the size of the picture, and with
+// what biases it.
 std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, const std::string& biases) {
   std::vector<std::string> files;
   std::error_code ignored;
@@ -143,8 +151,8 @@ std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, 
   }
   std::ranges::sort(files);
   const std::string what =
-      fmt::format("{}\n{} {} {} {} {} {} {}\n{}{}", fmt::join(files, "\n"), parts.info.file, parts.picture.width,
-                  parts.picture.height, b.x0, b.y0, b.x1, b.y1, version(), biases);
+      fmt::format("{}\n{} {} {} {} {} {} {}\n{}\n{}{}", fmt::join(files, "\n"), parts.info.file, parts.picture.width,
+                  parts.picture.height, b.x0, b.y0, b.x1, b.y1, view_of(parts.load), version(), biases);
   return checksum(what);
 }
 
@@ -342,12 +350,13 @@ Status check_warm_up(const std::vector<lab::Contestant>& contestants, const Cont
       "no method has frames of warm-up whose time might not count: restir-di:chain=1,warm-up=12 has, for one"};
 }
 
-// Seconds of one repeat of one method.
-double seconds_of_repeat(const lab::ContestState& state, const lab::ContestSettings& settings) {
+// Seconds of one repeat of one method; none where that is not known.
+std::optional<double> seconds_of_repeat(const lab::ContestState& state, const lab::ContestSettings& settings) {
   if (settings.seconds) return *settings.seconds / settings.repeats;
   double sum = 0, repeats = 0;
   for (const lab::MethodState& m : state.methods)
     for (const lab::Repeat& r : m.repeats) sum += r.seconds, repeats += 1;
+  if (!(sum > 0)) return std::nullopt;
   return sum / repeats;
 }
 
@@ -387,8 +396,13 @@ Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, c
       return Failure{"the saved comparison does not fit the scene: its variance was attributed to other layers"};
   }
   int rounds = more.repeats.value_or(settings->repeats);
-  if (more.seconds)
-    rounds = int(std::clamp(std::round(*more.seconds / seconds_of_repeat(saved.state, *settings)), 1.0, 1e6));
+  if (more.seconds) {
+    const std::optional<double> one = seconds_of_repeat(saved.state, *settings);
+    if (!one)
+      return Failure{
+          "the saved comparison has no repeat that tells how long one takes: give --repeats, and not --time"};
+    rounds = int(std::clamp(std::round(*more.seconds / *one), 1.0, 1e6));
+  }
   Contest contest;
   contest.saved = std::move(saved);
   const bool whole = lab::run_rounds(field->contestants, *settings, rounds, watch, contest.saved.state);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cctype>
 #include <cstring>
 #include <deque>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "api/contest.h"
 #include "api/render.h"
 #include "api/saved_file.h"
+#include "io/text_file.h"
 #include "lab/report/base64.h"
 
 namespace montelux {
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux comparison", 3, "montelux compare --save", "comparison"};
+constexpr SavedFormat saved_format{"montelux comparison", 4, "montelux compare --save", "comparison"};
 static_assert(std::endian::native == std::endian::little);
 
 // ---- long arrays ----------------------------------------------------------------------------------------------------
@@ -177,6 +179,9 @@ SavedContest saved_from(const Json& j) {
   saved.scene = j.at("scene").get<std::string>();
   saved.load.lenient = j.at("lenient");
   if (const Json& size = j.at("resolution"); !size.is_null()) saved.load.resolution = {{size.at(0), size.at(1)}};
+  if (const Json& name = j.at("camera"); !name.is_null()) saved.load.camera = name.get<std::string>();
+  if (const Json& name = j.at("animation"); !name.is_null()) saved.load.animation = name.get<std::string>();
+  if (const Json& times = j.at("shutter"); !times.is_null()) saved.load.shutter = {times.at(0), times.at(1)};
   saved.fingerprint = std::stoull(j.at("scene_fingerprint").get<std::string>(), nullptr, 16);
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
@@ -186,6 +191,26 @@ SavedContest saved_from(const Json& j) {
   if (saved.state.methods.size() != saved.options.methods.size())
     throw std::invalid_argument("what it has gathered does not match its methods");
   return saved;
+}
+
+}  // namespace
+
+namespace {
+
+bool names_files(const fs::path& scene) {
+  const fs::path unpacked = scene.extension() == ".gz" ? scene.stem() : scene.filename();
+  return unpacked.extension() == ".pbrt" || unpacked.extension() == ".gltf" || unpacked.extension() == ".glb";
+}
+// As it stands, or as in a URI.
+bool is_named_in(const std::string& content, const std::string& name) {
+  if (content.find(name) != std::string::npos) return true;
+  std::string uri;
+  for (const char c : name) {
+    const bool stays =
+        std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~").find(c) != std::string_view::npos;
+    uri += stays ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return content.find(uri) != std::string::npos;
 }
 
 }  // namespace
@@ -203,12 +228,12 @@ std::uint64_t scene_fingerprint(const fs::path& scene) {
   std::uint64_t all = checksum("");
   std::set<fs::path> reached{fs::absolute(scene, ignored)};
   for (std::deque<fs::path> open{fs::absolute(scene, ignored)}; !open.empty(); open.pop_front()) {
-    const auto content = content_of(open.front());
+    const auto content = read_whole_file(open.front().string());  // unpacked, if it is packed
     if (!content) continue;
     all = checksum(fmt::format("{} bytes\n", content->size()), checksum(*content, all));
-    if (open.front().extension() != ".pbrt") continue;
+    if (!names_files(open.front())) continue;
     for (const fs::path& file : around)
-      if (!reached.contains(file) && content->find(file.filename().string()) != std::string::npos)
+      if (!reached.contains(file) && is_named_in(*content, file.filename().string()))
         reached.insert(file), open.push_back(file);
   }
   return all;
@@ -222,11 +247,17 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
             {"scene_fingerprint", fmt::format("{:016x}", c.fingerprint)},
             {"lenient", c.load.lenient},
             {"resolution", Json()},
+            {"camera", Json()},
+            {"animation", Json()},
+            {"shutter", Json()},
             {"options", options_json(c.options)},
             {"notes", c.notes},
             {"reference", reference_json(c.state.reference)},
             {"methods", Json::array()}};
   if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
+  if (c.load.camera) json["camera"] = *c.load.camera;
+  if (c.load.animation) json["animation"] = *c.load.animation;
+  if (c.load.shutter) json["shutter"] = {c.load.shutter->open, c.load.shutter->close};
   for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
   return save_json(file, std::move(json));
 }

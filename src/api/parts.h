@@ -12,6 +12,7 @@ struct LoadedScene::Parts {
   PictureSettings picture;
   std::unique_ptr<Accel> accel;
   SceneInfo info;
+  LoadOptions load;  // what it was loaded with
 };
 
 }  // namespace montelux

@@ -103,7 +103,7 @@ AnimationWindow window_of(const LoadOptions& options, const AnimationTime& time)
   // With an open shutter, up to the end of the last exposure.
   const double end = frame_shutter(info, frames, frames.last).close;
   while (open && step > 0 && start + step * intervals < end && intervals < 1 << 20) ++intervals;
-  return {start, start + step * intervals, intervals, open};
+  return {start, start + step * intervals, intervals, open, step > 0 ? (shutter.close - shutter.open) / step : 0};
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& opti
       for (ShapeDesc& shape : object.shapes) shape.mesh.reset();
     const double prepare_seconds = watch.lap();
     auto parts = std::make_unique<LoadedScene::Parts>(
-        LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}});
+        LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}, options});
     const Scene& scene = parts->scene;
     parts->accel = std::make_unique<Accel>(
         scene.geometry, [&scene](const Hit<float>& hit, const Ray<float>& ray) { return scene.is_opaque(hit, ray); },

@@ -21,6 +21,7 @@ struct AnimationWindow {
   double start = 0, end = 0;
   int intervals = 1;
   bool open = false;
+  double exposure = 0;  // of one picture of a sequence, in intervals
 };
 
 struct ReadOptions {

@@ -3,7 +3,7 @@ import json
 import unittest
 
 import program
-from program import SCENE, ProgramTest
+from program import ROOT, SCENE, ProgramTest
 
 SMALL = ["--resolution", "16x12", "--seed", "3"]
 
@@ -115,11 +115,36 @@ class Compare(ProgramTest):
             (["--resume", "run.json", "-a", "path"], "only the budget"),
             (["--resume", "run.json", "--seed", "4"], "only the budget"),
             (["--resume", "run.json", "--warm-frames"], "only the budget"),
+            (["--resume", "run.json", "--camera", "1"], "only the budget"),
+            (["--resume", "run.json", "--animation", "1"], "only the budget"),
+            (["--resume", "run.json", "--shutter", "0:1"], "only the budget"),
+            (["--resume", "run.json", "--no-cache"], "only the budget"),
             (["--resume", "nowhere.json"], "cannot be read"),
             (["--save", "run.json"], "a scene is missing"),
         ]:
             with self.subTest(arguments=arguments):
                 self.assertIn(word, self.run_program("compare", *arguments, status=2).stderr)
+
+    def test_a_comparison_is_of_one_moment_and_camera(self):
+        program.ENVIRONMENT["XDG_CACHE_HOME"] = str(self.folder)
+        scene = self.folder / "scene/moves.gltf"  # what is written beside a scene changes it
+        scene.parent.mkdir()
+        scene.write_text((ROOT / "scenes/clockwork/clockwork.gltf").read_text())
+        common = ["-a", "path", "-b", "path:mis=balance", *SMALL, "--spp", 4, "--json"]
+        for time in "0:0", "0.7:0.7":
+            result = self.run_program("compare", scene, "--shutter", time, *common, "--repeats", 2, "--save", f"{time[:3]}.json")
+            self.assertNotIn("kept from an earlier comparison", result.stderr)
+        again = self.run_program("compare", scene, "--shutter", "0:0", *common, "--repeats", 2)
+        self.assertIn("kept from an earlier comparison", again.stderr)
+        # What goes on is of the moment that it was begun with: the same as all at once.
+        whole = self.run_program("compare", scene, "--shutter", "0.7:0.7", *common, "--repeats", 4)
+        more = self.run_program("compare", "--resume", "0.7.json", "--repeats", 2, "--json")
+        for one, other in zip(json.loads(whole.stdout)["methods"], json.loads(more.stdout)["methods"]):
+            # But for the reference, which was read from a file.
+            self.assertAlmostEqual(one["mse"]["mean"] / other["mse"]["mean"], 1, delta=1e-3)
+        scene.write_text(scene.read_text() + " ")
+        self.assertIn("has changed since",
+                      self.run_program("compare", "--resume", "0.7.json", "--repeats", 2, status=2).stderr)
 
     def test_a_bad_reference_is_refused(self):
         self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 8, "-o", "noisy.exr", "--quiet")

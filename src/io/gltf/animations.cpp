@@ -45,10 +45,29 @@ std::optional<std::vector<double>> read_times(Document& document, const Element&
   }
   for (std::size_t i = 0; i < times.size(); ++i)
     if (times[i] < 0 || (i > 0 && !(times[i] > times[i - 1]))) {
-      input.error("the times of keys must not be negative, and must rise");
+      input.error("the times of keys must not be negative, and must rise: key " + std::to_string(i) + " is at " +
+                  std::to_string(times[i]) + " s" +
+                  (i > 0 ? ", the one before it at " + std::to_string(times[i - 1]) + " s" : ""));
       return std::nullopt;
     }
   return times;
+}
+
+// The morph targets of the mesh that a node places.
+std::size_t targets_of(Document& document, std::size_t node) {
+  const Element meshes = document.list("meshes");
+  const auto mesh = document.list("nodes")[node]["mesh"].index_of(meshes, "a mesh");
+  return mesh ? meshes[*mesh]["primitives"][std::size_t{0}]["targets"].size() : 0;
+}
+
+// The first key whose quaternion says nothing.
+std::optional<std::size_t> zero_rotation(const Numbers& values, bool is_cubic) {
+  const std::size_t parts = is_cubic ? 3 : 1;
+  for (std::size_t key = 0; key * parts < values.count; ++key) {
+    const float* q = values.at(key * parts + (is_cubic ? 1 : 0));
+    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0) return key;
+  }
+  return std::nullopt;
 }
 
 std::optional<Track> read_track(Document& document, const NodeTree& tree, const Element& channel,
@@ -82,6 +101,17 @@ std::optional<Track> read_track(Document& document, const NodeTree& tree, const 
     return std::nullopt;
   }
   track.width = is_free ? values->count / keys : fixed_widths[std::size_t(track.path)];
+  if (is_free && track.width != targets_of(document, *node)) {
+    sampler["output"].error("has " + std::to_string(track.width) + " weights for each key; the mesh of node " +
+                            std::to_string(*node) + " has " + std::to_string(targets_of(document, *node)) +
+                            " morph targets");
+    return std::nullopt;
+  }
+  if (track.path == AnimatedPath::rotation)
+    if (const auto zero = zero_rotation(*values, track.interpolation == Interpolation::cubic)) {
+      sampler["output"].error("the rotation of key " + std::to_string(*zero) + " has length zero");
+      return std::nullopt;
+    }
   track.times = *std::move(times);
   track.values = values->values;
   return track;

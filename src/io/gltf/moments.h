@@ -20,9 +20,9 @@ struct Moments {
 };
 
 // As many moments as the window asks for, and where the shutter is open as many between them as straight lines from one
-// to the next need to follow what turns to 1.3e-5 of its distance from the axis; 129 in all at most. Where these follow
-// nothing to 7.6e-5 the scene holds fewer frames than were asked for, and where it does not even hold one, that is an
-// error.
+// to the next need to follow what turns to 1.3e-5 of its distance from the axis, and places and weights to a thousandth
+// of their way; 129 in all at most. Where these do not follow turns to 7.6e-5, or are too few for the frames, the scene
+// holds fewer frames than were asked for, and where it does not even follow one, that is an error.
 Moments moments_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
                    const AnimationWindow& window);
 

@@ -233,9 +233,9 @@ TEST(Contest, refuses_files_that_are_no_saved_contest) {
   for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
            {"not JSON", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux integrals"})", "not a file that montelux compare --save wrote"},
-           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 3"},
+           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 4"},
            {R"({"format": "montelux comparison"})", "is no saved comparison"},
-           {R"({"format": "montelux comparison", "version": 3})", "it is damaged"}}) {
+           {R"({"format": "montelux comparison", "version": 4})", "it is damaged"}}) {
     std::ofstream(file) << text;
     const Result<SavedContest> read = load_contest(file);
     ASSERT_FALSE(read);
