@@ -178,6 +178,11 @@ class Camera {
   }
   // As the camera is in its own space, where it moves.
   const Variant& variant() const { return camera_; }
+  // Pixels after which the picture comes back along x; 0: it does not.
+  float turn_in_pixels() const {
+    const auto* all = std::get_if<SphericalCamera>(&camera_);
+    return all && all->mapping == SphericalCamera::Mapping::equirectangular ? 1.0f / all->to_unit.x : 0.0f;
+  }
 
   // A camera that stands in its own space, which moves through the world.
   Camera moved(const Motion& camera_to_world) && {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -36,6 +37,7 @@ Projection<F> earlier_places(const Scene& scene, const Accel& accel, const Motio
 
 void fill_row(const Scene& scene, const Accel& accel, const MotionRequest& request, int y, PixelBuffer& out) {
   const PixelBounds& b = request.bounds;
+  const float turn = scene.camera.turn_in_pixels();
   for (int x0 = 0; x0 < b.width(); x0 += lanes_of<F>) {
     const U x = lane_index<F>() + U(std::uint32_t(x0));
     const Mask<F> on = x < U(std::uint32_t(b.width()));
@@ -43,7 +45,8 @@ void fill_row(const Scene& scene, const Accel& accel, const MotionRequest& reque
     const Projection<F> then = earlier_places(scene, accel, request, raster, on);
     for_each_lane(Mask<F>(on & then.seen), [&](int k) {
       const Vec2f here = lane(raster, k), there = lane(then.raster, k);
-      out.at(x0 + k, y, 0) = there.x - here.x;
+      const float way = there.x - here.x;
+      out.at(x0 + k, y, 0) = turn > 0 ? way - turn * std::round(way / turn) : way;
       out.at(x0 + k, y, 1) = here.y - there.y;
     });
   }

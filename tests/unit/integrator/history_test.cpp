@@ -126,7 +126,7 @@ TEST(Motion, finds_the_history_of_most_pixels_of_a_panning_camera) {
   printf("history of the right object: %d of %d pixels by motion, %d by place (of the same spot: %d)\n", by_motion,
          size * size, by_place, there_by_place);
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(by_motion, 0.8 * size * size);
+  EXPECT_GT(by_motion, 3750);  // of 4096; all but what came into view and thin edges
   EXPECT_GT(by_motion, 1.2 * by_place);
   EXPECT_GT(by_motion, 4 * there_by_place);
 }

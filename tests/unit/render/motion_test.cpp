@@ -67,5 +67,22 @@ LightSource "infinite"
             motion(scene, {0.5f, 0.5f}, {0.5f, 0.5f}).at(3, 3, 0));
 }
 
+// All around: also where the way leads over the seam of the picture.
+TEST(MotionVectors, of_a_panorama_are_the_shorter_way_round) {
+  const TestScene scene(R"(Film "rgb" "integer xresolution" 36 "integer yresolution" 18
+LookAt 0 0 0  0 0 1  0 1 0
+ActiveTransform EndTime
+Rotate -20 0 1 0
+ActiveTransform All
+Camera "spherical" "string mapping" [ "equirectangular" ]
+WorldBegin
+LightSource "infinite"
+)");
+  // Ten degrees, which are one pixel of the picture, the same way everywhere.
+  const PixelBuffer m = motion(scene, {0.5f, 0.5f}, {0, 0});
+  EXPECT_NEAR(std::abs(m.at(18, 9, 0)), 1, 1e-4);
+  for (int x = 0; x < 36; ++x) EXPECT_NEAR(m.at(x, 9, 0), m.at(18, 9, 0), 1e-4) << x;
+}
+
 }  // namespace
 }  // namespace montelux::test
