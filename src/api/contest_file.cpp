@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cstring>
 #include <deque>
 #include <nlohmann/json.hpp>
@@ -201,16 +202,25 @@ bool names_files(const fs::path& scene) {
   const fs::path unpacked = scene.extension() == ".gz" ? scene.stem() : scene.filename();
   return unpacked.extension() == ".pbrt" || unpacked.extension() == ".gltf" || unpacked.extension() == ".glb";
 }
-// As it stands, or as in a URI.
-bool is_named_in(const std::string& content, const std::string& name) {
-  if (content.find(name) != std::string::npos) return true;
-  std::string uri;
-  for (const char c : name) {
-    const bool stays =
-        std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~").find(c) != std::string_view::npos;
-    uri += stays ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+// With "%20" and the like as what they stand for.
+std::string without_escapes(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    if (text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+        std::from_chars(&text[i + 1], &text[i + 3], code, 16).ptr == &text[i + 3])
+      plain += char(code), i += 2;
+    else
+      plain += text[i];
   }
-  return content.find(uri) != std::string::npos;
+  return plain;
+}
+// What may name other files: of a .glb its JSON, which its first chunk is.
+std::string naming_part(const fs::path& file, const std::string& content) {
+  if (file.extension() != ".glb" || content.size() < 20) return content;
+  std::uint32_t length = 0;
+  std::memcpy(&length, &content[12], 4);
+  return content.substr(20, length);
 }
 
 }  // namespace
@@ -232,9 +242,12 @@ std::uint64_t scene_fingerprint(const fs::path& scene) {
     if (!content) continue;
     all = checksum(fmt::format("{} bytes\n", content->size()), checksum(*content, all));
     if (!names_files(open.front())) continue;
-    for (const fs::path& file : around)
-      if (!reached.contains(file) && is_named_in(*content, file.filename().string()))
+    const std::string naming = naming_part(open.front(), *content), plain = without_escapes(naming);
+    for (const fs::path& file : around) {
+      const std::string name = file.filename().string();
+      if (!reached.contains(file) && (naming.find(name) != naming.npos || plain.find(name) != plain.npos))
         reached.insert(file), open.push_back(file);
+    }
   }
   return all;
 }

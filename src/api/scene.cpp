@@ -103,7 +103,8 @@ AnimationWindow window_of(const LoadOptions& options, const AnimationTime& time)
   // With an open shutter, up to the end of the last exposure.
   const double end = frame_shutter(info, frames, frames.last).close;
   while (open && step > 0 && start + step * intervals < end && intervals < 1 << 20) ++intervals;
-  return {start, start + step * intervals, intervals, open, step > 0 ? (shutter.close - shutter.open) / step : 0};
+  const ShutterTimes one = frame_shutter(info, frames, frames.first);
+  return {start, start + step * intervals, intervals, open, step > 0 ? (one.close - one.open) / step : 0};
 }
 
 }  // namespace

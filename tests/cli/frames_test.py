@@ -243,6 +243,10 @@ class Frames(ProgramTest):
         many, notes = told("--frames", "0:129", "--fps", "65", "--spp", "1", "-o", "c.#.pfm")
         self.assertEqual(len(many), 130)
         self.assertIn("frames from 127 on", notes)
+        # Exposures are shares of a frame, however many frames there are.
+        open_shutter, notes = told("--frames", "0:129/300", "--shutter", "0:1", "--spp", "1", "-o", "e.#.pfm")
+        self.assertEqual(len(open_shutter), 130)
+        self.assertIn("frames from 127 on", notes)
         late, _ = told("--frames", "128:129", "--fps", "65", "--spp", "1", "-o", "d.#.pfm")
         for a, b in zip(many[128]["mean"], late[0]["mean"], strict=True):
             self.assertAlmostEqual(a, b, delta=2e-3 * b)

@@ -1,7 +1,9 @@
 #include "io/gltf/moments.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include "io/text_file.h"
 
@@ -38,11 +40,16 @@ double off_the_chord(const Matrix4& a, const Matrix4& b, double t, const Matrix4
 }
 
 // What chords leave out of the motion between moments.
-struct Worst {
-  double turn = 0;       // of a linear part, against its size,
-  std::size_t node = 0;  // and the node that has it
-  double way = 0;        // of a place or of a morph target's weight, against all of its way
+struct ChordErrors {
+  std::vector<double> turns;  // of the linear parts, against their sizes, by chord
+  std::size_t node = 0;       // that has the largest of these
+  double way = 0;             // of a place or of a morph target's weight, against all of its way
 };
+
+std::string time_text(double seconds) {
+  std::string text = std::to_string(seconds);
+  return text.substr(0, text.find_last_not_of('0') + 2);
+}
 
 // Of a way that is sampled between its moments: how far samples are from the chord, over how far they are from the
 // start.
@@ -60,13 +67,13 @@ class WayError {
 double place_of(const Matrix4& m, std::size_t i) { return m.m[i][3]; }
 double off_between(double a, double b, double t, double there) { return std::abs((1 - t) * a + t * b - there); }
 
-Worst worst_chord(const NodeTree& tree, const Moments& moments, const std::optional<Animation>& animation) {
+ChordErrors chord_errors(const NodeTree& tree, const Moments& moments, const std::optional<Animation>& animation) {
   // Where steps are few, motion may come back to its chord within one.
-  const std::size_t steps = moments.count() - 1;
+  const std::size_t steps = moments.count() - 1, nodes = tree.nodes.size();
   const int parts = steps <= 16 ? 8 : 2;
   const double step = (moments.end - moments.start) / double(steps);
-  const std::size_t nodes = tree.nodes.size();
-  Worst worst;
+  ChordErrors errors{std::vector<double>(steps), 0, 0};
+  double largest = 0;
   std::vector<WayError> ways(nodes), weights(nodes);
   for (std::size_t k = 0; k < steps; ++k)
     for (int part = 1; part <= parts; ++part) {
@@ -75,7 +82,8 @@ Worst worst_chord(const NodeTree& tree, const Moments& moments, const std::optio
       for (std::size_t i = 0; i < nodes; ++i) {
         const Matrix4 &start = moments.world[0][i], &a = moments.world[k][i], &b = moments.world[k + 1][i];
         const double turn = off_the_chord(a, b, t, there.world[i]);
-        if (turn > worst.turn) worst.turn = turn, worst.node = i;
+        errors.turns[k] = std::max(errors.turns[k], turn);
+        if (turn > largest) largest = turn, errors.node = i;
         for (std::size_t j = 0; j < 3; ++j)
           ways[i].add_sample(std::abs(place_of(there.world[i], j) - place_of(start, j)),
                              off_between(place_of(a, j), place_of(b, j), t, place_of(there.world[i], j)));
@@ -85,8 +93,9 @@ Worst worst_chord(const NodeTree& tree, const Moments& moments, const std::optio
           weights[i].add_sample(std::abs(w[j] - first[j]), off_between(before[j], after[j], t, w[j]));
       }
     }
-  for (std::size_t i = 0; i < nodes; ++i) worst.way = std::max({worst.way, ways[i].relative(), weights[i].relative()});
-  return worst;
+  for (std::size_t i = 0; i < nodes; ++i)
+    errors.way = std::max({errors.way, ways[i].relative(), weights[i].relative()});
+  return errors;
 }
 
 void fill(Moments& moments, const NodeTree& tree, const std::optional<Animation>& animation, int steps) {
@@ -97,6 +106,54 @@ void fill(Moments& moments, const NodeTree& tree, const std::optional<Animation>
     moments.world.push_back(std::move(pose.world));
     moments.weights.push_back(std::move(pose.weights));
   }
+}
+
+// The largest turn of each of n intervals, which have as many chords each; 0 where it is given up.
+std::vector<double> largest_turns(const ChordErrors& errors, std::size_t n, const std::vector<bool>& is_given_up) {
+  std::vector<double> largest(n, 0.0);
+  for (std::size_t k = 0; k < errors.turns.size(); ++k) {
+    const std::size_t i = k * n / errors.turns.size();
+    if (!is_given_up[i]) largest[i] = std::max(largest[i], errors.turns[k]);
+  }
+  return largest;
+}
+
+// Which intervals between moments not even this many chords follow; they are reported.
+std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
+                           const Moments& moments, const ChordErrors& errors, int most_chords) {
+  std::vector<bool> result(errors.turns.size(), false);
+  const double step = (moments.end - moments.start) / double(errors.turns.size());
+  bool is_reported = false;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (errors.turns[k] <= tolerance) continue;
+    Moments fine{moments.start + double(k) * step, moments.start + double(k + 1) * step, {}, {}};
+    fill(fine, tree, animation, most_chords);
+    const ChordErrors off = chord_errors(tree, fine, animation);
+    const double turn = std::ranges::max(off.turns);
+    result[k] = turn > tolerance;
+    if (!result[k] || std::exchange(is_reported, true)) continue;
+    const std::string& name = tree.nodes[off.node].name;
+    document.report().tolerable(
+        document.whole(),
+        "node " + std::to_string(off.node) + (name.empty() ? std::string() : " '" + printable(name) + "'") +
+            " turns or jumps too fast for its way to be followed while the shutter is open, at " +
+            time_text(fine.start) + " to " + time_text(fine.end) + " s",
+        "a step of its way is off by " + std::to_string(turn) +
+            " of the distance from its axis; a shorter exposure or more frames a second are followed");
+  }
+  return result;
+}
+
+// The most intervals from the first on, fewer than all and at least `least`, that can be followed, by the turns that
+// this many chords leave out. Errors go with the square of the step.
+int longest_part(const std::vector<double>& turns, int chords, int least) {
+  double needed = 1;
+  int longest = least;
+  for (int n = 1; n < int(turns.size()); ++n) {
+    needed = std::max(needed, chords * std::sqrt(turns[std::size_t(n - 1)] / tolerance));
+    if (std::bit_floor(unsigned(most_steps / n)) >= needed) longest = std::max(longest, n);
+  }
+  return longest;
 }
 
 }  // namespace
@@ -118,10 +175,11 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
     return moments;
   }
   const int intervals = std::max(window.intervals, 1);
+  const double exposure = std::clamp(window.exposure, 0.0, 1e6);
   // The first n intervals, with as many chords each.
   const auto take = [&](int n, int chords) {
     moments.end = window.start + (window.end - window.start) * n / intervals;
-    moments.frames_held = n < intervals ? std::max(1, int(n - std::max(window.exposure, 1.0))) : 1 << 30;
+    moments.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
     fill(moments, tree, animation, n * chords);
   };
   const int most = std::min(intervals, most_steps);
@@ -130,36 +188,28 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
     return moments;
   }
   // The moments of the first frames, if all are too many; the rest is another scene. One frame is the least.
-  const int least = std::min(most, 2 + int(std::ceil(window.exposure)));
-  if (intervals > most_steps && window.exposure + 2 > most_steps)
+  const int least = std::min(most, 1 + int(std::ceil(exposure - 1e-9)));
+  if (intervals > most_steps && exposure + 1 > most_steps)
     document.report().tolerable(document.whole(),
-                                "the shutter is open over " + std::to_string(int(window.exposure)) +
-                                    " frames, and no more than " + std::to_string(most_steps - 2) + " can be held",
+                                "the shutter is open over more than " + std::to_string(most_steps - 1) + " frames",
                                 "a shorter exposure, or fewer frames a second");
-  Worst worst;
+  std::vector<bool> is_given_up;
   for (int n = most;;) {
     int chords = 1;
     take(n, chords);
-    worst = worst_chord(tree, moments, animation);
-    while ((worst.turn > aim || worst.way > aim_of_ways) && 2 * chords * n <= most_steps) {
+    ChordErrors errors = chord_errors(tree, moments, animation);
+    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, moments, errors, most_steps / least);
+    const auto turns = [&] { return largest_turns(errors, std::size_t(n), is_given_up); };
+    const auto is_rough = [&] { return std::ranges::max(turns()) > aim || errors.way > aim_of_ways; };
+    while (2 * chords * n <= most_steps && is_rough()) {
       chords *= 2;
       take(n, chords);
-      worst = worst_chord(tree, moments, animation);
+      errors = chord_errors(tree, moments, animation);
     }
-    if (worst.turn <= tolerance) return moments;
-    if (n <= least) break;
-    // Errors go with the square of the step.
-    const double needed = std::exp2(std::ceil(std::log2(chords * std::sqrt(worst.turn / tolerance))));
-    n = std::clamp(int(most_steps / needed), least, n - 1);
+    const std::vector<double> all = turns();
+    if (std::ranges::max(all) <= tolerance || n <= least) return moments;
+    n = longest_part(all, chords, least);
   }
-  document.report().tolerable(
-      document.whole(),
-      "node " + std::to_string(worst.node) +
-          (tree.nodes[worst.node].name.empty() ? std::string() : " '" + printable(tree.nodes[worst.node].name) + "'") +
-          " turns or jumps too fast for its way to be followed while the shutter is open",
-      "a step of its way is off by " + std::to_string(worst.turn) +
-          " of the distance from its axis; a shorter exposure or more frames a second are followed");
-  return moments;
 }
 
 }  // namespace montelux::gltf

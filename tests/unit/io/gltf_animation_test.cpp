@@ -124,6 +124,13 @@ ReadResult read_window(const std::string& json, AnimationWindow window, bool len
   return read_text(json, options);
 }
 
+ReadResult read_text_in(AnimationWindow window, const std::string& json, bool lenient = false) {
+  ReadOptions options;
+  options.lenient = lenient;
+  options.window = [window](const AnimationTime&) { return window; };
+  return read_text(json, options);
+}
+
 TEST(GltfAnimation, stands_at_its_start_in_a_still_picture) {
   const ReadResult result = read_text(turning(pi2));
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
@@ -211,6 +218,15 @@ TEST(GltfAnimation, that_comes_back_within_the_exposure_is_followed) {
   EXPECT_NE(render(turns.diagnostics).find("too fast"), std::string::npos);
   const ReadResult slow = read_window(turning_by_quarters(8), {0, 2, 20, true, 1});
   ASSERT_TRUE(slow.scene) << render(slow.diagnostics);
+  // A jump far ahead is told of at once, and with when it is.
+  const std::string jumps = animated({0, 1.7f, 1.75f}, joined({turn(0), turn(0), turn(1)}), "rotation", "STEP");
+  const ReadResult ahead = read_text_in({0, 1.75, 60, true, 0.5}, jumps);
+  EXPECT_FALSE(ahead.scene);
+  EXPECT_NE(render(ahead.diagnostics).find("at 1.72"), std::string::npos) << render(ahead.diagnostics);
+  // Where that is tolerated, the frames before it do not suffer.
+  const ReadResult tolerated = read_text_in({0, 1.75, 60, true, 0.5}, jumps, true);
+  ASSERT_TRUE(tolerated.scene);
+  EXPECT_GE(tolerated.scene->frames_held, 60);
   // There and back, by keys at 0, 1 and 2 s.
   const ReadResult slides =
       read_window(animated({0, 1, 2}, {0, 0, 0, 4, 0, 0, 0, 0, 0}, "translation"), {0, 2, 1, true});
