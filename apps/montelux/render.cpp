@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -175,11 +174,7 @@ int write_files(const RenderArguments& arguments, const Rendering& rendering) {
 Status check_files(const RenderArguments& arguments) {
   for (const std::string& file : arguments.files)
     if (Status good = check_picture_file(file); !good) return good;
-  const auto is_exr = [](const std::string& file) {
-    std::string ending = std::filesystem::path(file).extension();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending == ".exr";
-  };
+  const auto is_exr = [](const std::string& file) { return extension_of(file) == ".exr"; };
   if (arguments.render.layers && arguments.render.layers->motion && std::ranges::none_of(arguments.files, is_exr))
     return Failure{"the layer of motion needs an .exr file: -o PICTURE.exr"};
   if (arguments.render.layers && !arguments.json && std::ranges::none_of(arguments.files, is_exr))

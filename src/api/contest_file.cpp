@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cctype>
-#include <charconv>
 #include <cstring>
-#include <deque>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
 #include "api/checksum.h"
 #include "api/contest.h"
 #include "api/render.h"
 #include "api/saved_file.h"
-#include "io/text_file.h"
 #include "lab/report/base64.h"
 
 namespace montelux {
@@ -195,62 +190,6 @@ SavedContest saved_from(const Json& j) {
 }
 
 }  // namespace
-
-namespace {
-
-bool names_files(const fs::path& scene) {
-  const fs::path unpacked = scene.extension() == ".gz" ? scene.stem() : scene.filename();
-  return unpacked.extension() == ".pbrt" || unpacked.extension() == ".gltf" || unpacked.extension() == ".glb";
-}
-// With "%20" and the like as what they stand for.
-std::string without_escapes(const std::string& text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    if (text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
-        std::from_chars(&text[i + 1], &text[i + 3], code, 16).ptr == &text[i + 3])
-      plain += char(code), i += 2;
-    else
-      plain += text[i];
-  }
-  return plain;
-}
-// What may name other files: of a .glb its JSON, which its first chunk is.
-std::string naming_part(const fs::path& file, const std::string& content) {
-  if (file.extension() != ".glb" || content.size() < 20) return content;
-  std::uint32_t length = 0;
-  std::memcpy(&length, &content[12], 4);
-  return content.substr(20, length);
-}
-
-}  // namespace
-
-std::uint64_t scene_fingerprint(const fs::path& scene) {
-  std::error_code ignored;
-  std::vector<fs::path> around;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::absolute(scene, ignored).parent_path(),
-                                                            fs::directory_options::skip_permission_denied, ignored)) {
-    if (entry.is_regular_file(ignored)) around.push_back(entry.path());
-    if (around.size() > 20000) break;
-  }
-  std::ranges::sort(around);
-  // Of the files that are reached, in the order in which they are.
-  std::uint64_t all = checksum("");
-  std::set<fs::path> reached{fs::absolute(scene, ignored)};
-  for (std::deque<fs::path> open{fs::absolute(scene, ignored)}; !open.empty(); open.pop_front()) {
-    const auto content = read_whole_file(open.front().string());  // unpacked, if it is packed
-    if (!content) continue;
-    all = checksum(fmt::format("{} bytes\n", content->size()), checksum(*content, all));
-    if (!names_files(open.front())) continue;
-    const std::string naming = naming_part(open.front(), *content), plain = without_escapes(naming);
-    for (const fs::path& file : around) {
-      const std::string name = file.filename().string();
-      if (!reached.contains(file) && (naming.find(name) != naming.npos || plain.find(name) != plain.npos))
-        reached.insert(file), open.push_back(file);
-    }
-  }
-  return all;
-}
 
 Status save_contest(const fs::path& file, const SavedContest& c) {
   Json json{{"format", saved_format.name},

@@ -17,12 +17,6 @@ namespace {
 constexpr std::array<std::string_view, 3> linear_extensions{".exr", ".hdr", ".pfm"};
 constexpr std::array<std::string_view, 3> display_extensions{".png", ".jpg", ".jpeg"};
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string e = file.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return e;
-}
-
 template <class List>
 bool contains(const List& list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -40,6 +34,12 @@ constexpr std::array<NamedCurve, 3> curves{{
 }};
 
 }  // namespace
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return e;
+}
 
 std::vector<std::pair<std::string, std::string>> tone_curves() {
   std::vector<std::pair<std::string, std::string>> names;

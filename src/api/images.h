@@ -20,6 +20,9 @@ std::optional<ToneCurve> tone_curve_named(std::string_view name);
 // written to. Asked before a render, so that the work is not lost.
 Status check_picture_file(const std::filesystem::path& file);
 
+// The ending of a file's name with its dot, in lower case: what tells its format.
+std::string extension_of(const std::filesystem::path& file);
+
 // It is a format of 8 bits for display: .png, .jpg.
 bool is_display_file(const std::filesystem::path& file);
 

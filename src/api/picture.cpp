@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/images.h"
 #include "api/render.h"
 
 namespace montelux {
@@ -34,16 +35,6 @@ std::vector<std::string> channel_names() {
   return {"R",   "G",   "B",   "A",   "stderr.R", "stderr.G", "stderr.B", "albedo.R", "albedo.G", "albedo.B",
           "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
 }
-
-std::string extension_of(const std::filesystem::path& file) {
-  std::string e = file.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return e;
-}
-
-}  // namespace
-
-namespace {
 
 // Of every layer of light its mean, and where it is known its standard error. The colour becomes the mean of all light
 // as the layers know it, so that they sum to it.

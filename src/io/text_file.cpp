@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -100,6 +101,21 @@ Result<std::string> read_whole_file(const std::string& path) {
   if (read != bytes.size()) return Failure{"cannot read all of '" + printable(path) + "'"};
   if (bytes.size() > 2 && bytes.compare(0, 2, "\x1f\x8b") == 0) return unpack(bytes, printable(path));
   return bytes;
+}
+
+std::string without_escapes(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned char byte = 0;
+    if (text[i] == '%' && i + 2 < text.size() &&
+        std::from_chars(&text[i + 1], &text[i + 1] + 2, byte, 16).ptr == &text[i + 1] + 2) {
+      plain += char(byte);
+      i += 2;
+    } else {
+      plain += text[i];
+    }
+  }
+  return plain;
 }
 
 std::string printable(std::string_view text) {

@@ -14,6 +14,9 @@ Result<std::string> read_whole_file(const std::string& path);
 // `name` as it is to be opened: an absolute path stays, another one starts at `folder`.
 std::string resolve_path(const std::string& folder, const std::string& name);
 
+// A URI's text with what stands for bytes as those bytes: "%20" becomes a space (RFC 3986, 2.1). Other text stays.
+std::string without_escapes(std::string_view text);
+
 // Whether a regular file of this path can be seen.
 bool is_regular_file(const std::string& path);
 

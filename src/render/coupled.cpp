@@ -196,8 +196,7 @@ class ChainJob {
   const int frames_;  // of a chain, those of the warm-up included
   const Stopwatch since_start_{settings_.clock};
   std::atomic<bool> stop_{false};
-  bool is_whole_ = false;  // all chains to their last frames
-  std::mutex mutex_;       // guards what follows, save what a tile's owner writes
+  std::mutex mutex_;  // guards what follows, save what a tile's owner writes
   std::condition_variable changed_;
   Film film_;
   std::vector<ChainTile> tiles_;
@@ -210,6 +209,7 @@ class ChainJob {
   double warm_up_began_ = 0;  // of the chain at hand, likewise
   double warm_up_ = 0;        // seconds of all that is over
   bool over_ = false;
+  bool is_whole_ = false;  // all chains to their last frames
   int running_ = 0;
   RayCounts rays_;
   std::exception_ptr failure_;

@@ -12,7 +12,7 @@
 namespace montelux {
 namespace {
 
-using testing_io::TemporaryFolder;
+using test::TemporaryFolder;
 
 SceneDesc read(const std::string& text, const std::string& folder = ".") {
   ReadResult result = read_pbrt_text(text, folder);

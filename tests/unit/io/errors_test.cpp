@@ -293,7 +293,7 @@ TEST(LenientReading, lets_pass_what_montelux_cannot_do_yet) {
 }
 
 TEST(Reading, names_the_format_of_a_file_that_is_none_of_pbrt) {
-  const testing_io::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const auto& [content, what] :
        std::vector<std::pair<std::string, std::string>>{{"{\n  \"asset\": {}\n}", "JSON, as glTF is"},
                                                         {" \n<scene version=\"3.0.0\"/>", "XML, as Mitsuba's"},
@@ -317,7 +317,7 @@ TEST(Messages, hold_no_control_characters_and_no_broken_text) {
   EXPECT_EQ(printable("\xed\xa0\x80"), "???");
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");
   EXPECT_EQ(printable("\xc2\x9b"), "??");
-  const testing_io::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const ReadResult result = read_pbrt(folder.write("scene.pbrt", "WorldBegin\nShap\xff\xfe \x1b[31m\n"));
   const std::string text = render(result.diagnostics, {false, true});
   for (const char* broken : {"\xff", "\xfe", "\x1b"}) EXPECT_EQ(text.find(broken), std::string::npos) << text;

@@ -10,7 +10,7 @@
 namespace montelux {
 namespace {
 
-using namespace testing_io;
+using namespace test;
 using gltf::AnimatedPath;
 using gltf::Interpolation;
 using gltf::Track;

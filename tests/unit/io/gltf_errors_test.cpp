@@ -8,7 +8,7 @@
 namespace montelux {
 namespace {
 
-using namespace testing_io;
+using namespace test;
 
 struct Fault {
   const char* name;

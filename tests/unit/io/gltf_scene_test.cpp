@@ -13,7 +13,7 @@
 namespace montelux {
 namespace {
 
-using namespace testing_io;
+using namespace test;
 
 // A document with one mesh of one primitive whose accessors are given.
 std::string mesh_json(const Bytes& bytes, const std::string& views, const std::string& accessors,

@@ -86,7 +86,7 @@ TEST(Ply, faces_without_area_are_dropped_with_their_number) {
   EXPECT_EQ(outcome.diagnostics.all().front().message.substr(0, 8), "2 faces ");
 }
 TEST(Ply, reads_from_a_file) {
-  testing_io::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   Outcome outcome;
   outcome.mesh = read_ply(folder.write("mesh.ply", binary_mesh(false)), {}, outcome.diagnostics);
   expect_mesh(outcome);

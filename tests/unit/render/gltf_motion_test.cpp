@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "gltf_files.h"
 #include "render/motion.h"
 #include "render_scenes.h"
-#include "unit/io/gltf_files.h"
 
 namespace montelux::test {
 namespace {
 
-using namespace testing_io;
+using namespace test;
 
 // A square of two units in the picture of four, 16 x 16 pixels; its animation of two seconds is of this path.
 std::string square(const std::string& path, const std::string& shape, const Bytes& animated) {
@@ -40,7 +40,7 @@ std::string square(const std::string& path, const std::string& shape, const Byte
 PixelBuffer motion_of_frame(const std::string& json) {
   ReadOptions options;
   options.window = [](const AnimationTime&) { return AnimationWindow{0, 2, 4, false}; };
-  const TestScene scene(testing_io::read_text(json, options), std::pair{16, 16});
+  const TestScene scene(test::read_text(json, options), std::pair{16, 16});
   return motion_vectors(scene.scene(), scene.accel(), {{0, 0, 16, 16}, {0.5f, 0.5f}, {0.25f, 0.25f}, 1});
 }
 

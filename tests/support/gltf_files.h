@@ -9,7 +9,7 @@
 #include "io/report.h"
 #include "temporary_folder.h"
 
-namespace montelux::testing_io {
+namespace montelux::test {
 
 inline std::string base64(const std::string& bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -85,4 +85,4 @@ inline std::string triangle_json(const std::string& primitive = R"("attributes":
          buffers + more + "}";
 }
 
-}  // namespace montelux::testing_io
+}  // namespace montelux::test

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace montelux::testing_io {
+namespace montelux::test {
 
 class TemporaryFolder {
  public:
@@ -36,4 +36,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace montelux::testing_io
+}  // namespace montelux::test
