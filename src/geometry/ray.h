@@ -41,4 +41,16 @@ MONTELUX_INLINE Vec3<F> offset_origin(const Vec3<F>& p, const Vec3<F>& p_error, 
   return {widen(p.x, moved.x), widen(p.y, moved.y), widen(p.z, moved.z)};
 }
 
+// Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
+inline constexpr float shadow_shortening = 1e-4f;
+
+// From p to the point at `distance` along the unit w, and not quite there. The ray aims at that point from where it
+// leaves: along w itself it would pass the point by as much as its origin was moved, and meet the surface there.
+template <class F>
+MONTELUX_INLINE Ray<F> shadow_ray(const Vec3<F>& p, const Vec3<F>& p_error, const Vec3<F>& ng, const Vec3<F>& w,
+                                  F distance, F time) {
+  const Vec3<F> o = offset_origin(p, p_error, ng, w);
+  return {o, w - (o - p) * (F(1.0f) / distance), distance * (1.0f - shadow_shortening), time};
+}
+
 }  // namespace montelux

@@ -8,8 +8,6 @@
 
 namespace montelux {
 
-// Shadow rays stop this much short of the light, as a part of their length, lest they meet the light itself.
-inline constexpr float shadow_shortening = 1e-4f;
 // Roulette lets no path live on with certainty, or one between white walls would never end.
 inline constexpr float most_survival = 0.97f;
 
@@ -33,8 +31,12 @@ struct Arrival {
   BsdfContext<F> context;
 
   Departure<F> departure() const { return {x.point.p, bsdf.light_normal}; }
-  // From the surface toward wi, as far as t_max.
-  Ray<F> ray_toward(const Vec3<F>& wi, F t_max) const { return {origin_toward(wi), wi, t_max, time}; }
+  // From the surface toward wi.
+  Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const { return {origin_toward(wi), wi, t_max, time}; }
+  // To the point that far toward the unit wi.
+  Ray<F> shadow_ray_to(const Vec3<F>& wi, F far) const {
+    return shadow_ray(x.point.p, x.point.p_error, x.point.ng, wi, far, time);
+  }
   Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(x.point.p, x.point.p_error, x.point.ng, wi); }
 };
 

@@ -30,7 +30,8 @@ struct alignas(64) GeometryRow {
   std::uint32_t pose_vertices = 0;  // vertices of one pose, each pose behind the other; 0: one pose alone
   std::uint32_t unused[4] = {};
 
-  static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8;
+  static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
+                                 turns_to_ray = 16;
 };
 static_assert(sizeof(GeometryRow) == 64);
 

@@ -63,7 +63,7 @@ MaterialSet::MaterialSet(std::vector<Material> materials, const TextureSet* text
     traits_.push_back((m.bindings.empty() && !m.has_normal_map() ? 0u : needs_look_up) | (m.mixture ? is_mixture : 0u) |
                       (m.is_interface ? is_interface : 0u) | slots_of(m.kind) << slots_shift);
     rows_.push_back(m.row);
-    has_mixtures_ = has_mixtures_ || m.mixture;
+    has_mixtures_ = has_mixtures_ || m.mixture, has_interfaces_ = has_interfaces_ || m.is_interface;
   }
   for (std::size_t kind = 0; kind < bsdf_kind_count; ++kind) two_sided_[kind] = transmits(BsdfKind(kind)) ? 1u : 0u;
 }

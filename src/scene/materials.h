@@ -34,6 +34,8 @@ class MaterialSet {
   SurfaceScattering<F> scattering(const SurfaceHit<F>& at, const Vec3<F>& d, Mask<F> on, RandomStream<F> random) const;
 
   std::size_t size() const { return materials_.size(); }
+  // Whether any surface lets paths straight through: for packs that need not ask else.
+  bool has_interfaces() const { return has_interfaces_; }
   const Material& operator[](std::size_t i) const { return materials_[i]; }
 
  private:
@@ -53,7 +55,7 @@ class MaterialSet {
   // A word, or a row, each a material.
   std::vector<std::uint32_t> kinds_, traits_;
   std::vector<BsdfRow> rows_;
-  bool has_mixtures_ = false;
+  bool has_mixtures_ = false, has_interfaces_ = false;
   std::array<std::uint32_t, bsdf_kind_count> two_sided_{};  // by BsdfKind
 };
 

@@ -11,6 +11,8 @@ struct SurfaceHit {
   Uint<F> material;
   Uint<F> light;   // 1 + number of the light; 0: emits nothing
   Uint<F> object;  // number of the object, from 1
+  // The surface faces the ray that met it, as bands of curves do: to another ray it is another one.
+  Mask<F> turns_to_ray;
 };
 
 // The surface where rays met the scene, at their time.

@@ -85,6 +85,20 @@ Shape "bilinearmesh" "point3 P" [ -0.8 0 0.7  0.6 0 0.9  -0.8 1.3 0.7  0.6 1.3 0
 Material "conductor" "float roughness" [ 0 ]
 Shape "bilinearmesh" "point3 P" [ -1.9 0 -0.6  -1.3 0 0.9  -1.9 1.3 -0.6  -1.3 1.3 0.9 ]
 )"});
+  // Bands that face whatever ray meets them, close to a floor of very different squares: paths over them cannot be
+  // joined, as each pixel meets another band.
+  std::string bands;
+  for (int i = 0; i < 5; ++i)
+    bands += fmt::format(
+        "Shape \"curve\" \"string type\" [ \"{2}\" ] \"float width\" [ 0.25 ] "
+        "\"point3 P\" [ {0} 0.3 -2  {1} 0.25 -0.5  {0} 0.3 0.5  {1} 0.35 2 ]\n",
+        -1.4 + 0.7 * i, -1.2 + 0.7 * i, i % 2 == 0 ? "flat" : "cylinder");
+  scenes.push_back({"curves", head + R"(LightSource "distant" "rgb L" [ 2 2 1.8 ] "point3 from" [ 0.5 2 -0.6 ]
+LightSource "infinite" "rgb L" [ 0.1 0.15 0.2 ]
+Texture "checks" "spectrum" "checkerboard" "float uscale" [ 24 ] "float vscale" [ 24 ]
+    "rgb tex1" [ 0.05 0.05 0.05 ] "rgb tex2" [ 0.9 0.8 0.7 ]
+)" + reuse_floor(R"(Material "diffuse" "texture reflectance" [ "checks" ])") +
+                                  "Material \"diffuse\" \"rgb reflectance\" [ 0.7 0.7 0.7 ]\n" + bands});
   return scenes;
 }
 

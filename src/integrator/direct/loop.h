@@ -75,7 +75,7 @@ struct DirectLight {
     const M asks = on & (max_component(light) > F(0.0f));
     if (!any(asks)) return gray(F(0.0f));
     counts.shadow += std::uint64_t(count(asks));
-    const M blocked = rays.template occluded<F>(at.ray_toward(wi, distance * (1.0f - shadow_shortening)), asks);
+    const M blocked = rays.template occluded<F>(at.shadow_ray_to(wi, distance), asks);
     return select(asks & !blocked, light, gray(F(0.0f)));
   }
 
@@ -109,7 +109,7 @@ struct DirectLight {
   template <class Weight>
   Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
                        Weight weight) const {
-    return trace_to_arrival<F>(scene, rays, at.departure(), at.ray_toward(wi, F(ray_infinity)), on,
+    return trace_to_arrival<F>(scene, rays, at.departure(), at.ray_toward(wi), on,
                                numbers.stream(ray, path_dimension::per_vertex), counts, weight,
                                [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
                                    [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {

@@ -70,7 +70,7 @@ struct Tree {
     const Rgb direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     ++counts.shadow;
-    const Ray<F> ray = at.ray_toward(light.wi, light.distance * (1.0f - shadow_shortening));
+    const Ray<F> ray = at.shadow_ray_to(light.wi, light.distance);
     if (accel.occluded<F>(ray, true)) return gray(0.0f);
     if constexpr (Tally::records)
       tally.template add<F>(
@@ -99,8 +99,8 @@ struct Tree {
     const Vec3f wi = at.bsdf.frame.to_world(next.wi);
     count_ray(depth + 1);
     const Arrival<F> there = trace_to_arrival<F>(
-        scene, accel, at.departure(), at.ray_toward(wi, ray_infinity), true,
-        numbers.stream(i, path_dimension::own).fork(vertex), counts,
+        scene, accel, at.departure(), at.ray_toward(wi), true, numbers.stream(i, path_dimension::own).fork(vertex),
+        counts,
         [&](float by_light) {
           return next.delta || n.points == 0
                      ? 1.0f

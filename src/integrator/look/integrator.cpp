@@ -25,15 +25,15 @@ struct View {
 
   Vec3<F> normal() const { return face_forward(at.bsdf.frame.n, -at.d); }
 
-  M blocked(const Vec3<F>& wi, F distance, M on) const {
+  M blocked(const Ray<F>& ray, M on) const {
     counts.shadow += std::uint64_t(count(on));
-    return accel.occluded<F>(at.ray_toward(wi, distance), on);
+    return accel.occluded<F>(ray, on);
   }
 
   Spectrum<F> openness(std::uint32_t sample) const {
     const Vec3<F> local = sample_cosine_hemisphere(numbers.get2(sample, path_dimension::direction));
     const Vec3<F> wi = Frame<F>::from_normal(normal()).to_world(local);
-    return gray(select(blocked(wi, F(settings.distance), at.found), F(0.0f), F(1.0f)));
+    return gray(select(blocked(at.ray_toward(wi, F(settings.distance)), at.found), F(0.0f), F(1.0f)));
   }
 
   Spectrum<F> irradiance(std::uint32_t sample) const {
@@ -42,7 +42,7 @@ struct View {
                                numbers.get2(sample, path_dimension::light_point), at.found);
     const F cos = dot(light.wi, normal());
     const M asks = at.found & light.valid & (cos > F(0.0f));
-    const M lit = asks & !blocked(light.wi, light.distance * (1.0f - shadow_shortening), asks);
+    const M lit = asks & !blocked(at.shadow_ray_to(light.wi, light.distance), asks);
     return select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
   }
 

@@ -133,16 +133,17 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         return LightOrigin<F>{path.depth, x.light - U(1u), Technique::bsdf_sampling};
       });
     }
-    M scatters = on & (path.depth < max_depth);
+    // Interfaces are no events: they are crossed by the last ray, too.
+    const M may_scatter = path.depth < max_depth;
 
     // How the surface scatters: parameters, frame, and the numbers of this vertex.
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
     BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own)};
-    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
-    const M passes = scatters & bsdf.is_interface;
-    scatters = scatters & !bsdf.is_interface;
+    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(
+        x, path.d, on & (may_scatter | M(scene.materials.has_interfaces())), context.random);
+    const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
 
     // A direction toward a light, and one by the BSDF.
@@ -177,9 +178,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     }
     if (any(shadow)) {
       counts.shadow += std::uint64_t(count(shadow));
-      Vec3<F> o = offset_origin(x.point.p, x.point.p_error, x.point.ng, light.wi);
-      M blocked =
-          rays.template occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening), path.time}, shadow);
+      const M blocked = rays.template occluded<F>(
+          shadow_ray(x.point.p, x.point.p_error, x.point.ng, light.wi, light.distance, path.time), shadow);
       gather_light(path, shadow & !blocked, direct, tally, [&] {
         // The choice is made once more: the same numbers give the same light.
         const U chosen = lights.template choose<F>(x.point.p, bsdf.light_normal, light_choice, wants_light).light;

@@ -74,8 +74,7 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
   const F cos = dot(light.wi, n);
   const M asks = on & light.valid & (cos > F(0.0f));
   counts.shadow += std::uint64_t(count(asks));
-  const Vec3<F> o = offset_origin(x.p, x.p_error, x.ng, light.wi);
-  const M lit = asks & !r.accel.occluded<F>({o, light.wi, light.distance * (1.0f - shadow_shortening)}, asks);
+  const M lit = asks & !r.accel.occluded<F>(shadow_ray(x.p, x.p_error, x.ng, light.wi, light.distance, F(0.0f)), asks);
   Spectrum<F> sum = select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
 
   const Vec3<F> wi = Frame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(direction))));
@@ -152,7 +151,7 @@ class RadiosityChain final : public Chain {
 
   // One sample a pixel: what is emitted, and the reflected part of the irradiance.
   RayCounts show(int frame, const PixelBounds& tile, std::span<PixelSample> out) {
-    const TilePass pass{tile, pass_.points, {}, std::uint32_t(frame)};
+    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(frame)};
     const Irradiance& known = after(frame);
     FirstHits<F> first_hits(shared_.scene, shared_.accel, pass, out);
     RayCounts counts;

@@ -85,14 +85,14 @@ class FirstStage {
                                                                       x.point.uv, path.d, emits);
       path.radiance += select(emits, path.throughput * light, gray(F(0.0f)));
     }
-    M scatters = on & (path.depth < max_depth_);
+    const M may_scatter = path.depth < max_depth_;
     const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
     const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own), on, Densities::exact};
-    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, path.d, scatters, context.random);
-    const M passes = scatters & bsdf.is_interface;
-    scatters = scatters & !bsdf.is_interface;
+    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(
+        x, path.d, on & (may_scatter | M(scene.materials.has_interfaces())), context.random);
+    const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
     const M rough = scatters & !bsdf.is_delta;
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
     const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));

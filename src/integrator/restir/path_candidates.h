@@ -104,7 +104,7 @@ class PathCandidates {
 
     const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
     const ReuseVertex<F> vertex = vertex_behind(w.from, x, bsdf, w.d, random);
-    const Leg<F> leg = leg_between<F>(w.from.p, x.point.p, x.point.ng, w.d, w.density, w.pixels);
+    const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.pixels);
     if (const M lit = scatters & !bsdf.is_delta; any(lit)) ask_for_light(vertex, leg, lit);
     const M goes_on = scatter(vertex, leg, scatters);
 

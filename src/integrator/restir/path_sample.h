@@ -119,5 +119,10 @@ Leg<F> leg_between(const Vec3<F>& p, const Vec3<F>& to, const Vec3<F>& ng, const
   const F spread = density * abs(dot(ng, d));
   return {dot(to - p, to - p), select(density > F(0.0f), spread, F(std::numeric_limits<float>::infinity())), pixels};
 }
+// To a surface that turns to the ray there is no leg that could be joined: other pixels would meet another surface.
+template <class F>
+Leg<F> leg_between(const Vec3<F>& p, const SurfaceHit<F>& to, const Vec3<F>& d, F density, F pixels) {
+  return leg_between<F>(p, to.point.p, to.point.ng, d, select(to.turns_to_ray, F(0.0f), density), pixels);
+}
 
 }  // namespace montelux

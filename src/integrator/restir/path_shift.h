@@ -82,7 +82,7 @@ class PathReplay {
     }
     const M moved = stays & !last & at.found;
     const F pixels = pixels_;
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.x.point.p, at.x.point.ng, taken.wi, taken.density, pixels);
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
     vertex_ = select_words(moved, vertex_behind(vertex_, at.x, at.bsdf, taken.wi, at.context.random), vertex_);
     has_leg_ = has_leg_ | moved;

@@ -88,8 +88,7 @@ Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, cons
 
 template <class F>
 Ray<F> shadow_ray(const ReuseVertex<F>& vertex, const Vec3<F>& wi, F distance) {
-  return {offset_origin(vertex.p, vertex.p_error, vertex.ng, wi), wi, distance * (1.0f - shadow_shortening),
-          vertex.time};
+  return shadow_ray(vertex.p, vertex.p_error, vertex.ng, wi, distance, vertex.time);
 }
 // Where nothing is in the way, along the unit wi.
 template <class F, class Rays>

@@ -98,8 +98,8 @@ struct Recursion {
       weight *= gray(survival.weight);
     }
     const RandomStream<float> branch = own_stream(random);
-    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure(), at.ray_toward(wi, ray_infinity),
-                                                         true, branch.fork(1u), counts, [](float) { return 1.0f; });
+    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure(), at.ray_toward(wi), true,
+                                                         branch.fork(1u), counts, [](float) { return 1.0f; });
     return weight * radiance(there, branch.fork(2u), depth + 1, throughput * weight);
   }
 
@@ -113,7 +113,7 @@ struct Recursion {
     const BsdfValue<float> value =
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     ++counts.shadow;
-    const Ray<float> ray = at.ray_toward(light.wi, light.distance * (1.0f - shadow_shortening));
+    const Ray<float> ray = at.shadow_ray_to(light.wi, light.distance);
     return accel.occluded<float>(ray, true) ? gray(0.0f) : value.f_cos * light.radiance;
   }
 
