@@ -18,10 +18,10 @@ int terminal_columns() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// What is known, without the bar.
-std::string numbers(const Progress& p) {
+// What is known, without the bar: speed and error of the picture, times of all.
+std::string numbers(const Progress& p, double elapsed, std::optional<double> left) {
   const double speed = p.elapsed > 0 ? double(p.samples) / p.elapsed : 0;
-  return fmt::format("{}  left {}  {}  error {}", time_text(p.elapsed), p.fraction > 0 ? time_text(p.remaining) : "-",
+  return fmt::format("{}  left {}  {}  error {}", time_text(elapsed), left ? time_text(*left) : "-",
                      count_text(speed, "samples/s"), error_text(p.error));
 }
 
@@ -59,10 +59,12 @@ void StatusLine::finish() {
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }
 
 void ProgressLine::progress(const Progress& p) {
-  if (p.finished)
-    line_.finish();
-  else
-    line_.show((part_ + p.fraction) / parts_, p.elapsed, [&] { return name_ + numbers(p); });
+  if (p.finished) return line_.finish();
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start_;
+  const double fraction = (part_ + p.fraction) / parts_, elapsed = parts_ > 1 ? all.count() : p.elapsed;
+  const double left = parts_ > 1 ? elapsed * (1 / fraction - 1) : p.remaining;
+  line_.show(fraction, elapsed,
+             [&] { return name_ + numbers(p, elapsed, fraction > 0 ? std::optional(left) : std::nullopt); });
 }
 
 std::string time_text(double seconds) {

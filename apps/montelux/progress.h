@@ -1,5 +1,6 @@
 // Showing how a render gets on, on standard error.
 #pragma once
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -25,9 +26,12 @@ class StatusLine {
 // The progress of a render as a status line; and it passes on the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
-  // `part` of `parts` equal ones, for a sequence; `name` stands before the numbers.
-  ProgressLine(bool visible, const StopSignals& signals, std::string name = {}, int part = 0, int parts = 1)
-      : signals_(signals), line_(visible), name_(std::move(name)), part_(part), parts_(parts) {}
+  // Of `parts` pictures that take about as long each: bar, time and time left are those of all of them.
+  ProgressLine(bool visible, const StopSignals& signals, int parts = 1)
+      : signals_(signals), line_(visible), parts_(parts) {}
+
+  // Which picture is at hand; `name` stands before the numbers.
+  void begin(int part, std::string name) { part_ = part, name_ = std::move(name); }
 
   void progress(const Progress& progress) override;
   bool stop_requested() override;
@@ -35,8 +39,9 @@ class ProgressLine final : public RenderObserver {
  private:
   const StopSignals& signals_;
   StatusLine line_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string name_;
-  int part_, parts_;
+  int part_ = 0, parts_;
 };
 
 // "1.2 ms", "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

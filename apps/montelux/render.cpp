@@ -236,20 +236,23 @@ struct FramesOutcome {
 };
 
 // The frames from `first` to `last`, which the scene has motion for.
-FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals, int first,
-                          int last) {
-  const bool visible = !all.quiet && !all.no_progress;
+FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals,
+                          ProgressLine& observer, int first, int last) {
   Result<PictureSequence> sequence = PictureSequence::prepare(scene, all.render);
   if (!sequence) return {complain(sequence.error())};
   int late = 0;
   for (int frame = first; frame <= last; ++frame) {
     const Result<RenderArguments> one = arguments_of_frame(all, scene.info(), frame);
     if (!one) return {complain(one.error()), late};
-    ProgressLine observer(visible, signals,
-                          fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last),
-                          frame - all.frames->first, all.frames->count());
+    observer.begin(frame - all.frames->first,
+                   fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last));
     const ShutterTimes before = frame_shutter(scene.info(), *all.frames, frame - 1);
-    const Result<Rendering> rendering = sequence->render({one->render.seed, *one->render.shutter, before}, observer);
+    const Result<Rendering> rendering =
+        sequence->render({one->render.seed, *one->render.shutter, before, frame == last}, observer);
+    if (rendering->result.forgotten > 0 && !all.quiet && frame == first)
+      warn(fmt::format("chains keep histories of {} in all, and no more: {} of {} begin the next frame afresh",
+                       count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
+                       rendering->result.film.image().passes));
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
     // A frame may be over before anybody asks for signals.
@@ -263,11 +266,13 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
 
 int render_frames(const RenderArguments& all, LoadedScene loaded_first, const StopSignals& signals) {
   std::optional<LoadedScene> scene(std::move(loaded_first));
-  if (!scene->info().moves && !all.quiet) warn("nothing moves in the scene: its frames differ by their seeds alone");
+  if (!scene->info().moves && scene->info().frames_held >= all.frames->count() && !all.quiet)
+    warn("nothing moves in the scene: its frames differ by their seeds alone");
+  ProgressLine observer(!all.quiet && !all.no_progress, signals, all.frames->count());
   int late = 0;
   for (int first = all.frames->first; first <= all.frames->last;) {
     const int last = int(std::min<std::int64_t>(std::int64_t(first) + scene->info().frames_held - 1, all.frames->last));
-    const FramesOutcome part = render_part(all, *scene, signals, first, last);
+    const FramesOutcome part = render_part(all, *scene, signals, observer, first, last);
     late += part.late;
     if (part.status != done) return part.status;
     first = last + 1;
@@ -290,8 +295,14 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
   return done;
 }
 
+// room.exr of room.pbrt and of room.pbrt.gz.
+std::string default_picture(std::filesystem::path scene) {
+  if (extension_of(scene) == ".gz") scene = scene.stem();
+  return scene.stem().string() + ".exr";
+}
+
 int run_render(RenderArguments& arguments) {
-  if (arguments.files.empty()) arguments.files = {std::filesystem::path(arguments.scene).stem().string() + ".exr"};
+  if (arguments.files.empty()) arguments.files = {default_picture(arguments.scene)};
   if (arguments.fps && arguments.frames->of)
     return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
   if (arguments.frames) arguments.frames->fps = arguments.fps;

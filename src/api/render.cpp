@@ -90,6 +90,9 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     if (!kind) return unknown_name("sampler", *options.sampler, views_of(samplers));
     r.sampler = *kind;
   }
+  if (is_fixed(r.sampler) && (options.budget || plan.chosen.coupled))
+    return Failure{fmt::format("sampler {} takes the same points in every pass, and {} needs others in each",
+                               name_of(r.sampler), options.budget ? "a time budget" : plan.chosen.name)};
   note_sampler(plan.chosen, r.sampler);
   r.width = picture.width, r.height = picture.height;
   r.bounds = options.crop.value_or(picture.crop);
@@ -165,7 +168,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     // What goes before the render is taken from the time, too: the making of the integrator, and the pass that measures
     // its speed.
     const Stopwatch pilot;
-    settings.plan = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0));
+    settings.plan = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0), observer);
     before += pilot.seconds();
     settings.seconds = std::max(*settings.seconds - before, 0.0);
   }
@@ -204,6 +207,7 @@ Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver
   const LoadedScene::Parts& parts = state_->parts;
   RenderSettings settings = state_->plan.render;
   settings.seed = picture.seed, settings.memories = &state_->memories;
+  if (picture.is_last) settings.most_memory = 0;
   settings.shutter = shutter_for(picture.shutter, parts.picture);
   const MotionRequest motion{settings.bounds, *settings.shutter, shutter_for(picture.before, parts.picture),
                              settings.threads};

@@ -42,6 +42,7 @@ struct Rendering {
 struct SequencePicture {
   std::uint32_t seed = 0;
   ShutterTimes shutter, before;  // of this picture, and of the one before it
+  bool is_last = false;          // nothing is kept for another one
 };
 
 // Pictures of one scene with the same options, one after the other: what an integrator prepares is prepared once, and

@@ -19,8 +19,8 @@ struct LoadOptions {
   int threads = 0;                                // for building; 0: all of the machine
   // Of a file that may hold several: by name or number; default: the first.
   std::optional<std::string> camera{}, animation{};
-  // When the shutter is open, in the scene's unit of time, instead of as the file says; of a sequence, at frame 0. The
-  // brightness of the picture does not hang on it.
+  // When the shutter is open, in the scene's unit of time, instead of as the file says; of a sequence as
+  // frame_shutter() takes that of the file. The brightness of the picture does not hang on it.
   std::optional<ShutterTimes> shutter{};
   std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed
 };

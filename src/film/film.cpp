@@ -21,18 +21,35 @@ bool all_finite(const Rgb& c) {
   return true;
 }
 
-void add_features(PixelFeatures& sum, const Features& f) {
-  sum.samples += 1;
+}  // namespace
+
+void PixelFeatures::add(const Features& f) {
+  samples += 1;
   if (f.coverage <= 0) return;
-  sum.hits += 1;
-  for (int i = 0; i < spectrum_size; ++i) sum.albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
+  hits += 1;
+  for (int i = 0; i < spectrum_size; ++i) albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
   const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
-  for (int i = 0; i < 3; ++i) sum.normal[i] += n[i], sum.position[i] += p[i];
-  sum.depth += f.depth;
-  if (sum.object == 0) sum.object = f.object;
+  for (int i = 0; i < 3; ++i) normal[i] += n[i], position[i] += p[i];
+  depth += f.depth;
+  if (object == 0) object = f.object;
 }
 
-}  // namespace
+void PixelFeatures::merge(const PixelFeatures& other) {
+  for (int c = 0; c < spectrum_size; ++c) albedo[c] += other.albedo[c];
+  for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
+  depth += other.depth, hits += other.hits, samples += other.samples;
+  if (object == 0) object = other.object;
+}
+
+void PixelPass::add(const PixelSample& sample) {
+  features.add(sample.features);
+  if (!all_finite(sample.radiance)) {
+    ++non_finite;
+    return;
+  }
+  ++finite;
+  for (int i = 0; i < spectrum_size; ++i) sum[i] += sample.radiance.c[i];
+}
 
 void PixelEstimate::add(const double (&pass_mean)[spectrum_size]) {
   ++passes;
@@ -76,7 +93,7 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
       double mean[spectrum_size] = {};
       int finite = 0;
       for (int s = 0; s < samples_per_pixel; ++s, ++sample) {
-        add_features(features, sample->features);
+        features.add(sample->features);
         if (!all_finite(sample->radiance)) continue;
         ++finite;
         for (int i = 0; i < spectrum_size; ++i) mean[i] += sample->radiance.c[i];
@@ -100,30 +117,16 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
   tile_sums[std::size_t(pass)] = tile_sum;
 }
 
-bool PassMean::add(const Rgb& radiance) {
-  if (!all_finite(radiance)) return false;
-  ++samples;
-  for (int i = 0; i < spectrum_size; ++i) sum[i] += radiance.c[i];
-  return true;
-}
-
-void Film::add_samples(const PixelBounds& tile, std::span<const PixelSample> samples) {
-  const PixelSample* sample = samples.data();
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x, ++sample) {
-      add_features(features_[index(x, y)], sample->features);
-      if (!all_finite(sample->radiance)) ++pixels_[index(x, y)].non_finite;
-    }
-}
-
-void Film::add_pass_means(const PixelBounds& tile, int pass, std::span<const PassMean> means) {
+void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels) {
   PassSum tile_sum;
-  const PassMean* of_pixel = means.data();
+  const PixelPass* of_pixel = pixels.data();
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) {
-      if (of_pixel->samples == 0) continue;
+      features_[index(x, y)].merge(of_pixel->features);
+      pixels_[index(x, y)].non_finite += std::uint32_t(of_pixel->non_finite);
+      if (of_pixel->finite == 0) continue;
       double mean[spectrum_size] = {};
-      for (int i = 0; i < spectrum_size; ++i) mean[i] = of_pixel->sum[i] / of_pixel->samples;
+      for (int i = 0; i < spectrum_size; ++i) mean[i] = of_pixel->sum[i] / of_pixel->finite;
       pixels_[index(x, y)].add(mean);
       for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
       ++tile_sum.pixels;
@@ -140,12 +143,7 @@ void Film::merge(const Film& other) {
   if (layers_) layers_->merge(*other.layers_);
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     pixels_[i].merge(other.pixels_[i]);
-    PixelFeatures& a = features_[i];
-    const PixelFeatures& b = other.features_[i];
-    for (int c = 0; c < spectrum_size; ++c) a.albedo[c] += b.albedo[c];
-    for (int c = 0; c < 3; ++c) a.normal[c] += b.normal[c], a.position[c] += b.position[c];
-    a.depth += b.depth, a.hits += b.hits, a.samples += b.samples;
-    if (a.object == 0) a.object = b.object;
+    features_[i].merge(other.features_[i]);
     tile_sums_[i].insert(tile_sums_[i].end(), other.tile_sums_[i].begin(), other.tile_sums_[i].end());
   }
 }

@@ -25,18 +25,21 @@ struct PixelEstimate {
   double variance_of_mean(int channel) const;
 };
 
-// The finite samples of one pixel in one pass, summed.
-struct PassMean {
-  double sum[spectrum_size] = {};
-  int samples = 0;
-  // Says whether the sample is finite.
-  bool add(const Rgb& radiance);
-};
-
 struct PixelFeatures {
   double albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;  // sums over samples that hit
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
+  void add(const Features& sample);
+  // The later samples.
+  void merge(const PixelFeatures& other);
+};
+
+// The samples of one pixel in one pass, summed: the radiance of those that are finite, and the features.
+struct PixelPass {
+  double sum[spectrum_size] = {};
+  int finite = 0, non_finite = 0;
+  PixelFeatures features;
+  void add(const PixelSample& sample);
 };
 
 // The mean of the whole image over passes, with the error that correlations between pixels leave it.
@@ -68,10 +71,8 @@ class Film {
   void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
                 std::span<const ExactRgb> sums = {});
 
-  // The same by two calls, for a pass whose samples come one by one: each, one for every pixel, enters the feature
-  // layers and the counts; the means over all of them enter the estimate once they are there.
-  void add_samples(const PixelBounds& tile, std::span<const PixelSample> samples);
-  void add_pass_means(const PixelBounds& tile, int pass, std::span<const PassMean> means);
+  // The same of a pass whose samples came one by one, and are summed for each pixel.
+  void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> sums);
 
   // The film of all passes of both; the same bounds and layers are required. `other` holds the later passes.
   void merge(const Film& other);

@@ -165,8 +165,11 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
     : set_(set), shared_(stream_of_site<F>(set, x, y)), index_(index), index_bits_(0) {
   using U = Uint<F>;
   own_ = shared_.fork(U(index + U(0x3c6ef372u)));
-  // A fixed pattern takes its order of strata from no site and no pass.
-  if (set.kind == PointSetKind::uniform_grid) shared_ = RandomStream<F>(U(0x452821e6u), U(0x38d01377u));
+  // A fixed pattern takes its order of strata, and its numbers beyond, from no site and no pass.
+  if (set.kind == PointSetKind::uniform_grid) {
+    shared_ = RandomStream<F>(U(0x452821e6u), U(0x38d01377u));
+    own_ = shared_.fork(U(index + U(0x3c6ef372u)));
+  }
   if (set.kind == PointSetKind::pmj02) index_bits_ = int(std::bit_width(set.samples_per_pass - 1u));
   if (set.kind != PointSetKind::blue_noise) return;
   // One sequence for the grid: the bits of the site's place on the Z curve above those of the index. Where 32 bits do
@@ -195,7 +198,8 @@ F Sampler<F>::get1(Uint<F> dimension) const {
     case PointSetKind::stratified:
       return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), own_.at(d));
     case PointSetKind::uniform_grid:
-      return stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), F(0.5f));
+      return select(d < U(grid_dimensions), stratified1<F>(index_, set_.samples_per_pass, shared_.bits_at(d), F(0.5f)),
+                    own_.at(d));
     case PointSetKind::halton: {
       Mask<F> inside = d < U(halton_dimensions);
       F tabulated = halton<F>(index_, select(inside, d, U(0u)), set_.samples_per_pass, shared_.bits_at(d));
@@ -231,7 +235,9 @@ Vec2<F> Sampler<F>::get2(Uint<F> dimension) const {
     case PointSetKind::stratified:
       return stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {own_.at(d), own_.at(next)});
     case PointSetKind::uniform_grid:
-      return stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {F(0.5f), F(0.5f)});
+      return select<F>(d < U(grid_dimensions),
+                       stratified2<F>(index_, set_.samples_per_pass, shared_.bits_at(d), {F(0.5f), F(0.5f)}),
+                       Vec2<F>{own_.at(d), own_.at(next)});
     case PointSetKind::halton:
     case PointSetKind::sobol: {
       const U size = set_.kind == PointSetKind::sobol ? sobol_dimensions : halton_dimensions;

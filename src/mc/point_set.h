@@ -46,6 +46,8 @@ inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
     {"uniform-grid", PointSetKind::uniform_grid,
      "the centres of the strata; a single point is the centre of the square"},
 }};
+// Beyond these it has numbers at random, the same everywhere: roulette that is asked with one half for ever never ends.
+inline constexpr std::uint32_t grid_dimensions = 256;
 
 std::string_view name_of(PointSetKind kind);
 // Whether the points are the same in every pass, so that what is estimated by them is biased.

@@ -20,7 +20,7 @@ constexpr int tile_side = 16;
 
 struct ChainTile {
   PixelBounds bounds;
-  std::vector<PassMean> means;  // of the chain at hand
+  std::vector<PixelPass> pixels;  // of the chain at hand
 };
 
 // The shared state of one render. Threads take the tiles of one step, and who has done the last of them moves the chain
@@ -33,7 +33,7 @@ class ChainJob {
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
         film_(settings.bounds) {
     for (const PixelBounds& tile : tiles_of(settings.bounds, tile_side))
-      tiles_.push_back({tile, std::vector<PassMean>(std::size_t(tile.area()))});
+      tiles_.push_back({tile, std::vector<PixelPass>(std::size_t(tile.area()))});
     if (settings.plan.passes > 0) begin_chain();
   }
 
@@ -66,7 +66,7 @@ class ChainJob {
       settings_.memories->resize(std::size_t(pass_));
     const double seconds = since_start_.seconds();
     const double ending = settings_.budget ? seconds - frame_began_ : 0;
-    return {std::move(film_), rays_, seconds, interrupted, ending, warm_up_seconds(seconds)};
+    return {std::move(film_), rays_, seconds, interrupted, ending, warm_up_seconds(seconds), forgotten_};
   }
 
  private:
@@ -104,8 +104,7 @@ class ChainJob {
     samples.assign(std::size_t(tile.bounds.area()), {});
     const RayCounts rays = chain_->run(step_, tile.bounds, samples);
     if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
-    film_.add_samples(tile.bounds, samples);
-    for (std::size_t i = 0; i < samples.size(); ++i) tile.means[i].add(samples[i].radiance);
+    for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
     return rays;
   }
 
@@ -158,7 +157,7 @@ class ChainJob {
                            settings_.shutter,
                            take_memory()});
     step_ = {};
-    for (ChainTile& tile : tiles_) std::fill(tile.means.begin(), tile.means.end(), PassMean{});
+    for (ChainTile& tile : tiles_) std::fill(tile.pixels.begin(), tile.pixels.end(), PixelPass{});
     warm_up_began_ = since_start_.seconds();
   }
   // Out of the list, so that it is gone once the chain is.
@@ -171,11 +170,19 @@ class ChainJob {
     if (!settings_.memories) return;
     const auto chain = std::size_t(pass_);
     if (settings_.memories->size() <= chain) settings_.memories->resize(chain + 1);
-    (*settings_.memories)[chain] = chain_->remember(step_.frame);
+    if (settings_.most_memory == 0) return;
+    std::shared_ptr<const ChainMemory> memory = chain_->remember(step_.frame);
+    const std::size_t bytes = memory ? memory->bytes() : 0;
+    if (remembered_ + bytes > settings_.most_memory) {
+      ++forgotten_;
+      return;
+    }
+    remembered_ += bytes;
+    (*settings_.memories)[chain] = std::move(memory);
   }
   void end_chain() {
     leave_memory();
-    for (const ChainTile& tile : tiles_) film_.add_pass_means(tile.bounds, pass_, tile.means);
+    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass_, tile.pixels);
     ++pass_;
   }
 
@@ -186,7 +193,7 @@ class ChainJob {
     Progress p =
         progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_), limit, finished);
     p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
-    // Tiles only add to the feature layers between the ends of chains. It takes time, of which a budget has none.
+    // It takes time, of which a budget has none.
     if (!settings_.budget) p.error = film_.error(settings_.bounds);
     return p;
   }
@@ -205,9 +212,11 @@ class ChainJob {
   std::size_t next_tile_ = 0, tiles_done_ = 0;
   int pass_ = 0;  // chains that are in the film
   std::uint64_t shown_frames_ = 0;
-  double frame_began_ = 0;    // seconds since the start
-  double warm_up_began_ = 0;  // of the chain at hand, likewise
-  double warm_up_ = 0;        // seconds of all that is over
+  double frame_began_ = 0;      // seconds since the start
+  double warm_up_began_ = 0;    // of the chain at hand, likewise
+  double warm_up_ = 0;          // seconds of all that is over
+  std::size_t remembered_ = 0;  // bytes that chains have left
+  int forgotten_ = 0;
   bool over_ = false;
   bool is_whole_ = false;  // all chains to their last frames
   int running_ = 0;

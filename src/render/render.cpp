@@ -22,7 +22,7 @@ namespace {
 int tile_side(int samples_per_pass) {
   constexpr int most_samples = 1 << 16;
   int side = 32;
-  while (side > 8 && side * side * samples_per_pass > most_samples) side /= 2;
+  while (side > 1 && side * side * samples_per_pass > most_samples) side /= 2;
   return side;
 }
 
@@ -76,7 +76,7 @@ class Job {
     while (!finished_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
       lock.unlock();
       if (observer.stop_requested()) stop_ = interrupted = true;
-      if (settings_.seconds && since_start_.seconds() >= *settings_.seconds) stop_ = true;
+      if (time_is_over()) stop_ = true;
       observer.progress(progress(false));
       lock.lock();
     }
@@ -90,6 +90,11 @@ class Job {
   RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
 
  private:
+  // A picture has one pass at least: units are taken pass by pass, and those that are taken are done.
+  bool time_is_over() const {
+    return settings_.seconds && next_unit_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
+  }
+
   // What a thread keeps from one unit of work to the next.
   struct Workspace {
     std::vector<PixelSample> samples;
@@ -160,7 +165,7 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
   constexpr int longest_pass = 1024;
   const int replicates = samples >= 256 ? enough_replicates : bare_replicates;
   // The same points once more would tell nothing: one pass, and so no error bar.
-  if (is_fixed(kind) && samples <= longest_pass) return {samples, 1};
+  if (is_fixed(kind)) return {samples, 1};
   int k = 1;
   if (kind == PointSetKind::independent) {
     while (samples / (2 * k) >= 64 && k < longest_pass) k *= 2;
@@ -179,13 +184,24 @@ PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind 
   return {frames, (std::max(samples, 1) + frames - 1) / frames};
 }
 
-PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds) {
+// Passes on the wish to stop, and nothing else.
+class StopAlone final : public RenderObserver {
+ public:
+  explicit StopAlone(RenderObserver& other) : other_(other) {}
+  bool stop_requested() override { return other_.stop_requested(); }
+
+ private:
+  RenderObserver& other_;
+};
+
+PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
+                       RenderObserver& observer) {
   constexpr int endless = 1 << 20;  // time ends it
   settings.seconds.reset();
   settings.memories = nullptr;
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
-  RenderObserver silent;
+  StopAlone silent(observer);
   const RenderResult one = render(integrator, settings, silent);
   const double one_sample = std::max(settings.warm_up_counts ? one.seconds : one.shown_seconds(), 1e-6);
   const auto affordable = int(std::min(seconds / one_sample, 1e6));
@@ -195,7 +211,7 @@ PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings,
     return {std::clamp(frames, 1, coupled->frames()), endless};
   }
   PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
-  plan.passes = endless;
+  if (!is_fixed(settings.sampler)) plan.passes = endless;
   return plan;
 }
 

@@ -40,7 +40,7 @@ struct RenderSettings {
   PointSetKind sampler = PointSetKind::blue_noise;
   std::uint32_t seed = 0;
   PassPlan plan;
-  std::optional<double> seconds;     // stop at this time, with as many passes as fit; plan.passes is then a bound
+  std::optional<double> seconds;     // stop at this time, with as many passes as fit, but one; plan.passes is a bound
   bool warm_up_counts = true;        // in these seconds; no: only the time of frames that are shown does
   std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
   int threads = 0;                   // 0: all of the machine
@@ -51,6 +51,8 @@ struct RenderSettings {
   // Of a coupled integrator in a sequence: each chain begins with what stands at its number, and leaves there what it
   // has learned. Null: chains begin with nothing.
   ChainMemories* memories = nullptr;
+  // Bytes that they leave there in all, at most: a chain beyond leaves nothing. 0: none does, as none goes on.
+  std::size_t most_memory = std::size_t(8) << 30;
 };
 
 struct Progress {
@@ -77,11 +79,14 @@ struct RenderResult {
   bool interrupted = false;  // the observer asked to stop before the work was done
   double ending = 0;         // of the seconds, those after the last frame; where there was a budget
   double warm_up = 0;  // of the seconds, those of frames of a warm-up: where chains begin and end is not among them
+  int forgotten = 0;   // chains that would have left a memory, had there been room
   double shown_seconds() const { return seconds - warm_up; }
 };
 
-// The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass.
-PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds);
+// The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass, which ends
+// early where the observer asks for it.
+PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
+                       RenderObserver& observer);
 
 // The plan for a render within a budget: one chain of a coupled integrator, passes of one sample of any other, and as
 // many frames or passes as time allows.

@@ -218,11 +218,12 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
                            const ContestSettings& settings) {
   ContestState state;
   state.reference = std::move(reference);
+  RenderObserver silent;
   for (const Contestant& c : contestants) {
     MethodState method;
-    method.plan = settings.seconds
-                      ? plan_for_time(c.integrator, settings_for(c, settings), *settings.seconds / settings.repeats)
-                      : plan_passes(c.integrator, settings.samples, c.sampler);
+    method.plan = settings.seconds ? plan_for_time(c.integrator, settings_for(c, settings),
+                                                   *settings.seconds / settings.repeats, silent)
+                                   : plan_passes(c.integrator, settings.samples, c.sampler);
     state.methods.push_back(std::move(method));
   }
   return state;

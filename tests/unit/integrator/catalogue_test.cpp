@@ -1,8 +1,10 @@
 #include "integrator/catalogue.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "integrator/direct/settings.h"
+#include "integrator/restir/settings.h"
 #include "render_scenes.h"
 
 namespace montelux::test {
@@ -71,6 +73,52 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_TRUE(scene.integrator("restir-di").biases.empty());
   EXPECT_EQ(scene.integrator("restir-di:weights=naive").biases, std::vector<std::string>{"weights=naive"});
   EXPECT_TRUE(scene.integrator("restir-di:weights=naive,temporal=off,rounds=0").biases.empty());
+}
+
+RestirSettings reuse_settings(const EntitySpec& spec, const std::string& settings) {
+  const auto choice = parse_choice(std::string(spec.name) + settings);
+  const auto list = read_settings(spec, choice.value().settings, "integrator");
+  return restir_settings(spec.name, list.value(), {}).value();
+}
+
+TEST(IntegratorCatalogue, shares_in_groups_unless_weights_are_stated) {
+  const RestirSettings groups = reuse_settings(restir_di_spec(), "");
+  EXPECT_TRUE(groups.groups);
+  EXPECT_EQ(groups.neighbours, 15);
+  EXPECT_EQ(groups.radius, 2);
+  for (const NamedReuseWeights& entry : reuse_weight_names) {
+    const std::string stated = fmt::format(":weights={}", entry.name);
+    // Neighbours are then those that do best without groups.
+    const RestirSettings own = reuse_settings(restir_di_spec(), stated);
+    EXPECT_FALSE(own.groups) << entry.name;
+    EXPECT_EQ(own.weights, entry.weights) << entry.name;
+    EXPECT_EQ(own.neighbours, 5) << entry.name;
+    EXPECT_EQ(own.radius, 8) << entry.name;
+    const RestirSettings paths = reuse_settings(restir_pt_spec(), stated);
+    EXPECT_FALSE(paths.groups) << entry.name;
+    EXPECT_EQ(paths.rounds, 2) << entry.name;
+    EXPECT_FALSE(paths.similar) << entry.name;
+  }
+  EXPECT_FALSE(reuse_settings(restir_di_spec(), ":groups=off").groups);
+  const RestirSettings both = reuse_settings(restir_di_spec(), ":groups=on,weights=generalised");
+  EXPECT_TRUE(both.groups);
+  EXPECT_EQ(both.weights, ReuseWeights::generalised);
+  EXPECT_EQ(both.neighbours, 15);
+}
+
+// What lies beyond finding light in each frame: a stage for every round, and one for the picture where groups reach
+// over tiles.
+TEST(IntegratorCatalogue, makes_reuse_with_the_stages_that_it_needs) {
+  const TestScene scene(room);
+  const auto stages = [&](const char* text) { return scene.integrator(text).coupled->stages(); };
+  EXPECT_EQ(stages("restir-di"), 3);
+  EXPECT_EQ(stages("restir-di:groups=on,weights=generalised"), 3);
+  EXPECT_EQ(stages("restir-di:weights=generalised"), 2);
+  EXPECT_EQ(stages("restir-di:groups=off,rounds=3"), 4);
+  EXPECT_EQ(stages("restir-pt"), 5);
+  // Somebody must show what was found.
+  EXPECT_EQ(stages("restir-di:rounds=0"), 2);
+  EXPECT_EQ(stages("restir-di:rounds=0,groups=off"), 2);
 }
 
 TEST(IntegratorCatalogue, says_what_the_reuse_of_paths_takes) {

@@ -239,6 +239,70 @@ TEST(Render, an_integrator_that_throws_ends_the_render_with_its_exception) {
   EXPECT_THROW(render(broken, slow_settings({1, 50}, 3), silent), std::runtime_error);
 }
 
+// A camera that moves from a red panel to a green one.
+TEST(Render, of_every_integrator_is_of_the_moment_of_its_shutter) {
+  const TestScene panels(R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+LookAt -2 0 -5  -2 0 0  0 1 0
+ActiveTransform EndTime
+Identity
+LookAt 2 0 -5  2 0 0  0 1 0
+ActiveTransform All
+Camera "orthographic"
+WorldBegin
+Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+AreaLightSource "diffuse" "rgb L" [ 1 0 0 ] "bool twosided" [ true ]
+Shape "bilinearmesh" "point3 P" [ -4 -2 0  0 -2 0  -4 2 0  0 2 0 ]
+AreaLightSource "diffuse" "rgb L" [ 0 1 0 ] "bool twosided" [ true ]
+Shape "bilinearmesh" "point3 P" [ 0 -2 0  4 -2 0  0 2 0  4 2 0 ]
+)");
+  RenderObserver silent;
+  for (const char* way :
+       {"path", "naive", "direct", "distribution", "tracepath", "restir-di", "restir-pt", "radiosity"}) {
+    const ChosenIntegrator chosen = panels.integrator(way);
+    RenderSettings s = panels.settings(PointSetKind::blue_noise, {1, 2}, 1, 1);
+    for (const float time : {0.0f, 1.0f}) {
+      s.shutter = Shutter{time, time};
+      const ImageEstimate image = render(chosen.any(), s, silent).film.image();
+      EXPECT_GT(image.mean[time == 0 ? 0 : 1], 0.9) << way;
+      EXPECT_NEAR(image.mean[time == 0 ? 1 : 0], 0, 1e-12) << way;  // colours are rounded
+    }
+  }
+}
+
+// Roulette that is asked with the same number for ever would never end a path that it spares once.
+TEST(Render, by_fixed_points_ends_where_paths_have_no_end) {
+  const TestScene room(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+Integrator "path" "integer maxdepth" 1000000000
+LookAt 0 0 -0.5  0 0 0  0 1 0
+Camera "perspective"
+WorldBegin
+AreaLightSource "diffuse" "rgb L" [ 0.1 0.1 0.1 ]
+ReverseOrientation
+Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
+Shape "sphere"
+)");
+  const ChosenIntegrator path = room.integrator("path");
+  RenderObserver silent;
+  for (int samples : {1, 4}) {
+    const RenderResult r = render(path.any(), room.settings(PointSetKind::uniform_grid, {samples, 1}, 1, 1), silent);
+    EXPECT_GT(r.film.image().mean[0], 0.1);
+    EXPECT_EQ(r.film.image().passes, 1);
+  }
+}
+
+// Even where the first pass takes longer than the time: no part of the picture is missing.
+TEST(Render, that_time_ends_has_a_whole_pass) {
+  Slow slow(std::chrono::milliseconds(30));
+  RenderObserver silent;
+  RenderSettings s = slow_settings({1, 1 << 20}, 2);
+  s.seconds = 0.001;
+  const RenderResult result = render(slow, s, silent);
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_GE(result.film.image().passes, 1);
+  for (int y = s.bounds.y0; y < s.bounds.y1; ++y)
+    for (int x = s.bounds.x0; x < s.bounds.x1; ++x) EXPECT_GE(result.film.pixel(x, y).passes, 1u) << x << " " << y;
+}
+
 TEST(Render, plans_take_the_samples_asked_for_in_passes_of_a_power_of_two) {
   for (const NamedPointSet& set : point_set_names)
     for (int samples : {1, 2, 7, 16, 64, 100, 256, 1000, 4096, 100000}) {

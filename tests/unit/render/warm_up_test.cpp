@@ -1,4 +1,5 @@
-// The time of frames that are not shown, by a clock that the work itself moves on: all seconds are exact.
+// What time ends, what frames that are not shown take of it, and what is planned by it: by a clock that the work itself
+// moves on, so that all seconds are exact.
 #include <gtest/gtest.h>
 
 #include "render/render.h"
@@ -14,15 +15,16 @@ constexpr int tiles = 3 * 2, warm_up = 3, stages = 2;
 constexpr double begin_seconds = 0.5, tile_seconds = 0.25;  // of a step of a frame that is shown
 constexpr double frame_seconds = tiles * stages * tile_seconds;
 
+// Every sample is one more than the number of its chain.
 class Timed final : public CoupledIntegrator {
  public:
   Timed(WorkClock& clock, double warm_up_tile_seconds) : clock_(&clock), warm_up_tile_(warm_up_tile_seconds) {}
   int frames() const override { return 16; }
   int warm_up() const override { return montelux::warm_up; }
   int stages() const override { return montelux::stages; }
-  std::unique_ptr<Chain> begin(const ChainPass&) const override {
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
     clock_->pass(begin_seconds);
-    return std::make_unique<TimedChain>(*this);
+    return std::make_unique<TimedChain>(*this, float(pass.points.pass + 1));
   }
   // Of one chain.
   double warm_up_seconds() const { return montelux::warm_up * montelux::stages * tiles * warm_up_tile_; }
@@ -30,17 +32,34 @@ class Timed final : public CoupledIntegrator {
  private:
   class TimedChain final : public Chain {
    public:
-    explicit TimedChain(const Timed& of) : of_(of) {}
-    RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample>) override {
+    TimedChain(const Timed& of, float radiance) : of_(of), radiance_(radiance) {}
+    RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample> out) override {
       of_.clock_->pass(step.frame < montelux::warm_up ? of_.warm_up_tile_ : tile_seconds);
+      if (step.stage + 1 == montelux::stages)
+        for (PixelSample& sample : out) sample.radiance = gray(radiance_);
       return {};
     }
 
    private:
     const Timed& of_;
+    float radiance_;
   };
   WorkClock* clock_;
   double warm_up_tile_;
+};
+
+// Pixels that learn nothing from each other.
+constexpr double sample_seconds = 40 * 24 / 1024.0;  // of all pixels
+class Alone final : public PixelIntegrator {
+ public:
+  explicit Alone(WorkClock& clock) : clock_(&clock) {}
+  RayCounts trace(const TilePass& pass, std::span<PixelSample>) const override {
+    clock_->pass(pass.tile.area() / 1024.0);
+    return {};
+  }
+
+ private:
+  WorkClock* clock_;
 };
 
 RenderSettings settings(const WorkClock& clock, PassPlan plan, int threads) {
@@ -86,22 +105,67 @@ TEST(WarmUp, is_planned_for_where_it_counts) {
   WorkClock clock;
   const Timed timed(clock, 1);
   RenderSettings s = settings(clock, {}, 2);
+  RenderObserver silent;
   s.warm_up_counts = false;
   // Sixteen frames in four chains; a chain of one frame is all that is left of that with the warm-up.
   const double seconds = 16 * (begin_seconds + frame_seconds);
-  EXPECT_EQ(plan_for_time(timed, s, seconds).samples_per_pass, 4);
+  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).samples_per_pass, 4);
   s.warm_up_counts = true;
-  EXPECT_EQ(plan_for_time(timed, s, seconds).samples_per_pass, 1);
+  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).samples_per_pass, 1);
 }
 
 TEST(WarmUp, is_none_where_pixels_are_alone) {
-  class Alone final : public PixelIntegrator {
-   public:
-    RayCounts trace(const TilePass&, std::span<PixelSample>) const override { return {}; }
-  };
   WorkClock clock;
   RenderObserver silent;
-  EXPECT_EQ(render(Alone(), settings(clock, {1, 2}, 1), silent).warm_up, 0);
+  const RenderResult r = render(Alone(clock), settings(clock, {1, 2}, 1), silent);
+  EXPECT_EQ(r.seconds, 2 * sample_seconds);
+  EXPECT_EQ(r.warm_up, 0);
+}
+
+// Frames of a warm-up are none of those that are done.
+TEST(Chains, that_time_breaks_off_count_if_half_done_or_the_first) {
+  struct Case {
+    int whole, more;  // chains of eight frames; frames of the one that is broken off
+    int passes;
+    double mean;  // over the chains that count, whatever their length
+  };
+  for (const Case& c : {Case{1, 3, 1, 1.0}, {1, 4, 2, 1.5}, {2, 3, 2, 1.5}, {2, 7, 3, 2.0}, {0, 1, 1, 1.0}}) {
+    WorkClock clock;
+    const Timed timed(clock, 1);
+    RenderObserver silent;
+    RenderSettings s = settings(clock, {8, 100}, 2);
+    s.seconds = (c.whole + 1) * begin_seconds + (8 * c.whole + c.more) * frame_seconds;
+    s.warm_up_counts = false;
+    const RenderResult r = render(timed, s, silent);
+    EXPECT_EQ(r.shown_seconds(), *s.seconds);
+    EXPECT_EQ(r.film.image().passes, c.passes) << c.whole << " " << c.more;
+    EXPECT_EQ(r.film.pixel(39, 23).mean[0], c.mean) << c.whole << " " << c.more;
+    // What is not in the mean is not among the samples.
+    const int shown = 8 * c.whole + (c.passes > c.whole ? c.more : 0);
+    EXPECT_EQ(r.film.samples(39, 23), shown) << c.whole << " " << c.more;
+    EXPECT_FALSE(r.interrupted);
+  }
+}
+
+// The same points once more would tell nothing.
+TEST(Plans, of_points_that_are_fixed_have_one_pass) {
+  WorkClock clock;
+  const Alone alone(clock);
+  RenderObserver silent;
+  RenderSettings s = settings(clock, {}, 1);
+  for (int samples : {1, 100, 1024, 1025, 2048, 100000}) {
+    const PassPlan plan = plan_passes(samples, PointSetKind::uniform_grid);
+    EXPECT_EQ(plan.samples_per_pass, samples);
+    EXPECT_EQ(plan.passes, 1) << samples;
+    s.sampler = PointSetKind::uniform_grid;
+    const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent);
+    EXPECT_EQ(by_time.samples_per_pass, samples);
+    EXPECT_EQ(by_time.passes, 1) << samples;
+    // As many as time allows of others.
+    s.sampler = PointSetKind::sobol;
+    EXPECT_GT(plan_for_time(alone, s, samples * sample_seconds, silent).passes, 100000);
+  }
+  EXPECT_GT(plan_passes(2048, PointSetKind::sobol).passes, 1);
 }
 
 }  // namespace
