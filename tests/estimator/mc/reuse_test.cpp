@@ -226,26 +226,58 @@ TEST(Reuse, lanes_have_the_bits_of_single_reservoirs) {
     }
 }
 
-// What combinations promise for later ones: the weight serves every function on the first domain.
-TEST(Reuse, chains_of_combinations_stay_unbiased) {
-  struct Same {
-    Shifted<float, float> shift(int, const float& x, bool) const { return {x, 1, Intervals<float>::target(0, x)}; }
-    float target_at(int, const float& x, bool) const { return Intervals<float>::target(0, x); }
-  };
-  std::vector<double> values;
-  for (std::uint32_t i = 0; i < 20000; ++i) {
-    RandomStream<float> stream(11, i);
-    Reservoir<float, float> kept = first_reservoir<float>(0, stream);
-    double sum = 0;
-    for (int frame = 0; frame < 8; ++frame) {
-      kept.confidence = std::min(kept.confidence, 5.0f);
-      const Reservoir<float, float> inputs[2] = {first_reservoir<float>(0, stream), kept};
-      kept = combine<float, float>(ReuseWeights::pairwise, inputs, Same{}, stream, true);
-      sum += double(integrand(kept.value) * kept.weight);
-    }
-    values.push_back(sum / 8);
+// Domains of the group as one of them, number 0, sees them.
+struct SeenFromFirst {
+  std::array<int, 4> number;
+  IntervalGroup<float> group = {};
+  Shifted<float, float> shift(int from, const float& x, bool on) const {
+    return group.image(number[std::size_t(from)], number[0], x, on);
   }
-  EXPECT_GT(t_test(values, truth).p_value, family_level);
+  float target_at(int to, const float& x, bool on) const {
+    const Shifted<float, float> there = group.image(number[0], number[std::size_t(to)], x, on);
+    return there.target * there.jacobian;
+  }
+};
+
+// In every frame each domain combines what is new there with what all of them have kept of the frame before. By domain,
+// means over the frames of chains.
+std::array<std::vector<double>, 3> means_of_chains(ReuseWeights weights, std::uint32_t count, std::uint32_t seed) {
+  constexpr int frames = 8;
+  std::array<std::vector<double>, 3> means;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    RandomStream<float> stream(seed, i);
+    std::array<Reservoir<float, float>, 3> kept;
+    for (int domain = 0; domain < 3; ++domain) kept[std::size_t(domain)] = first_reservoir<float>(domain, stream);
+    std::array<double, 3> sums{};
+    for (int frame = 0; frame < frames; ++frame) {
+      for (Reservoir<float, float>& r : kept) r.confidence = std::min(r.confidence, 5.0f);
+      const auto before = kept;
+      for (int domain = 0; domain < 3; ++domain) {
+        const SeenFromFirst domains{{domain, domain, (domain + 1) % 3, (domain + 2) % 3}};
+        std::array<Reservoir<float, float>, 4> inputs{first_reservoir<float>(domain, stream)};
+        for (std::size_t k = 1; k < 4; ++k) inputs[k] = before[std::size_t(domains.number[k])];
+        const auto r = combine<float, float>(weights, inputs, domains, stream, true);
+        sums[std::size_t(domain)] += double(integrand_of_group(r.value) * r.weight);
+        kept[std::size_t(domain)] = r;
+      }
+    }
+    for (std::size_t domain = 0; domain < 3; ++domain) means[domain].push_back(sums[domain] / frames);
+  }
+  return means;
+}
+
+// What combinations promise for later ones: the weight serves every function on the domain that they are for.
+TEST(Reuse, chains_of_combinations_stay_unbiased) {
+  for (ReuseWeights weights : {ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised}) {
+    const auto means = means_of_chains(weights, 20000, 11);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_GT(t_test(means[k], truths_of_group[k]).p_value, sidak_level(family_level, 9)) << int(weights) << " " << k;
+  }
+}
+
+TEST(Reuse, chains_of_combinations_by_naive_shares_are_off_in_each_domain) {
+  const auto means = means_of_chains(ReuseWeights::naive, 20000, 12);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(t_test(means[k], truths_of_group[k]).p_value, 1e-12) << k;
 }
 
 TEST(Reuse, takes_what_is_not_a_usable_number_for_nothing_found) {
@@ -268,6 +300,37 @@ TEST(Reuse, takes_what_is_not_a_usable_number_for_nothing_found) {
       const Reservoir<float, float> nothing[2] = {{x, bad, 1, t}, {x, bad, 1, t1}};
       EXPECT_EQ((combine<float, float>(weights, nothing, domains, stream, true).weight), 0);
     }
+}
+
+// One sample of use, in the place of each domain in turn.
+TEST(ReuseGroup, takes_what_is_not_a_usable_number_for_nothing_found) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const std::array<float, 3> images{0.5f, 0.5f, 0.25f};
+  const auto reservoir = [](int domain, float value, float weight) {
+    return Reservoir<float, float>{value, weight, 1, Intervals<float>::target(domain, value)};
+  };
+  const auto combine_all = [](std::array<Reservoir<float, float>, 3>& group) {
+    combine_group<float, float>(group, IntervalGroup<float>{}, RandomStream<float>(5, 6), true,
+                                [](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
+                                  EXPECT_TRUE(!on || (weight > 0 && weight <= 2)) << k << " " << weight;
+                                });
+  };
+  for (float bad : {0.0f, inf, nan, 3e38f, -1.0f}) {
+    std::array<Reservoir<float, float>, 3> nothing;
+    for (int domain = 0; domain < 3; ++domain) nothing[std::size_t(domain)] = reservoir(domain, 0.6f, bad);
+    for (int good = 0; good < 3; ++good) {
+      std::array<Reservoir<float, float>, 3> group = nothing;
+      group[std::size_t(good)] = reservoir(good, images[std::size_t(good)], 2);
+      combine_all(group);
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(group[k].value, images[k]) << good << " " << bad << " " << k;
+        EXPECT_TRUE(group[k].weight > 0 && group[k].weight <= 2) << good << " " << bad << " " << group[k].weight;
+        EXPECT_EQ(group[k].confidence, 3);
+      }
+    }
+    combine_all(nothing);
+    for (const Reservoir<float, float>& r : nothing) EXPECT_EQ(r.weight, 0) << bad;
+  }
 }
 
 TEST(Reuse, confidence_adds_up_and_zero_is_not_there) {

@@ -1,5 +1,6 @@
-// The squared error of the mean of N independent chains falls as 1 / N, and leaves no floor at ten thousand chains: the
-// dependence between pixels and frames does no harm. Naive weights leave a floor.
+// The squared error of the mean of N independent chains is what the spread of the chains says, at every N up to ten
+// thousand: it falls as 1 / N and leaves no floor, and the dependence between pixels and frames does no harm. Naive
+// weights leave a floor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,90 +12,168 @@
 namespace montelux::test {
 namespace {
 
-constexpr int size = 16, chains = 10240, groups = 32;
+constexpr int size = 16, frames = 4;
+// The means of `block` chains are kept; all others are means of these.
+constexpr std::size_t chains = 10240, block = 10, groups = 32, draws = 20000;
 constexpr double level = 0.01;
+// Bounds of 95 % on the floor must be below this, in variances of the mean of all chains. The error of a picture has
+// few effective degrees of freedom, about eight: without a floor the bound is at one in the middle, and hardly ever
+// above six.
+constexpr double largest_floor = 6;
 
-// Pass means: one number a pixel and chain.
-std::vector<std::vector<float>> chains_of(const TestScene& scene, std::string_view way, int frames) {
-  const ChosenIntegrator chosen = scene.integrator(way);
-  std::vector<std::vector<float>> all;
-  RenderObserver silent;
-  for (int chain = 0; chain < chains; ++chain) {
-    RenderSettings s = scene.settings(PointSetKind::independent, {frames, 1}, 11, 1);
-    s.first_pass = chain;
-    const Film film = render(chosen.any(), s, silent).film;
-    std::vector<float>& means = all.emplace_back();
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) means.push_back(float(film.pixel(x, y).mean[0]));
-  }
-  return all;
+// A number a pixel.
+using Picture = std::vector<double>;
+
+// Mean over pixels.
+double mean_product(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) sum += a[p] * b[p];
+  return sum / double(a.size());
 }
 
+// How far the means of successive blocks of chains are off.
+std::vector<Picture> errors_of_blocks(const TestScene& scene, std::string_view way, const Truth& truth) {
+  const ChosenIntegrator chosen = scene.integrator(way);
+  std::vector<Picture> errors;
+  RenderObserver silent;
+  for (std::size_t chain = 0; chain < chains; ++chain) {
+    RenderSettings s = scene.settings(PointSetKind::independent, {frames, 1}, 11, 1);
+    s.first_pass = int(chain);
+    const Film film = render(chosen.any(), s, silent).film;
+    if (chain % block == 0) errors.emplace_back(truth.mean.size(), 0.0);
+    std::size_t p = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x, ++p)
+        errors.back()[p] += (film.pixel(x, y).mean[0] - truth.mean[p]) / double(block);
+  }
+  return errors;
+}
+
+// Of `count` successive pictures each.
+std::vector<Picture> means_of(const std::vector<Picture>& pictures, std::size_t count) {
+  std::vector<Picture> means;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (i % count == 0) means.emplace_back(pictures[i].size(), 0.0);
+    for (std::size_t p = 0; p < pictures[i].size(); ++p) means.back()[p] += pictures[i][p] / double(count);
+  }
+  return means;
+}
+
+// N times the squared error of a mean of N chains that is off by noise alone, drawn at random: the deviations of all
+// blocks from their mean, each with a random sign. Its mean is the variance of a chain.
+std::vector<double> noise_of(const std::vector<Picture>& blocks) {
+  const Picture mean = means_of(blocks, blocks.size())[0];
+  const double scale = std::sqrt(double(block) / double(blocks.size() - 1));
+  std::vector<std::vector<float>> deviations(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t p = 0; p < mean.size(); ++p) deviations[b].push_back(float(scale * (blocks[b][p] - mean[p])));
+  std::vector<double> noise;
+  for (std::uint32_t draw = 0; draw < draws; ++draw) {
+    const RandomStream<float> stream(1, draw);
+    std::vector<float> sums(mean.size(), 0.0f);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const float sign = stream.bits_at(std::uint32_t(b / 32)) >> (b % 32) & 1 ? 1.0f : -1.0f;
+      for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += sign * deviations[b][p];
+    }
+    double squares = 0;
+    for (float s : sums) squares += double(s) * double(s);
+    noise.push_back(squares / double(sums.size()));
+  }
+  return noise;
+}
+
+// Two-sided, by draws: is `value` a mean of so many independent values of noise?
+double noise_p_value(const std::vector<double>& noise, std::size_t count, double value) {
+  double as_much = 0, as_little = 0;
+  for (std::uint32_t draw = 0; draw < draws; ++draw) {
+    const RandomStream<float> stream(2, draw);
+    double mean = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      mean += noise[stream.bits_at(std::uint32_t(i)) % noise.size()] / double(count);
+    (mean >= value ? as_much : as_little) += 1;
+  }
+  return std::min(1.0, 2 * (1 + std::min(as_much, as_little)) / double(draws + 1));
+}
+
+// The mean squared bias: the mean product of the errors of two groups, over all pairs, as groups are independent and
+// the noise of one knows nothing of the other's. By pseudo-values, one for each group that is left out (jackknife);
+// where there is no bias, their standard error is too large by 1.4.
+SampleSummary floor_of(const std::vector<Picture>& errors, double known) {
+  const double n = double(errors.size());
+  std::vector<double> of_group(errors.size(), 0.0), pseudo;
+  double all = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    for (std::size_t j = 0; j < errors.size(); ++j) {
+      if (i == j) continue;
+      const double product = mean_product(errors[i], errors[j]) - known;
+      of_group[i] += product, all += product;
+    }
+  for (double own : of_group) pseudo.push_back(all / (n - 1) - (all - 2 * own) / (n - 2));
+  return summarize(pseudo);
+}
+
+struct Point {
+  std::size_t n;
+  double mse, p_value;  // the mean over all parts of N chains; is that the noise of N chains?
+};
 struct Errors {
-  std::vector<double> n, mse;        // for N chains, over all parts of N
+  std::vector<Point> points;
   double slope = 0;                  // of log MSE over log N
-  std::vector<double> slopes;        // the same of each part of the chains by itself
-  std::vector<double> squared_bias;  // estimates of the mean squared bias, one for each pair of neighbouring groups
+  double variance = 0, degrees = 0;  // of a chain, by the spread of blocks; effective degrees of freedom of its error
+  SampleSummary floor;               // the mean squared bias
+
+  double variance_of_last() const { return variance / double(chains); }
+  // One-sided: is there no floor?
+  double floor_p_value() const {
+    const TestResult t = t_test(floor, 0);
+    return student_t_cdf(-t.statistic, t.degrees);
+  }
+  // 95 %.
+  double floor_at_most() const {
+    return floor.mean + student_t_quantile(0.95, floor.count - 1) * floor.standard_error();
+  }
 };
 
-// Of log y over log x, by least squares.
-double slope_of_logarithms(const std::vector<double>& x, const std::vector<double>& y) {
+// By least squares.
+double slope_of_logarithms(const std::vector<Point>& points) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto count = double(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double a = std::log(x[i]), b = std::log(std::max(y[i], 1e-30));
+  const auto count = double(points.size());
+  for (const Point& at : points) {
+    const double a = std::log(double(at.n)), b = std::log(std::max(at.mse, 1e-30));
     sx += a, sy += b, sxx += a * a, sxy += a * b;
   }
   return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
-Errors errors_of(const std::vector<std::vector<float>>& all, const Truth& truth) {
-  const std::size_t pixels = truth.mean.size();
+Errors errors_of(const std::vector<Picture>& blocks, const Truth& truth) {
+  // The truth's own variance, which all squares and products have in them.
   double known = 0;
-  for (double v : truth.variance) known += v / double(pixels);
-  const auto off = [&](std::size_t first, std::size_t n) {
-    std::vector<double> d(pixels, 0.0);
-    for (std::size_t i = first; i < first + n; ++i)
-      for (std::size_t p = 0; p < pixels; ++p) d[p] += double(all[i][p]) / double(n);
-    for (std::size_t p = 0; p < pixels; ++p) d[p] -= truth.mean[p];
-    return d;
-  };
-  // Mean squared errors of means of n chains, for ever larger n, over the chains [first, last).
-  const auto fill = [&](std::size_t first, std::size_t last, std::vector<double>& ns, std::vector<double>& mse) {
-    for (std::size_t n = 10; n <= last - first; n *= 4) {
-      double sum = 0;
-      const std::size_t parts = (last - first) / n;
-      for (std::size_t part = 0; part < parts; ++part)
-        for (double d : off(first + part * n, n)) sum += d * d / double(pixels * parts);
-      ns.push_back(double(n)), mse.push_back(sum - known);
-    }
-  };
+  for (double v : truth.variance) known += v / double(truth.variance.size());
+  const std::vector<double> noise = noise_of(blocks);
+  const SampleSummary spread = summarize(noise);
   Errors e;
-  fill(0, all.size(), e.n, e.mse);
-  e.slope = slope_of_logarithms(e.n, e.mse);
-  constexpr std::size_t part = 640;
-  for (std::size_t first = 0; first + part <= all.size(); first += part) {
-    std::vector<double> n, mse;
-    fill(first, first + part, n, mse);
-    e.slopes.push_back(slope_of_logarithms(n, mse));
+  e.variance = spread.mean, e.degrees = 2 * spread.mean * spread.mean / spread.variance;
+  for (std::size_t n = block; n <= chains; n *= 4) {
+    const std::vector<Picture> means = means_of(blocks, n / block);
+    double mse = -known;
+    for (const Picture& mean : means) mse += mean_product(mean, mean) / double(means.size());
+    e.points.push_back({n, mse, noise_p_value(noise, means.size(), double(n) * mse)});
   }
-  // Groups are independent, so the mean product of two groups' errors is the squared bias and the truth's own variance.
-  const std::size_t n = all.size() / groups;
-  for (std::size_t g = 0; g < groups; g += 2) {
-    const std::vector<double> a = off(g * n, n), b = off((g + 1) * n, n);
-    double product = 0;
-    for (std::size_t p = 0; p < pixels; ++p) product += a[p] * b[p] / double(pixels);
-    e.squared_bias.push_back(product - known);
-  }
+  e.slope = slope_of_logarithms(e.points);
+  e.floor = floor_of(means_of(blocks, blocks.size() / groups), known);
   return e;
 }
 
 void print(const char* name, const Errors& e) {
-  std::printf("%s: slope %.3f;", name, e.slope);
-  for (std::size_t i = 0; i < e.n.size(); ++i) std::printf(" %g: %.3g", e.n[i], e.mse[i]);
-  const SampleSummary bias = summarize(e.squared_bias), slopes = summarize(e.slopes);
-  std::printf("; slope of a part %.4f +- %.4f, squared bias %.3g +- %.3g\n", slopes.mean, slopes.standard_error(),
-              bias.mean, bias.standard_error());
+  std::printf("%s: slope %.3f; MSE", name, e.slope);
+  for (const Point& at : e.points) std::printf(" %zu: %.3g", at.n, at.mse);
+  std::printf("\n  over that of noise");
+  for (const Point& at : e.points)
+    std::printf(" %zu: %.3f (p %.2g)", at.n, at.mse * double(at.n) / e.variance, at.p_value);
+  std::printf("\n  variance of a chain %.3g, %.1f degrees of freedom, of the last mean %.3g\n", e.variance, e.degrees,
+              e.variance_of_last());
+  std::printf("  squared bias %.3g +- %.3g, at most %.3g (95 %%)\n", e.floor.mean, e.floor.standard_error(),
+              e.floor_at_most());
 }
 
 TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
@@ -102,23 +181,33 @@ TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
   ASSERT_EQ(text.name, "blockers");
   const TestScene scene(text.text);
   const Truth truth = truth_of(scene, {8192, 64});
-  const auto measured = [&](const char* way) {
-    const Errors e = errors_of(chains_of(scene, way, 4), truth);
-    print(way, e);
-    return e;
-  };
-  // The slope up to the chains of one part, in independent parts; the floor, over all chains.
-  const double own = sidak_level(level, 4);
-  const Errors naive = measured("restir-di:radius=4,weights=naive");
-  const SampleSummary floor = summarize(naive.squared_bias);
-  EXPECT_LT(t_test(naive.slopes, -1).p_value, own);
-  EXPECT_LT(t_test(naive.squared_bias, 0).p_value, own);
+  // Of each of two forms, five numbers of chains and the floor.
+  const double own = sidak_level(level, 2 * (5 + 1));
+  const char* const biased = "restir-di:radius=4,weights=naive";
+  const std::vector<Picture> naive_blocks = errors_of_blocks(scene, biased, truth);
+  const Errors naive = errors_of(naive_blocks, truth);
+  print(biased, naive);
+  ASSERT_EQ(naive.points.size(), 6u);
+  for (std::size_t i = 2; i < naive.points.size(); ++i) EXPECT_LT(naive.points[i].p_value, own) << naive.points[i].n;
+  EXPECT_LT(naive.floor_p_value(), own);
+  const Picture bias = means_of(naive_blocks, naive_blocks.size())[0];
   for (const char* way : {"restir-di:radius=4", "restir-di:radius=4,weights=pairwise"}) {
-    const Errors unbiased = measured(way);
-    EXPECT_GT(t_test(unbiased.slopes, -1).p_value, own) << way;
-    EXPECT_GT(t_test(unbiased.squared_bias, 0).p_value, own) << way;
-    // Good enough to see a tenth of the naive form's floor.
-    EXPECT_LT(3 * summarize(unbiased.squared_bias).standard_error(), 0.1 * floor.mean) << way;
+    std::vector<Picture> blocks = errors_of_blocks(scene, way, truth);
+    const Errors unbiased = errors_of(blocks, truth);
+    print(way, unbiased);
+    // Blocks themselves say nothing: their spread is what noise is drawn from.
+    for (std::size_t i = 1; i < unbiased.points.size(); ++i)
+      EXPECT_GT(unbiased.points[i].p_value, own) << way << ", " << unbiased.points[i].n;
+    EXPECT_GT(unbiased.floor_p_value(), own) << way;
+    EXPECT_LT(unbiased.floor_at_most(), largest_floor * unbiased.variance_of_last()) << way;
+    // Planted: a quarter of the bias of naive weights, a sixteenth of their floor.
+    for (Picture& block_error : blocks)
+      for (std::size_t p = 0; p < bias.size(); ++p) block_error[p] += 0.25 * bias[p];
+    const Errors off = errors_of(blocks, truth);
+    print("a quarter of the bias of naive weights planted", off);
+    EXPECT_LT(off.points.back().p_value, own) << way;
+    EXPECT_LT(off.floor_p_value(), own) << way;
+    EXPECT_GT(off.floor_at_most(), largest_floor * off.variance_of_last()) << way;
   }
 }
 
