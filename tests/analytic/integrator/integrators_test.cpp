@@ -1,7 +1,7 @@
 // Every integrator of light finds the closed forms of scenes/analytic, and they agree with each other in a closed room.
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "render_scenes.h"
@@ -77,11 +77,11 @@ struct Measured {
   std::uint64_t non_finite = 0;
 };
 
-Measured measure(const TestScene& scene, const std::string& way, int samples_per_pass) {
+Measured measure(const TestScene& scene, const std::string& way, int samples_per_pass, std::uint32_t seed = 3) {
   const ChosenIntegrator chosen = scene.integrator(way);
   RenderObserver silent;
   const RenderResult result =
-      render(chosen.any(), scene.settings(PointSetKind::independent, {samples_per_pass, passes}, 3), silent);
+      render(chosen.any(), scene.settings(PointSetKind::independent, {samples_per_pass, passes}, seed), silent);
   const ImageEstimate image = result.film.image();
   return {image.mean[0], image.standard_error[0], result.film.non_finite()};
 }
@@ -99,10 +99,11 @@ bool has_an_error(const std::string& way, const std::string& scene) {
   return way.find("weights=unbiased") == std::string::npos || scene != "corner-squares.pbrt";
 }
 
-// Holds every way against the closed form of every scene; the share of the tests that a mean 10 % off would fail.
-double hold_to_closed_forms(const std::vector<Expected>& scenes, const std::vector<std::string>& ways, int samples) {
+// Holds every way against the closed form of every scene. Each way would be found out, in most of the scenes, if its
+// means were a tenth too large or too small.
+void hold_to_closed_forms(const std::vector<Expected>& scenes, const std::vector<std::string>& ways, int samples) {
   const double level = sidak_level(family_level, double(scenes.size() * ways.size()));
-  double caught = 0, tests = 0;
+  std::map<std::string, int> caught, tests;
   for (const Expected& e : scenes) {
     const TestScene scene(read_text(folder / e.scene), folder.string());
     for (const std::string& way : ways) {
@@ -112,10 +113,10 @@ double hold_to_closed_forms(const std::vector<Expected>& scenes, const std::vect
           << way << " in " << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value
           << " is right (" << (m.mean - e.value) / m.standard_error << " standard errors)";
       EXPECT_EQ(m.non_finite, 0u) << way << " in " << e.scene;
-      caught += agrees(m, e.value * 1.1, level) ? 0 : 1, tests += 1;
+      for (const double fault : {0.9, 1.1}) caught[way] += !agrees(m, e.value * fault, level), ++tests[way];
     }
   }
-  return caught / tests;
+  for (const auto& [way, count] : tests) EXPECT_GT(caught[way], 0.6 * count) << way;
 }
 
 TEST(DirectStrategies, find_the_closed_forms_of_scenes_with_direct_light_alone) {
@@ -123,12 +124,10 @@ TEST(DirectStrategies, find_the_closed_forms_of_scenes_with_direct_light_alone) 
   for (const Expected& e : expected_means())
     if (std::ranges::find(direct_scenes, e.scene) != direct_scenes.end()) scenes.push_back(e);
   EXPECT_EQ(scenes.size(), direct_scenes.size());
-  EXPECT_GT(hold_to_closed_forms(scenes, direct_ways, 16), 0.8);
+  hold_to_closed_forms(scenes, direct_ways, 16);
 }
 
-TEST(FullIntegrators, find_the_closed_form_of_every_scene) {
-  EXPECT_GT(hold_to_closed_forms(expected_means(), full_ways, 16), 0.8);
-}
+TEST(FullIntegrators, find_the_closed_form_of_every_scene) { hold_to_closed_forms(expected_means(), full_ways, 16); }
 
 TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
   const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
@@ -147,7 +146,8 @@ TEST(FullIntegrators, agree_pairwise_in_a_closed_room) {
   std::vector<std::string> ways = full_ways;
   ways.push_back("path");
   std::vector<Measured> means;
-  for (const std::string& way : ways) means.push_back(measure(scene, way, 4));
+  // With seeds of their own: by one seed all would share their camera rays.
+  for (const std::string& way : ways) means.push_back(measure(scene, way, 4, std::uint32_t(means.size())));
   const double level = sidak_level(0.01, double(ways.size() * (ways.size() - 1)) / 2);
   const auto differ = [&](const Measured& a, const Measured& b) {
     return welch_test({a.mean, a.standard_error * a.standard_error * passes, passes},

@@ -16,6 +16,8 @@ const char* const unbiased[] = {
     "restir-di:weights=pairwise,radius=4,visibility-reuse=off",
     "restir-di:radius=4,candidates=4,weights=unbiased,visibility-reuse=off,rounds=2",
     "restir-di:radius=4,candidates=2,weights=generalised,visibility-reuse=on,similar=off,power-candidates=2",
+    "restir-di:candidates=4,groups=on,weights=generalised",
+    "restir-di:candidates=4,rounds=0",
 };
 
 TEST(RestirDirect, has_the_mean_of_the_path_tracer_in_every_scene) {
