@@ -96,9 +96,10 @@ LightSetBuilder::Surface LightSetBuilder::surface(const Emission& emission, floa
     if (exitance > 0) factor *= gray(*emission.power / (exitance * area));
   }
   s.row.set(light_slot::emission, factor);
-  s.row.set_bits(light_slot::flags, (emission.two_sided ? light_two_sided : 0) | (flip ? light_flipped : 0));
+  s.row.set_bits(light_slot::flags, (emission.two_sided ? light_two_sided : 0) | (flip ? light_flipped : 0) |
+                                        (emission.masked ? light_masked : 0));
   if (emission.image) s.row.set_bits(light_slot::image, number_of(emission.image));
-  s.bounds.intensity = area > 0 ? average(factor * mean) * area : 0.0f;
+  s.bounds.intensity = area > 0 && !emission.masked ? average(factor * mean) * area : 0.0f;
   s.bounds.two_sided = emission.two_sided;
   s.power = pi * s.bounds.intensity * sides;
   return s;
@@ -112,7 +113,7 @@ LightId LightSetBuilder::add(const TriangleShape& shape, const Emission& emissio
   float area = 0.5f * length(c);
   Vec3f n = unit_or_z(c) * (shape.flip ? -1.0f : 1.0f);
   auto [row, bounds, power] = surface(emission, area, shape.flip);
-  if (emission.image && emission.local_power) {
+  if (emission.image && emission.local_power && !emission.masked) {
     const float local = average(texel_mean(*emission.image, shape) * row_emission(row)) * area;
     power *= bounds.intensity > 0 ? local / bounds.intensity : 0.0f;
     bounds.intensity = local;

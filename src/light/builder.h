@@ -19,6 +19,9 @@ struct Emission {
   Rgb tint = gray(1.0f);                      // factor of the image
   std::optional<Rgb> image_mean{};            // of the image, where it has been taken: images are large
   bool local_power = false;  // triangles are chosen by the image's texels on them instead of by its mean
+  // The shape has an alpha mask. Light sampling would draw points in its holes, so that it is left to rays that meet
+  // it.
+  bool masked = false;
 };
 
 // Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.

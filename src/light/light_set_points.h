@@ -13,8 +13,8 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
     if (is_surface(kind)) {
       with_emitter<F>(kind, row, [&](const auto& emitter) {
         const EmitterPoint<F> e = emitter.sample(p, u);
-        const Mask<F> seen = meets_lit_side(row, e.n, direction_to(p, e.p)), finite = is_finite(e.density.value);
-        const Mask<F> good = m & seen & finite & (e.density.value > F(0.0f));
+        const Mask<F> seen = meets_lit_side(row, e.n, direction_to(p, e.p)) & !row.flag(light_masked);
+        const Mask<F> good = m & seen & is_finite(e.density.value) & (e.density.value > F(0.0f));
         r.point.p = select(good, e.p, r.point.p), r.point.n = select(good, e.n, r.point.n);
         r.point.radiance = select(good, surface_emission(row, e.uv, good), r.point.radiance);
         const Mask<F> both = row.flag(light_two_sided);

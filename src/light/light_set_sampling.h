@@ -71,7 +71,7 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
       Mask<F> seen = meets_lit_side(rows, e.n, r.wi);
       r.radiance = surface_emission(rows, e.uv, Mask<F>(on & seen));
       r.density = e.density;
-      r.valid = on & seen & (e.density.value > F(0.0f)) & is_finite(e.density.value);
+      r.valid = on & seen & !rows.flag(light_masked) & (e.density.value > F(0.0f)) & is_finite(e.density.value);
     });
     return r;
   }
@@ -173,9 +173,10 @@ LightHit<F> LightSet::hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_
   // Where nothing shines, no density is asked for.
   on = on & !is_black(r.radiance);
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
-    with_emitter<F>(kind, rows<F>(light, m), [&](const auto& emitter) {
+    const LightRows<F> row = rows<F>(light, m);
+    with_emitter<F>(kind, row, [&](const auto& emitter) {
       F density = emitter.density(reference_p, p, wi).value;
-      r.density.value = select(m & is_finite(density), density, r.density.value);
+      r.density.value = select(m & is_finite(density) & !row.flag(light_masked), density, r.density.value);
     });
   });
   r.density = choice_mass(light, reference_p, reference_n, on) * r.density;

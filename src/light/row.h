@@ -34,6 +34,7 @@ inline constexpr int shape = 6;      // first slot of the kind's own
 inline constexpr std::uint32_t light_two_sided = 1;  // emits on both sides
 inline constexpr std::uint32_t light_flipped = 2;    // the normal is the negative of the shape's own
 inline constexpr std::uint32_t light_special = 4;    // the kind says what: a right-angled or a whole one
+inline constexpr std::uint32_t light_masked = 8;  // has holes, which light sampling does not know: it draws none of it
 
 // A map from a light's own space to the world: twelve numbers forth, twelve back, each the rows of a 3 x 4 matrix.
 inline constexpr int light_transform_size = 32;

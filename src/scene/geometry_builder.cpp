@@ -198,6 +198,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
                          "place the shape outside ObjectBegin and ObjectEnd");
   std::optional<Emission> emission;
   if (shape.area_light && in_world) emission = inputs_.emission(*shape.area_light);
+  if (emission) emission->masked = *alpha != 0;
 
   GeometryRow row;
   row.alpha = *alpha;

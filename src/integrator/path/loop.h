@@ -36,7 +36,7 @@ MONTELUX_INLINE F weight_of_light_hit(const PathSettings& settings, F own, F by_
   const F shared = settings.mis == PathMis::off       ? F(0.0f)
                    : settings.mis == PathMis::balance ? balance_weight(own, by_light)
                                                       : power_weight(own, by_light);
-  return select(own > F(0.0f), shared, F(1.0f));
+  return select((own > F(0.0f)) & (by_light > F(0.0f)), shared, F(1.0f));
 }
 
 // The probability that a path lives on. Its throughput counts without the squared indices of refraction, which cancel
