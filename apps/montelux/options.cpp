@@ -152,9 +152,9 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
              });
   add_option(verb,
              {"--shutter", "OPEN:CLOSE",
-              "when the shutter is open, in the scene's unit of time (glTF: seconds), instead of as the file says; of "
-              "--frames, "
-              "in frame 0, and where they part the scene's whole time, before it is parted; the brightness stays"},
+              "when the shutter is open, in the scene's unit of time (glTF: seconds), instead of as the file says; "
+              "with --frames in frame 0, and where they part the scene's whole time, before it is parted; the "
+              "brightness stays"},
              into(options.shutter, parse_shutter));
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }

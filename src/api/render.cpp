@@ -113,6 +113,9 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
                ? plan_for_budget(plan.chosen.any())
                : plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples),
                              r.sampler);
+  if (is_fixed(r.sampler) && r.plan.samples_per_pass > most_fixed_samples)
+    return Failure{fmt::format("sampler {} takes at most {} samples, all in one pass; found {}", name_of(r.sampler),
+                               most_fixed_samples, r.plan.samples_per_pass)};
   return plan;
 }
 

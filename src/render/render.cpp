@@ -204,7 +204,8 @@ PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings,
   StopAlone silent(observer);
   const RenderResult one = render(integrator, settings, silent);
   const double one_sample = std::max(settings.warm_up_counts ? one.seconds : one.shown_seconds(), 1e-6);
-  const auto affordable = int(std::min(seconds / one_sample, 1e6));
+  const double most = is_fixed(settings.sampler) ? most_fixed_samples : 1e6;
+  const auto affordable = int(std::min(seconds / one_sample, most));
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
     const int warm_up = settings.warm_up_counts ? coupled->warm_up() : 0;
     const int frames = affordable * (1 + warm_up) / least_chains - warm_up;

@@ -18,6 +18,9 @@ struct PassPlan {
   int samples() const { return samples_per_pass * passes; }
 };
 
+// Points that are fixed are one pass, of so many samples at most.
+inline constexpr int most_fixed_samples = 1 << 16;
+
 // The plan for at least `samples` samples a pixel. Passes are replicates: more of them make the error bar surer, fewer
 // make each point set longer and so the picture better; docs/error-bars.md has the measurement behind the choice.
 PassPlan plan_passes(int samples, PointSetKind kind);
@@ -40,8 +43,8 @@ struct RenderSettings {
   PointSetKind sampler = PointSetKind::blue_noise;
   std::uint32_t seed = 0;
   PassPlan plan;
-  std::optional<double> seconds;     // stop at this time, with as many passes as fit, but one; plan.passes is a bound
-  bool warm_up_counts = true;        // in these seconds; no: only the time of frames that are shown does
+  std::optional<double> seconds;  // stop at this time, with as many passes as fit, one at least; plan.passes is a bound
+  bool warm_up_counts = true;     // in these seconds; no: only the time of frames that are shown does
   std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
   int threads = 0;                   // 0: all of the machine
   int first_pass = 0;                // for a render that goes on

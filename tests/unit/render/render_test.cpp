@@ -216,12 +216,17 @@ TEST(Render, a_finished_render_is_not_interrupted) {
   EXPECT_EQ(slow.calls(), 5 * 6);
 }
 
-TEST(Render, a_time_limit_ends_the_render_soon_after) {
-  Slow slow(std::chrono::microseconds(300));
+// Without end but for the time.
+RenderResult render_in_time(std::chrono::microseconds pause, double seconds) {
+  const Slow slow(pause);
   RenderObserver silent;
   RenderSettings s = slow_settings({1, 1 << 20}, 2);
-  s.seconds = 0.3;
-  const RenderResult result = render(slow, s, silent);
+  s.seconds = seconds;
+  return render(slow, s, silent);
+}
+
+TEST(Render, a_time_limit_ends_the_render_soon_after) {
+  const RenderResult result = render_in_time(std::chrono::microseconds(300), 0.3);
   EXPECT_FALSE(result.interrupted);
   EXPECT_GE(result.seconds, 0.3);
   EXPECT_LT(result.seconds, 3);  // a loaded machine may be late, but not by the work that was left: minutes
@@ -292,15 +297,23 @@ Shape "sphere"
 
 // Even where the first pass takes longer than the time: no part of the picture is missing.
 TEST(Render, that_time_ends_has_a_whole_pass) {
-  Slow slow(std::chrono::milliseconds(30));
-  RenderObserver silent;
-  RenderSettings s = slow_settings({1, 1 << 20}, 2);
-  s.seconds = 0.001;
-  const RenderResult result = render(slow, s, silent);
+  const RenderResult result = render_in_time(std::chrono::milliseconds(30), 0.001);
   EXPECT_FALSE(result.interrupted);
   EXPECT_GE(result.film.image().passes, 1);
-  for (int y = s.bounds.y0; y < s.bounds.y1; ++y)
-    for (int x = s.bounds.x0; x < s.bounds.x1; ++x) EXPECT_GE(result.film.pixel(x, y).passes, 1u) << x << " " << y;
+  const PixelBounds& b = result.film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) EXPECT_GE(result.film.pixel(x, y).passes, 1u) << x << " " << y;
+}
+
+// Also the pass that measures the speed may take long.
+TEST(Render, a_request_to_stop_is_heard_while_the_speed_is_measured) {
+  class Stop final : public RenderObserver {
+    bool stop_requested() override { return true; }
+  } stop;
+  const Slow slow(std::chrono::milliseconds(50));
+  RenderSettings s = slow_settings({}, 1);
+  plan_for_time(slow, s, 1, stop);
+  EXPECT_LT(slow.calls(), 6);  // of the six tiles
 }
 
 TEST(Render, plans_take_the_samples_asked_for_in_passes_of_a_power_of_two) {
