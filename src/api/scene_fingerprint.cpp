@@ -21,8 +21,29 @@ bool names_files(const fs::path& scene) {
   return unpacked.extension() == ".pbrt" || unpacked.extension() == ".gltf" || unpacked.extension() == ".glb";
 }
 
-// The text in which a scene's file may name others: of a .glb its JSON, which its first chunk is; of JSON its strings
-// without the escapes of JSON.
+// The strings of a JSON text, without its escapes, however deep they stand.
+struct Strings : nlohmann::json::json_sax_t {
+  std::string all;
+  bool keep(const std::string& text) {
+    all += text + "\n";
+    return true;
+  }
+  bool string(string_t& text) override { return keep(text); }
+  bool key(string_t& text) override { return keep(text); }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return true; }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+};
+
+// The text in which a scene's file may name others: of a .glb its JSON, which its first chunk is; of JSON its strings.
 std::string naming_text(const fs::path& file, const std::string& content) {
   std::string text = content;
   if (file.extension() == ".glb" && content.size() >= 20) {
@@ -30,8 +51,8 @@ std::string naming_text(const fs::path& file, const std::string& content) {
     std::memcpy(&length, &content[12], 4);
     text = content.substr(20, length);
   }
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  return json.is_discarded() ? text : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  Strings strings;
+  return nlohmann::json::sax_parse(text, &strings) ? strings.all : text;
 }
 
 }  // namespace

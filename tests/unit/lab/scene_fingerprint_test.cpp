@@ -40,6 +40,12 @@ TEST(SceneFingerprint, follows_every_file_that_a_scene_names_however_its_name_is
   EXPECT_TRUE(follows_texture("a.glb", glb_of(gltf_with(R"(o\u0020k.png)")), "o k.png"));
 }
 
+TEST(SceneFingerprint, takes_what_is_nested_however_deep) {
+  const std::string deep = std::string(1000000, '[') + "\"t.png\"" + std::string(1000000, ']');
+  EXPECT_TRUE(follows_texture("a.gltf", deep, "t.png"));
+  EXPECT_TRUE(follows_texture("a.gltf", std::string(1000000, '[') + "t.png", "t.png"));  // no JSON at all
+}
+
 TEST(SceneFingerprint, is_of_no_file_that_the_scene_does_not_name) {
   EXPECT_FALSE(follows_texture("a.pbrt", "WorldBegin\n", "t.png"));
   EXPECT_FALSE(follows_texture("a.gltf", gltf_with("u.png"), "t.png"));
