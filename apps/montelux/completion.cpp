@@ -37,7 +37,9 @@ Value value_of(const std::string& type) {
   if (type.find('|') == std::string::npos) return value;
   for (std::size_t begin = 0; begin <= type.size();) {
     const std::size_t end = std::min(type.find('|', begin), type.size());
-    value.choices.push_back(type.substr(begin, end - begin));
+    const std::string word = type.substr(begin, end - begin);
+    // NAME and N stand for what nobody can know here.
+    if (std::ranges::any_of(word, [](char c) { return c < 'A' || c > 'Z'; })) value.choices.push_back(word);
     begin = end + 1;
   }
   return value;

@@ -92,10 +92,8 @@ Result<PixelBuffer> read_layer(const std::filesystem::path& file, const std::str
     std::string candidate = channel.substr(0, channel.rfind('.'));
     if (!contains(names, candidate)) names.push_back(candidate);
   }
-  std::string message = fmt::format("'{}' has no layer \"{}\"; it has {}", file.string(), name, fmt::join(names, ", "));
-  if (std::string_view near = nearest_name(name, {names.begin(), names.end()}); !near.empty())
-    message += fmt::format(" (did you mean \"{}\"?)", near);
-  return Failure{message};
+  return Failure{fmt::format("'{}' has no layer \"{}\"; it has {}{}", file.string(), name, fmt::join(names, ", "),
+                             did_you_mean(name, {names.begin(), names.end()}))};
 }
 
 }  // namespace montelux

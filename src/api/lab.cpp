@@ -9,7 +9,7 @@
 
 #include "lab/experiments/experiment.h"
 #include "lab/report/write.h"
-#include "parameter/diagnostic.h"
+#include "parameter/choice.h"
 #include "render/stopwatch.h"
 
 namespace montelux {
@@ -30,9 +30,7 @@ Result<std::vector<Task>> tasks_of(const LabOptions& options) {
     if (!experiment) {
       std::vector<std::string_view> names;
       for (const lab::Experiment* known : lab::experiments()) names.push_back(known->name);
-      const std::string_view near = nearest_name(name, names);
-      return Failure{fmt::format("unknown experiment \"{}\"; valid: {}{}", name, fmt::join(names, ", "),
-                                 near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near))};
+      return unknown_name("experiment", name, names);
     }
     chosen.push_back(experiment);
   }

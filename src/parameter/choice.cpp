@@ -121,17 +121,16 @@ Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<
     if (auto typed = read_value(*spec, text))
       list.add({name, typed->first, std::move(typed->second), {}});
     else
-      complain(fmt::format("{} takes {}; found \"{}\"", name, expected(*spec), text));
+      complain(fmt::format("{} takes {}; found \"{}\"{}", name, expected(*spec), text,
+                           did_you_mean(text, {spec->choices.begin(), spec->choices.end()})));
   }
   if (!wrong.empty()) return Failure{wrong};
   return list;
 }
 
 Failure unknown_name(std::string_view family, std::string_view name, const std::vector<std::string_view>& valid) {
-  std::string message = fmt::format("unknown {} \"{}\"; valid: {}", family, name, fmt::join(valid, ", "));
-  if (std::string_view near = nearest_name(name, valid); !near.empty())
-    message += fmt::format(" (did you mean \"{}\"?)", near);
-  return {message};
+  const std::string message = fmt::format("unknown {} \"{}\"; valid: {}", family, name, fmt::join(valid, ", "));
+  return {message + did_you_mean(name, valid)};
 }
 
 }  // namespace montelux

@@ -18,8 +18,8 @@ struct ChoiceText {
 Result<ChoiceText> parse_choice(std::string_view text);
 
 // The typed values of the settings. Fails with one message that names everything that is wrong: unknown names (with the
-// nearest valid one), values of another type, out of range, or not among the choices. `none` is taken by parameters
-// whose choices hold "none", whatever their type; it is left out of the list.
+// nearest valid one), values of another type, out of range, or not among the choices (likewise). `none` is taken by
+// parameters whose choices hold "none", whatever their type; it is left out of the list.
 Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<Setting>& settings,
                                     std::string_view family);
 

@@ -49,4 +49,9 @@ std::string_view nearest_name(std::string_view name, const std::vector<std::stri
   return best;
 }
 
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const std::string_view near = nearest_name(name, candidates);
+  return near.empty() ? "" : " (did you mean \"" + std::string(near) + "\"?)";
+}
+
 }  // namespace montelux

@@ -42,5 +42,7 @@ class Diagnostics {
 
 // The candidate nearest to `name` by edit distance; empty where none is near enough to be meant.
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);
+// " (did you mean "path"?)", or nothing where no name is near.
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace montelux

@@ -101,7 +101,8 @@ class Completion(ProgramTest):
                                 (["diff", "--stderr"], {"--stderr-a", "--stderr-b"}), (["list", "mat"], {"materials"}),
                                 (["tonemap", "ro"], {"room.exr"}), (["render", "-o", "roo"], {"room.exr"}),
                                 (["completion", ""], {"bash", "zsh", "fish"}), (["integrate", "--tar"], {"--target", "--target-error"}),
-                                (["integrate", "--method", "v"], {"vegas"}), (["merge", "ro"], {"room.exr"})]:
+                                (["integrate", "--method", "v"], {"vegas"}), (["merge", "ro"], {"room.exr"}),
+                                (["render", "--camera", ""], set())]:
             line = " ".join(f"'{word}'" for word in ["montelux", *words])
             code = (f"source ./completion; COMP_WORDS=({line}); COMP_CWORD={len(words)}; _montelux; "
                     "printf '%s\\n' \"${COMPREPLY[@]}\"")

@@ -30,8 +30,9 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
       return Failure{
           fmt::format("roulette fixed takes a survival probability between 0 and 1, as fixed:0.5; found \"{}\"", text)};
   } else {
-    return Failure{fmt::format(
-        "roulette takes throughput, proportional, efficiency, fixed:PROBABILITY or off; found \"{}\"", text)};
+    return Failure{
+        fmt::format("roulette takes throughput, proportional, efficiency, fixed:PROBABILITY or off; found \"{}\"{}",
+                    text, did_you_mean(text, {"throughput", "proportional", "efficiency", "fixed:0.5", "off"}))};
   }
   return Done{};
 }
@@ -54,7 +55,8 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
     settings.light_selection = LightSelection::bvh;
     return Done{};
   }
-  return Failure{fmt::format("light-selection takes uniform, power, bvh or ris:CANDIDATES; found \"{}\"", text)};
+  return Failure{fmt::format("light-selection takes uniform, power, bvh or ris:CANDIDATES; found \"{}\"{}", text,
+                             did_you_mean(text, {"uniform", "power", "bvh", "ris:8"}))};
 }
 
 std::vector<ParameterSpec> common_parameters() {

@@ -116,9 +116,8 @@ class Scanner {
     for (const NamedFunction& f : expression_functions()) near.push_back(f.name);
     if (!called)
       for (const NamedConstant& c : expression_constants()) near.push_back(c.name);
-    std::string message = fmt::format("unknown {} \"{}\"", called ? "function" : "name", name);
-    if (std::string_view nearest = nearest_name(name, near); !nearest.empty())
-      message += fmt::format(" (did you mean \"{}\"?)", nearest);
+    std::string message =
+        fmt::format("unknown {} \"{}\"{}", called ? "function" : "name", name, did_you_mean(name, near));
     if (!called)
       message += variables_.empty() ? "; there are no variables here"
                                     : fmt::format("; the variables are {}", fmt::join(variables_, ", "));

@@ -56,6 +56,11 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_NE(failure_of(scene, "restir-di:weights=biased").find("naive, unbiased, pairwise"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:groups=on,weights=pairwise").find("needs groups=off"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbors=3").find("did you mean \"neighbours\""), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:weights=pairwse").find("did you mean \"pairwise\""), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-pt:shift=hybird").find("did you mean \"hybrid\""), std::string::npos);
+  EXPECT_EQ(failure_of(scene, "restir-pt:shift=zzzzzzzz").find("did you mean"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "path:light-selection=bvhh").find("did you mean \"bvh\""), std::string::npos);
+  EXPECT_NE(failure_of(scene, "path:roulette=thruput").find("did you mean \"throughput\""), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbours=99").find("from 0 to 16"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:chain=0").find("from 1 to 1024"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:radius=0.5").find("from 1 to 4096"), std::string::npos);
