@@ -8,8 +8,8 @@ namespace montelux {
 static_assert(RTC_VERSION_MAJOR == MONTELUX_EMBREE_MAJOR,
               "the compiler sees the headers of another Embree than CMake found");
 
-Accel::Accel(const GeometryStore& store, AlphaTest alpha, int threads)
-    : kernel_(std::make_unique<Kernel>(store, std::move(alpha), threads)) {}
+Accel::Accel(const GeometryStore& store, OpacityTest is_opaque, int threads)
+    : kernel_(std::make_unique<Kernel>(store, std::move(is_opaque), threads)) {}
 Accel::~Accel() = default;
 Accel::Accel(Accel&&) noexcept = default;
 

@@ -11,13 +11,15 @@ namespace montelux {
 // Whether the lanes' rays run side by side, as camera rays do. It is a hint for speed alone.
 enum class Coherence { none, coherent };
 
-// True where the surface is there: an alpha mask decides at (geometry row, primitive, u, v) for a ray.
-using AlphaTest = std::function<bool(const Hit<float>&, const Ray<float>&)>;
+// True where the surface is there for a ray, at (geometry row, primitive, u, v). Asked where the row has an alpha mask,
+// and by shadow rays where it is open to some of them. The ray is in the space of the hit's instance. Of shapes that
+// are no meshes, `primitive` is the number of surfaces of the shape that the ray has passed.
+using OpacityTest = std::function<bool(const Hit<float>&, const Ray<float>&, RayUse)>;
 
 class Accel {
  public:
   // `store` must outlive it and not change. `threads`: for building; 0: all of the machine.
-  Accel(const GeometryStore& store, AlphaTest alpha, int threads = 0);
+  Accel(const GeometryStore& store, OpacityTest is_opaque, int threads = 0);
   ~Accel();
   Accel(Accel&&) noexcept;
 

@@ -14,17 +14,27 @@ Ray<float> ray_of(RTCRayN* rays, unsigned n, unsigned i) {
           RTCRayN_time(rays, n, i)};
 }
 
+bool may_be_open_to_shadow_rays(const GeometryRow& row) {
+  return row.alpha != 0 || (row.flags & GeometryRow::open_to_some_shadow_rays) != 0;
+}
+
 const GeometryContext& context_of(void* user) { return *static_cast<const GeometryContext*>(user); }
 
-// The kernel's filter: rejects the hits that the alpha mask cuts out.
-void reject_masked(const RTCFilterFunctionNArguments* a) {
+// As Hit counts instances.
+std::uint32_t instance_number(const GeometryContext& context, std::uint32_t kernel_number) {
+  return kernel_number == RTC_INVALID_GEOMETRY_ID ? 0 : kernel_number - context.store->world_rows + 1;
+}
+
+// The kernel's filter: rejects the hits where the surface is not there.
+template <RayUse use>
+void reject_open(const RTCFilterFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0) continue;
     Hit<float> hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
                    RTCHitN_v(a->hit, a->N, i),      context.row,
-                   RTCHitN_primID(a->hit, a->N, i), 0};
-    if (!(*context.alpha)(hit, ray_of(a->ray, a->N, i))) a->valid[i] = 0;
+                   RTCHitN_primID(a->hit, a->N, i), instance_number(context, a->context->instID[0])};
+    if (!(*context.is_opaque)(hit, ray_of(a->ray, a->N, i), use)) a->valid[i] = 0;
   }
 }
 
@@ -60,18 +70,30 @@ std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
   return bits;
 }
 
+// The nearest surface of the shape that is there for the ray: through one side of a ball it may meet the other. To the
+// test, `primitive` says how many it has passed, so that each is decided by itself.
+std::optional<ShapeHit> first_that_is_there(const GeometryContext& context, const Ray<float>& ray, RayUse use,
+                                            std::uint32_t instance, bool asks) {
+  const Shape& shape = context.store->shapes[context.store->rows[context.row].first];
+  std::optional<ShapeHit> found = intersect(shape, ray, 0.0f);
+  for (std::uint32_t passed = 0; asks && found; ++passed) {
+    if ((*context.is_opaque)({found->t, found->uv.x, found->uv.y, context.row, passed, instance}, ray, use)) break;
+    found = intersect(shape, ray, found->t);
+  }
+  return found;
+}
+
 void intersect_shape(const RTCIntersectFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
   RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
   RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
-  const std::uint32_t near = rays_into(context.ball, rays, a->N);
+  const std::uint32_t near = rays_into(context.ball, rays, a->N),
+                      instance = instance_number(context, a->context->instID[0]);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
-    Ray<float> ray = ray_of(rays, a->N, i);
-    auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
+    const auto found = first_that_is_there(context, ray_of(rays, a->N, i), RayUse::path, instance, row.alpha != 0);
     if (!found) continue;
-    if (row.alpha != 0 && !(*context.alpha)({found->t, found->uv.x, found->uv.y, context.row, 0, 0}, ray)) continue;
     RTCRayN_tfar(rays, a->N, i) = found->t;
     RTCHitN_u(hits, a->N, i) = found->uv.x;
     RTCHitN_v(hits, a->N, i) = found->uv.y;
@@ -85,14 +107,13 @@ void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
   if (row.flags & GeometryRow::invisible_to_shadow_rays) return;
-  const std::uint32_t near = rays_into(context.ball, a->ray, a->N);
+  const std::uint32_t near = rays_into(context.ball, a->ray, a->N),
+                      instance = instance_number(context, a->context->instID[0]);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
-    Ray<float> ray = ray_of(a->ray, a->N, i);
-    auto found = intersect(context.store->shapes[row.first], ray, 0.0f);
-    if (!found) continue;
-    if (row.alpha != 0 && !(*context.alpha)({found->t, found->uv.x, found->uv.y, context.row, 0, 0}, ray)) continue;
-    RTCRayN_tfar(a->ray, a->N, i) = -std::numeric_limits<float>::infinity();
+    if (first_that_is_there(context, ray_of(a->ray, a->N, i), RayUse::shadow, instance,
+                            may_be_open_to_shadow_rays(row)))
+      RTCRayN_tfar(a->ray, a->N, i) = -std::numeric_limits<float>::infinity();
   }
 }
 
@@ -153,11 +174,9 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
       break;
   }
   rtcSetGeometryUserData(geometry, context);
-  if (row.kind == GeometryKind::shape) return geometry;  // their own functions ask for alpha
-  if (row.alpha != 0) {
-    rtcSetGeometryIntersectFilterFunction(geometry, reject_masked);
-    rtcSetGeometryOccludedFilterFunction(geometry, reject_masked);
-  }
+  if (row.kind == GeometryKind::shape) return geometry;  // their own functions ask
+  if (row.alpha != 0) rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);
+  if (may_be_open_to_shadow_rays(row)) rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
   if (row.flags & GeometryRow::invisible_to_shadow_rays) rtcSetGeometryOccludedFilterFunction(geometry, reject_all);
   return geometry;
 }

@@ -1,4 +1,5 @@
-// Geometries of the kernel, and the functions that it calls back: alpha masks, and shapes that it does not know.
+// Geometries of the kernel, and the functions that it calls back: surfaces that some rays pass, and shapes that it does
+// not know.
 #pragma once
 #include "accel/accel.h"
 #include "accel/rtcore.h"
@@ -9,7 +10,7 @@ namespace montelux {
 struct GeometryContext {
   const GeometryStore* store;
   std::uint32_t row;
-  const AlphaTest* alpha;
+  const OpacityTest* is_opaque;
   Ball ball;  // around a shape
 };
 

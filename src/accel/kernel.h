@@ -27,7 +27,7 @@ inline bool count_memory(void* counter, ssize_t bytes, bool) {
 
 struct Accel::Kernel {
   const GeometryStore& store;
-  AlphaTest alpha;
+  OpacityTest is_opaque;
   std::atomic<std::int64_t> bytes{0};
   DeviceHandle device;
   std::vector<SceneHandle> objects;
@@ -35,7 +35,7 @@ struct Accel::Kernel {
   std::vector<std::unique_ptr<GeometryContext>> contexts;
   std::uint32_t first_instance = 0;  // kernel number of instance 0
 
-  Kernel(const GeometryStore& s, AlphaTest a, int threads) : store(s), alpha(std::move(a)) {
+  Kernel(const GeometryStore& s, OpacityTest test, int threads) : store(s), is_opaque(std::move(test)) {
     std::string config = threads > 0 ? fmt::format("threads={}", threads) : "";
     device.reset(rtcNewDevice(config.c_str()));
     if (!device) throw std::runtime_error("the ray-tracing kernel cannot start on this machine");
@@ -71,7 +71,7 @@ struct Accel::Kernel {
   void attach(RTCScene scene, std::uint32_t row_number, std::uint32_t id) {
     const GeometryRow& row = store.rows[row_number];
     const Ball ball = row.kind == GeometryKind::shape ? ball_around(store.shapes[row.first]) : Ball{};
-    contexts.push_back(std::make_unique<GeometryContext>(GeometryContext{&store, row_number, &alpha, ball}));
+    contexts.push_back(std::make_unique<GeometryContext>(GeometryContext{&store, row_number, &is_opaque, ball}));
     RTCGeometry geometry = make_geometry(device.get(), store, row, contexts.back().get());
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcCommitGeometry(geometry);

@@ -136,7 +136,8 @@ LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& opti
         LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}, options});
     const Scene& scene = parts->scene;
     parts->accel = std::make_unique<Accel>(
-        scene.geometry, [&scene](const Hit<float>& hit, const Ray<float>& ray) { return scene.is_opaque(hit, ray); },
+        scene.geometry,
+        [&scene](const Hit<float>& hit, const Ray<float>& ray, RayUse use) { return scene.is_opaque(hit, ray, use); },
         options.threads);
     const double build_seconds = watch.lap();
     parts->info = info_of(desc, *parts);

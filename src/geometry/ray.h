@@ -13,6 +13,9 @@ struct Ray {
   F time = F(0.0f);
 };
 
+// What a ray is traced for: the path itself, or whether a light is seen. Some surfaces are there for one of them alone.
+enum class RayUse { path, shadow };
+
 // A distance that ends beyond every scene.
 inline constexpr float ray_infinity = 1e30f;
 

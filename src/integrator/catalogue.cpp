@@ -38,6 +38,16 @@ void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
                   *max_depth));
 }
 
+// Where light at some surfaces is looked for by points of lights alone.
+void note_masked(ChosenIntegrator& chosen, const Scene& scene, std::string_view setting) {
+  if (!scene.lights.has_masked()) return;
+  chosen.biases.push_back(fmt::format("{} with masked emitters", setting));
+  chosen.notes.push_back(
+      fmt::format("emitters with an alpha mask are found by directions alone, which {} does without: the picture is "
+                  "biased by their light",
+                  setting));
+}
+
 template <bool naive>
 Made make_path(const Request& r) {
   auto settings = path_settings(r.list, r.max_depth);
@@ -53,6 +63,9 @@ Made make_direct(const Request& r) {
   const DirectSettings settings = direct_settings(r.list);
   ChosenIntegrator chosen = made("direct", std::make_unique<DirectIntegrator>(r.scene, r.accel, settings));
   chosen.biases.push_back("direct light alone");
+  using enum DirectStrategy;
+  if (settings.strategy == light_area || settings.strategy == light_solid_angle || settings.strategy == ris)
+    note_masked(chosen, r.scene, fmt::format("strategy={}", direct_strategy_names[std::size_t(settings.strategy)]));
   const bool fixed = settings.pattern == PointSetKind::uniform_grid;
   if (fixed) chosen.biases.push_back("fixed shadow rays");
   if (fixed)
@@ -82,8 +95,18 @@ template <const char* name>
 Made make_restir(const Request& r) {
   auto settings = restir_settings(name, r.list, r.max_depth);
   if (!settings) return settings.failure();
+  std::string note;
+  // A candidate by the BSDF has passed such surfaces by chance, and would be asked by chance again when it is shown.
+  if (settings->direct && settings->bsdf_candidate && !settings->visibility_reuse && r.scene.geometry.has_half_open()) {
+    settings->visibility_reuse = true;
+    note =
+        "visibility-reuse is on, as surfaces here have alpha masks or are mixed with interfaces (with bsdf=off it may "
+        "be off)";
+  }
   ChosenIntegrator chosen{name, {}, {}, {}, std::make_unique<RestirIntegrator>(r.scene, r.accel, *settings)};
+  if (!note.empty()) chosen.notes.push_back(std::move(note));
   note_depth(chosen, r.max_depth);
+  if (settings->direct && !settings->bsdf_candidate) note_masked(chosen, r.scene, "bsdf=off");
   const bool reuses = settings->temporal || (settings->rounds > 0 && settings->neighbours > 0);
   if (settings->weights == ReuseWeights::naive && reuses) {
     chosen.biases.push_back("weights=naive");

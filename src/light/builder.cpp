@@ -37,11 +37,15 @@ Rgb row_emission(const LightRow& row) {
   return e;
 }
 
-// Of the texels in the box around the triangle's part of an image; of a large box, of 64 by 64 of them.
-Rgb texel_mean(const LightImage& image, const TriangleShape& shape) {
+// Of the texels in the box around the triangle's part of an image, and one around that, as look-ups are bilinear; of a
+// large box, of 64 by 64 of them. What these miss may shine all the same: then it is a thousandth of `whole`, the
+// image's own mean, so that only what is black for certain is without power.
+Rgb texel_mean(const LightImage& image, const Rgb& whole, const TriangleShape& shape) {
   const auto range = [](float a, float b, float c, int size) {
-    const auto place = [size](float x) { return std::clamp(int(std::floor(x * float(size))), 0, size - 1); };
-    return std::pair{place(std::min({a, b, c})), place(std::max({a, b, c}))};
+    const auto place = [size](float x, int further) {
+      return std::clamp(int(std::floor(std::clamp(x, 0.0f, 1.0f) * float(size))) + further, 0, size - 1);
+    };
+    return std::pair{place(std::min({a, b, c}), -1), place(std::max({a, b, c}), 1)};
   };
   const auto [x0, x1] = range(shape.uv0.x, shape.uv1.x, shape.uv2.x, image.width);
   const auto [y0, y1] = range(1 - shape.uv0.y, 1 - shape.uv1.y, 1 - shape.uv2.y, image.height);
@@ -50,7 +54,8 @@ Rgb texel_mean(const LightImage& image, const TriangleShape& shape) {
   int count = 0;
   for (int y = y0; y <= y1; y += y_step)
     for (int x = x0; x <= x1; x += x_step, ++count) sum += image.at(x, y);
-  return sum * (1 / float(std::max(count, 1)));
+  const bool all_seen = x_step == 1 && y_step == 1;
+  return all_seen || average(sum) > 0 ? sum * (1 / float(std::max(count, 1))) : whole * 1e-3f;
 }
 
 }  // namespace
@@ -114,7 +119,8 @@ LightId LightSetBuilder::add(const TriangleShape& shape, const Emission& emissio
   Vec3f n = unit_or_z(c) * (shape.flip ? -1.0f : 1.0f);
   auto [row, bounds, power] = surface(emission, area, shape.flip);
   if (emission.image && emission.local_power && !emission.masked) {
-    const float local = average(texel_mean(*emission.image, shape) * row_emission(row)) * area;
+    const Rgb whole = emission.image_mean ? *emission.image_mean : emission.image->mean();
+    const float local = average(texel_mean(*emission.image, whole, shape) * row_emission(row)) * area;
     power *= bounds.intensity > 0 ? local / bounds.intensity : 0.0f;
     bounds.intensity = local;
   }
@@ -201,14 +207,15 @@ LightId LightSetBuilder::add_quadric(LightKind kind, const Transform& to_world, 
   row.set_bits(light_slot::transform, number_of(to_world));
   row.set(quadric_centre, to_world.point(Vec3f{0, 0, 0}));
 
-  // Whole spheres that stay round are sampled by the cap that is seen of them.
+  // Whole spheres that stay round are sampled by the cap that is seen of them, if that is all of what shines there.
   Vec3f x = to_world.direction(Vec3f{radius, 0, 0}), y = to_world.direction(Vec3f{0, radius, 0});
   Vec3f z = to_world.direction(Vec3f{0, 0, radius});
   float r2 = dot(x, x), most = 1e-5f * r2;
   bool round = std::abs(dot(y, y) - r2) < most && std::abs(dot(z, z) - r2) < most && std::abs(dot(x, y)) < most &&
                std::abs(dot(y, z)) < most && std::abs(dot(z, x)) < most;
   bool whole = sphere && low <= -radius && high >= radius && own.v[quadric_turn] >= 1;
-  if (whole && round) {
+  const bool far_side_shines = emission.seen_through && (flip || emission.two_sided);
+  if (whole && round && !far_side_shines) {
     row.set_bits(light_slot::flags, std::bit_cast<std::uint32_t>(row.v[light_slot::flags]) | light_special);
     row.set(quadric_world_radius, sqrt(r2));
   }

@@ -22,6 +22,7 @@ struct Emission {
   // The shape has an alpha mask. Light sampling would draw points in its holes, so that it is left to rays that meet
   // it.
   bool masked = false;
+  bool seen_through = false;  // the surface lets rays pass, so that its inside is seen from outside
 };
 
 // Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.

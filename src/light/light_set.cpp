@@ -12,7 +12,8 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
                         [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); });
   infinite_count_ = int(std::count_if(unbounded_.begin(), unbounded_.end(),
                                       [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); }));
-  for (std::uint32_t i = 0; i < count(); ++i) has_delta_ |= is_delta(kind(LightId(i)));
+  for (std::uint32_t i = 0; i < count(); ++i)
+    has_delta_ |= is_delta(kind(LightId(i))), has_masked_ |= rows<float>(i, true).flag(light_masked);
   if (settings_.selection == LightSelection::power && count() > 0)
     by_power_.emplace(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));
   if (settings_.selection == LightSelection::bvh) bvh_ = LightBvh(tables_.bounds);

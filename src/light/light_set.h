@@ -57,6 +57,8 @@ class LightSet {
   float scene_radius() const { return tables_.scene_radius; }
   // Whether there are lights that no ray meets.
   bool has_delta() const { return has_delta_; }
+  // Whether there are lights with holes, which rays alone find.
+  bool has_masked() const { return has_masked_; }
 
   // Lights that have no place: they shine from beyond the scene, or everywhere.
   bool has_beyond() const { return !unbounded_.empty(); }
@@ -141,7 +143,7 @@ class LightSet {
   std::optional<AliasTable> by_power_;    // likewise
   std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
-  bool has_delta_ = false;
+  bool has_delta_ = false, has_masked_ = false;
   float unbounded_mass_ = 0;  // of each unbounded light, by the hierarchy's choice
 };
 

@@ -192,19 +192,21 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
   if (!alpha) return;
   const bool interface = inputs_.is_interface(shape.material);
+  const bool partly_interface = inputs_.is_partly_interface(shape.material);
   if (interface && !shape.area_light) return;  // nothing there that light could meet
   if (shape.area_light && !in_world)
     diagnostics_.warning(shape.area_light->where, "area lights on shapes of an object that is instanced do not shine",
                          "place the shape outside ObjectBegin and ObjectEnd");
   std::optional<Emission> emission;
   if (shape.area_light && in_world) emission = inputs_.emission(*shape.area_light);
-  if (emission) emission->masked = *alpha != 0;
+  if (emission) emission->masked = *alpha != 0, emission->seen_through = interface || partly_interface;
 
   GeometryRow row;
   row.alpha = *alpha;
   row.material = std::uint32_t(shape.material);
   row.object = next_object_number_++;
   if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
+  if (partly_interface) row.flags |= GeometryRow::open_to_some_shadow_rays;
   const std::string& type = shape.entity.type;
   if (is_mesh(type) && shape.mesh) {
     if (type == "loopsubdiv")

@@ -19,6 +19,8 @@ struct ShapeInputs {
   std::function<std::optional<std::uint32_t>(const Entity& shape)> alpha;
   // Whether light passes the material unchanged.
   std::function<bool(MaterialDescId)> is_interface;
+  // Whether it does at times: a mixture with an interface in it.
+  std::function<bool(MaterialDescId)> is_partly_interface;
   // Whether the material looks at the surface's parameters: textures, normal maps, a grain.
   std::function<bool(MaterialDescId)> uses_parameters;
 };

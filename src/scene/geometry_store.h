@@ -1,6 +1,7 @@
 // All geometry of a scene in a few flat arrays, so that packs can gather from them and the ray-tracing kernel can share
 // them: each vertex is in memory once.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -31,7 +32,7 @@ struct alignas(64) GeometryRow {
   std::uint32_t unused[4] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
-                                 turns_to_ray = 16;
+                                 turns_to_ray = 16, open_to_some_shadow_rays = 32;
 };
 static_assert(sizeof(GeometryRow) == 64);
 
@@ -70,6 +71,11 @@ struct GeometryStore {
   bool deforms = false;                   // some mesh has more than one pose
 
   bool moves() const { return deforms || !instance_keys.empty(); }
+  // Whether any surface is there for some rays and not for others.
+  bool has_half_open() const {
+    return std::ranges::any_of(
+        rows, [](const GeometryRow& r) { return r.alpha != 0 || (r.flags & GeometryRow::open_to_some_shadow_rays); });
+  }
 };
 
 // Where a ray met the scene. `geometry` is a row number; `instance` is 1 + an instance's number, or 0.

@@ -88,6 +88,10 @@ Uint<F> MaterialSet::settle_mixtures(Uint<F> material, const TexturePoints<F>& p
   return material;
 }
 
+bool MaterialSet::is_interface_at(std::uint32_t material, const TexturePoints<float>& point, float u) const {
+  return (traits_[settle_mixtures<float>(material, point, true, u)] & is_interface) != 0;
+}
+
 template <class F>
 void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, const TexturePoints<F>& points,
                           Mask<F> on, SurfaceScattering<F>& s) const {

@@ -33,6 +33,9 @@ class MaterialSet {
   template <class F>
   SurfaceScattering<F> scattering(const SurfaceHit<F>& at, const Vec3<F>& d, Mask<F> on, RandomStream<F> random) const;
 
+  // Whether a material lets a path straight through at a point: of a mixture, u in [0, 1) chooses.
+  bool is_interface_at(std::uint32_t material, const TexturePoints<float>& point, float u) const;
+
   std::size_t size() const { return materials_.size(); }
   // Whether any surface lets paths straight through: for packs that need not ask else.
   bool has_interfaces() const { return has_interfaces_; }

@@ -120,10 +120,19 @@ void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
   for (std::uint32_t i = 0; i < materials.size(); ++i) has_cycle(i);
 }
 
+// Whether a mixture may turn out to be an interface. Mixtures do not lead to themselves.
+bool is_partly_interface(const std::vector<Material>& materials, std::uint32_t number) {
+  const std::optional<Mixture>& mixture = materials[number].mixture;
+  return mixture && std::ranges::any_of(mixture->children, [&](std::uint32_t child) {
+           return materials[child].is_interface || is_partly_interface(materials, child);
+         });
+}
+
 GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
   ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs(), diagnostics_); },
                      [this](const Entity& shape) { return alpha_of(shape); },
                      [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
+                     [&](MaterialDescId id) { return is_partly_interface(materials, std::uint32_t(id)); },
                      [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); }};
   GeometryBuilder builder(inputs, lights, diagnostics_);
   for (const ShapeDesc& shape : desc_.shapes) builder.add_world_shape(shape);

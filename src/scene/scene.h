@@ -31,8 +31,9 @@ struct Scene {
   // Whether anything but light moves: only then a path needs a moment of its own.
   bool moves() const { return geometry.moves() || camera.moves(); }
 
-  // Whether a surface with an alpha mask is there for this ray.
-  bool is_opaque(const Hit<float>& hit, const Ray<float>& ray) const;
+  // Whether a surface is there for this ray: an alpha mask may have a hole there, and a mixture may turn out to be an
+  // interface, which shadow rays do not meet (paths do, and cross it). `local`: in the space of the hit's instance.
+  bool is_opaque(const Hit<float>& hit, const Ray<float>& local, RayUse use) const;
 };
 
 }  // namespace montelux

@@ -217,9 +217,9 @@ Ray<float> to_object_space(const GeometryStore& store, std::uint32_t instance, R
   return {to_object.point(ray.o), to_object.direction(ray.d), ray.t_max, ray.time};
 }
 
-SurfacePoint<float> other_point(const GeometryStore& store, const Hit<float>& hit, const Ray<float>& ray) {
+// Of what is no mesh, in the space of its instance.
+SurfacePoint<float> other_point(const GeometryStore& store, const Hit<float>& hit, const Ray<float>& local) {
   const GeometryRow& row = store.rows[hit.geometry];
-  const Ray<float> local = to_object_space(store, hit.instance, ray);
   if (row.kind == GeometryKind::shape)
     return surface_point(store.shapes[row.first], local, ShapeHit{hit.t, {hit.u, hit.v}});
   return curve_point(store.curves[row.first], hit.primitive, hit.u, local, hit.t);
@@ -252,7 +252,8 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
   for_each_lane(on & !triangles, [&](int k) {
     Hit<float> one{lane(hit.t, k),        lane(hit.u, k),         lane(hit.v, k),
                    lane(hit.geometry, k), lane(hit.primitive, k), lane(hit.instance, k)};
-    set_lane(s.point, k, other_point(store, one, {lane(ray.o, k), lane(ray.d, k), one.t, lane(ray.time, k)}));
+    const Ray<float> world{lane(ray.o, k), lane(ray.d, k), one.t, lane(ray.time, k)};
+    set_lane(s.point, k, other_point(store, one, to_object_space(store, one.instance, world)));
   });
   place_instances<F>(store, hit, time, s.point, on);
   s.material = gather(words + RowWord::material, row);
@@ -262,6 +263,14 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
   s.turns_to_ray = Mask<F>(false);
   if (!store.curves.empty())
     s.turns_to_ray = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::turns_to_ray)) != U(0u));
+  return s;
+}
+
+SurfacePoint<float> point_of_local_ray(const GeometryStore& store, const Ray<float>& local, const Hit<float>& hit) {
+  const bool is_mesh = store.rows[hit.geometry].kind == GeometryKind::triangles;
+  SurfacePoint<float> s = is_mesh ? triangles_point<float>(store, hit, local.time, hit.geometry * row_words, true)
+                                  : other_point(store, hit, local);
+  place_instances<float>(store, hit, local.time, s, true);
   return s;
 }
 

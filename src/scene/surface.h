@@ -23,6 +23,9 @@ SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F
 template <class F>
 SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, F time, Mask<F> on);
 
+// The point in the world where one ray met a surface; `local` is the ray in the space of the hit's instance.
+SurfacePoint<float> point_of_local_ray(const GeometryStore& store, const Ray<float>& local, const Hit<float>& hit);
+
 // Surface parameters of a hit, for alpha masks: uv alone, one ray.
 Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit);
 

@@ -1,4 +1,5 @@
 """montelux render: the same bits in every run, a clean end on signals, and no broken files."""
+import gzip
 import json
 import math
 import os
@@ -50,6 +51,11 @@ class Render(ProgramTest):
         self.assertTrue((self.folder / "first-light.exr").is_file())
         self.assertIn("first-light.exr", result.stdout)
         self.assertEqual(result.stderr, "")
+
+        packed = self.folder / "room.pbrt.gz"
+        packed.write_bytes(gzip.compress(SCENE.read_bytes()))
+        self.render("--spp", "1", "--quiet", scene=packed)
+        self.assertTrue((self.folder / "room.exr").is_file())
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_render(self):
         (self.folder / "good.png").write_text("old")

@@ -47,7 +47,8 @@ class TestScene {
     }
     const Scene& scene = prepared_->scene;
     accel_ = std::make_unique<Accel>(
-        scene.geometry, [&scene](const Hit<float>& hit, const Ray<float>& ray) { return scene.is_opaque(hit, ray); },
+        scene.geometry,
+        [&scene](const Hit<float>& hit, const Ray<float>& ray, RayUse use) { return scene.is_opaque(hit, ray, use); },
         1);
   }
   TestScene(const TestScene&) = delete;

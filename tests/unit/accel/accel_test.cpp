@@ -12,7 +12,7 @@
 namespace montelux {
 namespace {
 
-const AlphaTest opaque = [](const Hit<float>&, const Ray<float>&) { return true; };
+const OpacityTest opaque = [](const Hit<float>&, const Ray<float>&, RayUse) { return true; };
 
 // A store that grows by one row at a time: first those of the world, then those of the objects.
 struct StoreBuilder {
@@ -341,7 +341,7 @@ TYPED_TEST(AccelFor, an_alpha_mask_cuts_holes_and_sees_the_hit_it_decides) {
   store.objects = {{placed, 1}};
   store.instances = {{0, translate(10, 0, 0)}};
   std::atomic<int> wrong{0};
-  Accel accel(store, [&](const Hit<float>& hit, const Ray<float>& ray) {
+  Accel accel(store, [&](const Hit<float>& hit, const Ray<float>& ray, RayUse) {
     bool right =
         std::abs(hit.t - 9) < 1e-4f && (hit.geometry == cut || hit.geometry == cut_disk || hit.geometry == placed);
     wrong += right && ray.d.z == -1 ? 0 : 1;
@@ -359,6 +359,26 @@ TYPED_TEST(AccelFor, an_alpha_mask_cuts_holes_and_sees_the_hit_it_decides) {
   EXPECT_FALSE(a[3].found || a[3].occluded);
   EXPECT_TRUE(a[4].found && a[4].occluded && a[4].hit.geometry == placed && a[4].hit.instance == 1);
   EXPECT_FALSE(a[5].found || a[5].occluded);
+}
+
+// A ball's two sides, each of which may be open.
+TYPED_TEST(AccelFor, is_asked_for_both_sides_of_a_ball) {
+  StoreBuilder builder;
+  builder.shape(Sphere{translate(0, 0, 5)});
+  builder.shape(Sphere{translate(5, 0, 5)});
+  builder.shape(Sphere{translate(10, 0, 5)});
+  builder.end_of_world();
+  for (GeometryRow& row : builder.store.rows) row.alpha = 1;
+  // The first is open at its near side, the second at the far one, the third at both.
+  Accel accel(builder.store, [](const Hit<float>& hit, const Ray<float>&, RayUse) {
+    return hit.geometry == 2 ? false : hit.geometry == hit.primitive ? false : true;
+  });
+  const std::vector<Answer> a = ask<TypeParam>(accel, {down(0, 0), down(5, 0), down(10, 0)});
+  EXPECT_TRUE(a[0].found && a[0].occluded);
+  EXPECT_NEAR(a[0].hit.t, 6, 1e-5f);
+  EXPECT_TRUE(a[1].found && a[1].occluded);
+  EXPECT_NEAR(a[1].hit.t, 4, 1e-5f);
+  EXPECT_FALSE(a[2].found || a[2].occluded);
 }
 
 TYPED_TEST(AccelFor, what_shadow_rays_do_not_see_is_traced_and_does_not_occlude) {

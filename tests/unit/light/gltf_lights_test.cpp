@@ -1,4 +1,5 @@
-// What lights take beyond pbrt's parameters: the squared edge of a spot, and images by longitude and latitude.
+// What lights take beyond pbrt's parameters: the squared edge of a spot, images by longitude and latitude, and
+// triangles that are chosen by what their part of an image sends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,6 +68,40 @@ TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   expected = 100 * 5.0 / 64 * 0.5 * (std::cos(7 * std::numbers::pi / 32) - std::cos(12 * std::numbers::pi / 32));
   EXPECT_NEAR(whole, expected, 0.02 * expected);
   EXPECT_EQ(radiance({w.x, -w.y, w.z}), 0);
+}
+
+// A triangle over one part of an image that is black but for one texel: how often it is chosen beside a triangle that
+// shines everywhere.
+double share_of_triangle(Vec2f low, Vec2f high, int bright_x, int bright_y) {
+  auto image = std::make_shared<LightImage>();
+  image->width = image->height = 256;
+  image->texels.assign(256 * 256, gray(0.0f));
+  image->texels[std::size_t(bright_y) * 256 + std::size_t(bright_x)] = gray(1000.0f);
+  Emission emission;
+  emission.image = image, emission.local_power = true;
+  LightSetBuilder builder;
+  const TriangleShape triangle{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, low, {high.x, low.y}, high};
+  const LightId mapped = builder.add(triangle, emission);
+  builder.add(triangle, Emission{gray(1.0f)});
+  LightSettings settings;
+  settings.selection = LightSelection::power;
+  const LightSet lights = LightSet(std::move(builder).build({}, {0, 0, 0}, 1)).with(settings);
+  return lights.choice_mass<float>(std::uint32_t(mapped), {0, 0, 1}, {0, 0, 0}, true).value;
+}
+
+TEST(LocalPower, is_of_the_texels_that_a_triangle_shows) {
+  // v upward: row 250 of the image is at the foot.
+  EXPECT_GT(share_of_triangle({0, 0}, {0.1f, 0.1f}, 5, 250), 0.5);
+  EXPECT_EQ(share_of_triangle({0, 0}, {0.1f, 0.1f}, 200, 20), 0);
+}
+
+TEST(LocalPower, is_zero_only_where_all_is_black) {
+  // Between the texels that are looked at in a large part.
+  EXPECT_GT(share_of_triangle({0, 0}, {1, 1}, 101, 103), 0);
+  // Beside the triangle, no further than a look-up reaches.
+  EXPECT_GT(share_of_triangle({0.5f, 0}, {0.6f, 0.1f}, 127, 250), 0);
+  // Beyond the edge an image is as at the edge.
+  EXPECT_GT(share_of_triangle({1.5f, 0}, {2.5f, 0.01f}, 255, 255), 0);
 }
 
 }  // namespace
