@@ -20,6 +20,7 @@ struct TilePass {
   PointSet points;
   std::optional<Shutter> shutter{};     // instead of the scene's
   std::optional<std::uint32_t> only{};  // this one of the samples alone
+  std::optional<float> moment{};        // in [0, 1), of the exposure: of all samples; else each has its own
   std::uint32_t samples() const { return only ? 1 : points.samples_per_pass; }
 };
 

@@ -18,7 +18,8 @@ namespace montelux {
 
 // `weight` is the unbiased contribution weight W, `target` the domain's own target at `value`. The confidence says how
 // much the sample counts beside others: any number that does not depend on the samples' values. 0: there is no
-// reservoir; a reservoir that is there and found nothing has weight 0 and its confidence.
+// reservoir, and so does one that is no number or above largest_reuse_confidence; a reservoir that is there and found
+// nothing has weight 0 and its confidence.
 template <class T, class F>
 struct Reservoir {
   T value;
@@ -73,6 +74,14 @@ MONTELUX_INLINE F usable_weight(F w) {
   return select((w > F(0.0f)) & (w < F(largest_reuse_weight)), w, F(0.0f));
 }
 
+// Confidences above this count as none: their products with targets would leave the range of a float.
+inline constexpr float largest_reuse_confidence = 1e12f;
+
+template <class F>
+MONTELUX_INLINE F usable_confidence(F c) {
+  return select((c > F(0.0f)) & (c <= F(largest_reuse_confidence)), c, F(0.0f));
+}
+
 // The weights of multiple importance sampling of one combination; `inputs` are the reservoirs of the domains.
 template <class T, class F, class Domains>
 class ReuseShares {
@@ -80,46 +89,46 @@ class ReuseShares {
   ReuseShares(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains)
       : weights_(weights), inputs_(inputs), domains_(domains) {
     others_ = F(0.0f);
-    for (std::size_t i = 1; i < inputs.size(); ++i) others_ = others_ + inputs[i].confidence;
-    all_ = others_ + inputs[0].confidence;
+    for (std::size_t i = 1; i < inputs.size(); ++i) others_ = others_ + confidence(i);
+    all_ = others_ + confidence(0);
   }
   F all() const { return all_; }
+  F confidence(std::size_t i) const { return usable_confidence(inputs_[i].confidence); }
 
   // Of domain i > 0 at the image y of its sample, where `own` is its own target there and `first` that of domain 0, in
   // the measure of domain 0.
   F share(std::size_t i, const T& y, F own, F first, Mask<F> on) const {
-    const F c = inputs_[i].confidence;
+    const F c = confidence(i);
     switch (weights_) {
       case ReuseWeights::naive:
       case ReuseWeights::unbiased:
         return c;
       // Lin et al. 2022, eq. 38, with confidences.
       case ReuseWeights::pairwise:
-        return c / all_ * balance_weight(F(others_ * own), F(inputs_[0].confidence * first));
+        return c / all_ * balance_weight(F(others_ * own), F(confidence(0) * first));
       case ReuseWeights::generalised:
         break;
     }
-    return balance_weight(F(c * own), inputs_[0].confidence * first + others_at(y, i, on));
+    return balance_weight(F(c * own), confidence(0) * first + others_at(y, i, on));
   }
   // Of domain 0 at its own sample.
   F share_of_first(Mask<F> on) const {
     const Reservoir<T, F>& own = inputs_[0];
+    const F c = confidence(0);
     switch (weights_) {
       case ReuseWeights::naive:
       case ReuseWeights::unbiased:
-        return own.confidence;
+        return c;
       case ReuseWeights::generalised:
-        return balance_weight(F(own.confidence * own.target), others_at(own.value, 0, on));
+        return balance_weight(F(c * own.target), others_at(own.value, 0, on));
       case ReuseWeights::pairwise:
         break;
     }
-    F sum = own.confidence;
+    F sum = c;
     for (std::size_t i = 1; i < inputs_.size(); ++i) {
-      const Mask<F> there = on & (inputs_[i].confidence > F(0.0f));
+      const Mask<F> there = on & (confidence(i) > F(0.0f));
       const F other = target_at(i, own.value, there);
-      sum = sum + select(there,
-                         inputs_[i].confidence * balance_weight(F(own.confidence * own.target), F(others_ * other)),
-                         F(0.0f));
+      sum = sum + select(there, confidence(i) * balance_weight(F(c * own.target), F(others_ * other)), F(0.0f));
     }
     return sum / all_;
   }
@@ -127,12 +136,12 @@ class ReuseShares {
   F normalisation(const T& y, F target, Uint<F> from, Mask<F> on) const {
     if (weights_ == ReuseWeights::naive) return all_;
     if (weights_ != ReuseWeights::unbiased) return F(1.0f);
-    F could = select(target > F(0.0f), inputs_[0].confidence, F(0.0f));
+    F could = select(target > F(0.0f), confidence(0), F(0.0f));
     for (std::size_t i = 1; i < inputs_.size(); ++i) {
       const Mask<F> made = from == Uint<F>(std::uint32_t(i));
-      const Mask<F> asks = on & (inputs_[i].confidence > F(0.0f)) & !made;
+      const Mask<F> asks = on & (confidence(i) > F(0.0f)) & !made;
       const Mask<F> can = made | (target_at(i, y, asks) > F(0.0f));
-      could = could + select(can, inputs_[i].confidence, F(0.0f));
+      could = could + select(can, confidence(i), F(0.0f));
     }
     return could;
   }
@@ -146,8 +155,8 @@ class ReuseShares {
     F sum = 0.0f;
     for (std::size_t j = 1; j < inputs_.size(); ++j) {
       if (j == left_out) continue;
-      const Mask<F> there = on & (inputs_[j].confidence > F(0.0f));
-      sum = sum + select(there, inputs_[j].confidence * target_at(j, y, there), F(0.0f));
+      const Mask<F> there = on & (confidence(j) > F(0.0f));
+      sum = sum + select(there, confidence(j) * target_at(j, y, there), F(0.0f));
     }
     return sum;
   }
@@ -184,7 +193,7 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
   chosen.value = first.value;
   F target = first.target;
   Uint<F> from = Uint<F>(0u);
-  const Mask<F> own = on & (first.weight > F(0.0f)) & (first.confidence > F(0.0f));
+  const Mask<F> own = on & (first.weight > F(0.0f)) & (shares.confidence(0) > F(0.0f));
   const F own_share = shares.share_of_first(own);
   const F own_weight = select(own, usable_weight<F>(own_share * first.target * first.weight), F(0.0f));
   chosen.add(first.value, own_weight, stream.next());
@@ -192,7 +201,7 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
   for (std::size_t i = 1; i < inputs.size(); ++i) {
     const F u = stream.next();
     const Reservoir<T, F>& input = inputs[i];
-    const Mask<F> live = on & (input.weight > F(0.0f)) & (input.confidence > F(0.0f));
+    const Mask<F> live = on & (input.weight > F(0.0f)) & (shares.confidence(i) > F(0.0f));
     if (!any(live)) continue;
     const auto image = domains.shift(int(i), input.value, live);
     const Mask<F> counts = live & (image.target > F(0.0f)) & (image.jacobian > F(0.0f));

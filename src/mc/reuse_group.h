@@ -53,7 +53,10 @@ void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, con
   std::vector<ImageOf> images(n);
   const auto asked = std::make_unique<Mask<F>[]>(n);
   F all = 0.0f;
-  for (std::size_t k = 0; k < n; ++k) choices[k].chosen.value = group[k].value, all = all + group[k].confidence;
+  for (std::size_t k = 0; k < n; ++k) {
+    group[k].confidence = usable_confidence(group[k].confidence);
+    choices[k].chosen.value = group[k].value, all = all + group[k].confidence;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     const Reservoir<T, F>& sample = group[i];
     const Mask<F> live = on & (sample.weight > F(0.0f)) & (sample.confidence > F(0.0f));

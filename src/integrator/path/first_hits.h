@@ -59,7 +59,10 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, 
   FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
   Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
   F time = 0.0f;
-  if (scene.moves()) time = pass.shutter.value_or(scene.shutter).time(sampler.get1(Uint<F>(path_dimension::time)));
+  if (scene.moves()) {
+    const F moment = pass.moment ? F(*pass.moment) : sampler.get1(Uint<F>(path_dimension::time));
+    time = pass.shutter.value_or(scene.shutter).time(moment);
+  }
   CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)), time);
   PathStart<F> state;
   state.o = camera.ray.o, state.d = camera.ray.d;

@@ -41,7 +41,7 @@ class ReuseChain final : public Chain {
     memory->bounds = pass_.bounds, memory->shutter = shutter();
     memory->vertices = std::move(vertices(frames - 1));
     memory->lights = std::move(lights_.after(step_number(frames - 1, settings().rounds)));
-    if (reuses_paths()) memory->paths = std::move(paths_.after(step_number(frames - 1, settings().rounds)));
+    if (keeps_paths()) memory->paths = std::move(paths_.after(step_number(frames - 1, settings().rounds)));
     return memory;
   }
 
@@ -53,9 +53,17 @@ class ReuseChain final : public Chain {
  private:
   const RestirSettings& settings() const { return shared_.settings; }
   bool reuses_paths() const { return settings().indirect.on; }
+  // For the next picture: of another moment, where surfaces move.
+  bool keeps_paths() const { return reuses_paths() && !shared_.scene.geometry.moves(); }
   bool in_groups() const { return settings().groups && settings().rounds > 0; }
   Shutter shutter() const { return pass_.shutter.value_or(shared_.scene.shutter); }
 
+  // Paths are of one moment: where surfaces move, all pixels of a frame look at the same one, or they could share none.
+  // Each frame has a moment of its own, spread over the exposure as the samples of a pixel are.
+  std::optional<float> moment(int frame) const {
+    if (!reuses_paths() || !shared_.scene.geometry.moves()) return std::nullopt;
+    return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
+  }
   // The number of a round of a frame among all that write reservoirs; round 0 is that of stage 0.
   int step_number(int frame, int round) const { return frame * (settings().rounds + 1) + round; }
   std::vector<ReuseVertex<float>>& vertices(int frame) { return vertices_[std::size_t(frame) & 1]; }
@@ -101,7 +109,7 @@ class ReuseChain final : public Chain {
   // Every pixel by itself.
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
-    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame)};
+    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), moment(frame)};
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
@@ -148,7 +156,7 @@ class ReuseChain final : public Chain {
       const std::optional<std::size_t> earlier = earlier_[pixel];
       if (!earlier) return std::nullopt;
       return PixelHoldings{before_->vertices[*earlier], before_->lights[*earlier],
-                           reuses_paths() ? &before_->paths[*earlier] : nullptr};
+                           keeps_paths() ? &before_->paths[*earlier] : nullptr};
     }
     if (vertices(frame - 1)[pixel].exists == 0) return std::nullopt;
     return before(frame - 1, step_number(frame, 0), pixel);

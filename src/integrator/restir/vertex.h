@@ -74,7 +74,7 @@ Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, cons
   // A surface that lies in its own plane sends itself nothing, and no technique finds it there; rounding may say
   // otherwise, by next to nothing, and would be counted among those that could have made the sample.
   const Mask<F> has_plane = point.sort <= Uint<F>(light_point::two_sided_surface);
-  const F rounding = dot(abs(point.n), vertex.p_error + abs(point.p) * F(0x1p-20f));
+  const F rounding = dot(abs(point.n), (abs(vertex.p) + abs(point.p)) * F(0x1p-21f));
   const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);
   const Mask<F> asks = on & view.valid & !edge_on;
   const BsdfValue<F> scattered = vertex.scattered(view.wi, asks);

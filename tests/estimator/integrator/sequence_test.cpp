@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "integrator/restir/history.h"
+#include "path_reuse_scenes.h"
+#include "reuse_checks.h"
 #include "sequence_scenes.h"
 
 namespace montelux::test {
@@ -24,7 +26,11 @@ const Measured& direct_light() {
 }
 const TestScene& scene() { return direct_light().scene; }
 const std::vector<PassMeans>& truth() { return direct_light().truth; }
-// Where a thing moves, paths are reused at their own moment alone: here the camera does.
+// Where a thing moves, paths are reused between the pixels of a frame, and no history of them is: here the camera does.
+const Measured& paths_past_a_box() {
+  static const Measured all{sequence_scene(size, true, 3)};
+  return all;
+}
 const Measured& paths() {
   static const Measured all{sequence_scene(size, false, 3)};
   return all;
@@ -39,6 +45,7 @@ const Way unbiased[] = {
     {direct_light, "restir-di:radius=4,candidates=2,weights=unbiased,visibility-reuse=on"},
     {direct_light, "restir-di:neighbours=0,candidates=2,weights=generalised,visibility-reuse=on"},
     {direct_light, "restir-gi:temporal=on,neighbours=1,radius=4,candidates=2"},
+    {paths_past_a_box, "restir-pt:neighbours=3,radius=4,candidates=2"},
     {paths, "restir-gi:temporal=on,neighbours=1,radius=4,candidates=2"},
     {paths, "restir-pt:temporal=on,neighbours=3,radius=2,candidates=2"},
 };
@@ -54,6 +61,36 @@ TEST(Sequence, has_the_mean_of_the_path_tracer_in_every_picture) {
     EXPECT_LT(v.largest_error, 0.03) << way.name;
     EXPECT_EQ(v.non_finite, 0u) << way.name;
   }
+}
+
+// The median over pixels of the variance of a picture of 256 samples: the edges of lamps in view, which no sharing
+// changes, rule the mean.
+double variance_of_pixel(const TestScene& scene, const char* way) {
+  RenderObserver silent;
+  const Film film =
+      render(scene.integrator(way).any(), scene.settings(PointSetKind::independent, {4, 64}, 5, 0), silent).film;
+  std::vector<double> all;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) all.push_back(film.pixel(x, y).variance_of_mean(0));
+  std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(all.size() / 2));
+  return all[all.size() / 2];
+}
+// Light that comes over walls, past a ball that moves: were paths of other moments all that neighbours have, sharing
+// would change nothing.
+TEST(Sequence, shares_paths_where_things_move) {
+  const ReuseScene indirect = path_reuse_scenes(size)[0];
+  ASSERT_EQ(indirect.name, "indirect");
+  const TestScene scene(indirect.text + R"(ActiveTransform StartTime
+Translate -0.4 0.3 0
+ActiveTransform EndTime
+Translate 0.4 0.3 0
+ActiveTransform All
+Shape "sphere" "float radius" [ 0.2 ]
+)",
+                        textures_of_reuse_scenes());
+  ASSERT_TRUE(scene.scene().geometry.moves());
+  EXPECT_LT(variance_of_pixel(scene, "restir-pt:direct=off"),
+            0.2 * variance_of_pixel(scene, "restir-pt:direct=off,rounds=0,neighbours=0"));
 }
 
 // What a history could not have made is lost: planted, and found.

@@ -346,6 +346,74 @@ TEST(Reuse, confidence_adds_up_and_zero_is_not_there) {
   }
 }
 
+// A domain whose confidence is no number, or so large that its products would be none, is not there; the others share
+// as if it were not asked.
+TEST(Reuse, takes_what_is_not_a_usable_confidence_for_none) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const Intervals<float> domains;
+  const float x = 0.5f, t = Intervals<float>::target(0, x), t1 = Intervals<float>::target(1, x);
+  for (float bad : {0.0f, inf, nan, 3e38f, 1e13f, -1.0f}) {
+    for (ReuseWeights weights :
+         {ReuseWeights::naive, ReuseWeights::unbiased, ReuseWeights::pairwise, ReuseWeights::generalised}) {
+      RandomStream<float> stream(5, 6);
+      const Reservoir<float, float> a[2] = {{x, 2, 3, t}, {0.7f, 5, bad, 1}}, b[2] = {{0.7f, 5, bad, 1}, {x, 2, 3, t1}};
+      for (const auto& inputs : {a, b}) {
+        const Reservoir<float, float> r = combine<float, float>(weights, std::span(inputs, 2), domains, stream, true);
+        EXPECT_EQ(r.value, x) << int(weights) << " " << bad;
+        EXPECT_NEAR(r.weight, 2, 1e-6) << int(weights) << " " << bad;
+        EXPECT_EQ(r.confidence, 3) << int(weights) << " " << bad;
+      }
+    }
+    std::array<Reservoir<float, float>, 3> group{{{x, 2, 3, t}, {0.7f, 5, bad, 1.4f}, {0.6f, 5, bad, 0.9f}}};
+    combine_group<float, float>(group, IntervalGroup<float>{}, RandomStream<float>(5, 6), true,
+                                [&](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
+                                  EXPECT_TRUE(!on || (k == 0 && weight == 2)) << bad << " " << k << " " << weight;
+                                });
+    EXPECT_EQ(group[0].value, x) << bad;
+    EXPECT_NEAR(group[0].weight, 2, 1e-6) << bad;
+    EXPECT_EQ(group[0].confidence, 3) << bad;
+    for (std::size_t k : {1u, 2u}) EXPECT_EQ(group[k].confidence, 0) << bad << " " << k;
+  }
+}
+
+// Whatever the confidences are, as long as they do not hang on what was found: only their ratios count.
+TEST(Reuse, finds_the_integral_by_huge_and_tiny_confidences) {
+  constexpr int count = 100000;
+  const float scales[][3] = {{1e12f, 1e12f, 1e12f}, {1e-12f, 1e-12f, 1e-12f}, {1, 1e6f, 1e-6f}};
+  const double own = sidak_level(family_level, double(std::size(scales) * (2 + 3)));
+  for (const auto& scale : scales) {
+    const auto inputs_of = [&](std::uint32_t i, RandomStream<float>& stream) {
+      std::array<Reservoir<float, float>, 3> inputs;
+      stream = RandomStream<float>(31, i);
+      for (int domain = 0; domain < 3; ++domain) {
+        inputs[std::size_t(domain)] = first_reservoir<float>(domain, stream);
+        inputs[std::size_t(domain)].confidence = scale[domain];
+      }
+      return inputs;
+    };
+    RandomStream<float> stream(0, 0);
+    for (ReuseWeights weights : {ReuseWeights::pairwise, ReuseWeights::generalised}) {
+      std::vector<double> values;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const auto inputs = inputs_of(i, stream);
+        const auto r = combine<float, float>(weights, inputs, Intervals<float>{}, stream, true);
+        values.push_back(double(integrand(r.value) * r.weight));
+      }
+      EXPECT_GT(t_test(values, truth).p_value, own) << int(weights) << " " << scale[1];
+    }
+    std::array<std::vector<double>, 3> of_group;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      auto group = inputs_of(i, stream);
+      combine_group<float, float>(group, IntervalGroup<float>{}, stream.fork(1), true,
+                                  [](std::size_t, const Shifted<float, float>&, float, bool) {});
+      for (std::size_t k = 0; k < 3; ++k)
+        of_group[k].push_back(double(integrand_of_group(group[k].value) * group[k].weight));
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_GT(t_test(of_group[k], truths_of_group[k]).p_value, own) << k << " " << scale[1];
+  }
+}
+
 // ---- reservoirs of one stream
 // -----------------------------------------------------------------------------------------
 

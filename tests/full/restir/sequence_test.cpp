@@ -41,7 +41,7 @@ const std::vector<SequenceCase>& cases() {
        3,
        {"restir-gi:temporal=on,neighbours=2,radius=6", "restir-pt:temporal=on,neighbours=2,radius=6",
         "restir-pt:temporal=on,neighbours=0,shift=replay,visibility-reuse=on"}},
-      {"paths_with_a_box_that_moves", true, 3, {"restir-pt:temporal=on,neighbours=1,radius=6"}},
+      {"paths_with_a_box_that_moves", true, 3, {"restir-pt:temporal=on,neighbours=3,radius=6"}},
   };
   return all;
 }
