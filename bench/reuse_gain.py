@@ -37,10 +37,10 @@ class Comparison:
 
 REFERENCES = {
     "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
-    "building-5": Reference("building.pbrt", f"restir-pt:maxdepth=5,{LEARNS}", 96),
+    "building-5": Reference("building.pbrt", f"restir-pt:maxdepth=5,{LEARNS}", 400),
     "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
     "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
-    "glossy": Reference("glossy-indirect.pbrt", f"restir-pt:{LEARNS}", 512, options=["--resolution", "160x120"]),
+    "glossy": Reference("glossy-indirect.pbrt", f"restir-pt:{LEARNS}", 2048, options=["--resolution", "160x120"]),
     "ajar": Reference("veach-ajar.pbrt", f"restir-pt:{LEARNS}", 256, options=["--resolution", "320x180"]),
 }
 
@@ -65,6 +65,11 @@ COMPARISONS = {
     "building-5-warm-di": warm("building-5", "path:maxdepth=5", f"{DI_5},{WARM}", repeats=4),
     "glossy-warm": warm("glossy", "path", f"restir-pt:temporal=on,{WARM}"),
     "ajar-warm": warm("ajar", "path", f"restir-pt:temporal=on,{WARM}", repeats=6),
+    "building-1-2.5s": progressive("building-1", 2.5, "path:maxdepth=1", DI_1),
+    "gallery-1-2.5s": progressive("gallery-1", 2.5, "path:maxdepth=1", DI_1),
+    "terrace-1-2.5s": progressive("terrace-1", 2.5, "path:maxdepth=1", DI_1),
+    "building-5-2.5s": progressive("building-5", 2.5, "path:maxdepth=5", PT_5, f"{PT_5},{LEARNS}"),
+    "glossy-2.5s": progressive("glossy", 2.5, "path", "restir-gi", "restir-pt", f"restir-pt:{LEARNS}"),
     "building-1-10s": progressive("building-1", 10, "path:maxdepth=1", DI_1),
     "building-5-10s": progressive("building-5", 10, "path:maxdepth=5", PT_5, f"{PT_5},{LEARNS}"),
     "terrace-1-10s": progressive("terrace-1", 10, "path:maxdepth=1", DI_1),

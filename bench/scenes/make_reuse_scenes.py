@@ -8,6 +8,8 @@ building.pbrt four storeys with columns, screens and coffered ceilings, and 1280
 terrace.pbrt  320 lamps (spheres and panels) in shades, between columns under a pergola, and a sky with a small sun
 gallery.pbrt  320 lamps (spheres and panels) in the coffers of a hall with 24 windows to that sky
 slats.pbrt    two lamps behind slats, small, for a map of the bias of naive weights
+pan-grey.pbrt, pan-colour.pbrt
+              a camera that pans over 40 balls under 400 lamps of very different power, all grey or of any colour
 sky.pfm       that sky, in equal-area octahedral coordinates
 """
 import array
@@ -283,10 +285,31 @@ def slats(_):
     return top + material('"diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]', floor) + material('"diffuse" "rgb reflectance" [ 0.3 0.4 0.6 ]', grey) + lamps
 
 
+def pan(rng, coloured):
+    floor = Mesh()
+    floor.polygon([(-8, 0, -8), (-8, 0, 8), (8, 0, 8), (8, 0, -8)])
+    balls = "".join("AttributeBegin\nTranslate %.4g %.4g %.4g\nShape \"sphere\" \"float radius\" [ %.4g ]\nAttributeEnd\n"
+                    % (rng.uniform(-4, 4), r, rng.uniform(-3, 4), r) for r in (rng.uniform(0.2, 0.5) for _ in range(40)))
+    lamps = ""
+    for i in range(400):
+        light = radiance(rng, 2.5, 30)
+        if not coloured:
+            light = [sum(light) / 3] * 3
+        place = rng.uniform(-5, 5), rng.uniform(1.2, 3), rng.uniform(-4, 5)
+        lamps += ball_or_panel(rng, i, place, light)
+    looks = ["LookAt %g 2.2 -6  %g 0.4 0  0 1 0" % (x, x) for x in (-0.9, 0.9)]
+    top = head((0, 0, 0), (0, 0, 1), 45).replace("480", "160").replace("270", "90").replace("[ 5 ]", "[ 1 ]")
+    camera = "ActiveTransform StartTime\n%s\nActiveTransform EndTime\n%s\nActiveTransform All\n" % tuple(looks)
+    return (camera + top[top.index("Camera"):] + material('"diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]', floor)
+            + 'AttributeBegin\nMaterial "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]\n' + balls + "AttributeEnd\n" + lamps)
+
+
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    for name, make in ("building", building), ("terrace", terrace), ("gallery", gallery), ("slats", slats):
+    makers = {"building": building, "terrace": terrace, "gallery": gallery, "slats": slats,
+              "pan-grey": lambda rng: pan(rng, False), "pan-colour": lambda rng: pan(rng, True)}
+    for name, make in makers.items():
         with open(os.path.join(folder, name + ".pbrt"), "w") as f:
             f.write(make(random.Random(name)))
     write_sky(os.path.join(folder, "sky.pfm"))

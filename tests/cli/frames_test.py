@@ -197,6 +197,9 @@ class Frames(ProgramTest):
             self.assertEqual((frame["passes"], frame["error_bar"], frame["budget"]), (1, False, 0.2))
             self.assertEqual(frame["standard_error"], [None] * 3)
             self.assertEqual(frame["over_budget"], frame["seconds"] > 0.2)
+        for picture in self.folder.glob("*.exr"):
+            self.assertIn(b"montelux:errorBar", picture.read_bytes())
+            self.assertIn(b"none: it takes two independent passes", picture.read_bytes())
         still = json.loads(self.run_program("render", "slide.pbrt", "--json", "--interactive-budget", "300ms",
                                             "-o", "still.exr").stdout)
         self.assertEqual(still["error_bar"], still["passes"] > 1)

@@ -1,6 +1,8 @@
 // Means of the image and of its blocks in every pass: whatever correlation there is between the pixels of a pass, the
 // passes are independent, and tests over them are honest.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "render_scenes.h"
@@ -13,9 +15,11 @@ struct BlockSize {
   int width = 8, height = 8;
 };
 
-// By quantity (the image first, then blocks row by row), the values of all passes.
+// By quantity (the image first, then blocks row by row), the values of all passes: of the mean of the components, which
+// is what targets see, and of the image's colour, of which they know nothing.
 struct PassMeans {
   std::vector<std::vector<double>> values;
+  std::array<std::vector<double>, 2> colours;  // red less blue; green less the mean of these
   std::uint64_t non_finite = 0;
 };
 
@@ -24,14 +28,18 @@ inline void add_pass(const Film& film, BlockSize block, PassMeans& m) {
   const PixelBounds& b = film.bounds();
   const int across = (b.width() + block.width - 1) / block.width, down = (b.height() + block.height - 1) / block.height;
   std::vector<double> sums(std::size_t(1 + across * down), 0.0), counts = sums;
+  std::array<double, 2> colour{};
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
-      const double value = mean_of_channels(film.pixel(x, y).mean);
+      const auto& rgb = film.pixel(x, y).mean;
+      const double value = mean_of_channels(rgb);
+      colour[0] += rgb[0] - rgb[2], colour[1] += rgb[1] - 0.5 * (rgb[0] + rgb[2]);
       const auto of_block = std::size_t(1 + (y - b.y0) / block.height * across + (x - b.x0) / block.width);
       for (std::size_t i : {std::size_t(0), of_block}) sums[i] += value, counts[i] += 1;
     }
   m.values.resize(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i) m.values[i].push_back(sums[i] / counts[i]);
+  for (std::size_t i = 0; i < colour.size(); ++i) m.colours[i].push_back(colour[i] / counts[0]);
   m.non_finite += film.non_finite();
 }
 
@@ -58,16 +66,32 @@ inline PassMeans measure_to(double wanted, const TestScene& scene, const ChosenI
   return measure_passes(scene, chosen, samples_per_pass, needed, seed + 1);
 }
 
+// Faults that leave the mean of the components as it is: light that has lost its colour, or has that of another
+// component.
+inline PassMeans without_colour(PassMeans m) {
+  for (std::vector<double>& colour : m.colours) std::ranges::fill(colour, 0.0);
+  return m;
+}
+inline PassMeans with_components_turned(PassMeans m) {
+  for (std::size_t pass = 0; pass < m.values[0].size(); ++pass) {
+    const double mean = m.values[0][pass], across = m.colours[0][pass], green = mean + m.colours[1][pass] * 2 / 3;
+    const double red = (3 * mean - green + across) / 2, blue = red - across;
+    m.colours[0][pass] = green - red, m.colours[1][pass] = blue - 0.5 * (green + red);
+  }
+  return m;
+}
+
 struct MeansVerdict {
   bool differ = false;
   double smallest_p = 1;
   double difference = 0;        // relative, where p is smallest
-  std::size_t where = 0;        // 0: the image; else 1 + number of the block
+  std::size_t where = 0;        // 0: the image; else 1 + number of the block, and after these the two of colour
   double image_difference = 0;  // relative
   double image_error = 0;       // standard error of that
 };
 
-// Welch's test of every quantity, at a level for all of them together: half of it for the image.
+// Welch's test of every quantity, at a level for all of them together: half of it for the image, a quarter for its
+// blocks, a quarter for its colour.
 inline MeansVerdict compare_means(const PassMeans& a, const PassMeans& b, double level) {
   MeansVerdict v;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -80,9 +104,17 @@ inline MeansVerdict compare_means(const PassMeans& a, const PassMeans& b, double
     if (std::abs(x.mean - y.mean) <= 1e-5 * std::abs(y.mean)) continue;
     const double p = welch_test(x, y).p_value;
     if (p < v.smallest_p) v.difference = x.mean / y.mean - 1;
-    const double own = i == 0 ? 0.5 * level : sidak_level(0.5 * level, double(a.values.size() - 1));
+    const double own = i == 0 ? 0.5 * level : sidak_level(0.25 * level, double(a.values.size() - 1));
     if (p < v.smallest_p) v.smallest_p = p, v.where = i;
     v.differ = v.differ || p < own;
+  }
+  const double image = summarize(b.values[0]).mean;
+  for (std::size_t i = 0; i < a.colours.size(); ++i) {
+    const SampleSummary x = summarize(a.colours[i]), y = summarize(b.colours[i]);
+    if (std::abs(x.mean - y.mean) <= 1e-5 * image) continue;
+    const double p = welch_test(x, y).p_value;
+    if (p < v.smallest_p) v.smallest_p = p, v.where = a.values.size() + i, v.difference = (x.mean - y.mean) / image;
+    v.differ = v.differ || p < sidak_level(0.25 * level, double(a.colours.size()));
   }
   return v;
 }

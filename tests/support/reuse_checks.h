@@ -18,7 +18,7 @@ struct MeansCriterion {
   double level, largest_error;
 };
 
-// Image and blocks have the mean of the truth, and every sample is finite.
+// Image, blocks and colour have the mean of the truth, which would be seen, and every sample is finite.
 inline void expect_mean(const std::string& scene, const char* way, const PassMeans& reuse, const PassMeans& truth,
                         const MeansCriterion& criterion) {
   const MeansVerdict v = compare_means(reuse, truth, criterion.level);
@@ -26,6 +26,8 @@ inline void expect_mean(const std::string& scene, const char* way, const PassMea
                          << 100 * v.image_error << " %, smallest p " << v.smallest_p << " at " << v.where << " ("
                          << 100 * v.difference << " %)";
   EXPECT_LE(v.image_error, criterion.largest_error) << scene << ", " << way;
+  EXPECT_TRUE(compare_means(without_colour(reuse), truth, criterion.level).differ) << scene << ", " << way;
+  EXPECT_TRUE(compare_means(with_components_turned(reuse), truth, criterion.level).differ) << scene << ", " << way;
   EXPECT_EQ(reuse.non_finite, 0u) << scene << ", " << way;
 }
 
