@@ -9,7 +9,7 @@ terrace.pbrt  320 lamps (spheres and panels) in shades, between columns under a 
 gallery.pbrt  320 lamps (spheres and panels) in the coffers of a hall with 24 windows to that sky
 slats.pbrt    two lamps behind slats, small, for a map of the bias of naive weights
 pan-grey.pbrt, pan-colour.pbrt
-              a camera that pans over 40 balls under 400 lamps of very different power, all grey or of any colour
+              a camera that pans over 40 balls under 400 panels of very different power, all grey or of any colour
 sky.pfm       that sky, in equal-area octahedral coordinates
 """
 import array
@@ -290,14 +290,15 @@ def pan(rng, coloured):
     floor.polygon([(-8, 0, -8), (-8, 0, 8), (8, 0, 8), (8, 0, -8)])
     balls = "".join("AttributeBegin\nTranslate %.4g %.4g %.4g\nShape \"sphere\" \"float radius\" [ %.4g ]\nAttributeEnd\n"
                     % (rng.uniform(-4, 4), r, rng.uniform(-3, 4), r) for r in (rng.uniform(0.2, 0.5) for _ in range(40)))
-    lamps = ""
-    for i in range(400):
-        light = radiance(rng, 2.5, 30)
+    lamps = 'Material "diffuse" "rgb reflectance" [ 0 0 0 ]\n'
+    for _ in range(400):
+        light = radiance(rng, 2.5, 15)
         if not coloured:
             light = [sum(light) / 3] * 3
         place = rng.uniform(-5, 5), rng.uniform(1.2, 3), rng.uniform(-4, 5)
-        lamps += ball_or_panel(rng, i, place, light)
-    looks = ["LookAt %g 2.2 -6  %g 0.4 0  0 1 0" % (x, x) for x in (-0.9, 0.9)]
+        lamps += ball_or_panel(rng, 0, place, light)
+    # From above: panels shine down, and no edge of a lamp is in the picture, whose noise no history changes.
+    looks = ["LookAt %g 7 -4  %g 0 0.3  0 1 0" % (x, x) for x in (-0.9, 0.9)]
     top = head((0, 0, 0), (0, 0, 1), 45).replace("480", "160").replace("270", "90").replace("[ 5 ]", "[ 1 ]")
     camera = "ActiveTransform StartTime\n%s\nActiveTransform EndTime\n%s\nActiveTransform All\n" % tuple(looks)
     return (camera + top[top.index("Camera"):] + material('"diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]', floor)
