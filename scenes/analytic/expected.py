@@ -185,7 +185,7 @@ SCENES = {
     "alpha-shadow": ("0.6/pi * 3 * point(1, 2, 0.5) * (1 - 0.2)", ("[ 0.2 ]", "[ 0.22 ]")),
     "half-open-ball": (PLATE_POINT + " * (1 - 0.4/2)**2", ("[ 0.4 ]", "[ 0.44 ]")),
     "mixed-sheet-in-place": (PLATE_POINT, ("Translate 0 1 0", "Translate 0 0.5 0")),
-    "mixed-sheet-shadow": ("0.6/pi * 2 * polygon((0, 1, 0), (2, 1, 0), (2, 1, 1), (0, 1, 1)) * (1/2)**2", ('"half" ] "float amount" [ 0.5 ]', '"half" ] "float amount" [ 0.55 ]')),
+    "mixed-sheet-shadow": ("0.6/pi * 2 * polygon((0, 1, 0), (2, 1, 0), (2, 1, 1), (0, 1, 1)) * (1 - (1/2)**2)", ('"half" ] "float amount" [ 0.5 ]', '"half" ] "float amount" [ 0.6 ]')),
     "instance-plane": ("0.6/pi * 3 * point(1, 2, 0.5, normal=(1/sqrt(5), 2/sqrt(5), 0))", ("Scale -4 2 3", "Scale 4 2 3")),
     "instance-shadow": (PLATE_POINT, ("Scale 0.3 0.3 -0.3", "Scale 0.3 0.3 -0.3\n    Translate 0 1.5 0")),
     "motion-edge": ("2 * (1 - (2.5 - 1)/2 * (2.5 - 1)/(3 - 1)/2)", ("TransformTimes 1 3", "TransformTimes 1 3.1")),
