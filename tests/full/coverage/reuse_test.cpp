@@ -161,7 +161,7 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
       return measure_coverage_of(film_of, truth_of(scene, {2048, 16}), {1, plan.samples()}, count);
     };
     const Row row{coverage({}, seeds / 4), coverage(std::pair{8, 8}, seeds_of_small_images / 4)};
-    print(text.name, std::string(way) + "`, frames as passes `", {1, plan.samples()}, row);
+    print(text.name, std::string(way) + ", frames as passes", {1, plan.samples()}, row);
     const double level = level_of_a_row();
     EXPECT_LT(row.large.pixels_p_value(low, high), level) << text.name;
     EXPECT_LT(binomial_p_value(row.held(), row.images(), low, high), level) << text.name;
