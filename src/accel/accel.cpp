@@ -30,7 +30,7 @@ Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence)
   U id = load_lanes<U>(r.hit.geomID), instance = load_lanes<U>(r.hit.instID[0]);
   Mask<F> found = on & (id != U(missed)), instanced = found & (instance != U(missed));
   U geometry = id;
-  U placed = select(instanced, instance - U(kernel_->first_instance) + U(1u), U(0u));
+  U placed = select(instanced, instance - U(kernel_->store.world_rows) + U(1u), U(0u));
   if (any(instanced)) {
     for_each_lane(instanced, [&](int k) {
       const PlacedObject& object = kernel_->store.instances[lane(placed, k) - 1];

@@ -33,7 +33,6 @@ struct Accel::Kernel {
   std::vector<SceneHandle> objects;
   SceneHandle world;
   std::vector<std::unique_ptr<GeometryContext>> contexts;
-  std::uint32_t first_instance = 0;  // kernel number of instance 0
 
   Kernel(const GeometryStore& s, OpacityTest test, int threads) : store(s), is_opaque(std::move(test)) {
     std::string config = threads > 0 ? fmt::format("threads={}", threads) : "";
@@ -50,7 +49,6 @@ struct Accel::Kernel {
     SceneHandle scene(rtcNewScene(device.get()));
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     for (std::uint32_t i = 0; i < range.count; ++i) attach(scene.get(), range.first + i, i);
-    if (&instances == &store.instances) first_instance = range.count;
     for (std::size_t i = 0; i < instances.size(); ++i) {
       RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, objects[instances[i].object].get());

@@ -17,7 +17,6 @@ struct RestirScene {
   const LightTechniques& lights;
   const Rays& rays;
   const RestirSettings& settings;
-  bool has_interfaces;
 
   std::uint32_t max_events() const {
     return settings.path.max_depth ? std::uint32_t(*settings.path.max_depth) : 0x7fffffffu;
@@ -208,7 +207,7 @@ class FirstStage {
       if (!any(found)) return;
       const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, {o, path.d, hit.t, path.time}, hit, found);
       if (const M emits = found & (x.light != U(0u)); any(emits)) candidates.add_hit(x, path.d, stream, emits);
-      if (!shared_.has_interfaces) return;
+      if (!shared_.scene.materials.has_interfaces()) return;
       const SurfaceScattering<F> bsdf =
           shared_.scene.materials.template scattering<F>(x, path.d, found, stream.fork(U(1u)));
       const M passes = found & bsdf.is_interface;

@@ -26,7 +26,6 @@ class RestirIntegrator final : public CoupledIntegrator {
   const Accel& accel_;
   RestirSettings settings_;
   std::unique_ptr<const LightTechniques> lights_;
-  bool has_interfaces_ = false;
 };
 
 }  // namespace montelux
