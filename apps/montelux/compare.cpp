@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "api/contest.h"
+#include "api/images.h"
+#include "api/json_text.h"
 #include "api/render.h"
 #include "options.h"
 #include "progress.h"
@@ -125,7 +127,7 @@ void print_json(const CompareArguments& arguments, const Contest& contest) {
                                 {"relative_efficiency_ratio_with_warm_up", to_json(v.whole_relative_ratio)},
                                 {"decided", v.decided && contest.refusal.empty()},
                                 {"times_longer_to_decide", number(v.times_longer)}});
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
 std::string spread(const Measured& m) {
@@ -245,7 +247,7 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
 int run_compare(CompareArguments& arguments) {
   for (const auto& file : {arguments.save, arguments.report})
     if (file)
-      if (Status good = check_folder_of(*file); !good) return complain(good.error());
+      if (Status good = check_output_file(*file); !good) return complain(good.error());
   std::optional<SavedContest> saved;
   const ContestBudget more{arguments.repeats, arguments.contest.seconds};
   if (arguments.resume) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/compare.h"
+#include "api/json_text.h"
 #include "options.h"
 #include "status.h"
 #include "verbs.h"
@@ -64,7 +65,7 @@ void print_json(const DiffArguments& arguments, const PictureDifference& d) {
                      {"blocks", to_json(d.welch->blocks)},
                      {"pixels", to_json(d.welch->pixels)},
                      {"differs", d.welch->differs}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
 void print_scale(std::string_view name, const WelchScale& scale, double level) {
@@ -112,7 +113,7 @@ int run_diff(DiffArguments& arguments) {
   if (arguments.output) {
     Result<PixelBuffer> map = difference_map(arguments.metric, *a, *b, *difference);
     if (!map) return complain(map.error());
-    if (Status written = write_map(*arguments.output, *map); !written) return complain(written.error());
+    if (Status written = write_map(*arguments.output, *map); !written) return complain(written.error(), failed);
   }
   if (arguments.json)
     print_json(arguments, *difference);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/json_text.h"
 #include "api/scene.h"
 #include "options.h"
 #include "progress.h"
@@ -46,7 +47,7 @@ void print_json(const SceneInfo& info) {
   json["texture_bytes"] = info.texture_bytes;
   json["read_seconds"] = info.read_seconds, json["prepare_seconds"] = info.prepare_seconds;
   json["build_seconds"] = info.build_seconds;
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
 void print_text(const SceneInfo& info) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "api/json_text.h"
 #include "api/render.h"
 #include "progress.h"
 #include "status.h"
@@ -177,7 +178,7 @@ void print_integral_json(const IntegralOptions& options, const std::vector<Integ
     json.update(to_json(runs.front()));
   else
     for (const IntegralRun& run : runs) json["results"].push_back(to_json(run));
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
 void print_integral_csv(const std::vector<IntegralRun>& runs) {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "api/catalogue.h"
+#include "api/images.h"
 #include "integral_output.h"
 #include "options.h"
 #include "progress.h"
@@ -147,7 +148,7 @@ int complain_of_all(const std::vector<std::string>& mistakes) {
 
 int run_integrate(IntegrateArguments& arguments) {
   if (arguments.save)
-    if (Status good = check_folder_of(*arguments.save); !good) return complain(good.error());
+    if (Status good = check_output_file(*arguments.save); !good) return complain(good.error());
   std::optional<SavedIntegral> saved;
   if (arguments.resume) {
     Result<SavedIntegral> loaded = resumed(arguments);
@@ -257,6 +258,8 @@ struct MergeArguments {
 };
 
 int run_merge(const MergeArguments& arguments) {
+  if (arguments.output_file)
+    if (Status good = check_output_file(*arguments.output_file); !good) return complain(good.error());
   std::vector<SavedIntegral> parts;
   std::vector<std::string> mistakes;
   for (const std::string& file : arguments.files)

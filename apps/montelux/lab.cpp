@@ -7,6 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/images.h"
+#include "api/json_text.h"
 #include "options.h"
 #include "progress.h"
 #include "signals.h"
@@ -58,7 +60,7 @@ int list_all(bool json) {
                        {"fault", e.fault},
                        {"settings", settings}});
     }
-    fmt::print("{}\n", array.dump(2));
+    fmt::print("{}\n", json_text(std::move(array), 2));
     return done;
   }
   std::string group;
@@ -90,8 +92,8 @@ class LabProgress final : public LabObserver {
 
   void finished(const LabOutcome& outcome, std::size_t count, std::size_t total) override {
     if (!visible_) return;
-    fmt::print(stderr, "{:>3}/{} {:20} {:>8}  {}\n", count, total, outcome.name, time_text(outcome.seconds),
-               outcome.passed ? "holds" : "FAILS");
+    print_log(fmt::format("{:>3}/{} {:20} {:>8}  {}\n", count, total, outcome.name, time_text(outcome.seconds),
+                          outcome.passed ? "holds" : "FAILS"));
   }
   bool stop_requested() override { return signals_.received() != 0; }
 
@@ -112,7 +114,7 @@ void print_json(const LabRun& run, const LabOptions& options, const std::string&
       one["verdicts"].push_back({{"claim", v.claim}, {"detail", v.detail}, {"passed", v.passed}});
     json["experiments"].push_back(std::move(one));
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
 void print_text(const LabRun& run, const std::string& folder) {
@@ -131,6 +133,7 @@ void print_text(const LabRun& run, const std::string& folder) {
 int run_experiments(LabArguments& arguments) {
   if (arguments.name.empty()) return complain("lab run: which experiment? a name of montelux lab list, or all");
   if (arguments.output.empty()) return complain("lab run: -o DIR is missing, the folder of the report");
+  if (Status good = check_output_folder(arguments.output); !good) return complain(good.error());
   if (arguments.name != "all") arguments.options.names = {arguments.name};
   const StopSignals signals;
   LabProgress progress(!arguments.quiet, signals);

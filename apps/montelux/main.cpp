@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
+#include <sstream>
+#include <system_error>
 
 #include "api/render.h"
+#include "signals.h"
 #include "status.h"
 #include "verbs.h"
 
@@ -22,7 +26,8 @@ constexpr const char* notes = R"(Examples:
   montelux render --help
 
 Exit status: 0 done; 1 diff found a difference; 2 options, scene, pictures or integral cannot be used;
-3 unexpected failure; 130 and 143 interrupted (SIGINT, SIGTERM), what was done is written.
+3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by SIGHUP, SIGINT, SIGPIPE
+or SIGTERM, what was done is written.
 )";
 
 std::vector<std::string_view> verb_names(const CLI::App& app) {
@@ -90,7 +95,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    std::ostringstream text, none;
+    const int status = app.exit(success, text, none);
+    fmt::print("{}", text.str());
+    return status;
   } catch (const CLI::ParseError& error) {
     return complain(explain(app, error));
   }
@@ -103,8 +111,14 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace montelux::cli;
+  prepare_process();
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    flush_results();
+    return status;
+  } catch (const std::system_error& e) {
+    if (std::ferror(stdout)) return results_lost(e.code());
+    complain(e.what());
   } catch (const std::bad_alloc&) {
     complain("there is not enough memory");
   } catch (const std::exception& e) {

@@ -49,15 +49,16 @@ Result<double> parse_time(const std::string& text) {
 }
 
 Result<std::pair<int, int>> parse_resolution(const std::string& text) {
-  constexpr int largest = 65536;
   const std::size_t x = text.find('x');
   if (x != std::string::npos) {
     auto width = number_in<int>(std::string_view(text).substr(0, x));
     auto height = number_in<int>(std::string_view(text).substr(x + 1));
-    if (width && height && *width > 0 && *height > 0 && *width <= largest && *height <= largest)
+    if (width && height) {
+      if (Status possible = check_resolution(*width, *height); !possible) return possible.failure();
       return std::pair{*width, *height};
+    }
   }
-  return Failure{fmt::format("takes WIDTHxHEIGHT in pixels, each from 1 to {}; found \"{}\"", largest, text)};
+  return Failure{fmt::format("takes WIDTHxHEIGHT in pixels, as 1280x720; found \"{}\"", text)};
 }
 
 Result<PixelBounds> parse_crop(const std::string& text) {
@@ -127,13 +128,6 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set) {
     option->expected(1, CLI::detail::expected_max_vector_size);
   else
     option->expected(1);
-}
-
-Status check_folder_of(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  if (std::filesystem::is_directory(folder) && !std::filesystem::is_directory(file)) return Done{};
-  return Failure{fmt::format("cannot write '{}': {}", file,
-                             std::filesystem::is_directory(file) ? "it is a folder" : "there is no such folder")};
 }
 
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {

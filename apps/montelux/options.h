@@ -33,9 +33,6 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, std::
 // "a|b|c": how help and completion state a choice.
 std::string alternatives(const std::vector<std::string>& names);
 
-// Whether a file can be written there, before the work that it is for.
-Status check_folder_of(const std::string& file);
-
 using Setter = std::function<Status(const std::string&)>;
 
 // A setter that reads a value with `parse` into `target`, which must outlive it.

@@ -35,7 +35,7 @@ void StatusLine::show(double fraction, double elapsed, const std::function<std::
   const std::string numbers = text();
   const int percent = int(100 * fraction);
   if (!in_place_) {
-    fmt::print(stderr, "{:3} %  {}\n", percent, numbers);
+    print_log(fmt::format("{:3} %  {}\n", percent, numbers));
     return;
   }
   const int columns = terminal_columns();
@@ -46,14 +46,12 @@ void StatusLine::show(double fraction, double elapsed, const std::function<std::
     line += fmt::format("[{}{}] ", std::string(std::size_t(full), '='), std::string(std::size_t(width - full), ' '));
   }
   line = (line + numbers).substr(0, std::size_t(std::max(columns - 1, 1)));
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  print_log(fmt::format("\r{}\x1b[K", line));
 }
 
 void StatusLine::finish() {
   if (!visible_ || !in_place_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  print_log("\r\x1b[K");
 }
 
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }

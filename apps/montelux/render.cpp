@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/images.h"
+#include "api/json_text.h"
 #include "options.h"
 #include "progress.h"
 #include "signals.h"
@@ -135,7 +136,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
   // A line for each frame of a sequence.
-  fmt::print("{}\n", arguments.frame ? json.dump() : json.dump(2));
+  fmt::print("{}\n", json_text(std::move(json), arguments.frame ? -1 : 2));
 }
 
 void print_text(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
@@ -211,7 +212,7 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
     print_json(arguments, *rendering, outcome);
   else
     print_text(arguments, *rendering, outcome);
-  std::fflush(stdout);
+  flush_results();
   return rendering->result.interrupted ? 128 + signal : done;
 }
 

@@ -1,8 +1,11 @@
 #include "status.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 
 namespace montelux::cli {
@@ -10,10 +13,8 @@ namespace montelux::cli {
 namespace {
 
 void say(std::string_view kind, std::string_view colour, std::string_view message) {
-  if (color_on_stderr())
-    fmt::print(stderr, "montelux: \x1b[1;{}m{}:\x1b[0m {}\n", colour, kind, message);
-  else
-    fmt::print(stderr, "montelux: {}: {}\n", kind, message);
+  print_log(color_on_stderr() ? fmt::format("montelux: \x1b[1;{}m{}:\x1b[0m {}\n", colour, kind, message)
+                              : fmt::format("montelux: {}: {}\n", kind, message));
 }
 
 }  // namespace
@@ -28,9 +29,14 @@ bool color_on_stderr() {
   return terminal_on_stderr() && !(refused && *refused);
 }
 
-int complain(std::string_view message) {
+void print_log(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+int complain(std::string_view message, int status) {
   say("error", "31", message);
-  return bad_input;
+  return status;
 }
 
 void warn(std::string_view message) { say("warning", "33", message); }
@@ -38,7 +44,17 @@ void warn(std::string_view message) { say("warning", "33", message); }
 void print_diagnostics(const Diagnostics& diagnostics, bool quiet) {
   for (const Diagnostic& diagnostic : diagnostics.all())
     if (!quiet || diagnostic.severity == Severity::error)
-      fmt::print(stderr, "{}", to_text(diagnostic, color_on_stderr()));
+      print_log(to_text(diagnostic, color_on_stderr()));
+}
+
+void flush_results() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+  if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category());
+}
+
+int results_lost(const std::error_code& reason) {
+  if (reason == std::errc::broken_pipe) return 128 + SIGPIPE;
+  return complain(fmt::format("cannot write the results to standard output: {}", reason.message()), failed);
 }
 
 }  // namespace montelux::cli

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
 #include "api/checksum.h"
 #include "api/compare.h"
 #include "api/parts.h"
 #include "api/render.h"
-#include "image/replace_file.h"
+#include "image/output_file.h"
 #include "integrator/catalogue.h"
 #include "lab/compare/report.h"
 #include "lab/report/write.h"
@@ -257,13 +256,7 @@ Status write_contest(const std::filesystem::path& file, const Contest& contest, 
   words.commands = commands;
   Result<std::string> page = lab::to_html(lab::report_of(contest.result, words));
   if (!page) return page.failure();
-  return replace_file(file, [&](const std::string& temporary) -> Status {
-    std::ofstream out(temporary, std::ios::binary);
-    out << *page;
-    out.close();
-    if (!out) return Failure{"cannot write " + file.string()};
-    return Done{};
-  });
+  return write_file(file, *page);
 }
 
 Status check_methods(const std::vector<std::string>& methods) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -170,15 +171,28 @@ lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
   return m;
 }
 
+std::uint64_t fingerprint_from(const std::string& hexadecimal) {
+  std::uint64_t value = 0;
+  const char* const end = hexadecimal.data() + hexadecimal.size();
+  if (std::from_chars(hexadecimal.data(), end, value, 16).ptr != end)
+    throw std::invalid_argument("the fingerprint of its scene is damaged");
+  return value;
+}
+
 SavedContest saved_from(const Json& j) {
   SavedContest saved;
   saved.scene = j.at("scene").get<std::string>();
+  if (j.contains("scene_bytes")) {
+    const auto bytes = lab::bytes_of_base64(j.at("scene_bytes").get_ref<const std::string&>());
+    if (!bytes) throw std::invalid_argument("the name of its scene is damaged");
+    saved.scene = *bytes;
+  }
   saved.load.lenient = j.at("lenient");
   if (const Json& size = j.at("resolution"); !size.is_null()) saved.load.resolution = {{size.at(0), size.at(1)}};
   if (const Json& name = j.at("camera"); !name.is_null()) saved.load.camera = name.get<std::string>();
   if (const Json& name = j.at("animation"); !name.is_null()) saved.load.animation = name.get<std::string>();
   if (const Json& times = j.at("shutter"); !times.is_null()) saved.load.shutter = {times.at(0), times.at(1)};
-  saved.fingerprint = std::stoull(j.at("scene_fingerprint").get<std::string>(), nullptr, 16);
+  saved.fingerprint = fingerprint_from(j.at("scene_fingerprint").get_ref<const std::string&>());
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
   saved.state.reference = reference_from(j.at("reference"));
@@ -206,6 +220,8 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
             {"notes", c.notes},
             {"reference", reference_json(c.state.reference)},
             {"methods", Json::array()}};
+  // The name of a file may be any bytes, and this one is to be found again.
+  if (!is_utf8(c.scene.string())) json["scene_bytes"] = lab::base64(c.scene.string());
   if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
   if (c.load.camera) json["camera"] = *c.load.camera;
   if (c.load.animation) json["animation"] = *c.load.animation;

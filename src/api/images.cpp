@@ -1,12 +1,9 @@
 #include "api/images.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 
 #include "parameter/diagnostic.h"
 
@@ -54,18 +51,11 @@ std::optional<ToneCurve> tone_curve_named(std::string_view name) {
 }
 
 Status check_picture_file(const std::filesystem::path& file) {
-  auto cannot = [&](std::string_view why) { return Failure{fmt::format("cannot write '{}': {}", file.string(), why)}; };
   const std::string extension = extension_of(file);
   if (!contains(linear_extensions, extension) && !contains(display_extensions, extension))
-    return cannot(fmt::format("its extension must be one of {}, {}", fmt::join(linear_extensions, ", "),
-                              fmt::join(display_extensions, ", ")));
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error)) return cannot(fmt::format("no folder '{}'", folder.string()));
-  if (!std::filesystem::is_directory(folder, error)) return cannot(fmt::format("'{}' is no folder", folder.string()));
-  if (std::filesystem::is_directory(file, error)) return cannot("it is a folder");
-  if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(std::strerror(errno));
-  return Done{};
+    return Failure{fmt::format("cannot write '{}': its extension must be one of {}, {}", file.string(),
+                               fmt::join(linear_extensions, ", "), fmt::join(display_extensions, ", "))};
+  return check_output_file(file);
 }
 
 bool is_display_file(const std::filesystem::path& file) { return contains(display_extensions, extension_of(file)); }

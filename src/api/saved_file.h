@@ -1,16 +1,17 @@
 // What saved work of every kind has in common: JSON that bears the name and the version of its format. Inside the
 // facade only. `Json` is the JSON library's value in all of it.
 #pragma once
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <new>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "api/checksum.h"
-#include "image/replace_file.h"
+#include "image/output_file.h"
+#include "io/json_text.h"
 #include "math/result.h"
 
 namespace montelux {
@@ -21,14 +22,6 @@ struct SavedFormat {
   std::string_view writer;  // the command that writes it
   std::string_view what;    // for messages: "comparison"
 };
-
-// Nothing where the file cannot be read.
-inline std::optional<std::string> content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) return std::nullopt;
-  return text.str();
-}
 
 // Throws std::invalid_argument on a file of another kind or version.
 template <class Json>
@@ -53,35 +46,65 @@ void check_whole(Json& json) {
   if (stated != checksum_of(json)) throw std::invalid_argument("it is damaged: its checksum is another");
 }
 
-// read(json) of a file of the format; what it throws becomes a failure that names the file.
+// Where a byte of a text is: "line 3, column 7".
+inline std::string place_in(std::string_view text, std::size_t byte) {
+  text = text.substr(0, byte);
+  const std::size_t line = text.rfind('\n');
+  return "line " + std::to_string(std::count(text.begin(), text.end(), '\n') + 1) + ", column " +
+         std::to_string(text.size() - (line == std::string_view::npos ? 0 : line + 1));
+}
+
+// The value that a text holds. Throws std::invalid_argument with the place where it is no JSON.
+template <class Json>
+Json parse_saved(const std::string& text, const SavedFormat& format) {
+  try {
+    return Json::parse(text);
+  } catch (const typename Json::parse_error& error) {
+    throw std::invalid_argument("it is not a file that " + std::string(format.writer) +
+                                " wrote, or it is damaged: it is no JSON from " + place_in(text, error.byte) + " on");
+  }
+}
+
+// What a reader missed in a file that is JSON, in our own words.
+template <class Json>
+std::string missing_entry(const typename Json::exception& error) {
+  // "[json.exception.out_of_range.403] key 'seed' not found"
+  const std::string_view text = error.what();
+  const std::size_t begin = text.find('\''), end = text.rfind('\'');
+  if (dynamic_cast<const typename Json::out_of_range*>(&error) && begin < end && end != std::string_view::npos)
+    return "its entry \"" + std::string(text.substr(begin + 1, end - begin - 1)) + "\" is missing";
+  return "an entry of it is missing or of another type";
+}
+
+// read(json) of a file of the format; what is wrong with it becomes a failure that names the file.
 template <class Json, class Read>
 auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Read read)
     -> Result<decltype(read(Json()))> {
-  const auto text = content_of(file);
-  if (!text) return Failure{file.string() + ": cannot be read"};
+  const std::string what = "the saved " + std::string(format.what) + " '" + file.string() + "' cannot be read: ";
+  const auto text = read_whole_file(file.string());
+  if (!text) return Failure{"the saved " + std::string(format.what) + " cannot be read: " + text.error()};
   try {
-    Json json = Json::parse(*text, nullptr, false);  // without exceptions: what is no JSON is no object either
+    Json json = parse_saved<Json>(*text, format);
     check_format(json, format);
     check_whole(json);
     return read(json);
+  } catch (const typename Json::exception& error) {
+    return Failure{what + "it is damaged: " + missing_entry<Json>(error)};
+  } catch (const std::bad_alloc&) {
+    return Failure{what + "it does not fit in memory"};
   } catch (const std::invalid_argument& error) {
-    return Failure{file.string() + ": " + error.what()};
-  } catch (const std::exception& error) {
-    return Failure{file.string() + ": is no saved " + std::string(format.what) + " (" + error.what() + ")"};
+    return Failure{what + error.what()};
+  } catch (const std::exception&) {
+    return Failure{what + "it is damaged"};
   }
 }
 
 // Whole or not at all, with a checksum.
 template <class Json>
 Status save_json(const std::filesystem::path& file, Json json) {
+  make_utf8(json);
   json["checksum"] = checksum_of(json);
-  return replace_file(file, [&json](const std::string& temporary) -> Status {
-    std::ofstream out(temporary);
-    out << json.dump(1) << '\n';
-    out.close();
-    if (!out) return Failure{"it cannot be written"};
-    return Done{};
-  });
+  return write_file(file, json.dump(1) + '\n');
 }
 
 // Absence is null in the file.

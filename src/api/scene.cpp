@@ -114,6 +114,11 @@ LoadedScene::~LoadedScene() = default;
 LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
 const SceneInfo& LoadedScene::info() const { return parts_->info; }
 
+Status check_resolution(int width, int height) {
+  std::string complaint = size_complaint(width, height);
+  return complaint.empty() ? Status(Done{}) : Status(Failure{std::move(complaint)});
+}
+
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
   Stopwatch watch;
   LoadResult result;

@@ -9,6 +9,7 @@
 
 #include "api/frame_range.h"
 #include "image/pixel_sample.h"
+#include "math/result.h"
 #include "parameter/diagnostic.h"
 
 namespace montelux {
@@ -72,6 +73,9 @@ struct LoadResult {
 
 // Never throws: what is wrong is in the diagnostics.
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+// Whether a picture of this size is possible, in pixels.
+Status check_resolution(int width, int height);
 
 // "file:line:column: error: message", an excerpt with a caret, and the hint; for a terminal or a log.
 std::string to_text(const Diagnostic& diagnostic, bool color);

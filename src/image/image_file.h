@@ -52,7 +52,7 @@ struct ExrOptions {
 };
 
 // Writes linear values by the extension of path: .exr with every channel under its own name, .hdr and .pfm with the
-// colour alone. The same arguments give the same bytes. Replaces the file in one step; never throws.
+// colour alone. The same arguments give the same bytes. Writes as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options = {});
 
 // An 8-bit picture that is ready for display: 1 (gray) or 3 (RGB) interleaved channels, the top row first.
@@ -63,7 +63,7 @@ struct DisplayImage {
   std::vector<std::uint8_t> values;
 };
 
-// Writes .png or .jpg (any 8-bit format that OpenImageIO writes). Replaces the file in one step; never throws.
+// Writes .png or .jpg, as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const DisplayImage& image);
 
 // The header entry capDate for the time in the environment variable SOURCE_DATE_EPOCH; nothing if it is not set. Files

@@ -1,7 +1,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <array>
+#include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "image/image_file.h"
@@ -54,10 +57,38 @@ std::string size_complaint(const OIIO::ImageSpec& spec) {
   return {};
 }
 
-Result<PixelBuffer> read_part(OIIO::ImageInput& input, int part) {
+// How many bytes of samples a byte of a file stands for at the most: deflate gains 1032 (zlib's documentation), run lengths
+// and discrete cosines less; the others have no known bound.
+double max_packing(std::string_view format, std::string_view compression) {
+  constexpr double deflate = 1032, unknown = 1 << 18;
+  if (format == "openexr") return compression.starts_with("dwa") ? unknown : deflate;
+  constexpr std::array<std::string_view, 6> simple{"png", "bmp", "targa", "pnm", "jpeg", "gif"};
+  return std::find(simple.begin(), simple.end(), format) == simple.end() ? unknown : 4 * deflate;
+}
+
+// Whether a file of this size can hold what its header promises. Small pictures are not looked at.
+bool is_plausible(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
+  constexpr std::uint64_t small = std::uint64_t(64) << 20;
+  const std::uint64_t bytes = spec.image_bytes(true), tile = spec.tile_bytes(true);
+  const std::string_view compression = spec.get_string_attribute("compression");
+  const double most = double(file_size) * max_packing(input.format_name(), compression);
+  return std::max(bytes, tile) <= small || double(std::max(bytes, tile)) <= most;
+}
+
+// A file that is being read: by name, or in memory.
+struct Source {
+  OIIO::ImageInput& input;
+  std::uintmax_t size;  // in bytes
+};
+
+Result<PixelBuffer> read_part(const Source& source, int part) {
+  OIIO::ImageInput& input = source.input;
   OIIO::ImageSpec spec = input.spec(part);
   std::string complaint = size_complaint(spec);
   if (!complaint.empty()) return Failure{complaint};
+  if (!is_plausible(input, spec, source.size))
+    return Failure{"its header promises " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                   " pixels, which do not fit in " + std::to_string(source.size) + " bytes: it is damaged"};
   PixelBuffer pixels = make_pixel_buffer(spec.width, spec.height, spec.channelnames);
   if (!input.read_image(part, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.values.data()))
     return Failure{input.geterror()};
@@ -65,13 +96,14 @@ Result<PixelBuffer> read_part(OIIO::ImageInput& input, int part) {
 }
 
 // Appends the further parts of the file as layers; a part that is named like its channels' prefix is not named twice.
-Status read_further_parts(OIIO::ImageInput& input, PixelBuffer& pixels) {
+Status read_further_parts(const Source& source, PixelBuffer& pixels) {
+  OIIO::ImageInput& input = source.input;
   for (int part = 1; input.seek_subimage(part, 0); ++part) {
     OIIO::ImageSpec spec = input.spec(part);
     if (spec.width != pixels.width || spec.height != pixels.height) continue;
     std::size_t total = pixels.pixel_count() * (pixels.channels.size() + std::size_t(std::max(spec.nchannels, 0)));
     if (total > largest_sample_count) return Failure{"its parts together are beyond all reason"};
-    Result<PixelBuffer> added = read_part(input, part);
+    Result<PixelBuffer> added = read_part(source, part);
     if (!added) return added.failure();
     std::string name(spec.get_string_attribute("oiio:subimagename", "part" + std::to_string(part)));
     bool prefixed = added->channels.front().find('.') != std::string::npos;
@@ -115,6 +147,8 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
     std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) return Failure{"no such file"};
     if (std::filesystem::is_directory(status)) return Failure{"it is a directory"};
+    // A FIFO may never end, and a device does not.
+    if (!std::filesystem::is_regular_file(status)) return Failure{"it is not a regular file"};
   }
 
   OIIO::ImageSpec wishes;
@@ -131,11 +165,12 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
   Image image{{}, sample_type(spec.format), {}, header(spec)};
   image.encoding =
       encoding.value_or(is_integer(image.stored) ? ColorEncoding{ColorEncoding::Kind::srgb, 1.0f} : ColorEncoding{});
-  Result<PixelBuffer> pixels = read_part(*input, 0);
+  const Source source{*input, bytes ? bytes->size() : std::filesystem::file_size(path)};
+  Result<PixelBuffer> pixels = read_part(source, 0);
   if (!pixels) return pixels.failure();
   image.pixels = std::move(pixels).value();
   decode_colors(image.pixels, image.encoding, spec.alpha_channel);
-  Status parts = read_further_parts(*input, image.pixels);
+  Status parts = read_further_parts(source, image.pixels);
   if (!parts) return parts.failure();
   return image;
 }
@@ -147,6 +182,10 @@ Result<Image> read_safely(const std::filesystem::path& path, const std::string* 
     Result<Image> image = read_open(path, bytes, encoding);
     if (image) return image;
     return Failure{prefix + (image.error().empty() ? "unknown or corrupt format" : image.error())};
+  } catch (const std::bad_alloc&) {
+    return Failure{prefix + "it is damaged, or does not fit in memory"};
+  } catch (const std::length_error&) {
+    return Failure{prefix + "it is damaged, or does not fit in memory"};
   } catch (const std::exception& e) {
     return Failure{prefix + e.what()};
   }

@@ -3,9 +3,11 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -14,10 +16,11 @@
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
+#include <cstring>
+#include <functional>
 
 #include "image/image_file.h"
-#include "image/replace_file.h"
+#include "image/output_file.h"
 
 namespace montelux {
 namespace {
@@ -35,6 +38,25 @@ void insert(Imf::Header& header, const Attribute& attribute) {
       attribute.value);
 }
 
+// A file in memory. The codecs write here alone, so that no failure of the disk meets them.
+class MemoryStream final : public Imf::OStream {
+ public:
+  MemoryStream() : Imf::OStream("memory") {}
+  void write(const char bytes[], int count) override {
+    const std::size_t end = place_ + std::size_t(count);
+    if (end > bytes_.size()) bytes_.resize(end);
+    std::memcpy(bytes_.data() + place_, bytes, std::size_t(count));
+    place_ = end;
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+  std::size_t place_ = 0;
+};
+
 // One plane of halves; finite values beyond the range of a half are held at its end.
 std::vector<half> to_half(const PixelBuffer& image, int channel) {
   std::vector<half> plane;
@@ -46,7 +68,7 @@ std::vector<half> to_half(const PixelBuffer& image, int channel) {
   return plane;
 }
 
-Status write_exr(const std::string& file, const PixelBuffer& image, const ExrOptions& options) {
+Result<std::string> encode_exr(const PixelBuffer& image, const ExrOptions& options) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const Attribute& attribute : options.attributes) insert(header, attribute);
@@ -70,19 +92,25 @@ Status write_exr(const std::string& file, const PixelBuffer& image, const ExrOpt
       frame.insert(name, Imf::Slice(Imf::FLOAT, data, stride, stride * std::size_t(image.width)));
     }
   }
-  Imf::OutputFile output(file.c_str(), header);
-  output.setFrameBuffer(frame);
-  output.writePixels(image.height);
-  return Done{};
+  MemoryStream stream;
+  {
+    Imf::OutputFile output(stream, header);
+    output.setFrameBuffer(frame);
+    output.writePixels(image.height);
+  }  // the table of lines is written at its end
+  return stream.take();
 }
 
+// By the codec of a name's ending.
 template <class T>
-Status write_by_library(const std::string& file, const OIIO::ImageSpec& spec, const T* values) {
-  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file);
+Result<std::string> encode_by_library(const std::string& name, const OIIO::ImageSpec& spec, const T* values) {
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   if (!output) return Failure{OIIO::geterror()};
-  bool good = output->open(file, spec) && output->write_image(spec.format, values) && output->close();
+  OIIO::Filesystem::IOVecOutput memory;
+  const bool good = output->set_ioproxy(&memory) && output->open(name, spec) &&
+                    output->write_image(spec.format, values) && output->close();
   if (!good) return Failure{output->geterror()};
-  return Done{};
+  return std::string(memory.buffer().begin(), memory.buffer().end());
 }
 
 // The colour channels alone, interleaved.
@@ -96,23 +124,42 @@ std::vector<float> colors_of(const PixelBuffer& image) {
   return colors;
 }
 
-Status write_hdr(const std::string& file, const PixelBuffer& image) {
+Result<std::string> encode_hdr(const PixelBuffer& image) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeFloat);
-  return write_by_library(file, spec, colors_of(image).data());
+  return encode_by_library("image.hdr", spec, colors_of(image).data());
 }
 
 // Portable float map: a text header whose negative scale means little-endian, then the rows from the bottom up.
-Status write_pfm(const std::string& file, const PixelBuffer& image) {
+Result<std::string> encode_pfm(const PixelBuffer& image) {
   static_assert(std::endian::native == std::endian::little);
-  std::vector<float> colors = colors_of(image);
-  std::ofstream out(file, std::ios::binary);
-  out << "PF\n" << image.width << ' ' << image.height << "\n-1.0\n";
-  std::size_t row = 3 * std::size_t(image.width);
+  const std::vector<float> colors = colors_of(image);
+  std::string bytes = "PF\n" + std::to_string(image.width) + ' ' + std::to_string(image.height) + "\n-1.0\n";
+  const std::size_t row = 3 * std::size_t(image.width);
   for (int y = image.height - 1; y >= 0; --y)
-    out.write(reinterpret_cast<const char*>(&colors[std::size_t(y) * row]), std::streamsize(row * sizeof(float)));
-  out.close();
-  if (!out) return Failure{"the disk is full or the file cannot be written"};
-  return Done{};
+    bytes.append(reinterpret_cast<const char*>(&colors[std::size_t(y) * row]), row * sizeof(float));
+  return bytes;
+}
+
+Result<std::string> encode(const PixelBuffer& image, const std::string& extension, const ExrOptions& options) {
+  if (image.width <= 0 || image.height <= 0 || image.channels.empty()) return Failure{"the image is empty"};
+  if (extension == ".exr") return encode_exr(image, options);
+  if (extension == ".hdr") return encode_hdr(image);
+  if (extension == ".pfm") return encode_pfm(image);
+  return Failure{"linear values go to .exr, .hdr or .pfm files"};
+}
+
+Result<std::string> encode(const DisplayImage& image, const std::string& extension) {
+  if (image.width <= 0 || image.height <= 0 || image.values.empty()) return Failure{"the image is empty"};
+  const bool jpeg = extension == ".jpg" || extension == ".jpeg";
+  if (!jpeg && extension != ".png") return Failure{"8-bit pictures go to .png or .jpg files"};
+  // Its library ends the process where it cannot write a picture.
+  constexpr int max_jpeg_side = 65500;
+  if (jpeg && std::max(image.width, image.height) > max_jpeg_side)
+    return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels a side"};
+  OIIO::ImageSpec spec(image.width, image.height, image.channel_count, OIIO::TypeUInt8);
+  spec["oiio:ColorSpace"] = "sRGB";
+  spec["CompressionQuality"] = 95;
+  return encode_by_library("image" + extension, spec, image.values.data());
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -121,26 +168,27 @@ std::string lower_extension(const std::filesystem::path& path) {
   return text;
 }
 
+// Encodes in memory, then writes. Exceptions of codecs become failures.
+Status write_encoded(const std::filesystem::path& path, const std::function<Result<std::string>()>& encoder) {
+  const std::string prefix = "cannot write '" + path.string() + "': ";
+  try {
+    const Result<std::string> bytes = encoder();
+    return bytes ? write_file(path, *bytes) : Status(Failure{prefix + bytes.error()});
+  } catch (const std::bad_alloc&) {
+    return Failure{prefix + "there is not enough memory"};
+  } catch (const std::exception& e) {
+    return Failure{prefix + e.what()};
+  }
+}
+
 }  // namespace
 
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options) {
-  std::string extension = lower_extension(path);
-  if (image.width <= 0 || image.height <= 0 || image.channels.empty())
-    return Failure{"cannot write '" + path.string() + "': the image is empty"};
-  if (extension == ".exr")
-    return replace_file(path, [&](const std::string& file) { return write_exr(file, image, options); });
-  if (extension == ".hdr") return replace_file(path, [&](const std::string& file) { return write_hdr(file, image); });
-  if (extension == ".pfm") return replace_file(path, [&](const std::string& file) { return write_pfm(file, image); });
-  return Failure{"cannot write '" + path.string() + "': linear values go to .exr, .hdr or .pfm files"};
+  return write_encoded(path, [&] { return encode(image, lower_extension(path), options); });
 }
 
 Status write_image(const std::filesystem::path& path, const DisplayImage& image) {
-  if (image.width <= 0 || image.height <= 0 || image.values.empty())
-    return Failure{"cannot write '" + path.string() + "': the image is empty"};
-  OIIO::ImageSpec spec(image.width, image.height, image.channel_count, OIIO::TypeUInt8);
-  spec["oiio:ColorSpace"] = "sRGB";
-  spec["CompressionQuality"] = 95;
-  return replace_file(path, [&](const std::string& file) { return write_by_library(file, spec, image.values.data()); });
+  return write_encoded(path, [&] { return encode(image, lower_extension(path)); });
 }
 
 std::optional<Attribute> date_attribute() {

@@ -8,7 +8,8 @@
 namespace montelux {
 
 // The bytes of a regular file; one that gzip has compressed (whatever its name) is unpacked. Fails where the file is
-// missing, is no regular file, is damaged or unpacks to more than 8 GiB.
+// missing, is no regular file (a FIFO may never end, nor does /dev/zero), is damaged, or has more than 8 GiB; and where
+// it unpacks to more than that, or to more than 64 MiB and 256 times its size.
 Result<std::string> read_whole_file(const std::string& path);
 
 // `name` as it is to be opened: an absolute path stays, another one starts at `folder`.
@@ -23,7 +24,11 @@ bool is_regular_file(const std::string& path);
 // Text from a user's file made fit to be printed in a message: control characters and what is no UTF-8 become
 // `instead`, a byte for a byte.
 std::string without_control(std::string_view text, char instead);
-// The same by '?', and long text is cut.
+// Text in which every byte that is no part of UTF-8 stands as "\xHH": the file names of Linux are any bytes, JSON is
+// UTF-8. Other text stays.
+std::string as_utf8(std::string_view text);
+bool is_utf8(std::string_view text);
+// As without_control() by '?', and long text is cut.
 std::string printable(std::string_view text);
 
 }  // namespace montelux

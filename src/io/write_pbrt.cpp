@@ -1,8 +1,8 @@
 #include "io/write_pbrt.h"
 
-#include <fstream>
 #include <set>
 
+#include "image/output_file.h"
 #include "io/pbrt/numbers.h"
 #include "io/pbrt/parameters.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 using pbrt::shortest;
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -29,13 +29,13 @@ std::string value_text(float v) { return shortest(v); }
 std::string value_text(int v) { return std::to_string(v); }
 std::string value_text(std::uint32_t v) { return std::to_string(v); }
 std::string value_text(std::uint8_t v) { return v ? "true" : "false"; }
-std::string value_text(const std::string& v) { return quoted(v); }
+std::string value_text(const std::string& v) { return in_quotes(v); }
 std::string value_text(Vec2f v) { return shortest(v.x) + " " + shortest(v.y); }
 std::string value_text(Vec3f v) { return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z); }
 std::string value_text(const SpectrumValue& v) {
   if (const auto* rgb = std::get_if<RgbValue>(&v))
     return value_text(Vec3f{rgb->rgb.c[0], rgb->rgb.c[1], rgb->rgb.c[2]});
-  if (const auto* name = std::get_if<NamedSpectrum>(&v)) return quoted(name->name);
+  if (const auto* name = std::get_if<NamedSpectrum>(&v)) return in_quotes(name->name);
   if (const auto* blackbody = std::get_if<Blackbody>(&v)) return shortest(blackbody->kelvin);
   std::string text;
   const auto& sampled = std::get<SampledValue>(v);
@@ -46,7 +46,7 @@ std::string value_text(const SpectrumValue& v) {
 
 template <class T>
 std::string array_text(std::string_view type_and_name, const std::vector<T>& values) {
-  std::string text = " " + quoted(type_and_name) + " [";
+  std::string text = " " + in_quotes(type_and_name) + " [";
   for (const T& value : values) text += " " + value_text(value);
   return text + " ]";
 }
@@ -61,7 +61,7 @@ std::string_view type_word(const Parameter& parameter) {
 std::string parameter_text(const Parameter& parameter) {
   std::string header = std::string(type_word(parameter)) + " " + parameter.name;
   if (const auto* name = std::get_if<TextureName>(&parameter.values))
-    return " " + quoted(header) + " [ " + quoted(name->name) + " ]";
+    return " " + in_quotes(header) + " [ " + in_quotes(name->name) + " ]";
   return std::visit(
       [&](const auto& values) -> std::string {
         if constexpr (std::is_same_v<std::decay_t<decltype(values)>, TextureName>)
@@ -109,21 +109,21 @@ class Writer {
       write_block(light.light_to_world, "LightSource " + entity_text(light.entity));
     }
     for (const ObjectDesc& object : scene_.objects) {
-      text_ += "ObjectBegin " + quoted(object.name) + "\n";
+      text_ += "ObjectBegin " + in_quotes(object.name) + "\n";
       for (const ShapeDesc& shape : object.shapes) write_shape(shape);
       text_ += "ObjectEnd\n";
     }
     for (const ShapeDesc& shape : scene_.shapes) write_shape(shape);
     for (const InstanceDesc& instance : scene_.instances)
       write_block(instance.object_to_world,
-                  "ObjectInstance " + quoted(scene_.objects[static_cast<std::size_t>(instance.object)].name),
+                  "ObjectInstance " + in_quotes(scene_.objects[static_cast<std::size_t>(instance.object)].name),
                   instance.object_to_world_later);
     return std::move(text_);
   }
 
  private:
   static std::string entity_text(const Entity& entity) {
-    return quoted(entity.type) + parameters_text(entity.parameters);
+    return in_quotes(entity.type) + parameters_text(entity.parameters);
   }
 
   // The default material goes without a name as long as nobody has changed it.
@@ -152,7 +152,7 @@ class Writer {
       if (const auto* values = std::get_if<std::vector<SpectrumValue>>(&parameter.values))
         for (const SpectrumValue& value : *values)
           if (const auto* rgb = std::get_if<RgbValue>(&value)) {
-            if (rgb->color_space != color_space_) text_ += "ColorSpace " + quoted(rgb->color_space) + "\n";
+            if (rgb->color_space != color_space_) text_ += "ColorSpace " + in_quotes(rgb->color_space) + "\n";
             color_space_ = rgb->color_space;
             return;
           }
@@ -177,7 +177,7 @@ class Writer {
 
   void write_texture(const TextureDesc& texture) {
     state_color_space(texture.entity);
-    std::string text = "Texture " + quoted(texture.name) + (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") +
+    std::string text = "Texture " + in_quotes(texture.name) + (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") +
                        entity_text(texture.entity);
     if (texture.texture_to_world.is_identity())
       text_ += text + "\n";
@@ -189,7 +189,7 @@ class Writer {
     if (is_default(i)) return;
     const Entity& entity = scene_.materials[i].entity;
     state_color_space(entity);
-    text_ += "MakeNamedMaterial " + quoted(material_names_[i]) + " \"string type\" [ " + quoted(entity.type) + " ]" +
+    text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) + " ]" +
              parameters_text(entity.parameters) + "\n";
   }
 
@@ -212,7 +212,7 @@ class Writer {
     if (shape.area_light) state_color_space(*shape.area_light);
     std::string text;
     const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];
-    if (!material.empty()) text += "NamedMaterial " + quoted(material) + "\n";
+    if (!material.empty()) text += "NamedMaterial " + in_quotes(material) + "\n";
     if (shape.reverse_orientation) text += "ReverseOrientation\n";
     if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
     text += "Shape " + entity_text(shape.entity);
@@ -232,11 +232,7 @@ class Writer {
 std::string write_pbrt(const SceneDesc& scene) { return Writer(scene).write(); }
 
 Status write_pbrt_file(const SceneDesc& scene, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  file << write_pbrt(scene);
-  file.close();
-  if (!file) return Failure{"cannot write '" + path + "'"};
-  return Done{};
+  return write_file(path, write_pbrt(scene));
 }
 
 }  // namespace montelux

@@ -35,10 +35,25 @@ std::string served_by(const EntitySpec* spec, const std::string& name) {
 
 }  // namespace
 
+std::string size_complaint(std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
+  if (width >= 1 && height >= 1 && width <= max_picture_side && height <= max_picture_side &&
+      width * height <= max_pixels)
+    return {};
+  return "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels is not possible; each side is from 1 to " + std::to_string(max_picture_side) +
+         ", and there are at most 2^28 pixels in all";
+}
+
 PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair<int, int>> resolution,
                                  Diagnostics& diagnostics) {
   PictureSettings s;
   const ParameterList& film = scene.film.parameters;
+  if (resolution)
+    if (std::string complaint = size_complaint(resolution->first, resolution->second); !complaint.empty()) {
+      diagnostics.error(scene.film.where, complaint);
+      return s;
+    }
   s.width = resolution ? resolution->first : film.integer("xresolution", s.width);
   s.height = resolution ? resolution->second : film.integer("yresolution", s.height);
   s.crop = crop_of(scene.film, s.width, s.height, resolution.has_value(), diagnostics);

@@ -1,5 +1,6 @@
 // What a scene file asks of the picture: its size, its samples, its integrator.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +26,11 @@ struct PictureSettings {
   double shutter_open = 0, shutter_close = 1;       // in the same unit
   float imaging_ratio = 1;                          // of the film's reading to radiance: exposure time x ISO / 100
 };
+
+// What is wrong with the size of a picture, in pixels; empty where nothing is. Every picture is held to it, whoever states
+// its size.
+inline constexpr int max_picture_side = 65536;
+std::string size_complaint(std::int64_t width, std::int64_t height);
 
 // `resolution` takes the place of the film's. Notes say what serves a name that Montelux lacks.
 PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair<int, int>> resolution,

@@ -5,6 +5,7 @@
 #include "io/pbrt/checks.h"
 #include "io/pbrt/numbers.h"
 #include "io/text_file.h"
+#include "scene/picture.h"
 
 namespace montelux::pbrt {
 
@@ -36,11 +37,10 @@ void check_window(const Entity& entity, std::string_view name, Reporter& report)
 }
 
 void check_film(const Entity& film, Reporter& report) {
-  constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
   std::int64_t x = film.parameters.integer("xresolution", 1280), y = film.parameters.integer("yresolution", 720);
-  if (x * y > most_pixels)
-    report.error(place_of(film, "xresolution"), "a film of " + std::to_string(x) + " x " + std::to_string(y) +
-                                                    " pixels is too large; at most 2^28 in all are valid");
+  // A side that is out of its own range was found there.
+  if (std::string complaint = size_complaint(x, y); !complaint.empty() && std::max(x, y) <= max_picture_side)
+    report.error(place_of(film, "xresolution"), complaint);
   check_window<float>(film, "cropwindow", report);
   check_window<int>(film, "pixelbounds", report);
   if (const auto* bounds = film.parameters.find("pixelbounds") ? &film.parameters.array<int>("pixelbounds") : nullptr)

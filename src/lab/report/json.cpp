@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.h"
 #include "lab/report/axis_scale.h"
 #include "lab/report/base64.h"
 #include "lab/report/write.h"
@@ -129,7 +130,7 @@ std::string to_json(const ReportSet& set, bool with_pictures) {
       one["sections"].push_back(std::visit(SectionWriter{with_pictures}, section));
     json["reports"].push_back(std::move(one));
   }
-  return json.dump() + "\n";
+  return json_text(std::move(json)) + "\n";
 }
 
 }  // namespace montelux::lab

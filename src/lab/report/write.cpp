@@ -1,8 +1,6 @@
 #include "lab/report/write.h"
 
-#include <fstream>
-
-#include "image/replace_file.h"
+#include "image/output_file.h"
 #include "lab/report/page.h"
 
 namespace montelux::lab {
@@ -27,13 +25,7 @@ class Folder {
     std::filesystem::create_directories(path.parent_path(), error);
     if (error) return Failure{"cannot make the folder " + path.parent_path().string() + ": " + error.message()};
     written_.files.push_back(name);
-    return replace_file(path, [&](const std::string& temporary) -> Status {
-      std::ofstream file(temporary, std::ios::binary);
-      file.write(content.data(), std::streamsize(content.size()));
-      file.close();
-      if (!file) return Failure{"cannot write " + path.string()};
-      return Done{};
-    });
+    return write_file(path, content);
   }
 
  private:
