@@ -139,6 +139,7 @@ int run_experiments(LabArguments& arguments) {
   LabProgress progress(!arguments.quiet, signals);
   Result<LabRun> run = run_lab(arguments.options, arguments.output, progress);
   if (!run) return complain(run.error());
+  if (!run->why_not_written.empty()) return complain(run->why_not_written, failed);
   if (!run->page) warn(run->why_no_page);
   if (arguments.json)
     print_json(*run, arguments.options, arguments.output);

@@ -47,7 +47,7 @@ constexpr const char* examples = R"(Examples:
   montelux render flight.pbrt --frames 0:23 --interactive-budget 33ms --integrator restir-di
   montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
 
-Ctrl-C (or SIGTERM) ends the render early and writes what is done; a second one exits at once.
+Ctrl-C (or SIGTERM, SIGHUP) ends the render early and writes what is done; a second one exits at once.
 )";
 
 // The values of one channel each; what is not finite (an error that is not known) is null.

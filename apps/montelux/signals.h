@@ -9,8 +9,8 @@ namespace montelux::cli {
 // that no other file takes their numbers; writing to them fails.
 void prepare_process();
 
-// While it lives, the first signal only sets a flag; the second one, unless it is SIGPIPE, ends the process as above. One
-// at a time.
+// While it lives, the first signal only sets a flag; the second one, unless it is SIGPIPE, ends the process as above.
+// One at a time.
 class StopSignals {
  public:
   StopSignals();

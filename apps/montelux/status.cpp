@@ -43,8 +43,7 @@ void warn(std::string_view message) { say("warning", "33", message); }
 
 void print_diagnostics(const Diagnostics& diagnostics, bool quiet) {
   for (const Diagnostic& diagnostic : diagnostics.all())
-    if (!quiet || diagnostic.severity == Severity::error)
-      print_log(to_text(diagnostic, color_on_stderr()));
+    if (!quiet || diagnostic.severity == Severity::error) print_log(to_text(diagnostic, color_on_stderr()));
 }
 
 void flush_results() {

@@ -7,8 +7,8 @@
 
 namespace montelux::cli {
 
-// What the program returns. What a signal ends returns 128 plus its number: 129 (SIGHUP), 130 (SIGINT), 141 (SIGPIPE, and
-// results to a pipe that nobody reads), 143 (SIGTERM).
+// What the program returns. What a signal ends returns 128 plus its number: 129 (SIGHUP), 130 (SIGINT), 141 (SIGPIPE,
+// and results to a pipe that nobody reads), 143 (SIGTERM).
 inline constexpr int done = 0;
 inline constexpr int differs = 1;    // diff found a difference
 inline constexpr int bad_input = 2;  // options, scenes or pictures that cannot be used

@@ -17,8 +17,8 @@ namespace montelux {
 std::vector<std::pair<std::string, std::string>> tone_curves();
 std::optional<ToneCurve> tone_curve_named(std::string_view name);
 
-// Why a picture could not be written to this file: an unknown extension, or what check_output_file() finds. To be called
-// before a render, so that the work is not lost.
+// Why a picture could not be written to this file: an unknown extension, or what check_output_file() finds. To be
+// called before a render, so that the work is not lost.
 Status check_picture_file(const std::filesystem::path& file);
 
 // The ending of a file's name with its dot, in lower case: what tells its format.

@@ -114,7 +114,10 @@ Result<LabRun> run_lab(const LabOptions& options, const std::filesystem::path& f
       options.seed);
   if (options.planted_fault) set.subtitle = "With planted faults, which the verdicts must find. " + set.subtitle;
   Result<lab::WrittenReports> written = lab::write_reports(set, folder);
-  if (!written) return written.failure();
+  if (!written) {
+    run.why_not_written = written.error();
+    return run;
+  }
   run.files = std::move(written->files), run.page = std::move(written->page);
   run.why_no_page = std::move(written->why_no_page);
   run.seconds = since_begin.seconds();

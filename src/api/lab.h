@@ -48,6 +48,7 @@ struct LabRun {
   std::vector<std::filesystem::path> files;   // written, relative to the folder
   std::optional<std::filesystem::path> page;  // the self-contained page
   std::string why_no_page;
+  std::string why_not_written;  // a file that could not be written, and why; empty: all were
   double seconds = 0;
 
   bool passed() const;

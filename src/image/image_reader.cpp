@@ -57,8 +57,8 @@ std::string size_complaint(const OIIO::ImageSpec& spec) {
   return {};
 }
 
-// How many bytes of samples a byte of a file stands for at the most: deflate gains 1032 (zlib's documentation), run lengths
-// and discrete cosines less; the others have no known bound.
+// How many bytes of samples a byte of a file stands for at the most: deflate gains 1032 (zlib's documentation), run
+// lengths and discrete cosines less; the others have no known bound.
 double max_packing(std::string_view format, std::string_view compression) {
   constexpr double deflate = 1032, unknown = 1 << 18;
   if (format == "openexr") return compression.starts_with("dwa") ? unknown : deflate;

@@ -15,8 +15,8 @@
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
-#include <ctime>
 #include <cstring>
+#include <ctime>
 #include <functional>
 
 #include "image/image_file.h"

@@ -205,7 +205,8 @@ Status check_output_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) return Failure{"cannot make the folder '" + folder.string() + "': " + error.message()};
   const Result<Temporary> temporary = Temporary::beside(folder / "file");
-  return temporary ? Status(Done{}) : Failure{"cannot write to the folder '" + folder.string() + "': " + temporary.error()};
+  return temporary ? Status(Done{})
+                   : Failure{"cannot write to the folder '" + folder.string() + "': " + temporary.error()};
 }
 
 }  // namespace montelux

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t max_bytes = std::size_t{8} << 30;
 
-// What a packed file may unpack to: text of a scene is packed to a fifth, regular one to a hundredth; what gains more was
-// made to fill the memory.
+// What a packed file may unpack to: text of a scene is packed to a fifth, regular one to a hundredth; what gains more
+// was made to fill the memory.
 std::size_t max_unpacked(std::size_t packed) {
   constexpr std::size_t any = std::size_t{64} << 20, ratio = 256;
   return std::min(std::max(any, packed * ratio), max_bytes);
@@ -68,8 +68,8 @@ Result<std::string> unpack(const std::string& packed, const std::string& path) {
   }
 }
 
-// The bytes of the character that the text, which is not empty, begins with; 0 where that is no UTF-8 (Unicode 15, table
-// 3-7).
+// The bytes of the character that the text, which is not empty, begins with; 0 where that is no UTF-8 (Unicode 15,
+// table 3-7).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);
@@ -151,7 +151,8 @@ std::string as_utf8(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     const auto first = static_cast<unsigned char>(text.front());
-    valid += length > 0 ? std::string(text.substr(0, length)) : std::string{'\\', 'x', digits[first >> 4], digits[first & 15]};
+    valid += length > 0 ? std::string(text.substr(0, length))
+                        : std::string{'\\', 'x', digits[first >> 4], digits[first & 15]};
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return valid;

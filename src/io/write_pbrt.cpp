@@ -189,8 +189,8 @@ class Writer {
     if (is_default(i)) return;
     const Entity& entity = scene_.materials[i].entity;
     state_color_space(entity);
-    text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) + " ]" +
-             parameters_text(entity.parameters) + "\n";
+    text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) +
+             " ]" + parameters_text(entity.parameters) + "\n";
   }
 
   static std::string mesh_text(const Mesh& mesh) {
@@ -231,8 +231,6 @@ class Writer {
 
 std::string write_pbrt(const SceneDesc& scene) { return Writer(scene).write(); }
 
-Status write_pbrt_file(const SceneDesc& scene, const std::string& path) {
-  return write_file(path, write_pbrt(scene));
-}
+Status write_pbrt_file(const SceneDesc& scene, const std::string& path) { return write_file(path, write_pbrt(scene)); }
 
 }  // namespace montelux

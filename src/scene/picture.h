@@ -27,8 +27,8 @@ struct PictureSettings {
   float imaging_ratio = 1;                          // of the film's reading to radiance: exposure time x ISO / 100
 };
 
-// What is wrong with the size of a picture, in pixels; empty where nothing is. Every picture is held to it, whoever states
-// its size.
+// What is wrong with the size of a picture, in pixels; empty where nothing is. Every picture is held to it, whoever
+// states its size.
 inline constexpr int max_picture_side = 65536;
 std::string size_complaint(std::int64_t width, std::int64_t height);
 

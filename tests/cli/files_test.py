@@ -218,12 +218,15 @@ class Names(FilesTest):
 
 
 class Bounds(FilesTest):
-    def assert_quick(self, *arguments, word, status=2, seconds=10):
-        begin = time.monotonic()
+    def assert_quick(self, *arguments, word, status=2, seconds=4):
+        def processor_time():
+            usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+            return usage.ru_utime + usage.ru_stime
+        begin = processor_time()
         limit = 3 << 30  # bytes of address space: what asks for more is not bounded
         result = self.run_with(*arguments, status=status,
                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
-        self.assertLess(time.monotonic() - begin, seconds)
+        self.assertLess(processor_time() - begin, seconds)
         said = result.stderr.decode()
         self.assertIn(word, said)
         self.assertNotIn("json.exception", said)
@@ -303,7 +306,7 @@ class Signals(FilesTest):
         process.send_signal(signal.SIGHUP)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 129)
-        self.assertIn("interrupted after", errors)
+        self.assertIn("interrupted", errors)
         self.assertEqual((self.folder / "a.png").read_bytes()[:4], b"\x89PNG")
 
     def test_an_ignored_hangup_stays_ignored(self):

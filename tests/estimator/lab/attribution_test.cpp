@@ -234,7 +234,7 @@ TEST(Contest, refuses_files_that_are_no_saved_contest) {
            {"not JSON", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux integrals"})", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 4"},
-           {R"({"format": "montelux comparison"})", "is no saved comparison"},
+           {R"({"format": "montelux comparison"})", "its entry \"version\" is missing"},
            {R"({"format": "montelux comparison", "version": 4})", "it is damaged"}}) {
     std::ofstream(file) << text;
     const Result<SavedContest> read = load_contest(file);

@@ -197,6 +197,24 @@ TEST_F(ImageFile, absurd_sizes_are_refused_before_memory_is_taken) {
   EXPECT_FALSE(read_image(folder / "a.ppm"));
 }
 
+TEST_F(ImageFile, a_header_that_promises_more_than_the_file_can_hold_is_refused) {
+  // 70 MB of samples: what an empty picture of that size is packed to holds them, a part of it does not.
+  ASSERT_TRUE(write_image(folder / "empty.exr", make_pixel_buffer(4200, 4200, {"Y"})));
+  EXPECT_TRUE(read_image(folder / "empty.exr"));
+  const std::string whole = bytes(folder / "empty.exr");
+  write(folder / "part.exr", std::string_view(whole).substr(0, 2000));
+  const Result<Image> part = read_image(folder / "part.exr");
+  ASSERT_FALSE(part);
+  EXPECT_NE(part.error().find("promises 4200 x 4200 pixels"), std::string::npos) << part.error();
+}
+
+TEST_F(ImageFile, a_picture_that_is_too_wide_for_jpeg_is_a_failure) {
+  const Status written = write_image(folder / "a.jpg", DisplayImage{65501, 1, 1, std::vector<std::uint8_t>(65501)});
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().find("at most 65500 pixels a side"), std::string::npos) << written.error();
+  EXPECT_TRUE(write_image(folder / "a.jpg", DisplayImage{65500, 1, 1, std::vector<std::uint8_t>(65500)}));
+}
+
 TEST_F(ImageFile, a_failed_write_leaves_nothing_behind) {
   EXPECT_FALSE(write_image(folder / "no" / "such" / "folder.exr", ramp({"R"})));
   EXPECT_FALSE(write_image(folder / "a.unknown", ramp({"R"})));
