@@ -40,9 +40,9 @@ std::string size_complaint(std::int64_t width, std::int64_t height) {
   if (width >= 1 && height >= 1 && width <= max_picture_side && height <= max_picture_side &&
       width * height <= max_pixels)
     return {};
-  return "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-         " pixels is not possible; each side is from 1 to " + std::to_string(max_picture_side) +
-         ", and there are at most 2^28 pixels in all";
+  return "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels is too " +
+         (width < 1 || height < 1 ? "small" : "large") + "; each side is from 1 to " +
+         std::to_string(max_picture_side) + ", and at most 2^28 pixels in all are valid";
 }
 
 PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair<int, int>> resolution,

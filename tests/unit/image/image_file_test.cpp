@@ -202,7 +202,7 @@ TEST_F(ImageFile, a_header_that_promises_more_than_the_file_can_hold_is_refused)
   ASSERT_TRUE(write_image(folder / "empty.exr", make_pixel_buffer(4200, 4200, {"Y"})));
   EXPECT_TRUE(read_image(folder / "empty.exr"));
   const std::string whole = bytes(folder / "empty.exr");
-  write(folder / "part.exr", std::string_view(whole).substr(0, 2000));
+  write(folder / "part.exr", std::string_view(whole).substr(0, 3000));
   const Result<Image> part = read_image(folder / "part.exr");
   ASSERT_FALSE(part);
   EXPECT_NE(part.error().find("promises 4200 x 4200 pixels"), std::string::npos) << part.error();
