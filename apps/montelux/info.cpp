@@ -26,6 +26,8 @@ struct InfoArguments {
 
 std::string bytes_text(std::size_t bytes) { return count_text(double(bytes), "B"); }
 
+bool has_bounds(const SceneInfo& info) { return info.low[0] <= info.high[0]; }
+
 void print_json(const SceneInfo& info) {
   Json lights = Json::object();
   for (const auto& [kind, count] : info.lights) lights[kind] = count;
@@ -42,7 +44,9 @@ void print_json(const SceneInfo& info) {
   json["instances"] = info.instances, json["objects"] = info.objects;
   json["materials"] = info.materials, json["textures"] = info.textures;
   json["lights"] = lights;
-  json["bounds"] = {{info.low[0], info.low[1], info.low[2]}, {info.high[0], info.high[1], info.high[2]}};
+  json["bounds"] = nullptr;  // of nothing
+  if (has_bounds(info))
+    json["bounds"] = {{info.low[0], info.low[1], info.low[2]}, {info.high[0], info.high[1], info.high[2]}};
   json["geometry_bytes"] = info.geometry_bytes, json["accel_bytes"] = info.accel_bytes;
   json["texture_bytes"] = info.texture_bytes;
   json["read_seconds"] = info.read_seconds, json["prepare_seconds"] = info.prepare_seconds;
@@ -67,8 +71,11 @@ void print_text(const SceneInfo& info) {
   fmt::print("looks     {} materials, {} textures\nlights   ", info.materials, info.textures);
   for (const auto& [kind, count] : info.lights) fmt::print(" {} {}", count, kind);
   if (info.lights.empty()) fmt::print(" none: the picture will be black");
-  fmt::print("\nbounds    {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.low[0], info.low[1], info.low[2],
-             info.high[0], info.high[1], info.high[2]);
+  if (has_bounds(info))
+    fmt::print("\nbounds    {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.low[0], info.low[1], info.low[2],
+               info.high[0], info.high[1], info.high[2]);
+  else
+    fmt::print("\nbounds    none: there are no surfaces\n");
   fmt::print("memory    shapes {}, ray tracing {}, textures {}\n", bytes_text(info.geometry_bytes),
              bytes_text(info.accel_bytes), bytes_text(info.texture_bytes));
   fmt::print("time      read {}, prepare {}, build {}\n", time_text(info.read_seconds), time_text(info.prepare_seconds),

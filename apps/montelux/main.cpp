@@ -95,6 +95,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
+    // Help or version of something that there is not.
+    if (app.get_subcommands().empty() && !app.remaining().empty()) return complain(explain(app, success));
     std::ostringstream text, none;
     const int status = app.exit(success, text, none);
     fmt::print("{}", text.str());

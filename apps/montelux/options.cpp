@@ -150,6 +150,7 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
               "with --frames in frame 0, and where they part the scene's whole time, before it is parted; the "
               "brightness stays"},
              into(options.shutter, parse_shutter));
+  verb.add_flag("--verbose", options.verbose, "list each warning and note of the scene, not one for all of a kind");
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }
 

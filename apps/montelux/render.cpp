@@ -110,7 +110,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["scene"] = arguments.scene;
   json["files"] = arguments.files;
   json["interrupted"] = rendering.result.interrupted;
-  json["seed"] = arguments.render.seed;
+  json["seed"] = arguments.render.seed.value_or(0);
   if (arguments.frame) {
     json["frame"] = *arguments.frame;
     json["shutter"] = {arguments.render.shutter->open, arguments.render.shutter->close};
@@ -225,7 +225,7 @@ Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const Sce
     if (!name) return name.failure();
     file = *name;
   }
-  one.render.seed = frame_seed(all.render.seed, frame);
+  one.render.seed = frame_seed(all.render.seed.value_or(0), frame);
   one.render.shutter = frame_shutter(scene, *all.frames, frame);
   return one;
 }
@@ -249,7 +249,7 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
                    fmt::format("frame {} of {}:{}  ", frame, all.frames->first, all.frames->last));
     const ShutterTimes before = frame_shutter(scene.info(), *all.frames, frame - 1);
     const Result<Rendering> rendering =
-        sequence->render({one->render.seed, *one->render.shutter, before, frame == last}, observer);
+        sequence->render({*one->render.seed, *one->render.shutter, before, frame == last}, observer);
     if (rendering->result.forgotten > 0 && !all.quiet && frame == first)
       warn(fmt::format("chains keep histories of {} in all, and no more: {} of {} begin the next frame afresh",
                        count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
@@ -302,23 +302,36 @@ std::string default_picture(std::filesystem::path scene) {
   return scene.stem().string() + ".exr";
 }
 
+// The pictures of all frames: only their numbers differ.
+Status check_output(const RenderArguments& arguments) {
+  if (!arguments.frames) return check_files(arguments);
+  const Result<RenderArguments> last = arguments_of_frame(arguments, {}, arguments.frames->last);
+  if (!last) return last.failure();
+  return check_files(*last);
+}
+
 int run_render(RenderArguments& arguments) {
-  if (arguments.files.empty()) arguments.files = {default_picture(arguments.scene)};
   if (arguments.fps && arguments.frames->of)
     return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
   if (arguments.frames) arguments.frames->fps = arguments.fps;
   if (!arguments.frames && arguments.render.layers && arguments.render.layers->motion)
     return complain("motion is between the pictures of a sequence: --layers motion needs --frames");
-  const Result<RenderArguments> first =
-      arguments.frames ? arguments_of_frame(arguments, {}, arguments.frames->last) : Result<RenderArguments>(arguments);
-  if (!first) return complain(first.error());
-  if (Status good = check_files(*first); !good) return complain(good.error());
+  if (!arguments.files.empty())
+    if (Status good = check_output(arguments); !good) return complain(good.error());
 
   arguments.load.threads = arguments.render.threads;
   arguments.load.frames = arguments.frames;
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
+  if (!arguments.render.seed) arguments.render.seed = loaded.scene->info().seed;
+  if (arguments.files.empty()) {
+    const std::string& by_scene = loaded.scene->info().picture_file;
+    arguments.files = {by_scene.empty() ? default_picture(arguments.scene) : by_scene};
+    if (Status good = check_output(arguments); !good)
+      return complain(by_scene.empty() ? good.error()
+                                       : good.error() + "; the scene's film names this picture, -o names another one");
+  }
 
   StopSignals signals;
   if (arguments.frames) return render_frames(arguments, *std::move(loaded.scene), signals);
@@ -351,8 +364,10 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
               "chain, which goes on over --frames; one at least"},
              into(render.budget, parse_time));
   verb.get_option("--interactive-budget")->excludes("--spp")->excludes("--time");
-  add_option(verb, {"--seed", "S", "number of the realisation; the same seed gives the same bits (default 0)"},
-             into(render.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
+  add_option(
+      verb,
+      {"--seed", "S", "number of the realisation; the same seed gives the same bits; default: the scene's, else 0"},
+      into(render.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(render.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
@@ -401,12 +416,15 @@ void add_render(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App& verb = *app.add_subcommand("render", "Render a scene, with error bars");
   verb.footer(examples);
-  add_option(verb,
-             {"-o,--output", "FILE", "picture (.exr .hdr .pfm .png .jpg); may be repeated; default: SCENE.exr", true},
-             [arguments](const std::string& file) -> Status {
-               arguments->files.push_back(file);
-               return Done{};
-             });
+  add_option(
+      verb,
+      {"-o,--output", "FILE",
+       "picture (.exr .hdr .pfm .png .jpg); may be repeated; default: as the scene's film names it, else SCENE.exr",
+       true},
+      [arguments](const std::string& file) -> Status {
+        arguments->files.push_back(file);
+        return Done{};
+      });
   add_scene_options(verb, arguments->scene, arguments->load);
   add_sampling_options(verb, arguments->render);
   add_frame_options(verb, *arguments);

@@ -102,7 +102,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
                                b.y1, r.width, r.height)};
   if (options.samples && (*options.samples < 1 || *options.samples > (1 << 24)))
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
-  r.seed = options.seed;
+  r.seed = options.seed.value_or(picture.seed);
   r.threads = options.threads;
   if (options.shutter) r.shutter = shutter_for(*options.shutter, picture);
   r.seconds = options.seconds;

@@ -11,13 +11,13 @@
 namespace montelux {
 
 struct RenderOptions {
-  std::optional<int> samples;     // a pixel; default: what the file asks for
-  std::optional<double> seconds;  // instead of a number of samples
-  std::optional<double> budget;   // seconds: whole frames of one chain, or passes of one sample, as many as fit
-  std::uint32_t seed = 0;
-  int threads = 0;                                            // 0: all of the machine
-  std::optional<PixelBounds> crop;                            // within the picture; default: the file's
-  std::optional<std::string> integrator;                      // "path", "direct:strategy=ris"; default: the file's
+  std::optional<int> samples;             // a pixel; default: what the file asks for
+  std::optional<double> seconds;          // instead of a number of samples
+  std::optional<double> budget;           // seconds: whole frames of one chain, or passes of one sample, as many as fit
+  std::optional<std::uint32_t> seed;      // default: the file's
+  int threads = 0;                        // 0: all of the machine
+  std::optional<PixelBounds> crop;        // within the picture; default: the file's
+  std::optional<std::string> integrator;  // "path", "direct:strategy=ris"; default: the file's
   std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
   std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's

@@ -66,6 +66,7 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   info.width = picture.width, info.height = picture.height, info.crop = picture.crop;
   info.camera = desc.camera.type, info.film = desc.film.type, info.filter = desc.filter.type;
   info.sampler = name_of(picture.sampler), info.integrator = picture.integrator;
+  info.picture_file = picture.file, info.seed = picture.seed;
   info.samples = picture.samples, info.max_depth = picture.max_depth;
   info.moves = parts.scene.moves();
   info.transforms_start = picture.transforms_start, info.transforms_end = picture.transforms_end;
@@ -119,7 +120,9 @@ Status check_resolution(int width, int height) {
   return complaint.empty() ? Status(Done{}) : Status(Failure{std::move(complaint)});
 }
 
-LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+namespace {
+
+LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
   Stopwatch watch;
   LoadResult result;
   try {
@@ -156,6 +159,14 @@ LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& opti
     result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0},
                              fmt::format("the scene could not be loaded: {}", e.what()));
   }
+  return result;
+}
+
+}  // namespace
+
+LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+  LoadResult result = load(file, options);
+  if (!options.verbose) result.diagnostics = grouped(result.diagnostics);
   return result;
 }
 

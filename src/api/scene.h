@@ -16,6 +16,7 @@ namespace montelux {
 
 struct LoadOptions {
   bool lenient = false;  // unknown parameters and what Montelux cannot do yet are warnings, not errors
+  bool verbose = false;  // each warning and note by itself, not one for all of a kind
   std::optional<std::pair<int, int>> resolution;  // width, height instead of the file's
   int threads = 0;                                // for building; 0: all of the machine
   // Of a file that may hold several: by name or number; default: the first.
@@ -32,9 +33,11 @@ struct SceneInfo {
   int width = 0, height = 0;
   PixelBounds crop;  // of the file; the whole picture where it has none
   std::string camera, film, filter, sampler, integrator;
-  int samples = 0;                                                                       // that the file asks for
-  std::optional<int> max_depth;                                                          // that the file asks for
-  bool moves = false;                                                                    // the camera or a shape
+  std::string picture_file;      // that the film names, relative to the working directory; empty: none
+  std::uint32_t seed = 0;        // that the file asks for
+  int samples = 0;               // that the file asks for
+  std::optional<int> max_depth;  // that the file asks for
+  bool moves = false;            // the camera or a shape
   double transforms_start = 0, transforms_end = 1, shutter_open = 0, shutter_close = 1;  // in the scene's unit of time
   // What the frames of a sequence share out, how many there are in a unit of time where nothing else is asked for, and
   // how many of those asked for (from the first) the scene has motion for.

@@ -29,7 +29,7 @@ std::vector<EntitySpec> meshes() {
   return {
       {"trianglemesh", "triangles",
        with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
-                   array("S", vector3, "tangents, one a vertex"),
+                   later(array("S", vector3, "tangents, one a vertex; they follow uv instead")),
                    array("uv", point2, "texture coordinates, one a vertex"),
                    array("indices", integer, "three a triangle; default 0 1 2", 0),
                    array("P1", point3,
@@ -83,7 +83,7 @@ std::vector<EntitySpec> quadrics_and_curves() {
                    {"width", {number}, "default 1", 0, most},
                    {"width0", {number}, "at the start; default width", 0, most},
                    {"width1", {number}, "at the end; default width", 0, most},
-                   {"splitdepth", {integer}, "times split for the kernel; default 3", 0, 20}})},
+                   later({"splitdepth", {integer}, "times split for the kernel; default 3", 0, 20})})},
   };
 }
 

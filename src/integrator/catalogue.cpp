@@ -230,6 +230,12 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), defaults, scene, accel};
   Made result = row->make(request);
   if (!result) return result;
+  if (scene.pixel_centres) {
+    result->biases.push_back("disablepixeljitter");
+    result->notes.push_back(
+        "all camera rays go through the centres of pixels, as the scene's disablepixeljitter asks: the picture is "
+        "biased, without the pixel filter, depth of field and motion blur");
+  }
   if (most) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *most);

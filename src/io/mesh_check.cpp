@@ -55,4 +55,15 @@ DroppedFaces drop_degenerate_faces(Mesh& mesh) {
   return dropped;
 }
 
+Diagnostic dropped_faces_warning(std::size_t count, const std::string& file, const SourceLocation& where) {
+  std::string message = std::to_string(count) + (count == 1 ? " face" : " faces");
+  if (!file.empty()) message += " of '" + file + "'";
+  message += count == 1 ? " has no area and was dropped" : " have no area and were dropped";
+  return {Severity::warning,
+          where,
+          std::move(message),
+          {},
+          {"{n} meshes have faces without area, {sum} in all, which were dropped", count}};
+}
+
 }  // namespace montelux

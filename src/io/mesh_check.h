@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "geometry/mesh.h"
+#include "parameter/diagnostic.h"
 
 namespace montelux {
 
@@ -14,5 +15,8 @@ struct DroppedFaces {
 // Removes the triangles without area and the quadrilaterals of which both halves have none, in every
 // pose of the mesh. Indices must be in range.
 DroppedFaces drop_degenerate_faces(Mesh& mesh);
+
+// That so many were, at least one, of the mesh of a file or (empty) of one that is stated in place.
+Diagnostic dropped_faces_warning(std::size_t count, const std::string& file, const SourceLocation& where);
 
 }  // namespace montelux

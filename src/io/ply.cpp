@@ -316,6 +316,7 @@ std::optional<Mesh> read_ply(const std::string& path, const SourceLocation& used
 
 std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& name, const SourceLocation& used_at,
                                    Diagnostics& diagnostics) {
+  bytes = without_byte_order_mark(bytes);
   auto header = read_header(bytes);
   if (!header) {
     diagnostics.error(used_at, "'" + name + "' is no valid PLY file: " + header.error());
@@ -328,10 +329,13 @@ std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& na
     return std::nullopt;
   }
   if (body.polygons > 0)
-    diagnostics.note(used_at, std::to_string(body.polygons) + " polygons of '" + name + "' were cut into triangles");
+    diagnostics.add({Severity::note,
+                     used_at,
+                     std::to_string(body.polygons) + " polygons of '" + name + "' were cut into triangles",
+                     {},
+                     {"{n} meshes have polygons, {sum} in all, which were cut into triangles", body.polygons}});
   std::size_t dropped = body.points_and_edges + drop_degenerate_faces(body.mesh).total();
-  if (dropped > 0)
-    diagnostics.warning(used_at, std::to_string(dropped) + " faces of '" + name + "' have no area and were dropped");
+  if (dropped > 0) diagnostics.add(dropped_faces_warning(dropped, name, used_at));
   return std::move(body.mesh);
 }
 

@@ -18,7 +18,7 @@ class Excerpts {
     auto [entry, is_new] = files_.try_emplace(*where.file);
     if (is_new)
       if (auto text = read_whole_file(*where.file)) entry->second = std::move(*text);
-    std::string_view rest = entry->second;
+    std::string_view rest = without_byte_order_mark(entry->second);
     for (int i = 1; i < where.line; ++i) {
       std::size_t end = rest.find('\n');
       if (end == std::string_view::npos) return std::nullopt;

@@ -3,6 +3,8 @@
 namespace montelux {
 
 void Reporter::add(Diagnostic diagnostic) {
+  // One line is made of all of these.
+  if (!diagnostic.group.summary.empty()) return out_->add(std::move(diagnostic));
   std::string file = diagnostic.where.file ? *diagnostic.where.file : std::string();
   Count& count = counts_[{std::move(file), diagnostic.severity}];
   if (count.reported == 0) count.first = diagnostic.where;

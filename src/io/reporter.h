@@ -7,7 +7,7 @@
 namespace montelux {
 
 // Adds to a list of diagnostics, at most `most_per_file` of a severity for a file; finish() says how many were left
-// out.
+// out. Those with a summary are not counted.
 class Reporter {
  public:
   static constexpr int most_per_file = 50;

@@ -18,6 +18,9 @@ std::string resolve_path(const std::string& folder, const std::string& name);
 // A URI's text with what stands for bytes as those bytes: "%20" becomes a space (RFC 3986, 2.1). Other text stays.
 std::string without_escapes(std::string_view text);
 
+// The text behind a UTF-8 byte-order mark, with which some editors begin a file; other text as it is.
+std::string_view without_byte_order_mark(std::string_view text);
+
 // Whether a regular file of this path can be seen.
 bool is_regular_file(const std::string& path);
 

@@ -248,9 +248,6 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
     b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray(0.5f));
   if (const auto& scale = entity.parameters.array<float>("normalscale"); scale.size() == 2)
     b.material().normal_scale = {scale[0], scale[1]};
-  if (const Parameter* p = entity.parameters.find("displacement"))
-    inputs.diagnostics.warning(p->where, "displacement of materials is not applied: the surface stays smooth",
-                               "a normalmap is applied");
   return std::move(b).take();
 }
 

@@ -19,7 +19,7 @@ List join(std::initializer_list<List> lists) {
 
 // Every material takes these.
 List common() {
-  return {{"displacement", number_map, "bump height in scene units; default none", -most, most},
+  return {{"displacement", number_map, "bump height in scene units; default none", -most, most, {}, false, true},
           {"normalmap", {string}, "file of an image of tangent-space normals; default none"},
           {"normaltexture", spectrum_map,
            "tangent-space normals as a texture of spectra, instead of normalmap; default none (Montelux alone)"},
@@ -91,10 +91,10 @@ std::vector<EntitySpec> opaque_materials() {
               {"specularcolor", spectrum_map, "its colour at normal incidence; default 1", 0, most},
               {"eta", index, "index of refraction of the dielectric; default 1.5", 1, most}},
              common()})},
-      {"mix", "a choice between two materials, point by point",
-       join({{{"materials", {string}, "the names of two materials", -most, most, {}, true},
-              {"amount", number_map, "share of the second material; default 0.5", 0, 1}},
-             common()})},
+      {"mix",
+       "a choice between two materials, point by point",
+       {{"materials", {string}, "the names of two materials", -most, most, {}, true},
+        {"amount", number_map, "share of the second material; default 0.5", 0, 1}}},
       {"interface", "no scattering at all: bounds a medium", {}},
   };
 }

@@ -1,6 +1,7 @@
 #include "parameter/diagnostic.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace montelux {
@@ -17,6 +18,45 @@ void Diagnostics::warning(const SourceLocation& where, std::string message, std:
 }
 void Diagnostics::note(const SourceLocation& where, std::string message, std::string hint) {
   add({Severity::note, where, std::move(message), std::move(hint)});
+}
+
+namespace {
+
+// The text with its placeholder replaced, where it has one.
+std::string with(std::string text, std::string_view placeholder, std::size_t number) {
+  const std::size_t at = text.find(placeholder);
+  return at == std::string::npos ? text : text.replace(at, placeholder.size(), std::to_string(number));
+}
+
+struct Group {
+  std::size_t place = 0;  // of the first
+  std::size_t count = 0, sum = 0;
+};
+
+std::string message_of(const Diagnostic& first, const Group& group) {
+  if (group.count == 1) return first.message;
+  if (first.group.summary.empty()) return first.message + " (" + std::to_string(group.count) + " times; here first)";
+  return with(with(first.group.summary, "{n}", group.count), "{sum}", group.sum) + "; here first";
+}
+
+}  // namespace
+
+Diagnostics grouped(const Diagnostics& diagnostics) {
+  std::vector<Diagnostic> list;
+  std::map<std::pair<Severity, std::string>, Group> groups;
+  for (const Diagnostic& d : diagnostics.all()) {
+    if (d.severity != Severity::error) {
+      const std::string kind = d.group.summary.empty() ? d.message + '\n' + d.hint : d.group.summary;
+      auto [entry, is_new] = groups.try_emplace({d.severity, kind}, Group{list.size()});
+      ++entry->second.count, entry->second.sum += d.group.amount;
+      if (!is_new) continue;
+    }
+    list.push_back(d);
+  }
+  for (const auto& [kind, group] : groups) list[group.place].message = message_of(list[group.place], group);
+  Diagnostics result;
+  for (Diagnostic& d : list) result.add(std::move(d));
+  return result;
 }
 
 namespace {

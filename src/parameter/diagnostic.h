@@ -16,11 +16,18 @@ struct SourceLocation {
 
 enum class Severity { note, warning, error };
 
+// How many diagnostics of one kind are stated in one line.
+struct DiagnosticGroup {
+  std::string summary;     // with {n} for their number and {sum} for the sum of their amounts; empty: the message
+  std::size_t amount = 1;  // what the message counts
+};
+
 struct Diagnostic {
   Severity severity = Severity::error;
   SourceLocation where;
-  std::string message;  // what was found and what is valid, one sentence, no full stop needed
-  std::string hint;     // the nearest valid name, or what to do; may be empty
+  std::string message;      // what was found and what is valid, one sentence, no full stop needed
+  std::string hint;         // the nearest valid name, or what to do; may be empty
+  DiagnosticGroup group{};  // of warnings and notes
 };
 
 // All that was found in one run. A stage adds to it and goes on as far as it can.
@@ -39,6 +46,10 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
   int errors_ = 0;
 };
+
+// The same, with one line for all warnings, or notes, that share their summary (or without one: message and hint). It
+// stands where the first of them stood. Errors stay as they are.
+Diagnostics grouped(const Diagnostics& diagnostics);
 
 // The candidate nearest to `name` by edit distance; empty where none is near enough to be meant.
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);

@@ -27,6 +27,7 @@ struct EntitySpec {
   std::vector<ParameterSpec> parameters;
   bool later = false;
   std::string_view instead{};  // the nearest that Montelux has, where a stand-in is sensible (cameras, samplers, ...)
+  bool same = false;           // what serves instead does the same: nobody need be told
 };
 
 // Null where the table has no such name.

@@ -4,8 +4,24 @@ namespace montelux {
 
 const Parameter* ParameterList::find(std::string_view name) const {
   for (auto p = list_.rbegin(); p != list_.rend(); ++p)
-    if (p->name == name) return &*p;
+    if (p->name == name) {
+      p->used = true;
+      return &*p;
+    }
   return nullptr;
+}
+
+std::vector<const Parameter*> ParameterList::unused() const {
+  std::vector<const Parameter*> list;
+  for (const Parameter& p : list_)
+    if (!p.used) list.push_back(&p);
+  return list;
+}
+void ParameterList::forget_uses() const {
+  for (const Parameter& p : list_) p.used = false;
+}
+void ParameterList::use_all() const {
+  for (const Parameter& p : list_) p.used = true;
 }
 
 namespace {

@@ -58,15 +58,25 @@ struct Parameter {
   ParameterType type;
   Values values;
   SourceLocation where;
+  mutable bool used = false;  // whether anything has looked it up, see ParameterList::unused()
 };
 
-// The parameters of one entity, in the order stated; names are unique per (name).
+// The parameters of one entity, in the order stated; names are unique per (name). A list keeps account of what has been
+// looked up, so that a parameter that nothing uses is reported and never ignored; it is for one thread at a time.
 class ParameterList {
  public:
   void add(Parameter parameter) { list_.push_back(std::move(parameter)); }
   const std::vector<Parameter>& all() const { return list_; }
-  // Null where absent. The last of equal names wins.
+  // Null where absent. The last of equal names wins. The parameter counts as used, as it does by all that follow.
   const Parameter* find(std::string_view name) const;
+
+  // What nothing has looked up since it was added, or since the last call of forget_uses().
+  std::vector<const Parameter*> unused() const;
+  // After looks that only checked.
+  void forget_uses() const;
+  // What is accounted for elsewhere: one parameter, or all of an entity that is left out on purpose.
+  void use(std::string_view name) const { find(name); }
+  void use_all() const;
 
   // The first value of the parameter, or `otherwise` where it is absent or of another type (the parser has reported
   // that).

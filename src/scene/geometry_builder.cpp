@@ -107,7 +107,12 @@ std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
   // Normals of quadrics turn round with a map that mirrors; those of meshes and curves go with it.
   if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
     still.reverse_orientation = !moving.reverse_orientation;
-  return add_store_object([&] { add_shape(still, false); });
+  const std::uint32_t object = add_store_object([&] { add_shape(still, false); });
+  // What was used of the copy was used.
+  for (const Parameter& p : still.entity.parameters.all())
+    if (p.used) moving.entity.parameters.use(p.name);
+  if (moving.area_light) moving.area_light->parameters.use_all();  // that it does not shine has been reported
+  return object;
 }
 
 void GeometryBuilder::add_object(const ObjectDesc& object) {
@@ -190,10 +195,13 @@ GeometryStore GeometryBuilder::take() {
 
 void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
-  if (!alpha) return;
   const bool interface = inputs_.is_interface(shape.material);
   const bool partly_interface = inputs_.is_partly_interface(shape.material);
-  if (interface && !shape.area_light) return;  // nothing there that light could meet
+  if (!alpha || (interface && !shape.area_light)) {  // nothing there that light could meet
+    shape.entity.parameters.use_all();
+    if (shape.area_light) shape.area_light->parameters.use_all();
+    return;
+  }
   if (shape.area_light && !in_world)
     diagnostics_.warning(shape.area_light->where, "area lights on shapes of an object that is instanced do not shine",
                          "place the shape outside ObjectBegin and ObjectEnd");
@@ -254,7 +262,6 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow ro
   }
   store_.positions.insert(store_.positions.end(), world.positions.begin(), world.positions.end());
   add_later_poses(world, row);
-  store_.triangles.reserve(store_.triangles.size() + count);
   for (std::size_t i = 0; i < world.triangles.size(); i += 3)
     store_.triangles.push_back(
         {world.triangles[i] + vertex_base, world.triangles[i + 1] + vertex_base, world.triangles[i + 2] + vertex_base});

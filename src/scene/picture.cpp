@@ -1,7 +1,10 @@
 #include "scene/picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/ray.h"
 #include "scene/table.h"
@@ -33,6 +36,47 @@ std::string served_by(const EntitySpec* spec, const std::string& name) {
   return spec && !spec->instead.empty() ? std::string(spec->instead) : name;
 }
 
+void read_sampler(const SceneDesc& scene, PictureSettings& s, Diagnostics& diagnostics) {
+  const ParameterList& p = scene.sampler.parameters;
+  s.samples = scene.sampler.type == "stratified" ? p.integer("xsamples", 4) * p.integer("ysamples", 4)
+                                                 : p.integer("pixelsamples", s.samples);
+  s.seed = std::uint32_t(p.integer("seed", scene.options.integer("seed", 0)));
+  std::string point_set = served_by(find_entity(sampler_table(), scene.sampler.type), scene.sampler.type);
+  s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
+  // Points that are the same in every pass would bias the picture, and leave its error bar without that.
+  if (const Parameter* jitter = p.find("jitter"); jitter && !p.boolean("jitter", true))
+    diagnostics.warning(jitter->where,
+                        "strata without jitter would bias the picture: samples are jittered all the same",
+                        "--sampler uniform-grid takes the centres of strata");
+  const std::string randomization = p.string("randomization", "fastowen");
+  if (randomization == "none" || randomization == "permutedigits")
+    diagnostics.warning(p.find("randomization")->where, "points are scrambled by Owen's method instead of by \"" +
+                                                            randomization +
+                                                            "\": error bars need passes that are random");
+}
+
+// ambientocclusion in our own words.
+std::string ambient_occlusion(const ParameterList& p) {
+  std::vector<std::string> settings;
+  if (p.find("maxdistance")) settings.push_back(fmt::format("distance={}", p.number("maxdistance", 0)));
+  if (!p.boolean("cossample", true)) settings.push_back("cossample=off");
+  return settings.empty() ? "ao" : fmt::format("ao:{}", fmt::join(settings, ","));
+}
+
+void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& diagnostics) {
+  const ParameterList& p = integrator.parameters;
+  s.integrator = served_by(find_entity(integrator_table(), integrator.type), integrator.type);
+  if (s.integrator == "ao") s.integrator = ambient_occlusion(p);
+  if (!p.boolean("samplelights", true)) s.integrator = "naive";
+  if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 5);
+  std::string selection = p.string("lightsampler", "bvh");
+  if (selection == "exhaustive")
+    diagnostics.note(integrator.where, "light sampler \"exhaustive\" is served by \"bvh\"");
+  s.light_selection = selection == "uniform" ? LightSelection::uniform
+                      : selection == "power" ? LightSelection::power
+                                             : LightSelection::bvh;
+}
+
 }  // namespace
 
 std::string size_complaint(std::int64_t width, std::int64_t height) {
@@ -54,8 +98,9 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
       diagnostics.error(scene.film.where, complaint);
       return s;
     }
-  s.width = resolution ? resolution->first : film.integer("xresolution", s.width);
-  s.height = resolution ? resolution->second : film.integer("yresolution", s.height);
+  s.width = film.integer("xresolution", s.width), s.height = film.integer("yresolution", s.height);
+  if (resolution) std::tie(s.width, s.height) = *resolution;
+  s.file = film.string("filename", "");
   s.crop = crop_of(scene.film, s.width, s.height, resolution.has_value(), diagnostics);
   if (float clamp = film.number("maxcomponentvalue", ray_infinity); clamp < ray_infinity) s.max_component = clamp;
   const float open = scene.camera.parameters.number("shutteropen", 0),
@@ -66,22 +111,9 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.imaging_ratio = (close - open) * film.number("iso", 100) / 100;
   if (scene.shutter) s.shutter_open = scene.shutter->first, s.shutter_close = scene.shutter->second;
 
-  const ParameterList& sampler = scene.sampler.parameters;
-  s.samples = scene.sampler.type == "stratified" ? sampler.integer("xsamples", 4) * sampler.integer("ysamples", 4)
-                                                 : sampler.integer("pixelsamples", s.samples);
-  s.seed = std::uint32_t(sampler.integer("seed", scene.options.integer("seed", 0)));
-  std::string point_set = served_by(find_entity(sampler_table(), scene.sampler.type), scene.sampler.type);
-  s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
-
-  const ParameterList& integrator = scene.integrator.parameters;
-  s.integrator = served_by(find_entity(integrator_table(), scene.integrator.type), scene.integrator.type);
-  if (integrator.find("maxdepth")) s.max_depth = integrator.integer("maxdepth", 5);
-  std::string selection = integrator.string("lightsampler", "bvh");
-  if (selection == "exhaustive")
-    diagnostics.note(scene.integrator.where, "light sampler \"exhaustive\" is served by \"bvh\"");
-  s.light_selection = selection == "uniform" ? LightSelection::uniform
-                      : selection == "power" ? LightSelection::power
-                                             : LightSelection::bvh;
+  s.pixel_centres = scene.options.boolean("disablepixeljitter", false);
+  read_sampler(scene, s, diagnostics);
+  read_integrator(scene.integrator, s, diagnostics);
   return s;
 }
 

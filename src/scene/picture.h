@@ -18,13 +18,15 @@ struct PictureSettings {
   int samples = 16;  // a pixel
   std::uint32_t seed = 0;
   PointSetKind sampler = PointSetKind::blue_noise;
-  std::string integrator;              // ours, that serves what the file names
+  std::string integrator;              // ours, that serves what the file names, with settings as --integrator has them
   std::optional<int> max_depth;        // where the file sets it
   std::optional<float> max_component;  // clamp of a sample's components, where the file sets it: biased
   LightSelection light_selection = LightSelection::bvh;
   double transforms_start = 0, transforms_end = 1;  // the time in which what moves goes its way
   double shutter_open = 0, shutter_close = 1;       // in the same unit
   float imaging_ratio = 1;                          // of the film's reading to radiance: exposure time x ISO / 100
+  std::string file;                                 // picture to write, as the film states it; may be empty
+  bool pixel_centres = false;                       // all samples at the pixel's centre: biased
 };
 
 // What is wrong with the size of a picture, in pixels; empty where nothing is. Every picture is held to it, whoever

@@ -6,6 +6,7 @@
 
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
+#include "scene/unused.h"
 #include "texture/build.h"
 
 namespace montelux {
@@ -46,7 +47,8 @@ class Preparation {
         picture_.imaging_ratio,
         bounds_,
         {},
-        shutter_of(picture_.shutter_open, picture_.shutter_close, picture_.transforms_start, picture_.transforms_end)};
+        shutter_of(picture_.shutter_open, picture_.shutter_close, picture_.transforms_start, picture_.transforms_end),
+        picture_.pixel_centres};
     scene.materials = MaterialSet(std::move(materials), scene.textures.get());
     return {std::move(scene), picture_};
   }
@@ -186,6 +188,7 @@ std::optional<PreparedScene> prepare(const SceneDesc& desc, const PrepareOptions
   const int before = diagnostics.errors();
   PreparedScene scene = Preparation(desc, options, diagnostics).run();
   if (diagnostics.errors() > before) return std::nullopt;
+  report_unused(desc, diagnostics);
   return scene;
 }
 

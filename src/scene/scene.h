@@ -27,6 +27,7 @@ struct Scene {
   Bounds3 bounds;                         // of all surfaces, world space
   std::vector<std::string> object_names;  // of object number i + 1
   Shutter shutter;
+  bool pixel_centres = false;  // camera rays go through the centres of pixels, of the lens and of the shutter's time
 
   // Whether anything but light moves: only then a path needs a moment of its own.
   bool moves() const { return geometry.moves() || camera.moves(); }

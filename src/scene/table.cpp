@@ -22,7 +22,7 @@ List film_parameters(List more = {}) {
       {"cropwindow", {number}, "x0 x1 y0 y1 of the part to render, in [0, 1]; default all", 0, 1, {}, true},
       {"pixelbounds", {integer}, "x0 x1 y0 y1 of the part to render, in pixels; default all", 0, 65536, {}, true},
       later({"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, most}),
-      {"filename", {string}, "picture to write; default pbrt.exr"},
+      {"filename", {string}, "picture to write where no other one is asked for; default: the name of the scene"},
       later({"savefp16", {boolean}, "write half floats; default true"}),
       {"iso", {number}, "sensitivity: scales the picture with the exposure time; default 100", 1e-6, most},
       later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, most}),
@@ -40,7 +40,12 @@ List sampler_parameters(List more = {}) {
 }
 
 ParameterSpec randomization() {
-  return {"randomization", {string}, "default fastowen", 0, 0, {"none", "permutedigits", "fastowen", "owen"}};
+  return {"randomization",
+          {string},
+          "default fastowen; points are always scrambled by Owen's method, since error bars need it",
+          0,
+          0,
+          {"none", "permutedigits", "fastowen", "owen"}};
 }
 
 List integrator_parameters(List more = {}) {
@@ -49,63 +54,60 @@ List integrator_parameters(List more = {}) {
   return list;
 }
 
+std::vector<std::string_view> light_samplers() { return {"uniform", "power", "bvh", "exhaustive"}; }
+
 List path_parameters() {
   return integrator_parameters(
-      {{"lightsampler",
-        {string},
-        "how a light is chosen; default bvh",
-        0,
-        0,
-        {"uniform", "power", "bvh", "exhaustive"}},
+      {{"lightsampler", {string}, "how a light is chosen; default bvh", 0, 0, light_samplers()},
        later({"regularize", {boolean}, "blurs narrow lobes after the first bounce (biased); default false"})});
 }
 
 std::vector<EntitySpec> camera_integrators() {
   return {
       {"path", "path tracing with light sampling", path_parameters()},
-      {"volpath", "path tracing with media", path_parameters(), false, "path"},
+      {"volpath", "path tracing with media", path_parameters(), false, "path", true},
       {"simplepath", "path tracing, its techniques one by one",
-       integrator_parameters({{"samplebsdf", {boolean}, "draw directions by the BSDF; default true"},
-                              {"samplelights", {boolean}, "draw points of lights; default true"}}),
+       integrator_parameters(
+           {later({"samplebsdf", {boolean}, "draw directions by the BSDF; default true"}),
+            {"samplelights", {boolean}, "draw points of lights; default true; without, `naive` serves instead"}}),
        false, "path"},
       {"simplevolpath", "path tracing with media, without light sampling", integrator_parameters(), false, "path"},
       {"randomwalk", "path tracing with uniform directions", integrator_parameters(), false, "path"},
       {"ambientocclusion",
        "the share of open directions",
        {{"cossample", {boolean}, "draw directions by the cosine; default true"},
-        {"maxdistance", {number}, "farther things do not occlude; default infinite", 0, most}},
+        {"maxdistance", {number}, "farther things do not occlude; default infinite", 1e-6, most}},
        false,
-       "path"},
+       "ao",
+       true},
       {"ao",
        "the share of open directions, the short name",
        {{"cossample", {boolean}, "draw directions by the cosine; default true"},
-        {"maxdistance", {number}, "farther things do not occlude; default infinite", 0, most}},
-       false,
-       "path"},
+        {"maxdistance", {number}, "farther things do not occlude; default infinite", 1e-6, most}}},
   };
 }
 
 std::vector<EntitySpec> bidirectional_integrators() {
   return {
       {"bdpt", "bidirectional path tracing",
-       integrator_parameters({{"regularize", {boolean}, "blurs narrow lobes (biased); default false"},
-                              {"lightsampler", {string}, "how a light is chosen; default power"},
-                              {"visualizestrategies", {boolean}, "one picture a technique; default false"},
-                              {"visualizeweights", {boolean}, "with the weights; default false"}}),
+       integrator_parameters({later({"regularize", {boolean}, "blurs narrow lobes (biased); default false"}),
+                              {"lightsampler", {string}, "how a light is chosen; default bvh", 0, 0, light_samplers()},
+                              later({"visualizestrategies", {boolean}, "one picture a technique; default false"}),
+                              later({"visualizeweights", {boolean}, "with the weights; default false"})}),
        false, "path"},
       {"mlt", "Metropolis light transport",
-       integrator_parameters({{"bootstrapsamples", {integer}, "default 100000", 1, most_integer},
-                              {"chains", {integer}, "default 1000", 1, most_integer},
-                              {"mutationsperpixel", {integer}, "default 100", 1, most_integer},
-                              {"largestepprobability", {number}, "default 0.3", 0, 1},
-                              {"sigma", {number}, "size of a small step; default 0.01", 1e-9, most},
-                              {"regularize", {boolean}, "default false"}}),
+       integrator_parameters({later({"bootstrapsamples", {integer}, "default 100000", 1, most_integer}),
+                              later({"chains", {integer}, "default 1000", 1, most_integer}),
+                              later({"mutationsperpixel", {integer}, "default 100", 1, most_integer}),
+                              later({"largestepprobability", {number}, "default 0.3", 0, 1}),
+                              later({"sigma", {number}, "size of a small step; default 0.01", 1e-9, most}),
+                              later({"regularize", {boolean}, "default false"})}),
        false, "path"},
       {"sppm", "stochastic progressive photon mapping",
-       integrator_parameters({{"photonsperiteration", {integer}, "default one a pixel", -1, most_integer},
-                              {"radius", {number}, "first search radius; default 1", 1e-30, most},
-                              {"seed", {integer}, "default 0", -most_integer, most_integer},
-                              {"regularize", {boolean}, "default false"}}),
+       integrator_parameters({later({"photonsperiteration", {integer}, "default one a pixel", -1, most_integer}),
+                              later({"radius", {number}, "first search radius; default 1", 1e-30, most}),
+                              later({"seed", {integer}, "default 0", -most_integer, most_integer}),
+                              later({"regularize", {boolean}, "default false"})}),
        false, "path"},
       {"lightpath", "paths from the lights alone", integrator_parameters(), false, "path"},
       {"function",
@@ -123,7 +125,7 @@ std::vector<EntitySpec> samplers() {
        "a jittered grid",
        {{"xsamples", {integer}, "strata along x; default 4", 1, 4096},
         {"ysamples", {integer}, "strata along y; default 4", 1, 4096},
-        {"jitter", {boolean}, "default true"},
+        {"jitter", {boolean}, "default true; strata without it would bias the picture: false has no effect"},
         {"seed", {integer}, "default 0", -most_integer, most_integer}}},
       {"halton", "Halton points", sampler_parameters({randomization()})},
       {"sobol", "Sobol points over the image", sampler_parameters({randomization()})},
@@ -140,11 +142,12 @@ std::span<const EntitySpec> film_table() {
   static const std::vector<EntitySpec> table{
       {"rgb", "a picture in a colour space", film_parameters()},
       {"gbuffer", "a picture with the geometry behind it",
-       film_parameters({{"coordinatesystem", {string}, "default camera", 0, 0, {"camera", "world"}}}), false, "rgb"},
+       film_parameters({later({"coordinatesystem", {string}, "default camera", 0, 0, {"camera", "world"}})}), false,
+       "rgb"},
       {"spectral", "a picture in buckets of wavelength",
-       film_parameters({{"nbuckets", {integer}, "default 16", 1, 4096},
-                        {"lambdamin", {number}, "nm; default 360", 1, most},
-                        {"lambdamax", {number}, "nm; default 830", 1, most}}),
+       film_parameters({later({"nbuckets", {integer}, "default 16", 1, 4096}),
+                        later({"lambdamin", {number}, "nm; default 360", 1, most}),
+                        later({"lambdamax", {number}, "nm; default 830", 1, most})}),
        false, "rgb"},
   };
   return table;
@@ -166,14 +169,17 @@ std::span<const EntitySpec> integrator_table() {
 
 std::span<const EntitySpec> accelerator_table() {
   static const std::vector<EntitySpec> table{
-      {"bvh", "a hierarchy of boxes", {{"maxnodeprims", {integer}, "ignored"}, {"splitmethod", {string}, "ignored"}}},
+      {"bvh",
+       "a hierarchy of boxes",
+       {later({"maxnodeprims", {integer}, "primitives in a leaf"}),
+        later({"splitmethod", {string}, "how boxes are split"})}},
       {"kdtree",
        "a k-d tree",
-       {{"intersectcost", {integer}, "ignored"},
-        {"traversalcost", {integer}, "ignored"},
-        {"emptybonus", {number}, "ignored"},
-        {"maxprims", {integer}, "ignored"},
-        {"maxdepth", {integer}, "ignored"}}},
+       {later({"intersectcost", {integer}, "of the cost model"}), later({"traversalcost", {integer}, "likewise"}),
+        later({"emptybonus", {number}, "likewise"}), later({"maxprims", {integer}, "primitives in a leaf"}),
+        later({"maxdepth", {integer}, "levels at most"})},
+       false,
+       "bvh"},
   };
   return table;
 }
@@ -192,7 +198,9 @@ const EntitySpec& option_spec() {
       "Option",
       "settings of the whole",
       {{"seed", {integer}, "seed of all randomness; default 0", -most_integer, most_integer},
-       {"disablepixeljitter", {boolean}, "all samples at the pixel's centre; default false"},
+       {"disablepixeljitter",
+        {boolean},
+        "all samples at the pixel's centre, in the middle of lens and shutter (biased); default false"},
        later({"disabletexturefiltering", {boolean}, "default false"}),
        later({"disablewavelengthjitter", {boolean}, "default false"}),
        later({"displacementedgescale", {number}, "default 1", 0, most}),

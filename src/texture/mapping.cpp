@@ -28,11 +28,11 @@ Vec2f CylindricalMapping::operator()(const TexturePoint& point) const {
 Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, Diagnostics& diagnostics) {
   const ParameterList& p = entity.parameters;
   std::string name = p.string("mapping", "uv");
-  Vec2f delta{p.number("udelta", 0), p.number("vdelta", 0)};
+  const auto delta = [&] { return Vec2f{p.number("udelta", 0), p.number("vdelta", 0)}; };
   if (name == "spherical") return SphericalMapping{texture_to_world.inverted()};
   if (name == "cylindrical") return CylindricalMapping{texture_to_world.inverted()};
   if (name == "planar")
-    return PlanarMapping{texture_to_world.inverted(), p.vec3("v1", {1, 0, 0}), p.vec3("v2", {0, 1, 0}), delta};
+    return PlanarMapping{texture_to_world.inverted(), p.vec3("v1", {1, 0, 0}), p.vec3("v2", {0, 1, 0}), delta()};
   if (name != "uv")
     diagnostics.error(entity.where, "unknown texture mapping \"" + name + "\"", "uv, spherical, cylindrical or planar");
   if (const std::vector<float>& m = p.array<float>("uvmatrix"); m.size() == 6) {
@@ -42,7 +42,7 @@ Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, D
   } else if (!m.empty()) {
     diagnostics.error(entity.where, "uvmatrix takes six numbers");
   }
-  return UvMapping{{p.number("uscale", 1), p.number("vscale", 1)}, delta};
+  return UvMapping{{p.number("uscale", 1), p.number("vscale", 1)}, delta()};
 }
 
 }  // namespace montelux

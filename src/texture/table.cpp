@@ -89,7 +89,7 @@ std::vector<EntitySpec> plane_textures() {
             {"scale", {number}, "factor of the values; default 1"},
             {"invert", {boolean}, "1 - value; default false"},
             {"filter", {string}, "interpolation; default bilinear", 0, 0, {"point", "bilinear", "trilinear", "ewa"}},
-            {"maxanisotropy", {number}, "for ewa; default 8", 0, most},
+            {"maxanisotropy", {number}, "for ewa; default 8", 0, most, {}, false, true},
             {"encoding", {string}, "sRGB, linear or 'gamma x'; default sRGB for 8 bits, else linear"}},
            mapping())},
       {"checkerboard", "checks of size 1",

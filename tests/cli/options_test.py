@@ -35,6 +35,12 @@ class Options(ProgramTest):
         self.assert_refused(["render", SCENE, "--set", "maxdpth=3"], "maxdpth", 'did you mean "maxdepth"')
         self.assert_refused(["list", "materials", "conducter"], 'did you mean "conductor"')
 
+    def test_help_of_an_unknown_verb_is_no_help(self):
+        for arguments in (["vew", "--help"], ["--help", "vew"], ["rendr", "-h"], ["rendr", "--version"]):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(arguments, "unknown verb", "verbs: render")
+        self.assert_refused(["rendr", "--help"], 'did you mean "render"')
+
     def test_a_value_out_of_range_is_refused(self):
         for option, value in [("--spp", "0"), ("--spp", "many"), ("--time", "3 weeks"), ("--resolution", "64"),
                               ("--crop", "1,2,3"), ("--crop", "9,0,3,4"), ("--seed", "-1"), ("--threads", "0"),
@@ -61,6 +67,42 @@ class Options(ProgramTest):
         self.assertEqual((info["triangles"], info["quadrics"]), (14, 3))
         self.assertEqual((info["width"], info["height"]), (80, 60))
         self.assertIn("14 triangles", self.run_program("info", SCENE).stdout)
+
+    def test_a_scene_of_nothing_has_no_bounds(self):
+        (self.folder / "empty.pbrt").write_text("WorldBegin\n")
+        self.assertIn("bounds    none", self.run_program("info", "empty.pbrt").stdout)
+        self.assertIsNone(json.loads(self.run_program("info", "empty.pbrt", "--json").stdout)["bounds"])
+
+    def test_a_mark_of_utf8_before_a_text_is_taken(self):
+        mark = b"\xef\xbb\xbf"
+        (self.folder / "a.ply").write_bytes(mark + b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                            b"property float y\nproperty float z\nelement face 1\n"
+                                            b"property list uchar int vertex_indices\nend_header\n"
+                                            b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        (self.folder / "grey.spd").write_bytes(mark + b"400 0.5\n700 0.5\n")
+        (self.folder / "more.pbrt").write_bytes(mark + b'Shape "sphere"\n')
+        (self.folder / "a.pbrt").write_bytes(
+            mark + b'WorldBegin Material "diffuse" "spectrum reflectance" "grey.spd"\n'
+            b'Shape "plymesh" "string filename" "a.ply"\nInclude "more.pbrt"\nLightSource "infinite"\n')
+        (self.folder / "a.gltf").write_bytes(mark + b'{"asset": {"version": "2.0"}}')
+        for scene, triangles in ("a.pbrt", 1), ("a.gltf", 0):
+            info = json.loads(self.run_program("info", scene, "--json").stdout)
+            self.assertEqual(info["triangles"], triangles)
+        (self.folder / "bad.pbrt").write_bytes(mark + b"WorldBgin\n")
+        self.assertIn("bad.pbrt:1:1: error", self.assert_refused(["info", "bad.pbrt"], "    WorldBgin\n    ^\n"))
+
+    def test_notes_of_a_kind_are_one_line_and_all_are_listed_if_asked_for(self):
+        face = '"point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2  0 1 1  0 0 2 ]'
+        (self.folder / "many.pbrt").write_text("WorldBegin LightSource \"infinite\"\n" +
+                                               f'Shape "trianglemesh" {face}\n' * 60)
+        short = self.run_program("info", "many.pbrt").stderr
+        self.assertEqual(short.count("warning"), 1)
+        self.assertIn("many.pbrt:2:1: warning: 60 meshes have faces without area, 120 in all", short)
+        self.assertEqual(self.run_program("info", "many.pbrt", "--verbose").stderr.count("2 faces have no area"), 60)
+
+    def test_volpath_of_a_scene_without_media_is_no_news(self):
+        (self.folder / "a.pbrt").write_text('Integrator "volpath"\nWorldBegin\nLightSource "infinite"\n')
+        self.assertEqual(self.run_program("info", "a.pbrt").stderr, "")
 
     def test_list_knows_topics_names_and_parameters(self):
         topics = [line.split()[0] for line in self.run_program("list").stdout.splitlines()]

@@ -53,9 +53,38 @@ class Render(ProgramTest):
         self.assertEqual(result.stderr, "")
 
         packed = self.folder / "room.pbrt.gz"
-        packed.write_bytes(gzip.compress(SCENE.read_bytes()))
+        nameless = SCENE.read_bytes().replace(b'"string filename" [ "first-light.exr" ]', b"")
+        packed.write_bytes(gzip.compress(nameless))
         self.render("--spp", "1", "--quiet", scene=packed)
         self.assertTrue((self.folder / "room.exr").is_file())
+
+    def write_scene(self, before):
+        scene = self.folder / "room.pbrt"
+        scene.write_text(before + '\nWorldBegin LightSource "infinite" Shape "sphere"\n')
+        return scene
+
+    def test_the_film_names_the_picture_where_nobody_else_does(self):
+        # Relative to the working directory, not to the scene.
+        (self.folder / "scenes").mkdir()
+        scene = self.write_scene('Film "rgb" "string filename" "shown.pfm"').rename(self.folder / "scenes" / "room.pbrt")
+        self.render("--spp", "1", scene=scene)
+        self.assertEqual([p.name for p in self.folder.iterdir() if p.is_file()], ["shown.pfm"])
+        self.render("--spp", "1", "-o", "mine.pfm", scene=scene)
+        self.assertTrue((self.folder / "mine.pfm").is_file())
+        self.assertFalse((self.folder / "scenes" / "shown.pfm").exists())
+
+    def test_a_picture_of_the_film_that_cannot_be_written_is_refused_before_the_render(self):
+        for name, word in ("shown.tga", "extension must be one of .exr"), ("none/shown.exr", "no folder"):
+            scene = self.write_scene(f'Film "rgb" "string filename" "{name}"')
+            result = self.render("--time", "1h", scene=scene, status=2)
+            for part in word, name, "the scene's film names this picture, -o":
+                self.assertIn(part, result.stderr)
+            self.render("--spp", "1", "-o", "mine.pfm", scene=scene)
+
+    def test_the_seed_of_the_scene_is_that_of_the_picture(self):
+        scene = self.write_scene('Option "integer seed" 7')
+        self.assertEqual(json.loads(self.render("--spp", "1", "--json", scene=scene).stdout)["seed"], 7)
+        self.assertEqual(json.loads(self.render("--spp", "1", "--json", "--seed", "9", scene=scene).stdout)["seed"], 9)
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_render(self):
         (self.folder / "good.png").write_text("old")

@@ -31,9 +31,13 @@ struct View {
   }
 
   Spectrum<F> openness(std::uint32_t sample) const {
-    const Vec3<F> local = sample_cosine_hemisphere(numbers.get2(sample, path_dimension::direction));
+    const Vec2<F> u = numbers.get2(sample, path_dimension::direction);
+    const Vec3<F> local = settings.by_cosine ? sample_cosine_hemisphere(u) : sample_hemisphere(u);
     const Vec3<F> wi = Frame<F>::from_normal(normal()).to_world(local);
-    return gray(select(blocked(at.ray_toward(wi, F(settings.distance)), at.found), F(0.0f), F(1.0f)));
+    // The density that is wanted over the one that was drawn by.
+    const F weight =
+        settings.by_cosine ? F(1.0f) : cosine_hemisphere_density(local.z).value / hemisphere_density(local.z).value;
+    return gray(select(blocked(at.ray_toward(wi, F(settings.distance)), at.found), F(0.0f), weight));
   }
 
   Spectrum<F> irradiance(std::uint32_t sample) const {
@@ -108,7 +112,9 @@ std::vector<EntitySpec> look_specs() {
   const ParameterSpec samples{"samples", {integer}, "of each camera ray; default 1", 1, 4096};
   return {{"ao",
            "the share of open directions (no picture of light)",
-           {samples, {"distance", {number}, "what lies farther does not occlude; default: no bound", 1e-6, 1e30}}},
+           {samples,
+            {"distance", {number}, "what lies farther does not occlude; default: no bound", 1e-6, 1e30},
+            {"cossample", {boolean}, "directions are drawn by the cosine, with less noise; default on"}}},
           {"normal", "shading normals as colours (no picture of light)", {}},
           {"albedo", "light reflected of unit light from everywhere (no picture of light)", {samples}},
           {"depth", "distance from the camera (no picture of light)", {}},
@@ -124,6 +130,7 @@ LookSettings look_settings(std::string_view name, const ParameterList& list) {
                               : Look::irradiance;
   s.samples = list.integer("samples", s.samples);
   s.distance = list.number("distance", s.distance);
+  s.by_cosine = list.boolean("cossample", s.by_cosine);
   return s;
 }
 

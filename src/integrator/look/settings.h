@@ -10,6 +10,7 @@ struct LookSettings {
   Look look = Look::ambient_occlusion;
   int samples = 1;         // directions, or points of lights, of each camera ray
   float distance = 1e30f;  // ambient occlusion: what lies farther does not occlude
+  bool by_cosine = true;   // ambient occlusion: how directions are drawn; the mean is the same
 };
 
 // ao, normal, albedo, depth, irradiance.

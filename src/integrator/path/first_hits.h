@@ -57,13 +57,16 @@ template <class F>
 PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, Uint<F> y, Uint<F> index) {
   Sampler<F> sampler(pass.points, x, y, index);
   FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
+  Vec2<F> on_lens = sampler.get2(Uint<F>(path_dimension::lens));
+  if (scene.pixel_centres) filtered = {{F(0.0f), F(0.0f)}, F(1.0f)}, on_lens = {F(0.5f), F(0.5f)};
   Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
   F time = 0.0f;
   if (scene.moves()) {
-    const F moment = pass.moment ? F(*pass.moment) : sampler.get1(Uint<F>(path_dimension::time));
+    const F drawn = scene.pixel_centres ? F(0.5f) : sampler.get1(Uint<F>(path_dimension::time));
+    const F moment = pass.moment ? F(*pass.moment) : drawn;
     time = pass.shutter.value_or(scene.shutter).time(moment);
   }
-  CameraRay<F> camera = scene.camera.generate(raster, sampler.get2(Uint<F>(path_dimension::lens)), time);
+  CameraRay<F> camera = scene.camera.generate(raster, on_lens, time);
   PathStart<F> state;
   state.o = camera.ray.o, state.d = camera.ray.d;
   state.weight = camera.weight * filtered.weight * scene.imaging_ratio;

@@ -71,8 +71,8 @@ bool Document::read() {
   if (bytes->starts_with("glTF")) {
     source_.has_lines = false;
     if (!read_binary(*bytes, text)) return false;
-  } else if (text.starts_with("\xef\xbb\xbf")) {
-    text.remove_prefix(3);
+  } else {
+    text = without_byte_order_mark(text);
   }
   std::variant<JsonValue, JsonProblem> parsed = parse_json(text);
   if (const auto* problem = std::get_if<JsonProblem>(&parsed)) {

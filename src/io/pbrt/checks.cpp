@@ -156,8 +156,11 @@ class RangeCheck {
   }
   bool in_range(double value) {
     if (value >= spec_.low && value <= spec_.high) return true;
+    // A float is shown as it was typed, an integer with all of its digits.
+    const auto as_float = static_cast<float>(value);
+    const bool is_float = static_cast<double>(as_float) == value;
     report_.error(parameter_.where, "'" + std::string(spec_.name) + "' must " + range_of(spec_, value) + "; found " +
-                                        shortest(static_cast<float>(value)));
+                                        (is_float ? shortest(as_float) : shortest(value)));
     return false;
   }
   bool spectrum_in_range(const SpectrumValue& value) {
@@ -220,8 +223,10 @@ ParameterList checked_parameters(Family family, const EntitySpec& spec, const Pa
       continue;
     }
     if (!std::visit(RangeCheck(*row, parameter, context.report), parameter.values)) continue;
-    if (row->later)
-      context.report.warning(parameter.where, "'" + parameter.name + "' of " + owner + " has no effect yet");
+    if (row->later) {
+      const std::string message = "'" + parameter.name + "' of " + owner + " has no effect yet";
+      context.report.add({Severity::warning, parameter.where, message, {}, {message + " ({n} times)"}});
+    }
     good.add(parameter);
   }
   return good;

@@ -1,8 +1,21 @@
 // Entities in general, and the directives that say how to take the picture.
 #include "io/pbrt/parser.h"
 #include "io/text_file.h"
+#include "scene/table.h"
 
 namespace montelux::pbrt {
+
+namespace {
+
+// What the checks have looked at is not used by that. What has no effect has been reported, and where a single value is
+// valid it is the one that is in force.
+void expect_uses(const ParameterList& checked, const EntitySpec& spec) {
+  checked.forget_uses();
+  for (const ParameterSpec& row : spec.parameters)
+    if (row.later || row.choices.size() == 1) checked.use(row.name);
+}
+
+}  // namespace
 
 ParameterList Parser::parameters() { return read_parameters({*lexer_, report_, scene_.folder, state_.color_space}); }
 
@@ -16,7 +29,7 @@ const EntitySpec* Parser::stand_in(Family family, const EntitySpec& spec, const 
     return report_.lenient() && !instead.empty() ? find_entity(table_of(family), instead) : nullptr;
   }
   bool says_so = family == Family::integrator || family == Family::film;
-  if (says_so && !instead.empty()) report_.note(where, name + " is served by '" + instead + "'");
+  if (says_so && !instead.empty() && !spec.same) report_.note(where, name + " is served by '" + instead + "'");
   return &spec;
 }
 
@@ -49,18 +62,18 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
   CheckContext context{report_, scene_.folder, kind};
   Entity entity{type, checked_parameters(family, *named, all, context), here()};
   if (!spec) return std::nullopt;
-  if (spec == named) {
-    check_entity(family, entity, context);
-    return Stated{std::move(entity), spec};
+  if (spec != named) {
+    // A stand-in keeps what it understands; that it stands in has been reported.
+    Entity other{std::string(spec->name), {}, here()};
+    for (const Parameter& parameter : entity.parameters.all()) {
+      const ParameterSpec* row = find_parameter(*spec, parameter.name);
+      if (row && type_fits(*row, parameter.type, kind)) other.parameters.add(parameter);
+    }
+    entity = std::move(other);
   }
-  // A stand-in keeps what it understands.
-  Entity other{std::string(spec->name), {}, here()};
-  for (const Parameter& parameter : entity.parameters.all()) {
-    const ParameterSpec* row = find_parameter(*spec, parameter.name);
-    if (row && type_fits(*row, parameter.type, kind)) other.parameters.add(parameter);
-  }
-  check_entity(family, other, context);
-  return Stated{std::move(other), spec};
+  check_entity(family, entity, context);
+  expect_uses(entity.parameters, *spec);
+  return Stated{std::move(entity), spec};
 }
 
 // Names of textures are looked up at the end: they may be defined further on.
@@ -97,6 +110,7 @@ void Parser::directive_option() {
   if (stated.all().empty()) return report_.error(here(), "Option takes a parameter, as \"integer seed\" 1");
   CheckContext context{report_, scene_.folder};
   ParameterList good = checked_parameters(Family::option, table_of(Family::option)[0], stated, context);
+  expect_uses(good, option_spec());
   for (const Parameter& p : good.all()) scene_.options.add(p);
 }
 
@@ -151,7 +165,9 @@ void Parser::directive_attribute() {
   auto target = quoted_argument("shape, light, material, medium or texture");
   if (!target) return;
   ParameterList stated = parameters();
-  if (*target == "medium") return;
+  if (*target == "medium")
+    return report_.tolerable(here(), "attributes of participating media come later",
+                             report_.lenient() ? "they are left out" : "lenient reading leaves them out");
   for (const Target& t : targets) {
     if (t.name != *target) continue;
     ParameterList& defaults = state_.attributes[t.family];

@@ -125,7 +125,7 @@ std::optional<Mesh> take_mesh(Entity& shape, Reporter& report) {
     // Even a flat face of a control mesh takes part in subdivision.
     if (!subdivision_is_sensible(shape, mesh.triangles.size() / 3, report)) return std::nullopt;
   } else if (std::size_t dropped = drop_degenerate_faces(mesh).total()) {
-    report.warning(shape.where, std::to_string(dropped) + " faces have no area and were dropped");
+    report.add(dropped_faces_warning(dropped, "", shape.where));
   }
   remove_arrays(shape);
   return mesh;

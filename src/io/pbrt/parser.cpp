@@ -99,19 +99,20 @@ void Parser::parse_file(const std::string& path) {
     if (open == canonical) return report_.error(where, "'" + printable(path) + "' includes itself");
   if (open_files_.size() >= most_depth || ++files_read_ > most_files)
     return report_.error(where, "too many files include each other; '" + printable(path) + "' is left out");
-  auto text = read_whole_file(path);
-  if (!text) return report_.error(where, text.error());
-  if (const std::string_view other = other_format(*text); !other.empty())
+  auto bytes = read_whole_file(path);
+  if (!bytes) return report_.error(where, bytes.error());
+  const std::string_view text = without_byte_order_mark(*bytes);
+  if (const std::string_view other = other_format(text); !other.empty())
     return report_.error(where, "'" + printable(path) + "' is " + std::string(other),
                          "scenes are read from pbrt-v4 files");
   open_files_.push_back(std::move(canonical));
-  parse_text(*text, path);
+  parse_text(text, path);
   open_files_.pop_back();
 }
 
 void Parser::parse_text(std::string_view text, const std::string& file_name) {
   if (scene_.file.empty()) scene_.file = file_name;
-  Lexer lexer(text, std::make_shared<const std::string>(file_name));
+  Lexer lexer(without_byte_order_mark(text), std::make_shared<const std::string>(file_name));
   Lexer* outer = lexer_;
   Token outer_directive = directive_;
   parse_source(lexer);

@@ -41,7 +41,7 @@ std::optional<SpectrumValue> read_spectrum_file(const std::string& path, const S
     report.error(where, text.error());
     return std::nullopt;
   }
-  Lexer lexer(*text, std::make_shared<const std::string>(path));
+  Lexer lexer(without_byte_order_mark(*text), std::make_shared<const std::string>(path));
   std::vector<float> pairs;
   for (Token token = lexer.next(); token.kind != TokenKind::end; token = lexer.next()) {
     auto value = to_float(token.text);

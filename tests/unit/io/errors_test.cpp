@@ -248,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
               "2 values for 3 vertices"),
         warned(world("no_area",
                      "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"integer indices\" [ 0 1 2 0 1 1 ]", 1,
-                     "1 faces have no area")),
+                     "1 face has no area")),
         world("missing_mesh", "Shape \"plymesh\" \"string filename\" \"no.ply\"", 17, "no file 'no.ply'"),
         world("mesh_without_file", "Shape \"plymesh\"", 1, "needs 'filename'"),
         world("ring_inside_out", "Shape \"disk\" \"float innerradius\" 2", 14, "smaller than 'radius'"),

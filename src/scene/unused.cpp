@@ -1,0 +1,53 @@
+#include "scene/unused.h"
+
+#include <set>
+#include <tuple>
+
+namespace montelux {
+
+namespace {
+
+class UnusedReport {
+ public:
+  explicit UnusedReport(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void add(const std::string& owner, const ParameterList& parameters) {
+    for (const Parameter* p : parameters.unused()) {
+      // Defaults of attributes, and area lights, are copied to many shapes.
+      if (p->where.line > 0 && !places_.insert({p->where.file.get(), p->where.line, p->where.column}).second) continue;
+      diagnostics_.warning(p->where, "'" + p->name + "' of " + owner + " has no effect here");
+    }
+  }
+  void add(const std::string& family, const Entity& entity) {
+    add(family + " '" + entity.type + "'", entity.parameters);
+  }
+  void add(const ShapeDesc& shape) {
+    add("shape", shape.entity);
+    if (shape.area_light) add("area light", *shape.area_light);
+  }
+
+ private:
+  Diagnostics& diagnostics_;
+  std::set<std::tuple<const std::string*, int, int>> places_;
+};
+
+}  // namespace
+
+void report_unused(const SceneDesc& scene, Diagnostics& diagnostics) {
+  UnusedReport report(diagnostics);
+  report.add("Option", scene.options);
+  report.add("camera", scene.camera);
+  report.add("film", scene.film);
+  report.add("filter", scene.filter);
+  report.add("sampler", scene.sampler);
+  report.add("integrator", scene.integrator);
+  report.add("accelerator", scene.accelerator);
+  for (const TextureDesc& texture : scene.textures) report.add("texture", texture.entity);
+  for (const MaterialDesc& material : scene.materials) report.add("material", material.entity);
+  for (const LightDesc& light : scene.lights) report.add("light", light.entity);
+  for (const ShapeDesc& shape : scene.shapes) report.add(shape);
+  for (const ObjectDesc& object : scene.objects)
+    for (const ShapeDesc& shape : object.shapes) report.add(shape);
+}
+
+}  // namespace montelux

@@ -1,0 +1,328 @@
+// Every parameter that the tables accept is used, or a warning at its place says that it is not.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "io/pbrt.h"
+#include "io/pbrt/checks.h"
+#include "io/pbrt/parameters.h"
+#include "scene/prepare.h"
+#include "scene/unused.h"
+#include "temporary_folder.h"
+
+namespace montelux::test {
+
+namespace {
+
+using pbrt::Family;
+
+// Files that parameters name.
+void write_files(const TemporaryFolder& folder) {
+  folder.write("mesh.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder.write("image.pfm", "PF\n2 2\n-1.0\n" + std::string(2 * 2 * 3 * 4, '\0'));
+}
+
+// The values of parameters that not just any value is right for, by their names; after a colon: of one entity.
+const std::map<std::string, std::string, std::less<>>& values() {
+  static const std::map<std::string, std::string, std::less<>> all{
+      {"filename", "\"image.pfm\""},
+      {"plymesh:filename", "\"mesh.ply\""},
+      {"plymesh:filename1", "\"mesh.ply\""},
+      {"normalmap", "\"image.pfm\""},
+      {"emissionfilename", "\"image.pfm\""},
+      {"lensfile", "\"image.pfm\""},
+      {"rgb:filename", "\"picture.exr\""},
+      {"gbuffer:filename", "\"picture.exr\""},
+      {"spectral:filename", "\"picture.exr\""},
+      {"encoding", "\"linear\""},
+      {"materials", "[ \"a\" \"b\" ]"},
+      {"normalscale", "[ 1 1 ]"},
+      {"screenwindow", "[ -1 1 -1 1 ]"},
+      {"cropwindow", "[ 0 1 0 1 ]"},
+      {"pixelbounds", "[ 0 2 0 2 ]"},
+      {"uvmatrix", "[ 1 0 0 0 1 0 ]"},
+      {"portal", "[ 0 0 1 1 0 1 1 1 1 0 1 1 ]"},
+      {"P", "[ 0 0 0 1 0 0 0 1 0 ]"},
+      {"N", "[ 0 0 1 0 0 1 0 0 1 ]"},
+      {"S", "[ 1 0 0 1 0 0 1 0 0 ]"},
+      {"uv", "[ 0 0 1 0 0 1 ]"},
+      {"indices", "[ 0 1 2 ]"},
+      {"P1", "[ 0 0 1 1 0 1 0 1 1 ]"},
+      {"N1", "[ 0 0 1 0 0 1 0 0 1 ]"},
+      {"bilinearmesh:P", "[ 0 0 0 1 0 0 0 1 0 1 1 0 ]"},
+      {"bilinearmesh:N", "[ 0 0 1 0 0 1 0 0 1 0 0 1 ]"},
+      {"bilinearmesh:uv", "[ 0 0 1 0 0 1 1 1 ]"},
+      {"bilinearmesh:indices", "[ 0 1 2 3 ]"},
+      {"curve:P", "[ 0 0 0 1 0 0 2 0 0 3 1 0 ]"},
+      {"curve:N", "[ 0 0 1 0 0 1 ]"},
+      {"curve:degree", "3"},
+      {"dimension", "2"},
+      {"shutterclose", "0.5"},
+      {"shutteropen", "0.25"},
+      {"coneangle", "40"},
+      {"conedeltaangle", "4"},
+      {"apertureblades", "6"},
+      {"zmin", "-0.5"},
+      {"zmax", "0.5"},
+      {"innerradius", "0.5"},
+      {"sphere:radius", "2"},
+      {"disk:radius", "2"},
+      {"group", "\"key\""},
+      {"xresolution", "4"},
+      {"yresolution", "4"},
+      {"maxdepth", "3"},
+      {"levels", "1"},
+  };
+  return all;
+}
+
+// What stands beside a parameter, since it means nothing alone; by its name, after a colon: of one entity.
+const std::map<std::string, std::string, std::less<>>& companions() {
+  static const std::map<std::string, std::string, std::less<>> all{
+      {"v1", "\"string mapping\" \"planar\""},
+      {"v2", "\"string mapping\" \"planar\""},
+      {"apertureblades", "\"float lensradius\" 0.1"},
+      {"aperturerotation", "\"float lensradius\" 0.1 \"integer apertureblades\" 6"},
+      {"N1", "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ] \"point3 P1\" [ 0 0 1 1 0 1 0 1 1 ]"},
+      {"curve:N", "\"string type\" \"ribbon\""},
+      {"infinite:mapping", "\"string filename\" \"image.pfm\""},
+      {"filter", ""},
+  };
+  return all;
+}
+
+// What an entity needs, by family and name.
+std::vector<std::string> needs(Family family, const std::string& type) {
+  if (family == Family::texture && type == "imagemap") return {"\"string filename\" \"image.pfm\""};
+  if (family == Family::light && type == "projection") return {"\"string filename\" \"image.pfm\""};
+  if (family == Family::material && type == "mix") return {"\"string materials\" [ \"a\" \"b\" ]"};
+  if (family != Family::shape) return {};
+  if (type == "plymesh") return {"\"string filename\" \"mesh.ply\""};
+  if (type == "trianglemesh") return {"\"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]"};
+  if (type == "loopsubdiv") return {"\"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]", "\"integer indices\" [ 0 1 2 ]"};
+  if (type == "bilinearmesh") return {"\"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]"};
+  if (type == "curve") return {"\"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 1 0 ]"};
+  return {};
+}
+
+template <class Map>
+std::string of(const Map& map, const std::string& entity, std::string_view parameter) {
+  auto own = map.find(entity + ":" + std::string(parameter));
+  if (own == map.end()) own = map.find(parameter);
+  return own == map.end() ? "" : own->second;
+}
+
+std::string value_of(const std::string& entity, const ParameterSpec& spec, ParameterType type) {
+  if (std::string stated = of(values(), entity, spec.name); !stated.empty()) return stated;
+  switch (type) {
+    case ParameterType::boolean:
+      return "true";
+    case ParameterType::integer:
+    case ParameterType::number: {
+      const double x = std::clamp(type == ParameterType::integer ? 2.0 : 0.75, spec.low, spec.high);
+      return std::to_string(x).substr(0, type == ParameterType::integer ? std::to_string(x).find('.') : 20);
+    }
+    case ParameterType::string:
+      return "\"" + std::string(spec.choices.empty() ? "text" : spec.choices.back()) + "\"";
+    case ParameterType::spectrum:
+      return "[ 0.25 0.5 0.75 ]";
+    case ParameterType::texture:
+      return "\"numbers\"";
+    case ParameterType::point2:
+    case ParameterType::vector2:
+      return "[ 0.5 1 ]";
+    default:
+      return "[ 0.5 0.25 1 ]";
+  }
+}
+
+std::string type_text(ParameterType type) {
+  return type == ParameterType::spectrum ? "rgb" : std::string(pbrt::spelling(type));
+}
+
+// The entity with one of its parameters, which begins the third line.
+std::string entity_text(Family family, const EntitySpec& entity, const ParameterSpec& spec, ParameterType type) {
+  const std::string name(entity.name);
+  const std::string own = "\"" + type_text(type) + " " + std::string(spec.name) + "\"";
+  std::string rest;
+  for (const std::string& needed : needs(family, name))
+    if (!needed.starts_with(own)) rest += " " + needed;
+  return "\n" + own + " " + value_of(name, spec, type) + "\n" + rest + " " + of(companions(), name, spec.name) + "\n";
+}
+
+// A scene that states the parameter on its third line.
+std::string scene_text(Family family, const EntitySpec& entity, const std::string& parameters, bool spectra) {
+  const std::string name = "\"" + std::string(entity.name) + "\"";
+  const std::string parts =
+      "Texture \"numbers\" \"float\" \"constant\"\nMakeNamedMaterial \"a\" \"string type\" "
+      "\"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
+  const std::string end = parts + "Material \"diffuse\" Shape \"sphere\" LightSource \"point\"\n";
+  switch (family) {
+    case Family::camera:
+      return "\nCamera " + name + parameters + "WorldBegin\n" + end;
+    case Family::filter:
+      return "\nPixelFilter " + name + parameters + "WorldBegin\n" + end;
+    case Family::film:
+      return "\nFilm " + name + parameters + "WorldBegin\n" + end;
+    case Family::sampler:
+      return "\nSampler " + name + parameters + "WorldBegin\n" + end;
+    case Family::integrator:
+      return "\nIntegrator " + name + parameters + "WorldBegin\n" + end;
+    case Family::accelerator:
+      return "\nAccelerator " + name + parameters + "WorldBegin\n" + end;
+    case Family::option:
+      return "\nOption" + parameters + "WorldBegin\n" + end;
+    case Family::texture:
+      return "WorldBegin\nTexture \"t\" " + std::string(spectra ? "\"spectrum\" " : "\"float\" ") + name + parameters +
+             end;
+    case Family::light:
+      return "WorldBegin\nLightSource " + name + parameters + end;
+    case Family::area_light:
+      return "WorldBegin\nAreaLightSource " + name + parameters + end;
+    case Family::shape:
+      return "WorldBegin\nShape " + name + parameters + end;
+    case Family::material:
+      return "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" "
+             "\"diffuse\"\nMaterial " +
+             name + parameters + "Shape \"sphere\" LightSource \"point\"\n";
+  }
+  return {};
+}
+
+// What was said of the third line.
+struct Said {
+  bool ready = false, no_effect = false, of_no_effect_elsewhere = false;
+  std::string all;
+};
+
+Said say(const std::string& text, const std::string& folder) {
+  ReadResult read = read_pbrt_text(text, folder);
+  Said said;
+  if (read.scene) said.ready = prepare(*read.scene, {}, read.diagnostics).has_value();
+  for (const Diagnostic& d : read.diagnostics.all()) {
+    said.all += std::to_string(d.where.line) + ":" + std::to_string(d.where.column) + " " + d.message + "\n";
+    const bool no_effect = d.message.find("has no effect") != std::string::npos;
+    const bool here = d.where.line == 3 && d.where.column == 1;
+    said.no_effect |= no_effect && here, said.of_no_effect_elsewhere |= no_effect && !here;
+  }
+  return said;
+}
+
+class Parameters : public testing::TestWithParam<Family> {};
+
+TEST_P(Parameters, are_used_or_warned_of) {
+  TemporaryFolder folder;
+  write_files(folder);
+  const Family family = GetParam();
+  int count = 0;
+  for (const EntitySpec& entity : pbrt::table_of(family)) {
+    if (entity.later) continue;  // refused as a whole
+    for (const ParameterSpec& spec : entity.parameters) {
+      const ParameterType type = spec.types.front();
+      const std::string parameters = entity_text(family, entity, spec, type);
+      // Some textures are of numbers or of spectra alone.
+      Said said = say(scene_text(family, entity, parameters, false), folder.path());
+      if (!said.ready) said = say(scene_text(family, entity, parameters, true), folder.path());
+      ++count;
+      EXPECT_TRUE(said.ready) << entity.name << " " << spec.name << ":\n" << said.all;
+      EXPECT_EQ(said.no_effect, spec.later) << entity.name << " " << spec.name << ":\n" << said.all;
+      EXPECT_FALSE(said.of_no_effect_elsewhere) << entity.name << " " << spec.name << ":\n" << said.all;
+    }
+  }
+  EXPECT_GE(count, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
+                         testing::Values(Family::material, Family::texture, Family::light, Family::area_light,
+                                         Family::shape, Family::camera, Family::filter, Family::film, Family::sampler,
+                                         Family::integrator, Family::accelerator, Family::option),
+                         [](const auto& family) {
+                           std::string name(pbrt::name_of(family.param));
+                           std::ranges::replace(name, ' ', '_');
+                           return name;
+                         });
+
+// The planted fault: a table takes a parameter that nothing reads.
+TEST(Parameter, that_nothing_reads_is_told) {
+  ReadResult read = read_pbrt_text("WorldBegin Shape \"sphere\" LightSource \"point\"", ".");
+  ASSERT_TRUE(read.scene);
+  const SourceLocation where{std::make_shared<const std::string>("room.pbrt"), 7, 9};
+  const Parameter planted{"grain", ParameterType::number, std::vector<float>{1}, where};
+  SceneDesc& scene = *read.scene;
+  for (ParameterList* list : {&scene.sampler.parameters, &scene.shapes[0].entity.parameters, &scene.options}) {
+    SceneDesc faulty = scene;
+    (list == &scene.options              ? faulty.options
+     : list == &scene.sampler.parameters ? faulty.sampler.parameters
+                                         : faulty.shapes[0].entity.parameters)
+        .add(planted);
+    Diagnostics said;
+    ASSERT_TRUE(prepare(faulty, {}, said));
+    ASSERT_EQ(said.all().size(), 1u);
+    EXPECT_EQ(said.all()[0].where.line, 7);
+    EXPECT_EQ(said.all()[0].where.column, 9);
+    EXPECT_NE(said.all()[0].message.find("'grain' of "), std::string::npos);
+  }
+}
+
+TEST(Parameter, that_is_only_checked_is_not_used) {
+  ReadResult read = read_pbrt_text("Sampler \"zsobol\" \"integer pixelsamples\" 4 WorldBegin", ".");
+  ASSERT_TRUE(read.scene);
+  EXPECT_EQ(read.scene->sampler.parameters.unused().size(), 1u);
+  EXPECT_EQ(read.scene->sampler.parameters.integer("pixelsamples", 1), 4);
+  EXPECT_TRUE(read.scene->sampler.parameters.unused().empty());
+}
+
+// The picture's settings of a text before WorldBegin, and what was said.
+struct Taken {
+  PictureSettings picture;
+  std::string said;
+};
+Taken taken(const std::string& options) {
+  ReadResult read = read_pbrt_text(options + " WorldBegin Shape \"sphere\" LightSource \"point\"", ".");
+  EXPECT_TRUE(read.scene);
+  Diagnostics said;
+  std::optional<PreparedScene> prepared = prepare(*read.scene, {}, said);
+  EXPECT_TRUE(prepared);
+  Taken t{prepared->picture, ""};
+  for (const Diagnostic& d : said.all())
+    t.said += std::to_string(d.where.line) + ":" + std::to_string(d.where.column) + " " + d.message + "\n";
+  return t;
+}
+
+TEST(Sampler, that_would_leave_no_error_bar_is_warned_of) {
+  EXPECT_EQ(taken("Sampler \"stratified\" \"bool jitter\" true").said, "");
+  EXPECT_EQ(taken("Sampler \"stratified\"\n \"bool jitter\" false").said.find("2:2 strata without jitter"), 0u);
+  for (const char* good : {"owen", "fastowen"})
+    EXPECT_EQ(taken("Sampler \"halton\" \"string randomization\" \"" + std::string(good) + "\"").said, "");
+  for (const char* other : {"none", "permutedigits"})
+    EXPECT_EQ(taken("Sampler \"sobol\" \"string randomization\" \"" + std::string(other) + "\"")
+                  .said.find("1:17 points are scrambled"),
+              0u);
+}
+
+TEST(Seed, is_that_of_the_sampler_or_of_the_options) {
+  EXPECT_EQ(taken("").picture.seed, 0u);
+  EXPECT_EQ(taken("Option \"integer seed\" 5").picture.seed, 5u);
+  EXPECT_EQ(taken("Option \"integer seed\" 5 Sampler \"halton\" \"integer seed\" 6").picture.seed, 6u);
+}
+
+TEST(SceneIntegrator, has_ours_with_its_own_settings) {
+  EXPECT_EQ(taken("Integrator \"ao\"").picture.integrator, "ao");
+  EXPECT_EQ(
+      taken("Integrator \"ambientocclusion\" \"float maxdistance\" 2.5 \"bool cossample\" false").picture.integrator,
+      "ao:distance=2.5,cossample=off");
+  EXPECT_EQ(taken("Integrator \"volpath\"").picture.integrator, "path");
+  EXPECT_EQ(taken("Integrator \"simplepath\" \"bool samplelights\" false").picture.integrator, "naive");
+  EXPECT_EQ(taken("Integrator \"simplepath\" \"bool samplelights\" true").picture.integrator, "path");
+}
+
+TEST(Film, states_the_picture_to_write) {
+  EXPECT_EQ(taken("Film \"rgb\"").picture.file, "");
+  EXPECT_EQ(taken("Film \"rgb\" \"string filename\" \"a/b.exr\"").picture.file, "a/b.exr");
+}
+
+}  // namespace
+
+}  // namespace montelux::test
