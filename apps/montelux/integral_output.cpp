@@ -30,11 +30,13 @@ bool has_interval(const IntegralResult& r) { return std::isfinite(r.interval.low
 
 // Ends of an interval to a tenth of its standard error.
 std::string interval_text(const IntegralResult& r) {
+  if (r.found_nothing) return "not known: no sample found anything";
   if (!has_interval(r)) return "not known from one pass";
   const double width = r.interval.high - r.interval.low;
   const double size = std::max(std::abs(r.interval.low), std::abs(r.interval.high));
-  const int digits = width > 0 ? std::clamp(int(std::ceil(std::log10(size / width))) + 3, 3, 15) : 15;
-  return fmt::format("{:.{}g} to {:.{}g}", r.interval.low, digits, r.interval.high, digits);
+  const int digits = width > 0 ? std::clamp(int(std::ceil(std::log10(size / width))) + 3, 3, 16) : 16;
+  return fmt::format("{:.{}g} to {:.{}g} with confidence {:g}", r.interval.low, digits, r.interval.high, digits,
+                     r.confidence);
 }
 
 std::string stop_text(const IntegralResult& r) {
@@ -45,6 +47,10 @@ std::string stop_text(const IntegralResult& r) {
       return "the time was over";
     case lab::StopReason::target_error:
       return "the target error was reached";
+    case lab::StopReason::nothing_found:
+      return "no sample found anything, the target error is out of reach";
+    case lab::StopReason::rounding:
+      return "the error is that of rounding, the target error is out of reach";
     case lab::StopReason::stopped:
       break;
   }
@@ -60,7 +66,7 @@ void print_one(const IntegralRun& run) {
   const IntegralResult& r = run.result;
   const double seconds = std::max(r.seconds, 1e-9);
   fmt::print("{}\n", lab::value_with_error(r.mean, r.standard_error));
-  fmt::print("interval     {} with confidence {:g}\n", interval_text(r), r.confidence);
+  fmt::print("interval     {}\n", interval_text(r));
   fmt::print("method       {}\n", method_text(run));
   if (!r.why.empty()) fmt::print("because      {}\n", r.why);
   fmt::print("evaluations  {} in {} passes", r.evaluations, r.passes);
@@ -71,6 +77,9 @@ void print_one(const IntegralRun& run) {
   fmt::print("passes       chi2/dof {:.3g}, Q {:.2g}\n", r.chi2_per_dof, r.q);
   if (r.acceptance) fmt::print("accepted     {:.3g} % of the points\n", 100 * *r.acceptance);
   if (r.coefficient) fmt::print("coefficient  {:.6g} of the control variate\n", *r.coefficient);
+  if (const auto& o = r.outside_map)
+    fmt::print("outside map  {} by uniform points, {} by those of the map\n",
+               lab::value_with_error(o->by_uniform, o->uniform_error), lab::value_with_error(o->by_map, o->map_error));
   fmt::print("ended        {}\n", stop_text(r));
 }
 
@@ -115,6 +124,16 @@ std::string_view name_of(lab::IntegralWarning::Kind kind) {
       return "non-finite";
     case heavy_tail:
       return "heavy-tail";
+    case may_not_exist:
+      return "may-not-exist";
+    case nothing_found:
+      return "nothing-found";
+    case outside_map:
+      return "outside-map";
+    case disagreement:
+      return "disagreement";
+    case control_integral:
+      return "control-integral";
     case missed_region:
       return "missed-region";
     case density:
@@ -143,6 +162,13 @@ Json to_json(const IntegralRun& run) {
   json["passes"] = r.passes, json["non_finite"] = r.non_finite;
   json["hill_index"] = number_or_null(r.tail.hill_index), json["largest_share"] = number_or_null(r.tail.largest_share);
   json["heavy_tail"] = r.tail.heavy;
+  json["outside_map"] = Json();
+  if (const auto& o = r.outside_map)
+    json["outside_map"] = {{"by_uniform", o->by_uniform},
+                           {"by_uniform_error", o->uniform_error},
+                           {"by_map", o->by_map},
+                           {"by_map_error", o->map_error},
+                           {"missed", o->missed}};
   json["acceptance"] = or_null(r.acceptance), json["coefficient"] = or_null(r.coefficient);
   json["asked"] = run.method, json["method"] = lab::to_text(r.method), json["reason"] = r.why;
   json["stopped_because"] = lab::name_of(r.stopped_because), json["target_reached"] = r.target_reached;
@@ -178,6 +204,15 @@ void print_integral_json(const IntegralOptions& options, const std::vector<Integ
     json.update(to_json(runs.front()));
   else
     for (const IntegralRun& run : runs) json["results"].push_back(to_json(run));
+  if (runs.size() > 1) {
+    json["disagreements"] = Json::array();
+    for (const lab::Disagreement& d : disagreements_of(runs))
+      json["disagreements"].push_back({{"first", d.first},
+                                       {"second", d.second},
+                                       {"difference", d.difference},
+                                       {"standard_error", d.standard_error},
+                                       {"message", lab::to_text(d)}});
+  }
   fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
@@ -198,6 +233,7 @@ void print_integral_warnings(const std::vector<IntegralRun>& runs) {
   for (const IntegralRun& run : runs)
     for (const lab::IntegralWarning& warning : run.result.warnings)
       warn(runs.size() == 1 ? warning.message : fmt::format("{}: {}", run.method, warning.message));
+  for (const lab::Disagreement& d : disagreements_of(runs)) warn(lab::to_text(d));
 }
 
 }  // namespace montelux::cli

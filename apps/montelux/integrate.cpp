@@ -22,7 +22,7 @@ namespace montelux::cli {
 namespace {
 
 struct OutputArguments {
-  bool json = false, csv = false, quiet = false;
+  bool json = false, csv = false, quiet = false, strict = false;
 };
 
 struct IntegrateArguments {
@@ -82,8 +82,8 @@ Setter text_into(std::optional<std::string>& target) {
   return into(target, [](const std::string& text) -> Result<std::string> { return text; });
 }
 
-void print_results(const OutputArguments& output, const IntegralOptions& options,
-                   const std::vector<IntegralRun>& runs) {
+// Returns the exit status: that of a doubtful result where --strict is given.
+int print_results(const OutputArguments& output, const IntegralOptions& options, const std::vector<IntegralRun>& runs) {
   if (output.json)
     print_integral_json(options, runs);
   else if (output.csv)
@@ -92,6 +92,7 @@ void print_results(const OutputArguments& output, const IntegralOptions& options
     print_integral_text(runs, output.quiet);
   std::fflush(stdout);
   if (!output.quiet) print_integral_warnings(runs);
+  return output.strict && has_warnings(runs) ? differs : done;
 }
 
 // The integral of a file, with the budget that is asked for now, or else what is left of the file's.
@@ -120,8 +121,8 @@ Result<SavedIntegral> resumed(const IntegrateArguments& arguments) {
 
 std::string progress_text(const lab::IntegralProgress& p, const std::string& method, bool several) {
   const double speed = p.elapsed > 0 ? double(p.evaluations) / p.elapsed : 0;
-  return fmt::format("{}{}  {}  {:.6g} ± {:.2g}", several ? method + "  " : "", time_text(p.elapsed),
-                     count_text(speed, "evaluations/s"), p.mean, p.standard_error);
+  return fmt::format("{}{}  {}  {:.6g} ± {:.2g}{}{}", several ? method + "  " : "", time_text(p.elapsed),
+                     count_text(speed, "evaluations/s"), p.mean, p.standard_error, p.note.empty() ? "" : "  ", p.note);
 }
 
 // The runs; their number is below that of the methods where a signal came.
@@ -183,7 +184,8 @@ int run_integrate(IntegrateArguments& arguments) {
       status = failed;
     }
   }
-  print_results(arguments.output, prepared.integral->options, *runs);
+  const int doubts = print_results(arguments.output, prepared.integral->options, *runs);
+  if (status == done) status = doubts;
   if (interrupted && !arguments.output.quiet) warn("interrupted; the result is of what was done");
   return status;
 }
@@ -192,6 +194,7 @@ void add_output_options(CLI::App& verb, OutputArguments& output) {
   verb.add_flag("--json", output.json, "results as one JSON object");
   verb.add_flag("--csv", output.csv, "results as a table of comma-separated values")->excludes("--json");
   verb.add_flag("--quiet", output.quiet, "the values alone: no progress, no warnings, no details");
+  verb.add_flag("--strict", output.strict, "exit status 1 where a warning says that a result is less than it claims");
 }
 
 // What is integrated, and how.
@@ -275,8 +278,7 @@ int run_merge(const MergeArguments& arguments) {
       complain(written.error());
       return failed;
     }
-  print_results(arguments.output, total->options, runs_of(*total));
-  return done;
+  return print_results(arguments.output, total->options, runs_of(*total));
 }
 
 }  // namespace

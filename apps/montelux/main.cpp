@@ -25,9 +25,9 @@ constexpr const char* notes = R"(Examples:
   montelux diff a.exr b.exr
   montelux render --help
 
-Exit status: 0 done; 1 diff found a difference; 2 options, scene, pictures or integral cannot be used;
-3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by SIGHUP, SIGINT, SIGPIPE
-or SIGTERM, what was done is written.
+Exit status: 0 done; 1 diff found a difference, or with --strict an integral has warnings; 2 options, scene, pictures or
+integral cannot be used; 3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by
+SIGHUP, SIGINT, SIGPIPE or SIGTERM, what was done is written.
 )";
 
 std::vector<std::string_view> verb_names(const CLI::App& app) {
@@ -67,7 +67,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extra = verb.remaining();
   const std::string help = fmt::format("; see montelux {} --help", verb.get_name());
   for (const std::string& argument : extra)
-    if (argument.starts_with('-')) {
+    if (argument.starts_with('-') && argument != "--") {
       const std::vector<std::string> names = option_names(verb);
       return fmt::format("unknown option \"{}\" of {}; valid: {}{}", argument, verb.get_name(), fmt::join(names, ", "),
                          did_you_mean(argument.substr(0, argument.find('=')), {names.begin(), names.end()})) +

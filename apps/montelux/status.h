@@ -10,7 +10,7 @@ namespace montelux::cli {
 // What the program returns. What a signal ends returns 128 plus its number: 129 (SIGHUP), 130 (SIGINT), 141 (SIGPIPE,
 // and results to a pipe that nobody reads), 143 (SIGTERM).
 inline constexpr int done = 0;
-inline constexpr int differs = 1;    // diff found a difference
+inline constexpr int differs = 1;    // diff found a difference; with --strict, the result of an integral has warnings
 inline constexpr int bad_input = 2;  // options, scenes or pictures that cannot be used
 inline constexpr int failed = 3;     // what should not happen: a full disk, memory, an error of the program
 

@@ -147,8 +147,16 @@ Json method_json(const lab::MethodState& m) {
 
 lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
   lab::MethodState m;
-  m.plan = {j.at("samples_per_pass"), j.at("planned_passes")};
-  m.passes = j.at("passes"), m.non_finite = j.at("non_finite");
+  // No more than any comparison plans: what runs on from the file is bounded.
+  const auto count = [&](const char* name, std::int64_t high) {
+    const Json& value = j.at(name);
+    if (!value.is_number_integer() || value < 0 || value > high)
+      throw std::invalid_argument(fmt::format("{} in it is {}, not a whole number up to {}", name, value.dump(), high));
+    return value.get<std::int64_t>();
+  };
+  m.plan = {int(count("samples_per_pass", 1 << 20)), int(count("planned_passes", 1 << 20))};
+  m.passes = decltype(m.passes)(count("passes", 1 << 30));
+  m.non_finite = decltype(m.non_finite)(count("non_finite", std::int64_t(1) << 62));
   for (const Json& one : j.at("repeats")) {
     m.repeats.push_back(repeat_from(one.at("figures")));
     m.luminance.push_back(unpacked<float>(one.at("luminance"), pixel_count));

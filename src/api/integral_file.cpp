@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux integrals", 2, "montelux integrate --save", "integral"};
+constexpr SavedFormat saved_format{"montelux integrals", 3, "montelux integrate --save", "integral"};
 
 Json statement_json(const lab::IntegralStatement& s) {
   return {{"integrand", s.integrand},

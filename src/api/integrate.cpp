@@ -66,6 +66,17 @@ SavedIntegral saved_of(const PreparedIntegral& integral, const std::vector<Integ
   return saved;
 }
 
+std::vector<lab::Disagreement> disagreements_of(const std::vector<IntegralRun>& runs) {
+  std::vector<lab::NamedEstimate> estimates;
+  for (const IntegralRun& run : runs) estimates.push_back(lab::estimate_named(run.method, run.result.state));
+  return lab::disagreements_of(estimates);
+}
+
+bool has_warnings(const std::vector<IntegralRun>& runs) {
+  const auto warned = [](const IntegralRun& run) { return !run.result.warnings.empty(); };
+  return std::ranges::any_of(runs, warned) || !disagreements_of(runs).empty();
+}
+
 std::vector<IntegralRun> runs_of(const SavedIntegral& saved) {
   std::vector<IntegralRun> runs;
   for (std::size_t k = 0; k < saved.states.size(); ++k)

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "lab/integral/diagnosis.h"
 #include "lab/statement/statement.h"
 #include "lab/statement/value_text.h"
 #include "math/result.h"
@@ -62,6 +63,11 @@ Result<std::vector<IntegralRun>> run_integral(const PreparedIntegral& integral, 
                                               const SavedIntegral* resume = nullptr);
 
 SavedIntegral saved_of(const PreparedIntegral& integral, const std::vector<IntegralRun>& runs);
+// Methods of one integral that contradict each other, at the level lab::disagreement_level for all pairs together.
+std::vector<lab::Disagreement> disagreements_of(const std::vector<IntegralRun>& runs);
+// Whether anything makes a result less than it claims.
+bool has_warnings(const std::vector<IntegralRun>& runs);
+
 // What the states stand for.
 std::vector<IntegralRun> runs_of(const SavedIntegral& saved);
 

@@ -7,6 +7,7 @@ namespace montelux {
 namespace {
 
 constexpr double damping = 0.3, least_share = 0.1, growth = 0.7;
+constexpr std::size_t guide_cells = 256;
 
 // Each sum mixed with its neighbours' (Lepage 2021, equation 19).
 std::vector<double> smoothed(std::span<const double> sums) {
@@ -46,6 +47,7 @@ AdaptiveMap::AdaptiveMap(std::size_t dimension, std::size_t bins) : dimension_(d
 
 void AdaptiveMap::fit() {
   coefficients_.resize(dimension_ * 4 * bins_);
+  guide_.resize(dimension_ * guide_cells);
   for (std::size_t d = 0; d < dimension_; ++d) {
     const std::span<const double> x = nodes(d);
     const auto width = [&](std::size_t b) { return x[b + 1] - x[b]; };
@@ -57,6 +59,10 @@ void AdaptiveMap::fit() {
       return 2 * width(node - 1) * width(node) / (width(node - 1) + width(node));
     };
     double* c = coefficients_.data() + d * 4 * bins_;
+    for (std::size_t cell = 0, b = 0; cell < guide_cells; ++cell) {
+      while (b + 1 < bins_ && x[b + 1] <= double(cell) / double(guide_cells)) ++b;
+      guide_[d * guide_cells + cell] = std::uint16_t(b);
+    }
     double left = slope(0);
     for (std::size_t b = 0; b < bins_; ++b) {
       const double right = slope(b + 1), w = width(b);
@@ -84,6 +90,32 @@ void AdaptiveMap::apply(std::span<double> points, std::span<double> jacobian) co
       const double c1 = c[bins_ + b], c2 = c[2 * bins_ + b], c3 = c[3 * bins_ + b];
       p[i] = c[b] + t * (c1 + t * (c2 + t * c3));
       j[i] *= scale * (c1 + t * (2 * c2 + 3 * t * c3));
+    }
+  }
+}
+
+// The bin by the guide, then Newton's steps, which converge for a monotone cubic with such slopes; what is left after
+// them is below 1e-9 of the density.
+void AdaptiveMap::density(std::span<const double> points, std::span<double> density) const {
+  constexpr int steps = 5;
+  const std::size_t count = density.size();
+  std::fill(density.begin(), density.end(), 1.0);
+  for (std::size_t d = 0; d < dimension_; ++d) {
+    const double* c = coefficients_.data() + d * 4 * bins_;
+    const std::uint16_t* guide = guide_.data() + d * guide_cells;
+    const std::span<const double> node = nodes(d);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = points[d * count + i];
+      std::size_t b = guide[std::min(std::size_t(x * double(guide_cells)), guide_cells - 1)];
+      while (b + 1 < bins_ && node[b + 1] <= x) ++b;
+      const double c1 = c[bins_ + b], c2 = c[2 * bins_ + b], c3 = c[3 * bins_ + b];
+      const double distance = x - c[b];
+      double t = distance / (node[b + 1] - node[b]);
+      for (int k = 0; k < steps; ++k) {
+        const double off = t * (c1 + t * (c2 + t * c3)) - distance, slope = c1 + t * (2 * c2 + 3 * t * c3);
+        t = std::clamp(t - off / slope, 0.0, 1.0);
+      }
+      density[i] /= double(bins_) * (c1 + t * (2 * c2 + 3 * t * c3));
     }
   }
 }

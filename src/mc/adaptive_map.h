@@ -3,6 +3,7 @@
 // quasi-Monte Carlo points.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ class AdaptiveMap {
   std::size_t bins() const { return bins_; }
   // Coordinate-major points y in (0, 1) become x in place; each jacobian[i] is multiplied by |dx/dy| at point i.
   void apply(std::span<double> points, std::span<double> jacobian) const;
+  // The density of x at points of the cube (coordinate-major), that is 1 over the Jacobian at their preimages.
+  void density(std::span<const double> points, std::span<double> density) const;
   // The nodes of one axis, bins + 1 numbers from 0 to 1.
   std::span<const double> nodes(std::size_t d) const { return {nodes_.data() + d * (bins_ + 1), bins_ + 1}; }
 
@@ -28,10 +31,10 @@ class AdaptiveMap {
 
  private:
   void fit();
-
   std::size_t dimension_, bins_;
   std::vector<double> nodes_;
   std::vector<double> coefficients_;  // four a bin, by axis, then power, then bin
+  std::vector<std::uint16_t> guide_;  // of each axis: the bin in which each of its equal cells begins
 };
 
 }  // namespace montelux

@@ -20,8 +20,11 @@ class Reader {
     if (equals == std::string::npos || colon < equals)
       read_shape();
     else
-      for (const TextPart& part : split({text_, 0}, ',')) read_side(trimmed(part));
+      read_sides(split({text_, 0}, ','));
   }
+
+  // What follows would not change that the domain is refused.
+  bool full() const { return factors_.size() + mistakes_.size() > most_dimensions; }
 
   ParsedDomain finish() {
     std::size_t dimension = 0;
@@ -54,6 +57,17 @@ class Reader {
         return complain(where, fmt::format("there are two variables \"{}\"", name));
     names_.insert(names_.end(), names.begin(), names.end());
     factors_.push_back(std::move(factor));
+  }
+
+  // The intervals up to the first that is one too many.
+  void read_sides(const std::vector<TextPart>& parts) {
+    for (const TextPart& part : parts) {
+      if (factors_.size() + mistakes_.size() >= most_dimensions)
+        return complain(trimmed(part), factors_.size() < most_dimensions
+                                           ? "there are too many mistakes to go on"
+                                           : fmt::format("the domain has more than {} dimensions", most_dimensions));
+      read_side(trimmed(part));
+    }
   }
 
   // "x=0:1"
@@ -224,7 +238,8 @@ class Reader {
 
 ParsedDomain parse_domain(const std::vector<std::string>& texts) {
   Reader reader;
-  for (const std::string& text : texts) reader.read(text);
+  for (const std::string& text : texts)
+    if (!reader.full()) reader.read(text);
   return reader.finish();
 }
 

@@ -13,16 +13,35 @@ std::size_t characters(std::string_view text) {
 
 bool is_column(const Operand& o, std::size_t index) { return o.kind == Operand::Kind::column && o.index == index; }
 
+// The part of a long text that a mistake is shown in: it begins and ends between characters of UTF-8.
+struct Excerpt {
+  std::size_t begin, end;
+};
+Excerpt excerpt_of(std::string_view text, std::size_t begin, std::size_t length) {
+  constexpr std::size_t around = 60, longest = 160;
+  const auto boundary = [&](std::size_t i) {
+    while (i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0u) == 0x80u) ++i;
+    return std::min(i, text.size());
+  };
+  if (text.size() <= longest) return {0, text.size()};
+  const std::size_t from = begin > around ? boundary(begin - around) : 0;
+  return {from, boundary(std::min(from + longest, begin + std::min(length, longest) + around))};
+}
+
 }  // namespace
 
-std::string explain(std::string_view text, const TextMistake& mistake) {
-  const std::size_t begin = std::min(mistake.position, text.size());
+std::string explain(std::string_view whole, const TextMistake& mistake) {
+  std::size_t begin = std::min(mistake.position, whole.size());
+  const auto [from, to] = excerpt_of(whole, begin, mistake.length);
+  const std::string_view before = from > 0 ? "... " : "", after = to < whole.size() ? " ..." : "";
+  const std::string_view text = whole.substr(from, to - from);
+  begin -= from;
   const std::size_t length = std::max<std::size_t>(1, characters(text.substr(begin, mistake.length)));
-  std::string line(text);
+  std::string line = std::string(before) + std::string(text) + std::string(after);
   std::ranges::replace_if(
       line, [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
-  return mistake.message + "\n    " + line + "\n    " + std::string(characters(text.substr(0, begin)), ' ') + "^" +
-         std::string(length - 1, '~');
+  return mistake.message + "\n    " + line + "\n    " +
+         std::string(before.size() + characters(text.substr(0, begin)), ' ') + "^" + std::string(length - 1, '~');
 }
 
 bool Expression::uses(std::size_t variable) const {

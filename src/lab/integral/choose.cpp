@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "lab/integral/singularity.h"
+#include "lab/integral/summary.h"
 #include "lab/integral/technique.h"
 
 namespace montelux::lab {
@@ -18,7 +20,9 @@ constexpr double pilot_share = 0.03;
 // less is not.
 constexpr double clear_gain = 4, no_gain = 1.5;
 constexpr std::uint64_t least_samples_to_try = 32768;
-constexpr int first_steps = 4;
+constexpr int first_steps = 5;
+constexpr std::uint64_t max_samples_to_probe = 1u << 20;
+constexpr std::uint64_t max_samples_to_plan = 1u << 26;  // pilots that more samples would pay for are long enough
 
 // One candidate: its passes grow as long as it may still win.
 struct Pilot {
@@ -40,6 +44,22 @@ struct Pilot {
     }
     length = to;
     variances.push_back(means.variance() + 1e-32 * means.mean * means.mean);
+  }
+  // Its estimate, where there is one that can be held against others: enough terms, and none that stands for many.
+  std::optional<NamedEstimate> estimate() const {
+    constexpr std::uint64_t enough = 1024;
+    IntegralState state;
+    state.method = method;
+    double n = 0, sum = 0, m2 = 0;
+    for (const TermSums& s : sums) {
+      state.passes.push_back({0, std::uint32_t(state.passes.size()), s.samples, s.sum, s.m2});
+      state.largest.merge(s.largest);
+      n += double(s.samples), sum += s.sum, m2 += s.m2;
+    }
+    const bool varies = method.kind == MethodKind::control;  // the passes' sums are not those of the estimate
+    if (varies || n < double(enough) || found_nothing(state) || diagnose_tail(state, m2, sum / n, n).heavy)
+      return std::nullopt;
+    return estimate_named("the pilot of " + to_text(method), state);
   }
   std::uint64_t evaluations() const {
     std::uint64_t n = 0;
@@ -121,13 +141,7 @@ std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double 
                             best.length * passes, fmt::join(items, ", "));
 }
 
-}  // namespace
-
-Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
-  // So few samples teach a map nothing.
-  const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
-                       problem.densities.empty();
-  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples to try anything", 0};
+Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
   training.go_to(first_steps);
   const double gain = training.gain();
   const std::vector<Method> methods = plausible(problem, samples, gain);
@@ -141,19 +155,18 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
     p.technique = make_technique(problem, method, seed, &training);
     pilots.push_back(std::move(p));
   }
-  if (pilots.size() == 1) return {methods.front(), explain(pilots, pilots.front(), gain), 0};
-  const double budget = pilot_share * double(samples), full = double(samples) / passes;
+  if (pilots.size() == 1) return {methods.front(), explain(pilots, pilots.front(), gain)};
+  const double budget = pilot_share * double(std::min(samples, max_samples_to_plan)), full = double(samples) / passes;
   const std::uint64_t first =
-      std::bit_floor(std::max<std::uint64_t>(4, std::uint64_t(0.4 * budget) / (passes * pilots.size())));
+      std::bit_floor(std::max<std::uint64_t>(64, std::uint64_t(0.4 * budget) / (passes * pilots.size())));
   double spent = 0;
   const auto grow = [&](Pilot& p, std::uint64_t to) {
-    spent += double((to - p.length) * passes * p.technique->traits().cost);
+    spent += double((to - p.length) * passes) * p.technique->traits().cost;
     p.grow(seed, to);
     p.predict(full);
   };
   for (Pilot& p : pilots) {
-    if (first >= 8) grow(p, first / 4), grow(p, first / 2);
-    grow(p, first);
+    grow(p, first / 4), grow(p, first / 2), grow(p, first);
   }
 
   // Those that may still win get twice the samples, as long as the budget of the pilots holds.
@@ -171,8 +184,35 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
     for (Pilot* p : alive) grow(*p, to);
   }
   const Pilot& best = *least();
-  Choice choice{best.method, explain(pilots, best, gain), 0};
-  for (const Pilot& p : pilots) choice.evaluations += p.evaluations();
+  Choice choice{best.method, explain(pilots, best, gain)};
+  for (const Pilot& p : pilots) {
+    choice.evaluations += p.evaluations();
+    if (auto estimate = p.estimate()) choice.pilots.push_back(std::move(*estimate));
+  }
+  return choice;
+}
+
+}  // namespace
+
+Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
+  // So few samples teach a map nothing.
+  const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
+                       problem.densities.empty();
+  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples to try anything"};
+  // Error bars of quasi-Monte Carlo points rest on how near the nearest came to a singularity; boxes with many
+  // independent samples each are the better there.
+  const TailProbe probe = probe_tail(problem.integrand, seed, std::min(samples, max_samples_to_probe) / 32);
+  if (probe.exponent > 0 && problem.densities.empty() && !problem.control) {
+    Method vegas;
+    vegas.kind = MethodKind::vegas;
+    return {vegas,
+            fmt::format("the integrand grows without bound, like the distance to the power {:.2g}", -probe.exponent),
+            probe.evaluations,
+            {},
+            probe};
+  }
+  Choice choice = choose_by_pilots(problem, seed, samples, training);
+  choice.probe = probe, choice.evaluations += probe.evaluations;
   return choice;
 }
 

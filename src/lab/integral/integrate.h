@@ -57,32 +57,65 @@ struct Budget {
 struct IntegralProgress {
   double mean = 0, standard_error = 0, fraction = 0, elapsed = 0;  // fraction of the work, in [0, 1]
   std::uint64_t evaluations = 0, passes = 0;
+  std::string_view note{};  // why the work may not end as stated; else empty
 };
 
 struct Execution {
   std::uint64_t seed = 0;
   int threads = 1;                                          // 0: all of the machine. The bits do not depend on it.
-  std::function<bool()> stop{};                             // asked between units of work; may be empty
-  std::function<void(const IntegralProgress&)> observer{};  // told from one thread at a time; may be empty
+  std::function<bool()> stop{};                             // polled between units of work; may be empty
+  std::function<void(const IntegralProgress&)> observer{};  // called from one thread at a time; may be empty
   std::optional<IntegralState> resume{};                    // goes on from here: the method and seed are the state's
 };
 
-enum class StopReason : std::uint8_t { samples, seconds, target_error, stopped };
+// nothing_found: every sample of a run to a target error is 0; rounding: so is the error, and the target is below it.
+enum class StopReason : std::uint8_t { samples, seconds, target_error, nothing_found, rounding, stopped };
 std::string_view name_of(StopReason reason);
 
 // Something that makes the result less than it claims.
 struct IntegralWarning {
-  enum class Kind : std::uint8_t { non_finite, heavy_tail, missed_region, density, inconsistent, few_passes, target };
+  enum class Kind : std::uint8_t {
+    non_finite,
+    heavy_tail,
+    may_not_exist,
+    nothing_found,
+    outside_map,
+    disagreement,
+    control_integral,
+    missed_region,
+    density,
+    inconsistent,
+    few_passes,
+    target
+  };
   Kind kind;
   std::string message;
 };
 
 // How heavy the tail of the single terms f / p is.
 struct TailDiagnosis {
-  double hill_index = 0;     // estimated tail index: the variance is infinite below 2; infinite where there is no tail
-  double largest_share = 0;  // of the largest term in the sum of squared deviations
-  bool heavy = false;        // the error bar is not to be trusted
+  double hill_index = 0;  // estimated tail index: the variance is infinite up to 2; infinite where there is no tail
+  std::size_t fitted_terms = 0;  // that the index rests on
+  double largest_share = 0;      // of the largest term in the sum of squared deviations
+  bool heavy = false;            // the error bar is not to be trusted
+  bool may_not_exist = false;    // an index up to 1 is not ruled out
 };
+
+// The part of the integral where the map of an adaptive method puts fewer points than the uniform share of its points,
+// by either: equal in expectation.
+struct OutsideMap {
+  double by_uniform = 0, uniform_error = 0, by_map = 0, map_error = 0;
+  bool missed = false;  // the uniform points find more, at the level outside_map_level: the value then counts theirs
+};
+inline constexpr double outside_map_level = 1e-3;
+
+// Two estimates of one integral that differ by more than their errors explain.
+struct Disagreement {
+  std::string first, second;
+  double difference = 0, standard_error = 0;  // the error as if the two were independent
+};
+inline constexpr double disagreement_level = 1e-3;  // of all pairs together
+inline constexpr double control_level = 1e-3;       // at which samples contradict the integral of a control variate
 
 struct IntegralResult {
   double mean = 0, standard_error = 0;
@@ -95,10 +128,12 @@ struct IntegralResult {
   std::uint64_t passes = 0, non_finite = 0;
   double chi2_per_dof = 0, q = 1;  // are the passes of one distribution, by the variance inside and among them?
   TailDiagnosis tail;
-  std::optional<double> acceptance;   // of rejection or of the Markov chain
-  std::optional<double> coefficient;  // of the control variate, the mean over passes
-  Method method;                      // the one that did the work: never automatic
-  std::string why;                    // what `auto` measured and why it chose the method; else empty
+  bool found_nothing = false;             // every term is 0: there is no error and no interval
+  std::optional<OutsideMap> outside_map;  // of methods that adapt
+  std::optional<double> acceptance;       // of rejection or of the Markov chain
+  std::optional<double> coefficient;      // of the control variate, the mean over passes
+  Method method;                          // the one that did the work: never automatic
+  std::string why;                        // what `auto` measured and why it chose the method; else empty
   StopReason stopped_because = StopReason::samples;
   bool target_reached = false;
   std::vector<IntegralWarning> warnings;

@@ -33,7 +33,7 @@ class Metropolis final : public Technique {
         std::size_t(std::clamp<std::uint64_t>(part.count / 128, std::min<std::uint64_t>(4, part.count / 4), 64));
     const std::uint64_t each = std::max<std::uint64_t>(2, part.count / chains), starts = each / 2,
                         steps = each - starts;
-    TermSums sums;
+    TermSums sums(LargestTerms::of_run);
     // The terms are those of the starts, target over uniform density; the chains have none of their own.
     std::vector<Chain> state = start(key, chains, std::size_t(starts), sums);
     for (std::uint64_t k = 0; k < steps; ++k) step(key, k, state, sums);

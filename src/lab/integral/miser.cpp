@@ -15,7 +15,7 @@ class Miser final : public Technique {
     return t;
   }
   TermSums run(const PassPart& part) const override {
-    TermSums terms;
+    TermSums terms(LargestTerms::of_run);
     const CubeFunction f = [&](std::span<const double> points, std::span<double> values) {
       integrand_.evaluate({points, integrand_.dimension, values.size()}, values);
       terms.add(values);

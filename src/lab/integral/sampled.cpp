@@ -10,6 +10,33 @@ namespace montelux::lab {
 namespace {
 
 constexpr std::uint32_t training_purpose = 0x7ea1u;  // the key of training's points: no pass has this number
+constexpr std::uint32_t uniform_purpose = 0x0a11u;   // the key of the uniform share
+// One uniform point for so many through the map.
+constexpr std::uint64_t points_per_uniform = 16;
+
+// How far a point lies outside of the map, by the density of the map there: nearly 1 where the map has fewer points
+// than the uniform share, and falling with the fourth power of the density (a power heuristic, Veach and Guibas 1995).
+double outside_share(double density) {
+  const double ratio = density * double(points_per_uniform), square = ratio * ratio;
+  return 1 / (1 + square * square);
+}
+
+// Adds terms and their magnitudes; those that are not finite count as 0.
+void add_outside(std::span<const double> terms, double& sum, double& magnitude) {
+  std::array<double, 8> sums{}, magnitudes{};  // side by side, for the vector units
+  std::size_t i = 0;
+  for (; i + 8 <= terms.size(); i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sums[k] += terms[i + k], magnitudes[k] += std::abs(terms[i + k]);
+  for (; i < terms.size(); ++i) sums[0] += terms[i], magnitudes[0] += std::abs(terms[i]);
+  double all = 0, all_magnitudes = 0;
+  for (std::size_t k = 0; k < 8; ++k) all += sums[k], all_magnitudes += magnitudes[k];
+  if (std::isfinite(all_magnitudes)) {
+    sum += all, magnitude += all_magnitudes;
+    return;
+  }
+  for (double x : terms)
+    if (std::isfinite(x)) sum += x, magnitude += std::abs(x);
+}
 
 // Buffers of one part: points by coordinate, and what is worked out at them.
 struct Batch {
@@ -39,11 +66,13 @@ class Sampled final : public Technique {
     t.passes = correlated ? 6 : 32;  // where lengths are powers of two, up to twice as many
     t.training_evaluations = training_evaluations_;
     if (method_.kind == MethodKind::antithetic) t.least = 2;
+    if (map_) t.least = points_per_uniform, t.cost = 1 + 1 / double(points_per_uniform);
     return t;
   }
 
   std::uint64_t fitting(std::uint64_t samples) const override {
     if (method_.kind == MethodKind::qmc && method_.points != QmcPoints::halton) return std::bit_floor(samples);
+    if (map_) return samples / points_per_uniform * points_per_uniform;
     if (method_.kind == MethodKind::antithetic) return samples / 2 * 2;
     if (method_.kind == MethodKind::stratified && method_.strata == Strata::grid)
       return GridShape::of(integrand_.dimension, samples).boxes;
@@ -56,6 +85,7 @@ class Sampled final : public Technique {
                                 ? GridShape::of(integrand_.dimension, part.block_count)
                                 : GridShape{};
     TermSums sums;
+    if (map_) add_uniform_share(part, batch, sums);
     for (std::uint64_t done = 0; done < part.count;) {
       const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, part.count - done));
       fill(part, shape, {integrand_.dimension, part.first + done, n, batch.points.data()});
@@ -77,15 +107,36 @@ class Sampled final : public Technique {
         return fill_grid(key, shape, block);
       }
       case MethodKind::qmc:
-        if (method_.points == QmcPoints::sobol) fill_sobol(part.key, block);
-        if (method_.points == QmcPoints::halton) fill_halton(part.key, block);
-        if (method_.points == QmcPoints::lattice) fill_lattice(part.key, block);
-        if (method_.points == QmcPoints::pmj02) fill_pmj02(part.key, block);
-        if (method_.baker) fold({block.out, block.dimension * block.count});
-        return;
+        return fill_points(part.key, block);
       default:
         return fill_independent(part.key, block);
     }
+  }
+
+  void fill_points(CubeKey key, CubeBlock block) const {
+    if (method_.points == QmcPoints::sobol) fill_sobol(key, block);
+    if (method_.points == QmcPoints::halton) fill_halton(key, block);
+    if (method_.points == QmcPoints::lattice) fill_lattice(key, block);
+    if (method_.points == QmcPoints::pmj02) fill_pmj02(key, block);
+    if (method_.baker) fold({block.out, block.dimension * block.count});
+  }
+
+  // What the uniform points that go with a part find outside of the map.
+  void add_uniform_share(const PassPart& part, Batch& batch, TermSums& sums) const {
+    const CubeKey key = part.key.fork(uniform_purpose);
+    const std::uint64_t first = part.first / points_per_uniform, all = part.count / points_per_uniform;
+    std::vector<double> density(batch.most);
+    for (std::uint64_t done = 0; done < all;) {
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, all - done));
+      fill_points(key, {integrand_.dimension, first + done, n, batch.points.data()});
+      map_->density(batch.coordinates(n), std::span(density).first(n));
+      const std::span<double> values = std::span(batch.values).first(n);
+      integrand_.evaluate({batch.coordinates(n), integrand_.dimension, n}, values);
+      for (std::size_t i = 0; i < n; ++i) values[i] *= double(points_per_uniform) * outside_share(density[i]);
+      add_outside(values, sums.outside.uniform, sums.outside.uniform_magnitude);
+      done += n;
+    }
+    sums.evaluations += all;
   }
 
   void evaluate(Batch& batch, std::size_t n, TermSums& sums) const {
@@ -96,8 +147,15 @@ class Sampled final : public Technique {
     }
     const PointBatch points{batch.coordinates(n), integrand_.dimension, n};
     integrand_.evaluate(points, values);
-    if (map_)
-      for (std::size_t i = 0; i < n; ++i) values[i] *= batch.jacobian[i];
+    if (map_) {
+      std::vector<double>& outside = batch.control;  // free: no method has both a map and a control variate
+      outside.resize(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        values[i] *= batch.jacobian[i];
+        outside[i] = values[i] * outside_share(1 / batch.jacobian[i]);
+      }
+      add_outside(outside, sums.outside.map, sums.outside.map_magnitude);
+    }
     sums.evaluations += n;
     if (method_.kind == MethodKind::control) add_control(batch, points, values, sums);
     sums.add(values);
@@ -161,8 +219,9 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
   return {sums, flat || !(plain > rounding) ? 1.0 : plain / mapped, flat};
 }
 
-// Later steps know better and get more.
-constexpr std::array<double, MapTraining::steps> step_shares{0.031, 0.047, 0.07, 0.105, 0.158, 0.236, 0.353};
+// The first step sees the integrand by uniform points and has many of them, so that it finds what lies far apart. Of
+// the others the later ones know better and get more.
+constexpr std::array<double, MapTraining::steps> step_shares{0.4, 0.031, 0.047, 0.07, 0.105, 0.158, 0.236, 0.353};
 
 // A power of two: the edges of the bins, where the map is not smooth, are then edges of the strata of a Sobol' net too,
 // which makes its error tens of times less.

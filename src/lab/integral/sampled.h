@@ -10,9 +10,9 @@ namespace montelux::lab {
 // the one before. A training that stopped early goes on to the same map as one that did not.
 class MapTraining {
  public:
-  static constexpr int steps = 7;
+  static constexpr int steps = 8;
 
-  // In all about `samples` Sobol' points.
+  // In all about 1.4 times `samples` Sobol' points.
   MapTraining(const Integrand& integrand, std::uint64_t seed, std::uint64_t samples);
   void go_to(int step);
   const AdaptiveMap& map() const { return map_; }

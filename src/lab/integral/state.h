@@ -11,6 +11,21 @@
 
 namespace montelux::lab {
 
+// The samples of one pass, and the passes of one run.
+inline constexpr std::uint64_t max_samples_of_pass = std::uint64_t(1) << 26;
+inline constexpr std::uint32_t max_passes = 1u << 31;
+
+// Of methods with a map: the part of the integral where the map puts few points, as uniform points and as the points
+// through the map see it, each times the samples, and the same of the integrand's magnitude. Each pair is equal in
+// expectation.
+struct OutsideSums {
+  double uniform = 0, map = 0, uniform_magnitude = 0, map_magnitude = 0;
+  void merge(const OutsideSums& other) {
+    uniform += other.uniform, map += other.map;
+    uniform_magnitude += other.uniform_magnitude, map_magnitude += other.map_magnitude;
+  }
+};
+
 // One pass: an independent randomisation, and the sums over its samples so far.
 struct PassRecord {
   std::uint64_t seed = 0;   // of the run it is from
@@ -21,7 +36,17 @@ struct PassRecord {
   double own_variance = 0;
   // Of the control variate less its integral, of its square, and of its product with the term.
   double control_sum = 0, control_squares = 0, control_products = 0;
+  OutsideSums outside{};
   double mean() const { return samples == 0 ? 0 : sum / double(samples); }
+};
+
+// What was found of the integrand's growth (lab/integral/singularity.h).
+struct TailProbe {
+  bool known = false;
+  double exponent = 0;            // f ~ h^-exponent at a distance h from where it is infinite; 0: it is bounded
+  double index = 0;               // of the tail of its values at uniform points; infinite where it is bounded
+  std::size_t terms = 0;          // that the index rests on
+  std::uint64_t evaluations = 0;  // that it took
 };
 
 struct IntegralState {
@@ -35,7 +60,8 @@ struct IntegralState {
   int looks = 0;                             // at the data by a stopping rule
   std::uint64_t proposed = 0, accepted = 0;  // of rejection or of the Markov chain
   std::vector<PassRecord> passes;
-  LargestTerms largest;
+  LargestTerms largest{LargestTerms::of_run};
+  TailProbe probe{};
 };
 
 std::string to_json(const IntegralState& state);

@@ -1,9 +1,10 @@
 #include "lab/integral/summary.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "lab/integral/diagnosis.h"
 
 namespace montelux::lab {
 namespace {
@@ -24,6 +25,13 @@ PassMeans pass_means(const IntegralState& state) {
     squares += p.control_squares, products += p.control_products, controls += p.control_sum, sums += p.sum;
     n += double(p.samples);
   }
+  // A defensive mixture (Hesterberg 1995; Owen and Zhou 2000): where the map missed a part, the uniform points'
+  // estimate of it takes the place of the map's.
+  if (const auto outside = outside_map_of(state); outside && outside->missed)
+    for (std::size_t i = 0; i < state.passes.size(); ++i) {
+      const PassRecord& p = state.passes[i];
+      result.means[i] += (p.outside.uniform - p.outside.map) / double(p.samples);
+    }
   if (state.method.kind != MethodKind::control) return result;
   double total = 0;
   for (std::size_t i = 0; i < state.passes.size(); ++i) {
@@ -39,39 +47,6 @@ PassMeans pass_means(const IntegralState& state) {
   }
   if (!state.passes.empty()) result.coefficient = total / double(state.passes.size());
   return result;
-}
-
-void add_warnings(const IntegralState& state, IntegralResult& r) {
-  const auto warn = [&](IntegralWarning::Kind kind, std::string message) {
-    r.warnings.push_back({kind, std::move(message)});
-  };
-  using enum IntegralWarning::Kind;
-  if (r.non_finite > 0)
-    warn(non_finite, fmt::format("{} of {} values are not finite and count as 0: the result is not to be trusted",
-                                 r.non_finite, r.evaluations));
-  if (r.tail.heavy)
-    warn(heavy_tail, fmt::format("the terms have a heavy tail (Hill index {:.2g}; the largest of them makes {:.0f} % "
-                                 "of the variance): the error bar is not to be trusted",
-                                 r.tail.hill_index, 100 * r.tail.largest_share));
-  if (state.passes.size() < 5) warn(few_passes, fmt::format("{} passes are few for an error bar", state.passes.size()));
-  if (r.q < 1e-6)
-    warn(inconsistent,
-         fmt::format("the passes spread more than their samples do (chi2/dof {:.3g}, Q {:.2g})", r.chi2_per_dof, r.q));
-}
-
-TailDiagnosis diagnose(const IntegralState& state, double m2, double mean, double samples) {
-  TailDiagnosis tail;
-  const std::vector<double> largest = state.largest.sorted();
-  tail.hill_index = hill_index(largest);
-  if (!largest.empty() && m2 > 0) {
-    const double distance = largest.front() - std::abs(mean);
-    tail.largest_share = std::min(1.0, distance * distance / m2);
-  }
-  // Hill's estimate from 100 terms has a relative deviation of a tenth; a tail that is only seen in many samples
-  // counts.
-  const bool infinite_variance = samples >= 1000 && tail.hill_index < 2.2 && tail.largest_share > 0.01;
-  tail.heavy = infinite_variance || (samples >= 100 && tail.largest_share > 0.1);
-  return tail;
 }
 
 }  // namespace
@@ -90,7 +65,8 @@ PassEstimate estimate_of(const IntegralState& state) {
   double n = 0, weight_squares = 0, squares = 0;
   for (const PassRecord& p : state.passes) n += double(p.samples);
   if (n == 0) return e;
-  for (std::size_t i = 0; i < values.means.size(); ++i) e.mean += double(state.passes[i].samples) / n * values.means[i];
+  for (std::size_t i = 0; i < values.means.size(); ++i) e.mean += double(state.passes[i].samples) * values.means[i];
+  e.mean /= n;
   for (std::size_t i = 0; i < values.means.size(); ++i) {
     const double weight = double(state.passes[i].samples) / n, distance = values.means[i] - e.mean;
     weight_squares += weight * weight;
@@ -99,20 +75,29 @@ PassEstimate estimate_of(const IntegralState& state) {
   // With equal weights that is Student's interval; with unequal ones the passes count as fewer.
   const double passes = 1 / weight_squares;
   e.degrees = passes - 1;
-  if (e.degrees > 0) e.standard_error = std::sqrt(squares * passes / e.degrees);
+  if (!(e.degrees > 0)) return e;
+  e.standard_error = std::sqrt(squares * passes / e.degrees);
+  // What sums of doubles leave of terms that are all alike.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(e.mean);
+  e.spread = e.standard_error > rounding;
+  e.standard_error = std::max(e.standard_error, rounding);
   return e;
 }
+
+bool found_nothing(const IntegralState& state) { return !state.passes.empty() && !(state.largest.max() > 0); }
 
 IntegralResult result_of(const IntegralState& state, double confidence) {
   const PassEstimate e = estimate_of(state);
   IntegralResult r;
   r.mean = e.mean, r.standard_error = e.standard_error, r.confidence = confidence;
-  const double reach = e.reach(confidence);
+  r.found_nothing = found_nothing(state);
+  if (r.found_nothing) r.standard_error = infinity;
+  const double reach = r.found_nothing ? infinity : e.reach(confidence);
   r.interval = {e.mean - reach, e.mean + reach};
   r.evaluations = state.evaluations, r.training_evaluations = state.training_evaluations;
   r.seconds = state.seconds, r.passes = state.passes.size(), r.non_finite = state.non_finite;
   const double cost = r.standard_error * r.standard_error * r.seconds;
-  r.efficiency = cost > 0 ? 1 / cost : 0;
+  r.efficiency = cost > 0 && std::isfinite(cost) ? 1 / cost : 0;
   r.coefficient = e.coefficient;
   if (state.proposed > 0) r.acceptance = double(state.accepted) / double(state.proposed);
 
@@ -129,14 +114,15 @@ IntegralResult result_of(const IntegralState& state, double confidence) {
     for (const PassRecord& p : state.passes)
       own += p.samples > 0 ? p.own_variance / double(p.samples) / double(r.passes) : 0;
     const double of_sample = own > 0 ? own : dof_inside > 0 ? inside / dof_inside : 0;
-    if (of_sample > 0) chi2 = among / of_sample;
+    if (of_sample > 0 && e.spread) chi2 = among / of_sample;
     r.chi2_per_dof = chi2 / dof_among;
     r.q = special::chi_square_tail(chi2, dof_among);
   }
-  r.tail = diagnose(state, inside + among, mean, samples);
+  r.tail = diagnose_tail(state, inside + among, mean, samples);
+  r.outside_map = outside_map_of(state);
   r.method = state.method;
   r.state = state;
-  add_warnings(state, r);
+  r.warnings = warnings_of(r);
   return r;
 }
 

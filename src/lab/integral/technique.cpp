@@ -86,6 +86,7 @@ void TermSums::merge(const TermSums& other) {
   proposed += other.proposed, accepted += other.accepted;
   control_sum += other.control_sum, control_squares += other.control_squares;
   control_products += other.control_products;
+  outside.merge(other.outside);
   largest.merge(other.largest);
 }
 

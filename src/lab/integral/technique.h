@@ -12,7 +12,10 @@ struct TermSums {
   std::uint64_t samples = 0, evaluations = 0, non_finite = 0, proposed = 0, accepted = 0;
   double sum = 0, m2 = 0, own_variance = 0;  // as in PassRecord
   double control_sum = 0, control_squares = 0, control_products = 0;
+  OutsideSums outside{};  // as in PassRecord
   LargestTerms largest;
+
+  explicit TermSums(std::size_t largest_kept = LargestTerms::of_part) : largest(largest_kept) {}
 
   // Adds terms; a non-finite one is counted and becomes 0 (in place).
   void add(std::span<double> terms);
@@ -31,7 +34,7 @@ struct TechniqueTraits {
   std::uint32_t passes = 32;  // for a fixed number of samples
   std::uint64_t unit = 8192;  // a part may be cut at multiples of this, for threads; 0: never
   std::uint64_t least = 1;    // samples that a part needs at the least
-  std::uint64_t cost = 1;     // evaluations of one sample
+  double cost = 1;            // evaluations of one sample
   std::uint64_t training_evaluations = 0;
 };
 

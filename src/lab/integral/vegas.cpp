@@ -46,7 +46,7 @@ class Vegas final : public Technique {
   }
 
   TermSums run(const PassPart& part) const override {
-    TermSums sums;
+    TermSums sums(LargestTerms::of_run);
     const CubeKey key = part.key.fork(std::uint32_t(part.block_first));
     // Too few samples for two in each box: no boxes.
     const bool plain = part.count < 4 * shape_.boxes;

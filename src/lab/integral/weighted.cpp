@@ -123,7 +123,7 @@ class Resampled final : public Technique {
 
   TechniqueTraits traits() const override {
     TechniqueTraits t;
-    t.cost = target_ ? candidates_ + resamples_ : candidates_;
+    t.cost = double(target_ ? candidates_ + resamples_ : candidates_);
     t.unit = std::max<std::uint64_t>(1, t.unit / candidates_);
     return t;
   }

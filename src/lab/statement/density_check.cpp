@@ -44,6 +44,17 @@ DensityCheck check_density(const BatchFunction& density, std::size_t dimension) 
   return check;
 }
 
+ControlCheck check_control(const ControlVariate& control, std::size_t dimension) {
+  const Problem problem{.integrand = {dimension, control.evaluate}};
+  const IntegralResult r = integrate(problem, *parse_method("qmc:passes=16"), {.samples = check_samples});
+  ControlCheck check{false, r.mean, r.standard_error};
+  if (!std::isfinite(r.standard_error) || r.non_finite > 0) return check;
+  const double reach = student_t_quantile(1 - 0.5 * ControlCheck::level, 15) * r.standard_error;
+  const double off = std::abs(r.mean - control.integral);
+  check.contradicts = off > reach && off > 1e-9 * std::max(std::abs(r.mean), std::abs(control.integral));
+  return check;
+}
+
 MissedIntegral missed_by(const Problem& problem, std::span<const UserDensity> densities) {
   std::vector<double> f(batch), p(batch), all(batch);
   Moments missed, whole;

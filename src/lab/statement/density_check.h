@@ -18,6 +18,15 @@ struct MissedIntegral {
 };
 MissedIntegral missed_by(const Problem& problem, std::span<const UserDensity> densities);
 
+// Whether samples of a control variate contradict its stated integral, by Student's test at the level `level` over 16
+// passes of quasi-Monte Carlo points; differences of rounding do not. With what the samples give.
+struct ControlCheck {
+  bool contradicts = false;
+  double integral = 0, standard_error = 0;
+  static constexpr double level = 1e-6;
+};
+ControlCheck check_control(const ControlVariate& control, std::size_t dimension);
+
 // How far the means of a few bounded functions of a coordinate differ between points of the inverse and points weighted
 // by the density, in standard errors: the largest of them. Beyond 8 they are not of one distribution.
 double inverse_disagreement(const UserDensity& density, std::size_t dimension);

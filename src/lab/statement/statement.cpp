@@ -36,6 +36,7 @@ class Reader {
     // Measuring needs an integrand and densities that can be evaluated.
     if (reading_.mistakes.empty()) check_densities();
     if (reading_.mistakes.empty()) check_coverage();
+    if (reading_.mistakes.empty()) check_control_integral();
     check_methods();
     if (reading_.mistakes.empty()) reading_.stated = std::move(stated_);
     return std::move(reading_);
@@ -183,6 +184,16 @@ class Reader {
       if (density.inverse && inverse_disagreement(density, domain_->dimension()) > 8)
         complain(fmt::format("{}: the points of the inverse are not distributed like the density", name));
     }
+  }
+
+  void check_control_integral() {
+    if (!stated_.problem.control) return;
+    const ControlCheck check = check_control(*stated_.problem.control, domain_->dimension());
+    if (!check.contradicts) return;
+    complain(
+        fmt::format("--control-integral {}: samples of --control \"{}\" give {}, which rules it out at the level {:g}",
+                    *statement_.control_integral, *statement_.control,
+                    value_with_error(check.integral, check.standard_error), ControlCheck::level));
   }
 
   void check_coverage() {

@@ -31,7 +31,13 @@ TEST(ValueText, errors_that_are_none_are_said) {
   EXPECT_EQ(value_with_error(0.25, std::nan("")), "0.25(?)");
   EXPECT_EQ(value_with_error(0.25, INFINITY), "0.25(?)");
   EXPECT_EQ(value_with_error(NAN, 1), "nan");
-  EXPECT_EQ(value_with_error(2, 1e-17), "2.0000000000000000(20)");
+}
+
+TEST(ValueText, an_error_of_rounding_shows_the_digits_that_a_double_has) {
+  EXPECT_EQ(value_with_error(3, 2.7e-15), "3.000000000000000(3)");
+  EXPECT_EQ(value_with_error(2, 1e-17), "2.000000000000000(1)");
+  EXPECT_EQ(value_with_error(0.1, 8.9e-17), "0.1000000000000000(1)");
+  EXPECT_EQ(value_with_error(3e-16, 2.7e-31), "3.000000000000000(3)e-16");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(LargestTerms, keeps_the_largest_whatever_the_order_and_the_parts) {
   a.merge(b);
   EXPECT_EQ(all.sorted(), a.sorted());
   EXPECT_EQ(all.sorted().front(), 500);
-  EXPECT_EQ(all.sorted().size(), LargestTerms::capacity);
+  EXPECT_EQ(all.sorted().size(), LargestTerms::of_part);
 }
 
 TEST(HillIndex, is_the_exponent_of_a_power_law) {

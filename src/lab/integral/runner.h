@@ -1,0 +1,37 @@
+// Work units of an integral on threads.
+#pragma once
+#include <span>
+
+#include "lab/integral/technique.h"
+
+namespace montelux::lab {
+
+// Grows a state by whole parts of passes: all of them, or none where it is stopped on the way. Memory is bounded
+// whatever the number of samples.
+class Runner {
+ public:
+  Runner(const Technique& technique, const Execution& execution, IntegralState& state)
+      : technique_(technique), traits_(technique.traits()), execution_(execution), state_(state) {}
+
+  // Adds samples [first, first + count) to passes [begin, end) of this run. False: stopped, and the state is as before.
+  bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count);
+
+ private:
+  struct Unit {
+    PassPart part;
+    std::uint32_t pass = 0;
+    TermSums sums{};
+  };
+
+  bool run_all(std::span<Unit> units);
+  void enter(std::uint32_t pass, const TermSums& sums);
+  PassRecord& record_of(std::uint32_t pass);
+
+  const Technique& technique_;
+  TechniqueTraits traits_;
+  const Execution& execution_;
+  IntegralState& state_;
+  std::size_t last_ = 0;  // the record that was used last
+};
+
+}  // namespace montelux::lab
