@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
-#include "api/scene.h"
+#include "api/render.h"
 #include "options.h"
 #include "progress.h"
+#include "shortcomings.h"
 #include "status.h"
 #include "verbs.h"
 
@@ -28,7 +29,7 @@ std::string bytes_text(std::size_t bytes) { return count_text(double(bytes), "B"
 
 bool has_bounds(const SceneInfo& info) { return info.low[0] <= info.high[0]; }
 
-void print_json(const SceneInfo& info) {
+void print_json(const SceneInfo& info, const std::vector<std::string>& missing) {
   Json lights = Json::object();
   for (const auto& [kind, count] : info.lights) lights[kind] = count;
   Json json;
@@ -51,10 +52,11 @@ void print_json(const SceneInfo& info) {
   json["texture_bytes"] = info.texture_bytes;
   json["read_seconds"] = info.read_seconds, json["prepare_seconds"] = info.prepare_seconds;
   json["build_seconds"] = info.build_seconds;
+  add_to(json, {missing, info.replaced, info.left_out});
   fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
-void print_text(const SceneInfo& info) {
+void print_text(const SceneInfo& info, const std::vector<std::string>& missing) {
   fmt::print("scene     {}\n", info.file);
   fmt::print("picture   {} x {} pixels", info.width, info.height);
   if (info.crop != PixelBounds{0, 0, info.width, info.height})
@@ -80,16 +82,18 @@ void print_text(const SceneInfo& info) {
              bytes_text(info.accel_bytes), bytes_text(info.texture_bytes));
   fmt::print("time      read {}, prepare {}, build {}\n", time_text(info.read_seconds), time_text(info.prepare_seconds),
              time_text(info.build_seconds));
+  print_text(Shortcomings{missing, info.replaced, info.left_out}, 10);
 }
 
 int run_info(const InfoArguments& arguments) {
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, false);
   if (!loaded.scene) return bad_input;
+  const std::vector<std::string> missing = missing_light_of(*loaded.scene);
   if (arguments.json)
-    print_json(loaded.scene->info());
+    print_json(loaded.scene->info(), missing);
   else
-    print_text(loaded.scene->info());
+    print_text(loaded.scene->info(), missing);
   return done;
 }
 

@@ -13,6 +13,7 @@
 #include "api/json_text.h"
 #include "options.h"
 #include "progress.h"
+#include "shortcomings.h"
 #include "signals.h"
 #include "status.h"
 #include "verbs.h"
@@ -135,6 +136,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["non_finite"] = outcome.non_finite;
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
+  add_to(json, {rendering.missing, rendering.replaced, rendering.left_out});
   // A line for each frame of a sequence.
   fmt::print("{}\n", json_text(std::move(json), arguments.frame ? -1 : 2));
 }
@@ -153,6 +155,7 @@ void print_text(const RenderArguments& arguments, const Rendering& rendering, co
     fmt::print("\nerror    {} of a pixel, root of the mean relative square\n", error_text(outcome.error));
   else
     fmt::print("\nerror    not known: it takes two independent passes\n");
+  print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   fmt::print("samples  {} a pixel ({} passes of {}), {} in all\n", passes * k, passes, k, count_text(outcome.samples));
   fmt::print(
       "time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),

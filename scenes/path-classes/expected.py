@@ -59,6 +59,7 @@ TURN_DOWN = metal(0.2, 3.9) + quad((-0.003, 0.047, 0.003), (0.003, 0.047, 0.003)
 WALL_MIRROR = metal(0.001, 1000) + quad((1, 0, -2), (1, 3, -2), (1, 3, 2), (1, 0, 2))
 TO_MIRROR = lamp(5, (0.25, 0.5, -0.5), (0.25, 1.5, -0.5), (0.25, 1.5, 0.5), (0.25, 0.5, 0.5))
 IMAGE = "0.6/pi * 5 * polygon((1.75, 0.5, -0.5), (1.75, 1.5, -0.5), (1.75, 1.5, 0.5), (1.75, 0.5, 0.5), normal=(0, 1, 0))"
+POINT_IMAGE = "0.6/pi * 3 * point(1.75, 1, 0)"
 # The same with a point light, in a shade that hides it from the floor.
 POINT_TO_MIRROR = (
     'LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ 0.25 1 0 ]\n'
@@ -67,9 +68,9 @@ POINT_TO_MIRROR = (
 )
 
 REFLECT = "fresnel_metal(cos(radians(45)), 0.2, 3.9)"
-ALL = ["path", "naive", "distribution", "tracepath"]
+ALL = ["path", "naive", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"]
 SCENES = {
-    # name: class, title, camera, world, formula, who finds it besides the paths (none: nobody does)
+    # name: class, title, camera, world, formula, who finds it besides paths from the eye (none: nobody does)
     "le": ("LE", "A lamp.", LEVEL, lamp(2, (-1, -1, 0), (-1, 1, 0), (1, 1, 0), (1, -1, 0)), "2", ["direct"]),
     "lde": ("LDE", "A diffuse patch under a lamp.", DOWN,
             FLOOR + lamp(2, (0, 1, 0), (2, 1, 0), (2, 1, 1), (0, 1, 1)),
@@ -90,8 +91,10 @@ SCENES = {
              IMAGE, []),
     "lsdse": ("LSDSE", "A caustic seen in a mirror.", ACROSS, FLOOR + TURN_DOWN + WALL_MIRROR + TO_MIRROR,
               REFLECT + " * " + IMAGE, []),
-    "lsde-point": ("LSDE, point light", "A diffuse patch lit by a point light through a mirror: no path by chance meets it.",
-                   DOWN, FLOOR + WALL_MIRROR + POINT_TO_MIRROR, "0.6/pi * 3 * point(1.75, 1, 0)", None),
+    "lsde-point": ("LSDE of delta lights", "A diffuse patch lit by a point light through a mirror: no path by chance meets it.",
+                   DOWN, FLOOR + WALL_MIRROR + POINT_TO_MIRROR, POINT_IMAGE, None),
+    "lsdse-point": ("LSDSE of delta lights", "The same in a mirror.", ACROSS,
+                    FLOOR + TURN_DOWN + WALL_MIRROR + POINT_TO_MIRROR, REFLECT + " * " + POINT_IMAGE, None),
 }
 
 if __name__ == "__main__":

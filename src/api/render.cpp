@@ -8,6 +8,7 @@
 #include "api/parts.h"
 #include "integrator/catalogue.h"
 #include "integrator/direct/settings.h"
+#include "integrator/missing_light.h"
 #include "render/motion.h"
 
 namespace montelux {
@@ -47,12 +48,24 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
 struct Plan {
   RenderSettings render;
   ChosenIntegrator chosen;
+  std::vector<Replacement> replaced;
   bool motion = false;     // of a sequence
   double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
 };
 
 Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
   return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
+}
+
+IntegratorDefaults integrator_defaults(const PictureSettings& picture) {
+  return {picture.max_depth, picture.max_component, picture.width, picture.height};
+}
+
+// Notes what of the scene's light the picture will not show.
+void note_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const LoadedScene::Parts& parts) {
+  if (chosen.search != LightSearch::none && parts.scene.lights.count() == 0)
+    chosen.notes.push_back("the scene has no light: the picture is black");
+  note_missing_light(chosen, defaults, parts.scene, *parts.accel);
 }
 
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
@@ -70,10 +83,15 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
   const Stopwatch since_choice;
-  auto chosen = choose_integrator(*choice, {picture.max_depth, picture.max_component, picture.width, picture.height},
-                                  parts.scene, *parts.accel);
+  const IntegratorDefaults defaults = integrator_defaults(picture);
+  auto chosen = choose_integrator(*choice, defaults, parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
+  note_light(plan.chosen, defaults, parts);
+  plan.replaced = parts.info.replaced;
+  std::erase_if(plan.replaced, [&](const Replacement& r) {
+    return (r.family == "integrator" && (options.integrator || preset)) || (r.family == "sampler" && options.sampler);
+  });
   plan.preparation = since_choice.seconds();
   plan.motion = options.layers && options.layers->motion;
   if (options.layers && options.layers->of_light()) {
@@ -125,6 +143,11 @@ struct PicturePlan {
   const RenderSettings& render;
 };
 
+// For a header, which has no lists.
+std::string list_or_none(const std::vector<std::string>& all, std::string_view separator = "; ") {
+  return all.empty() ? std::string("none") : fmt::format("{}", fmt::join(all, separator));
+}
+
 std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
                                  const RenderResult& result) {
   std::vector<Attribute> header;
@@ -139,8 +162,12 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   add("samplesPerPass", std::int32_t(picture.render.plan.samples_per_pass));
   add("passes", std::int32_t(result.film.image().passes));
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
-  const std::string biased = fmt::format("{}", fmt::join(picture.plan.chosen.biases, ", "));
-  add("biasedOptions", biased.empty() ? std::string("none") : biased);
+  add("biasedOptions", list_or_none(picture.plan.chosen.biases, ", "));
+  add("missingLight", list_or_none(picture.plan.chosen.missing));
+  std::vector<std::string> replaced;
+  for (const Replacement& r : picture.plan.replaced) replaced.push_back(to_text(r));
+  add("replaced", list_or_none(replaced));
+  add("leftOut", list_or_none(parts.info.left_out));
   const ImageEstimate image = result.film.image();
   add("errorBar", image.passes >= 2 ? fmt::format("over {} independent passes", image.passes)
                                     : std::string("none: it takes two independent passes"));
@@ -185,7 +212,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     plan.render.budget->ending = result.ending;
   }
   std::vector<Attribute> header = header_of(parts, {plan, settings}, result);
-  return Rendering{std::move(result), std::move(header), plan.chosen.notes, settings.plan, settings.layers, 0, {}};
+  return Rendering{std::move(result),   std::move(header), plan.chosen.notes,  settings.plan, settings.layers, 0, {},
+                   plan.chosen.missing, plan.replaced,     parts.info.left_out};
 }
 
 }  // namespace
@@ -226,6 +254,16 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (!plan) return plan.failure();
   RenderSettings settings = plan->render;
   return render_picture(scene.parts(), *plan, std::move(settings), observer);
+}
+
+std::vector<std::string> missing_light_of(const LoadedScene& scene) {
+  const LoadedScene::Parts& parts = scene.parts();
+  const IntegratorDefaults defaults = integrator_defaults(parts.picture);
+  std::vector<std::string> names;
+  for (const MissingLight& light : missing_light(light_search(parts.picture.integrator), parts.scene, *parts.accel,
+                                                 defaults.width, defaults.height))
+    names.push_back(light.name);
+  return names;
 }
 
 Status check_integrator_text(const std::string& text) {

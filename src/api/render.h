@@ -32,8 +32,11 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;      // that the chains of a sequence keep for the next picture
-  std::optional<PixelBuffer> motion;  // to the picture before, as motion_vectors() has it
+  std::size_t history_bytes = 0;        // that the chains of a sequence keep for the next picture
+  std::optional<PixelBuffer> motion;    // to the picture before, as motion_vectors() has it
+  std::vector<std::string> missing{};   // sorts of light of the scene that the integrator cannot find
+  std::vector<Replacement> replaced{};  // of what the file names and no option replaces
+  std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it
   // Whether a standard error is known: it takes two independent passes.
   bool has_error_bar() const { return result.film.image().passes >= 2; }
 };
@@ -76,6 +79,9 @@ PixelBuffer layers_of(const Rendering& rendering);
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
 // file is replaced in one step.
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display);
+
+// Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
+std::vector<std::string> missing_light_of(const LoadedScene& scene);
 
 // Whether there is such an integrator with such settings, "direct:strategy=ris"; a scene is not needed to tell.
 Status check_integrator_text(const std::string& text);

@@ -11,6 +11,7 @@
 #include "io/report.h"
 #include "io/scene_file.h"
 #include "scene/prepare.h"
+#include "scene/table.h"
 
 namespace montelux {
 
@@ -89,6 +90,33 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   return info;
 }
 
+// What serves for names of the file that Montelux does not have itself. A default that the file does not state is no
+// such name.
+std::vector<Replacement> replacements(const SceneDesc& desc) {
+  std::vector<Replacement> all;
+  const auto look_at = [&](const char* family, const Entity& entity, std::span<const EntitySpec> table) {
+    const EntitySpec* spec = find_entity(table, entity.type);
+    if (entity.where.file && spec && !spec->instead.empty())
+      all.push_back({family, entity.type, std::string(spec->instead)});
+  };
+  look_at("integrator", desc.integrator, integrator_table());
+  look_at("sampler", desc.sampler, sampler_table());
+  look_at("film", desc.film, film_table());
+  return all;
+}
+
+std::vector<std::string> left_out(const std::vector<Omission>& omissions) {
+  std::vector<std::string> all;
+  for (const Omission& omission : omissions) {
+    const SourceLocation& at = omission.first;
+    std::string where = at.file ? std::filesystem::path(*at.file).filename().string() : std::string();
+    if (at.file && at.line > 0) where += fmt::format(":{}:{}", at.line, at.column);
+    std::string count = omission.count > 1 ? fmt::format("{} times, first at ", omission.count) : std::string();
+    all.push_back(where.empty() ? omission.what : fmt::format("{} ({}{})", omission.what, count, where));
+  }
+  return all;
+}
+
 // The part of an animation that the pictures need: each frame's moment and that of the frame before the first.
 AnimationWindow window_of(const LoadOptions& options, const AnimationTime& time) {
   const ShutterTimes shutter = options.shutter.value_or(ShutterTimes{time.start, time.start});
@@ -149,6 +177,8 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
         options.threads);
     const double build_seconds = watch.lap();
     parts->info = info_of(desc, *parts);
+    parts->info.replaced = replacements(desc);
+    parts->info.left_out = left_out(read.omissions);
     parts->info.read_seconds = read_seconds;
     parts->info.prepare_seconds = prepare_seconds;
     parts->info.build_seconds = build_seconds;
@@ -169,6 +199,8 @@ LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& opti
   if (!options.verbose) result.diagnostics = grouped(result.diagnostics);
   return result;
 }
+
+std::string to_text(const Replacement& r) { return fmt::format("{} {} by {}", r.family, r.name, r.by); }
 
 std::string to_text(const Diagnostic& diagnostic, bool color) { return render(diagnostic, ReportStyle{color, true}); }
 

@@ -27,6 +27,14 @@ struct LoadOptions {
   std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed
 };
 
+// Something of ours that serves for what the file names.
+struct Replacement {
+  std::string family, name, by;  // "integrator", "sppm", "path"
+};
+
+// "integrator sppm by path".
+std::string to_text(const Replacement& replacement);
+
 // What is in a scene, for people.
 struct SceneInfo {
   std::string file;
@@ -52,6 +60,9 @@ struct SceneInfo {
   float low[3] = {}, high[3] = {};                          // bounds of the scene
   std::size_t geometry_bytes = 0, accel_bytes = 0, texture_bytes = 0, light_bytes = 0;
   double read_seconds = 0, prepare_seconds = 0, build_seconds = 0;
+  std::vector<Replacement> replaced;
+  // By a lenient reading: what, how often, and where first, a line each.
+  std::vector<std::string> left_out;
 };
 
 // A scene that is ready to render. Opaque; movable; may be rendered from many threads at once.

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "integrator/clamped.h"
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
 #include "integrator/look/integrator.h"
+#include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
 #include "integrator/radiosity/integrator.h"
 #include "integrator/restir/integrator.h"
 #include "integrator/tracepath/integrator.h"
+#include "scene/smoothness.h"
 
 namespace montelux {
 
@@ -42,9 +46,22 @@ void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
 void note_masked(ChosenIntegrator& chosen, const Scene& scene, std::string_view setting) {
   if (!scene.lights.has_masked()) return;
   chosen.biases.push_back(fmt::format("{} with masked emitters", setting));
+  chosen.missing.push_back("direct light of emitters with an alpha mask");
   chosen.notes.push_back(
       fmt::format("emitters with an alpha mask are found by directions alone, which {} does without: the picture is "
                   "biased by their light",
+                  setting));
+}
+
+// Where directions are drawn without regard to the BSDF, none of them is that of a smooth coat's reflection.
+void note_smooth_coats(ChosenIntegrator& chosen, const Scene& scene, std::string_view setting) {
+  const auto is_coated = [&](const GeometryRow& row) { return may_be_partly_smooth(scene.materials, row.material); };
+  if (std::ranges::none_of(scene.geometry.rows, is_coated)) return;
+  chosen.biases.push_back(fmt::format("{} with smooth coats", setting));
+  chosen.missing.push_back("reflections in smooth coats");
+  chosen.notes.push_back(
+      fmt::format("surfaces here have smooth coats, whose reflections {} cannot find: the picture is biased by their "
+                  "light (path finds it)",
                   setting));
 }
 
@@ -64,8 +81,10 @@ Made make_direct(const Request& r) {
   ChosenIntegrator chosen = made("direct", std::make_unique<DirectIntegrator>(r.scene, r.accel, settings));
   chosen.biases.push_back("direct light alone");
   using enum DirectStrategy;
+  const std::string strategy = fmt::format("strategy={}", direct_strategy_names[std::size_t(settings.strategy)]);
   if (settings.strategy == light_area || settings.strategy == light_solid_angle || settings.strategy == ris)
-    note_masked(chosen, r.scene, fmt::format("strategy={}", direct_strategy_names[std::size_t(settings.strategy)]));
+    note_masked(chosen, r.scene, strategy);
+  if (settings.strategy != mis && settings.strategy != bsdf) note_smooth_coats(chosen, r.scene, strategy);
   const bool fixed = settings.pattern == PointSetKind::uniform_grid;
   if (fixed) chosen.biases.push_back("fixed shadow rays");
   if (fixed)
@@ -87,6 +106,12 @@ Made make_tracepath(const Request& r) {
   TracePathSettings settings = tracepath_settings(r.list);
   settings.max_depth = r.max_depth;
   ChosenIntegrator chosen = made("tracepath", std::make_unique<TracePathIntegrator>(r.scene, r.accel, settings));
+  // It aims at flat lamps, and elsewhere evenly.
+  for (std::uint32_t i = 0; i < r.scene.lights.count(); ++i)
+    if (r.scene.lights.polygon(LightId(i))) {
+      note_smooth_coats(chosen, r.scene, "tracepath");
+      break;
+    }
   note_depth(chosen, r.max_depth);
   return chosen;
 }
@@ -142,6 +167,7 @@ constexpr char ao[] = "ao", normal[] = "normal", albedo[] = "albedo", depth[] = 
 struct Row {
   EntitySpec spec;
   Made (*make)(const Request&);
+  LightSearch search = LightSearch::any_length;
 };
 
 // The one table of integrators.
@@ -149,17 +175,17 @@ const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
     std::vector<Row> all{{path_spec(), make_path<false>},
                          {naive_spec(), make_path<true>},
-                         {direct_spec(), make_direct},
+                         {direct_spec(), make_direct, LightSearch::one_event},
                          {distribution_spec(), make_distribution},
                          {tracepath_spec(), make_tracepath},
                          {restir_di_spec(), make_restir<restir_di>},
                          {restir_gi_spec(), make_restir<restir_gi>},
                          {restir_pt_spec(), make_restir<restir_pt>},
-                         {radiosity_spec(), make_radiosity}};
+                         {radiosity_spec(), make_radiosity, LightSearch::diffuse}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();
-    for (std::size_t i = 0; i < specs.size(); ++i) all.push_back({specs[i], looks[i]});
+    for (std::size_t i = 0; i < specs.size(); ++i) all.push_back({specs[i], looks[i], LightSearch::none});
     for (Row& row : all)
       row.spec.parameters.push_back({"maxcomponent",
                                      {ParameterType::number},
@@ -218,6 +244,20 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
                   name_of(kind)));
 }
 
+LightSearch light_search(std::string_view name) {
+  for (const Row& row : rows())
+    if (row.spec.name == name) return row.search;
+  return LightSearch::none;
+}
+
+void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const Scene& scene,
+                        const Accel& accel) {
+  for (MissingLight& light : missing_light(chosen.search, scene, accel, defaults.width, defaults.height)) {
+    chosen.missing.push_back(std::move(light.name));
+    chosen.notes.push_back(std::move(light.sentence));
+  }
+}
+
 Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const IntegratorDefaults& defaults,
                                            const Scene& scene, const Accel& accel) {
   auto read = read_choice(choice);
@@ -236,6 +276,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
         "all camera rays go through the centres of pixels, as the scene's disablepixeljitter asks: the picture is "
         "biased, without the pixel filter, depth of field and motion blur");
   }
+  result->search = row->search;
   if (most) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *most);

@@ -7,6 +7,7 @@
 
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/path_classes.h"
 #include "parameter/choice.h"
 #include "scene/scene.h"
 
@@ -28,11 +29,21 @@ struct ChosenIntegrator {
   std::vector<std::string> biases;              // "maxdepth=5", ...: what makes its mean differ from the scene's light
   std::vector<std::string> notes;               // the same for people, in sentences
   std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels learn from each other
+  LightSearch search = LightSearch::any_length;
+  std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
   AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
 };
 
 // Adds to the biases and notes what the render's point set brings: nothing, but for fixed patterns.
 void note_sampler(ChosenIntegrator& chosen, PointSetKind kind);
+
+// Adds to what is missing, and to the notes, the light of the scene that the integrator cannot find. Looks for it by
+// walks through the scene (missing_light.h), which may take milliseconds.
+void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const Scene& scene,
+                        const Accel& accel);
+
+// How an integrator of the catalogue looks for light.
+LightSearch light_search(std::string_view name);
 
 // Whether name and settings are in the catalogue, for a message before the scene is read.
 Status check_integrator(const ChoiceText& choice);

@@ -13,6 +13,7 @@ ReadResult read_gltf(const std::string& path, const ReadOptions& options) {
     SceneDesc scene = gltf::SceneBuilder(document, options).build();
     if (!result.diagnostics.has_errors()) result.scene = std::move(scene);
   }
+  result.omissions = report.omissions();
   report.finish();
   return result;
 }

@@ -15,6 +15,7 @@ ReadResult read(const std::string& folder, const ReadOptions& options, Parse par
   pbrt::Parser parser(folder, result.diagnostics, options.lenient);
   parse(parser);
   SceneDesc scene = parser.finish();
+  result.omissions = parser.omissions();
   if (!result.diagnostics.has_errors()) result.scene = std::move(scene);
   return result;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "parameter/diagnostic.h"
 #include "scene/description.h"
@@ -36,10 +37,18 @@ struct ReadOptions {
   std::function<AnimationWindow(const AnimationTime&)> window{};
 };
 
+// What a lenient reading left out of a scene, or took otherwise than it is stated.
+struct Omission {
+  std::string what;  // as the warning says that stands for it among the diagnostics
+  SourceLocation first;
+  int count = 1;  // of the same
+};
+
 // A scene, or no scene where an error was found. Diagnostics may hold warnings and notes beside a scene.
 struct ReadResult {
   std::optional<SceneDesc> scene;
   Diagnostics diagnostics;
+  std::vector<Omission> omissions{};  // in the order of their first places
 };
 
 }  // namespace montelux

@@ -26,6 +26,13 @@ void Reporter::note(const SourceLocation& where, std::string message, std::strin
   add({Severity::note, where, std::move(message), std::move(hint)});
 }
 void Reporter::tolerable(const SourceLocation& where, std::string message, std::string hint) {
+  if (lenient_) {
+    const auto [at, is_new] = omission_numbers_.try_emplace(message, omissions_.size());
+    if (is_new)
+      omissions_.push_back({message, where});
+    else
+      ++omissions_[at->second].count;
+  }
   add({lenient_ ? Severity::warning : Severity::error, where, std::move(message), std::move(hint)});
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <map>
 
-#include "parameter/diagnostic.h"
+#include "io/read_result.h"
 
 namespace montelux {
 
@@ -22,6 +22,9 @@ class Reporter {
   void add(Diagnostic diagnostic);
   void finish();
 
+  // What a lenient reading let pass, counted: also where no warning has room for it.
+  const std::vector<Omission>& omissions() const { return omissions_; }
+
   bool lenient() const { return lenient_; }
   int errors() const { return out_->errors(); }
 
@@ -33,6 +36,8 @@ class Reporter {
   Diagnostics* out_;
   bool lenient_;
   std::map<std::pair<std::string, Severity>, Count> counts_;
+  std::vector<Omission> omissions_;
+  std::map<std::string, std::size_t> omission_numbers_;  // by what was left out
 };
 
 }  // namespace montelux

@@ -39,6 +39,7 @@ inline constexpr std::uint32_t named_material = 0x80000000u;
 class Parser {
  public:
   Parser(std::string folder, Diagnostics& diagnostics, bool lenient);
+  const std::vector<Omission>& omissions() const { return report_.omissions(); }
 
   void parse_file(const std::string& path);
   void parse_text(std::string_view text, const std::string& file_name);

@@ -2,9 +2,11 @@
 // are not of this class. scenes/path-classes/expected.json says which; docs/integrators.md has the table.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "integrator/missing_light.h"
 #include "render_scenes.h"
 #include "statistics.h"
 
@@ -14,12 +16,19 @@ namespace {
 const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/path-classes";
 constexpr int passes = 32, samples_per_pass = 48;
 constexpr double rounding = 1e-5;
-const std::vector<std::string> ways{"path", "naive", "distribution:branching=1", "tracepath", "direct"};
+const std::vector<std::string> ways{
+    "path", "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt"};
+std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }
 
 struct PathClass {
   std::string scene, paths, formula;
   double value = 0;
   std::set<std::string> found_by;
+  montelux::PathClass path_class() const {
+    const auto at = std::find(path_class_names.begin(), path_class_names.end(), paths);
+    EXPECT_NE(at, path_class_names.end()) << paths;
+    return montelux::PathClass(at - path_class_names.begin());
+  }
 };
 void PrintTo(const PathClass& c, std::ostream* out) { *out << c.paths; }
 
@@ -41,8 +50,7 @@ struct Measured {
 Measured measure(const TestScene& scene, const std::string& way, int per_pass = samples_per_pass) {
   const ChosenIntegrator chosen = scene.integrator(way);
   RenderObserver silent;
-  const Film film =
-      render(*chosen.integrator, scene.settings(PointSetKind::independent, {per_pass, passes}, 3), silent).film;
+  const Film film = render(chosen.any(), scene.settings(PointSetKind::independent, {per_pass, passes}, 3), silent).film;
   EXPECT_EQ(film.non_finite(), 0u) << way;
   return {film.image().mean[0], film.image().standard_error[0]};
 }
@@ -59,7 +67,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
   const TestScene scene(read_text(folder / c.scene), folder.string());
   for (const std::string& way : ways) {
     const Measured m = measure(scene, way);
-    if (!c.found_by.contains(way.substr(0, way.find(':')))) {
+    if (!c.found_by.contains(name_of(way))) {
       EXPECT_EQ(m.mean, 0) << way;
       continue;
     }
@@ -67,6 +75,27 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
                                     << " = " << c.value;
     const double fault = way == "path" ? 1.2 : 1.3;
     EXPECT_FALSE(agrees(m, fault * c.value)) << way << " would pass with " << 100 * (fault - 1) << " % more";
+  }
+}
+
+// The table of the program, which drives warnings and headers, says of every integrator what the pictures show.
+TEST_P(PathClasses, are_in_the_table_of_findings) {
+  const PathClass& c = GetParam();
+  for (const std::string& way : ways)
+    EXPECT_EQ(finding(light_search(name_of(way)), c.path_class()) != Finding::no, c.found_by.contains(name_of(way)))
+        << way;
+}
+
+// Both directions: where light is missing it is named, and where nothing is missing there is no warning.
+TEST_P(PathClasses, that_are_missing_are_named_and_no_others) {
+  const PathClass& c = GetParam();
+  const TestScene scene(read_text(folder / c.scene), folder.string());
+  for (const std::string& way : ways) {
+    ChosenIntegrator chosen = scene.integrator(way);
+    const std::size_t notes = chosen.notes.size();
+    note_missing_light(chosen, {{}, {}, scene.picture().width, scene.picture().height}, scene.scene(), scene.accel());
+    EXPECT_EQ(chosen.missing.empty(), c.found_by.contains(name_of(way))) << way;
+    EXPECT_EQ(chosen.notes.size() - notes, chosen.missing.size()) << way;
   }
 }
 
@@ -92,6 +121,43 @@ TEST(PathClassesOfPoints, have_the_light_that_a_small_lamp_in_their_place_brings
       EXPECT_FALSE(agrees(m, 0));
       EXPECT_FALSE(agrees(m, 1.5 * c.value));
     }
+}
+
+// Light of lamps that a ray can meet is found by chance: the same scene with such a lamp has no warning.
+TEST(PathClassesOfPoints, are_not_called_missing_with_a_lamp_that_has_a_size) {
+  const TestScene scene(read_text(folder / "lsde.pbrt"), folder.string());
+  EXPECT_TRUE(missing_light(LightSearch::any_length, scene.scene(), scene.accel(), 8, 8).empty());
+  EXPECT_FALSE(missing_light(LightSearch::one_event, scene.scene(), scene.accel(), 8, 8).empty());
+}
+
+TEST(PathClassesOfRadiosity, with_smooth_surfaces_are_refused) {
+  for (const PathClass& c : classes()) {
+    const TestScene scene(read_text(folder / c.scene), folder.string());
+    const bool refused = finding(light_search("radiosity"), c.path_class()) == Finding::refused;
+    if (refused)
+      EXPECT_THROW(scene.integrator("radiosity"), std::runtime_error) << c.paths;
+    else
+      EXPECT_NO_THROW(scene.integrator("radiosity")) << c.paths;
+  }
+}
+
+// The table of docs/integrators.md, cell by cell.
+TEST(PathClassesOfDocumentation, are_those_of_the_table_of_findings) {
+  const std::string text = read_text(std::filesystem::path(MONTELUX_SOURCE_DIR) / "docs/integrators.md");
+  const LightSearch columns[] = {LightSearch::any_length, LightSearch::one_event, LightSearch::diffuse};
+  for (std::size_t i = 0; i < path_class_names.size(); ++i) {
+    const std::size_t row = text.find("\n| " + std::string(path_class_names[i]) + " | ");
+    ASSERT_NE(row, std::string::npos) << path_class_names[i];
+    std::istringstream line(text.substr(row + 1, text.find('\n', row + 1) - row - 1));
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
+    ASSERT_GE(cells.size(), 6u) << path_class_names[i];
+    for (std::size_t c = 0; c < std::size(columns); ++c) {
+      const Finding found = *finding(columns[c], montelux::PathClass(i));
+      EXPECT_EQ(cells[3 + c], " " + std::string(finding_names[std::size_t(found)]) + " ")
+          << path_class_names[i] << ", column " << c;
+    }
+  }
 }
 
 TEST(PathClassesOfFolder, all_have_an_expected_mean) {

@@ -1,0 +1,176 @@
+#include "integrator/missing_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "integrator/arrival.h"
+#include "integrator/catalogue.h"
+#include "scene/smoothness.h"
+
+namespace montelux {
+
+namespace {
+
+// Walks that are followed in any case, and where none of them finds anything.
+constexpr std::uint32_t usual_walks = 1024, longest_search = 16384;
+constexpr int deepest = 16;
+
+// Surfaces that may have a smooth part: rows of the world, and instances with the rows of their objects.
+class SmoothTargets {
+ public:
+  explicit SmoothTargets(const Scene& scene) : scene_(scene) {
+    const GeometryStore& g = scene.geometry;
+    std::vector<bool> smooth;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) smooth.push_back(may_be_smooth(scene.materials, i));
+    const auto take = [&](std::size_t first, std::size_t count, std::vector<std::uint32_t>& rows) {
+      for (std::size_t i = first; i < first + count; ++i)
+        if (smooth[g.rows[i].material] && g.rows[i].kind != GeometryKind::curves) rows.push_back(std::uint32_t(i));
+    };
+    take(0, g.world_rows, world_);
+    objects_.resize(g.objects.size());
+    for (std::size_t i = 0; i < g.objects.size(); ++i) take(g.objects[i].first, g.objects[i].count, objects_[i]);
+    for (std::uint32_t i = 0; i < g.instances.size(); ++i)
+      if (!objects_[g.instances[i].object].empty()) instances_.push_back(i);
+  }
+  bool empty() const { return world_.empty() && instances_.empty(); }
+
+  // A point of one of them, where it is at the start of the time.
+  Vec3f point(RandomStream<float>& random) const {
+    const std::size_t i = pick(random, world_.size() + instances_.size());
+    if (i < world_.size()) return point_of_row(world_[i], random);
+    const PlacedObject& placed = scene_.geometry.instances[instances_[i - world_.size()]];
+    const auto& rows = objects_[placed.object];
+    return placed.object_to_world.point(point_of_row(rows[pick(random, rows.size())], random));
+  }
+
+ private:
+  static std::size_t pick(RandomStream<float>& random, std::size_t count) {
+    return std::min(std::size_t(double(random.next()) * double(count)), count - 1);
+  }
+  Vec3f point_of_row(std::uint32_t number, RandomStream<float>& random) const {
+    const GeometryStore& g = scene_.geometry;
+    const GeometryRow& row = g.rows[number];
+    Vec2f u = random.next2();
+    if (row.kind == GeometryKind::shape) return sample_area(g.shapes[row.first], u).point.p;
+    const auto& corners = g.triangles[row.first + pick(random, row.count)];
+    if (u.x + u.y > 1) u = {1 - u.x, 1 - u.y};
+    const Vec3f a = g.positions[corners[0]], b = g.positions[corners[1]], c = g.positions[corners[2]];
+    return a + (b - a) * u.x + (c - a) * u.y;
+  }
+
+  const Scene& scene_;
+  std::vector<std::uint32_t> world_, instances_;
+  std::vector<std::vector<std::uint32_t>> objects_;
+};
+
+// Follows light from `light` toward `target`. The model of the smooth surface that it meets first, where it comes by
+// smooth surfaces alone to one that is rough, at least in part.
+std::optional<BsdfKind> follow(const Scene& scene, const Accel& accel, LightId light, const Vec3f& target,
+                               RandomStream<float> random) {
+  using F = float;
+  const Vec3f zero{0, 0, 0};
+  const LightSample<F> from = scene.lights.sample_light<F>(std::uint32_t(light), target, zero, random.next2(), true);
+  if (!from.valid || !(max_component(from.radiance) > 0)) return std::nullopt;
+  Ray<F> ray{target + from.wi * from.distance, -from.wi, ray_infinity, scene.shutter.time(random.next())};
+  std::optional<BsdfKind> first;
+  RayCounts counts;
+  for (int depth = 0; depth < deepest; ++depth) {
+    const Arrival<F> at = trace_to_arrival<F>(scene, accel, {ray.o, zero}, ray, true, random.fork(std::uint32_t(depth)),
+                                              counts, [](F) { return F(0); });
+    if (!at.found) return std::nullopt;
+    if (first && !at.bsdf.is_delta) return first;
+    const Vec2f u = random.next2();
+    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo, {random.next(), u.x, u.y}, at.context);
+    if (!next.valid || !next.delta || !(max_component(next.weight) > 0)) return std::nullopt;
+    if (!first) first = BsdfKind(at.bsdf.kind);
+    ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
+  }
+  return std::nullopt;
+}
+
+// "point lights", "point and spot lights".
+template <class Kind, class Name>
+std::string list_of(const std::vector<Kind>& kinds, Name name) {
+  std::string list;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < kinds.size() ? ", " : " and ") + std::string(name(kinds[i]));
+  return list;
+}
+
+MissingLight missing_caustics(const DeltaCaustics& caustics) {
+  const std::string lights =
+      list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
+  const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
+  return {
+      fmt::format("light of {} lights by way of smooth surfaces ({})", lights, surfaces),
+      fmt::format("light of {} lights may be missing that comes to surfaces by way of smooth glass or mirrors ({}): "
+                  "no ray meets such a light, and no light sample passes such a surface; no integrator finds it "
+                  "yet (a small sphere that shines, in the light's place, is found)",
+                  lights, surfaces)};
+}
+
+}  // namespace
+
+DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel) {
+  if (!scene.lights.has_delta()) return {};
+  const SmoothTargets targets(scene);
+  if (targets.empty()) return {};
+  std::vector<LightId> lights;
+  for (std::uint32_t i = 0; i < scene.lights.count(); ++i)
+    if (is_delta(scene.lights.kind(LightId(i)))) lights.push_back(LightId(i));
+  const RandomStream<float> all(0x243f6a88u, 0x85a308d3u);
+  std::set<LightKind> kinds;
+  std::set<BsdfKind> surfaces;
+  for (std::uint32_t i = 0; i < (kinds.empty() ? longest_search : usual_walks); ++i) {
+    RandomStream<float> random = all.fork(i);
+    // Every light has its turn, and a target of its own each time.
+    const LightId light = lights[i % lights.size()];
+    const Vec3f target = targets.point(random);
+    if (const auto surface = follow(scene, accel, light, target, random))
+      kinds.insert(scene.lights.kind(light)), surfaces.insert(*surface);
+  }
+  return {{kinds.begin(), kinds.end()}, {surfaces.begin(), surfaces.end()}};
+}
+
+bool has_indirect_light(const Scene& scene, const Accel& accel, int width, int height) {
+  constexpr int tiles = 64, side = 4;
+  constexpr std::uint32_t samples = 4;
+  const Result<ChosenIntegrator> path = choose_integrator({"path", {}}, {}, scene, accel);
+  const PixelIntegrator& paths = *path->integrator;
+  LayerPlan plan;
+  plan.bounces = 1;
+  const RandomStream<float> places(0x13198a2eu, 0x03707344u);
+  for (std::uint32_t i = 0; i < tiles; ++i) {
+    const int x = int(places.at(2 * i) * float(std::max(width - side, 0) + 1));
+    const int y = int(places.at(2 * i + 1) * float(std::max(height - side, 0) + 1));
+    const PixelBounds tile{x, y, std::min(x + side, width), std::min(y + side, height)};
+    const TilePass pass{
+        tile, {PointSetKind::independent, 0xa4093822u, i, samples, std::uint32_t(width), std::uint32_t(height)}};
+    std::vector<PixelSample> out(std::size_t(tile.area()) * samples);
+    const std::size_t stride = std::size_t(plan.count()) + 1;
+    std::vector<ExactRgb> sums(std::size_t(tile.area()) * stride);
+    paths.trace_layers(pass, plan, out, sums);
+    // The last layer of a pixel holds what was scattered more than once.
+    for (std::size_t last = stride - 1; last < sums.size(); last += stride)
+      if (!(sums[last] == ExactRgb{})) return true;
+  }
+  return false;
+}
+
+std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, const Accel& accel, int width,
+                                        int height) {
+  const auto misses = [search](PathClass c) { return finding(search, c) == Finding::no; };
+  std::vector<MissingLight> missing;
+  if (misses(PathClass::lsde_delta))
+    if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
+      missing.push_back(missing_caustics(caustics));
+  if (misses(PathClass::ldde) && has_indirect_light(scene, accel, width, height))
+    missing.push_back({"light that was scattered more than once",
+                       "light that was scattered more than once is missing: this integrator looks for one scattering "
+                       "event (path finds it)"});
+  return missing;
+}
+
+}  // namespace montelux

@@ -1,0 +1,158 @@
+"""Light that a picture lacks: named on stderr, in results, in the header and by info, and only where it is so."""
+import json
+import re
+import unittest
+
+from program import ROOT, SCENE, ProgramTest
+
+CLASSES = ROOT / "scenes" / "path-classes"
+ROOM = """Film "rgb" "integer xresolution" [ 32 ] "integer yresolution" [ 24 ]
+{head}
+LookAt 0 2 -6   0 1 0   0 1 0
+Camera "perspective" "float fov" [ 40 ]
+WorldBegin
+{world}
+Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]
+Shape "bilinearmesh" "point3 P" [ -4 0 -4   4 0 -4   -4 0 4   4 0 4 ]
+Translate 0 1 0
+{ball}
+Shape "sphere" "float radius" [ 1 ]
+"""
+POINT = 'LightSource "point" "point3 from" [ 0 4 0 ] "rgb I" [ 20 20 20 ]'
+GLASS = 'Material "dielectric" "float eta" [ 1.5 ]'
+MATT = 'Material "diffuse"'
+
+
+def header(path):
+    """The attributes of text of an .exr, by name."""
+    data = path.read_bytes()
+    found = re.findall(rb"(montelux:\w+)\0string\0(.{4})", data[:20000], re.DOTALL)
+    texts = {}
+    for name, size in found:
+        start = data.index(name + b"\0string\0") + len(name) + 8 + 4
+        texts[name.decode()] = data[start:start + int.from_bytes(size, "little")].decode()
+    return texts
+
+
+class Light(ProgramTest):
+    def scene(self, name="room.pbrt", head="", world=POINT, ball=GLASS):
+        path = self.folder / name
+        path.write_text(ROOM.format(head=head, world=world, ball=ball))
+        return path
+
+    def rendered(self, scene, *options):
+        result = self.run_program("render", scene, "--spp", "2", "--json", "-o", "out.exr", *options)
+        return json.loads(result.stdout), header(self.folder / "out.exr"), result.stderr
+
+    def test_a_glass_ball_under_a_point_light_is_named_everywhere(self):
+        scene = self.scene()
+        for integrator in "path", "naive", "restir-di":
+            told, attributes, messages = self.rendered(scene, "--integrator", integrator)
+            self.assertEqual(told["missing_light"], ["light of point lights by way of smooth surfaces (dielectric)"])
+            self.assertEqual(attributes["montelux:missingLight"], told["missing_light"][0])
+            lines = [line for line in messages.splitlines() if "may be missing" in line]
+            self.assertEqual(len(lines), 1, messages)
+        text = self.run_program("render", scene, "--spp", "2", "--quiet", "-o", "out.exr").stdout
+        self.assertIn("missing  light of point lights", text)
+        self.assertIn("light of point lights", self.run_program("info", scene).stdout)
+        self.assertEqual(len(json.loads(self.run_program("info", scene, "--json").stdout)["missing_light"]), 1)
+
+    def test_kinds_of_lights_and_of_surfaces(self):
+        lights = {
+            "spot": 'LightSource "spot" "point3 from" [ 0 4 0 ] "point3 to" [ 0 1 0 ]',
+            "distant": 'LightSource "distant" "point3 from" [ 0 4 0 ] "point3 to" [ 0 0 0 ]',
+        }
+        for kind, light in lights.items():
+            told, _, _ = self.rendered(self.scene(world=light))
+            self.assertEqual(told["missing_light"], [f"light of {kind} lights by way of smooth surfaces (dielectric)"])
+        surfaces = {
+            "thindielectric": 'Material "thindielectric"',
+            "conductor": 'Material "conductor" "float roughness" [ 0 ]',
+            "coateddiffuse": 'Material "coateddiffuse" "float roughness" [ 0 ]',
+            "dielectric": 'MakeNamedMaterial "a" "string type" "diffuse"\nMakeNamedMaterial "b" "string type" "dielectric"\n'
+                          'Material "mix" "string materials" [ "a" "b" ] "float amount" [ 0.5 ]',
+        }
+        for kind, ball in surfaces.items():
+            told, _, _ = self.rendered(self.scene(ball=ball))
+            self.assertEqual(told["missing_light"], [f"light of point lights by way of smooth surfaces ({kind})"])
+
+    def test_no_alarm_where_everything_is_found(self):
+        area = ('AttributeBegin\nTranslate 0 4 0\nAreaLightSource "diffuse"\nShape "sphere" "float radius" [ 0.1 ]\n'
+                "AttributeEnd")
+        inside = 'LightSource "spot" "point3 from" [ 0 4 0 ] "point3 to" [ 0 9 0 ]'
+        for name, scene in {
+                "area light": dict(world=area), "sky": dict(world='LightSource "infinite"'), "matt": dict(ball=MATT),
+                "rough": dict(ball='Material "dielectric" "float roughness" [ 0.3 ]'),
+                "rough metal": dict(ball='Material "conductor" "float roughness" [ 0.1 ]'),
+                "looks away": dict(world=inside)
+        }.items():
+            with self.subTest(name):
+                told, attributes, messages = self.rendered(self.scene(**scene))
+                self.assertEqual(told["missing_light"], [])
+                self.assertEqual(attributes["montelux:missingLight"], "none")
+                self.assertNotIn("missing", messages)
+        # A picture that does not show light lacks none.
+        self.assertEqual(self.rendered(self.scene(), "--integrator", "normal")[0]["missing_light"], [])
+
+    def test_first_light_lacks_nothing_and_replaces_nothing(self):
+        told, attributes, _ = self.rendered(SCENE, "--resolution", "32x24", "--integrator", "path")
+        for key, name in ("missing_light", "missingLight"), ("left_out", "leftOut"):
+            self.assertEqual(told[key], [])
+            self.assertEqual(attributes["montelux:" + name], "none")
+
+    def test_directions_without_the_bsdf_lack_reflections_in_smooth_coats(self):
+        lamp = ('AttributeBegin\nTranslate 0 4 0\nAreaLightSource "diffuse"\nMaterial "diffuse" "rgb reflectance" [ 0 0 0 ]\n'
+                'Shape "bilinearmesh" "point3 P" [ -1 0 -1   -1 0 1   1 0 -1   1 0 1 ]\nAttributeEnd')
+        scene = self.scene(world=lamp, ball='Material "coateddiffuse" "float roughness" [ 0 ]')
+        for way in "direct:strategy=light-area", "direct:strategy=cosine", "tracepath":
+            self.assertIn("reflections in smooth coats", self.rendered(scene, "--integrator", way)[0]["missing_light"])
+        for way in "path", "direct:strategy=mis", "direct:strategy=bsdf":
+            self.assertNotIn("reflections in smooth coats",
+                             self.rendered(scene, "--integrator", way)[0]["missing_light"])
+
+    def test_stand_ins_are_named(self):
+        for asked in "sppm", "bdpt", "mlt", "lightpath", "volpath":
+            scene = self.scene(head=f'Integrator "{asked}"\nSampler "zsobol"', ball=MATT)
+            told, attributes, _ = self.rendered(scene)
+            self.assertIn({"family": "integrator", "name": asked, "by": "path"}, told["replaced"])
+            self.assertEqual(attributes["montelux:replaced"],
+                             f"integrator {asked} by path; sampler zsobol by blue-noise")
+            # What the user chooses stands in for nothing.
+            told, attributes, _ = self.rendered(scene, "--integrator", "path", "--sampler", "sobol")
+            self.assertEqual(told["replaced"], [])
+            self.assertEqual(attributes["montelux:replaced"], "none")
+        told, attributes, _ = self.rendered(self.scene(ball=MATT))
+        self.assertEqual(attributes["montelux:replaced"], "none")
+        self.assertIn("integrator sppm by path",
+                      self.run_program("info", self.scene(head='Integrator "sppm"')).stdout)
+
+    def test_what_a_lenient_reading_leaves_out_is_named(self):
+        smoke = POINT + '\nMakeNamedMedium "smoke" "string type" "homogeneous"'
+        ball = MATT + '\nMediumInterface "smoke" ""\nShape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'
+        scene = self.scene(world=smoke, ball=ball)
+        self.run_program("render", scene, "--spp", "1", status=2)
+        told, attributes, messages = self.rendered(scene, "--lenient")
+        self.assertTrue(any("smoke" in line for line in told["left_out"]), told)
+        self.assertTrue(any("nonsense" in line and "room.pbrt:" in line for line in told["left_out"]), told)
+        self.assertEqual(attributes["montelux:leftOut"], "; ".join(told["left_out"]))
+        text = self.run_program("render", scene, "--spp", "1", "--lenient", "--quiet").stdout
+        self.assertIn("left out", text)
+        self.assertIn("left out", self.run_program("info", scene, "--lenient").stdout)
+
+    def test_equal_omissions_are_counted(self):
+        shapes = "\n".join(['Shape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'] * 70)
+        told, _, _ = self.rendered(self.scene(ball=MATT + "\n" + shapes), "--lenient")
+        self.assertEqual(len(told["left_out"]), 1, told["left_out"])
+        self.assertIn("70 times, first at room.pbrt:11:", told["left_out"][0])
+
+    def test_a_scene_without_light_warns(self):
+        scene = self.scene(world="", ball=MATT)
+        told, _, messages = self.rendered(scene)
+        self.assertIn("the scene has no light: the picture is black", messages)
+        self.assertEqual(told["mean"], [0, 0, 0])
+        for integrator in "ao", "normal", "albedo", "depth":
+            self.assertNotIn("no light", self.rendered(scene, "--integrator", integrator)[2])
+
+
+if __name__ == "__main__":
+    unittest.main()
