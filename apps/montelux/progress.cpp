@@ -54,6 +54,8 @@ void StatusLine::finish() {
   print_log("\r\x1b[K");
 }
 
+void ProgressLine::announce(const std::string& text) { warn(text); }
+
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }
 
 void ProgressLine::progress(const Progress& p) {
@@ -84,7 +86,7 @@ std::string count_text(double count, std::string_view unit) {
 }
 
 std::string error_text(const ErrorEstimate& error) {
-  if (error.pixels == 0 || !std::isfinite(error.relative_mse)) return "-";
+  if (!error.whole() || !std::isfinite(error.relative_mse)) return "-";
   return fmt::format("{:.3g} %", 100 * std::sqrt(error.relative_mse));
 }
 

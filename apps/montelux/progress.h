@@ -34,6 +34,7 @@ class ProgressLine final : public RenderObserver {
   void begin(int part, std::string name) { part_ = part, name_ = std::move(name); }
 
   void progress(const Progress& progress) override;
+  void announce(const std::string& text) override;
   bool stop_requested() override;
 
  private:
@@ -48,7 +49,7 @@ class ProgressLine final : public RenderObserver {
 std::string time_text(double seconds);
 // "1.23 k", "45.6 Mrays/s": three digits, a decimal prefix and the unit.
 std::string count_text(double count, std::string_view unit = "");
-// The root of a relative mean squared error as "1.23 %"; "-" where it is not known yet.
+// The root of a relative mean squared error as "1.23 %"; "-" where it is not known of every pixel yet.
 std::string error_text(const ErrorEstimate& error);
 
 }  // namespace montelux::cli

@@ -61,6 +61,29 @@ Json to_json(const double (&values)[n]) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+constexpr double confidence = 0.95;
+
+// The interval of each channel of the picture's mean, with its confidence; null where there is no error bar.
+Json interval_to_json(const Rendering& rendering) {
+  Json low = Json::array(), high = Json::array();
+  for (int c = 0; c < spectrum_size; ++c) {
+    const std::optional<Interval> interval = rendering.interval_of_mean(c, confidence);
+    if (!interval) return Json();
+    low.push_back(interval->low), high.push_back(interval->high);
+  }
+  return {{"confidence", confidence}, {"low", low}, {"high", high}};
+}
+
+// Of the pixels of the picture, those that have samples; below 1 where time did not allow for all.
+double sampled_share(const Rendering& rendering) {
+  const Film& film = rendering.result.film;
+  const PixelBounds& b = film.bounds();
+  double sampled = 0;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) sampled += film.samples(x, y) > 0;
+  return sampled / b.area();
+}
+
 // The mean of each layer over the picture.
 Json layers_to_json(const Rendering& rendering) {
   const LayerFilm& film = *rendering.result.film.layers();
@@ -97,7 +120,7 @@ struct Outcome {
 Outcome outcome_of(const Rendering& rendering) {
   const RenderResult& result = rendering.result;
   const PixelBounds& b = result.film.bounds();
-  Outcome outcome{result.film.image(), result.film.error(b), 0, result.rays.all(), result.film.non_finite()};
+  Outcome outcome{rendering.image, rendering.error, 0, result.rays.all(), result.film.non_finite()};
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) outcome.samples += result.film.samples(x, y);
   return outcome;
@@ -105,7 +128,7 @@ Outcome outcome_of(const Rendering& rendering) {
 
 void print_json(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
   const double seconds = rendering.result.seconds;
-  const bool known = outcome.error.pixels > 0;
+  const bool known = outcome.error.whole();
   Json json;
   json["version"] = version();
   json["scene"] = arguments.scene;
@@ -118,8 +141,14 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   }
   json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json::array({nullptr, nullptr, nullptr});
   json["standard_error"] = to_json(outcome.image.standard_error);
+  json["interval_of_mean"] = interval_to_json(rendering);
   json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
   json["relative_mse"] = known ? number_or_null(outcome.error.relative_mse) : Json();
+  json["relative_mse_range"] =
+      known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
+  json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
+  json["unsure_error"] = known && outcome.error.is_unsure();
+  json["sampled_pixels"] = sampled_share(rendering);
   json["passes"] = outcome.image.passes;
   json["samples_per_pass"] = rendering.plan.samples_per_pass;
   json["samples"] = outcome.samples;
@@ -141,22 +170,46 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   fmt::print("{}\n", json_text(std::move(json), arguments.frame ? -1 : 2));
 }
 
+// The mean of the picture with its standard error, and with its interval.
+void print_mean(const Rendering& rendering) {
+  if (rendering.image.passes == 0) {
+    fmt::print("mean     -\n");
+    return;
+  }
+  std::string mean = "mean    ", interval = fmt::format("         {:.0f} %:", 100 * confidence);
+  for (int c = 0; c < spectrum_size; ++c) {
+    mean += fmt::format(" {} {:.6g}", "RGB"[c], rendering.image.mean[c]);
+    if (const auto range = rendering.interval_of_mean(c, confidence)) {
+      mean += fmt::format(" ± {:.2g}", rendering.image.standard_error[c]);
+      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], range -> low, range -> high);
+    }
+  }
+  fmt::print("{}\n", mean);
+  if (rendering.has_error_bar()) fmt::print("{}\n", interval);
+}
+
+// The error of a pixel; never that of a part of the picture.
+std::string error_line(const Rendering& rendering) {
+  const ErrorEstimate& error = rendering.error;
+  if (!error.whole()) return "not known: it takes two independent passes of every pixel";
+  std::string line = fmt::format("{} of a pixel, root of the mean relative square", error_text(error));
+  if (error.is_unsure())
+    line += fmt::format("; few bright samples decide it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
+                        100 * std::sqrt(error.relative_high));
+  return line;
+}
+
 void print_text(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
   const double seconds = std::max(rendering.result.seconds, 1e-9);
   const int k = rendering.plan.samples_per_pass, passes = outcome.image.passes;
   for (const std::string& file : arguments.files) fmt::print("picture  {}\n", file);
-  fmt::print("mean    ");
-  for (int c = 0; c < spectrum_size && passes > 0; ++c) {
-    fmt::print(" {} {:.6g}", "RGB"[c], outcome.image.mean[c]);
-    if (std::isfinite(outcome.image.standard_error[c])) fmt::print(" ± {:.2g}", outcome.image.standard_error[c]);
-  }
-  if (passes == 0) fmt::print(" -");
-  if (rendering.has_error_bar() || outcome.error.pixels > 0)
-    fmt::print("\nerror    {} of a pixel, root of the mean relative square\n", error_text(outcome.error));
-  else
-    fmt::print("\nerror    not known: it takes two independent passes\n");
+  print_mean(rendering);
+  fmt::print("error    {}\n", error_line(rendering));
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
-  fmt::print("samples  {} a pixel ({} passes of {}), {} in all\n", passes * k, passes, k, count_text(outcome.samples));
+  const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
+  fmt::print("samples  {:.3g} a pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
+             count_text(outcome.samples));
+  if (share < 1) fmt::print("         {:.3g} % of the pixels have samples\n", 100 * share);
   fmt::print(
       "time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),
       count_text(double(outcome.rays) / seconds, "rays/s"),

@@ -38,17 +38,19 @@ std::vector<std::string> channel_names() {
 
 // Of every layer of light its mean, and where it is known its standard error. The colour becomes the mean of all light
 // as the layers know it, so that they sum to it.
-void append_light(PixelBuffer& image, const LayerFilm& film, const PixelBounds& bounds,
+void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& grid,
                   const std::vector<std::string>& names) {
+  const auto sampled_x = [&](int x) { return grid.sampled_x(grid.bounds.x0 + x); };
+  const auto sampled_y = [&](int y) { return grid.sampled_y(grid.bounds.y0 + y); };
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < spectrum_size; ++c)
-        image.at(x, y, Channel::r + c) = float(film.mean(bounds.x0 + x, bounds.y0 + y, c));
+        image.at(x, y, Channel::r + c) = float(film.mean(sampled_x(x), sampled_y(y), c));
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
   const auto append = [&](const std::string& name, auto value) {
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
-        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(bounds.x0 + x, bounds.y0 + y, c));
+        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(sampled_x(x), sampled_y(y), c));
     append_layer(image, name, added);
   };
   for (int i = 0; i < film.count(); ++i) {
@@ -67,15 +69,17 @@ PixelBuffer layers_of(const Rendering& rendering) {
   PixelBuffer image = make_pixel_buffer(bounds.width(), bounds.height(), channel_names());
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      const PixelEstimate& pixel = film.pixel(bounds.x0 + x, bounds.y0 + y);
-      const PixelFeatures& feature = film.features(bounds.x0 + x, bounds.y0 + y);
+      // Pixels of a sparse picture that are not sampled repeat the one that stands for them.
+      const int px = film.grid().sampled_x(bounds.x0 + x), py = film.grid().sampled_y(bounds.y0 + y);
+      const PixelEstimate& pixel = film.pixel(px, py);
+      const PixelFeatures& feature = film.features(px, py);
       auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
       for (int c = 0; c < spectrum_size; ++c) {
         set(Channel::r + c, pixel.mean[c]);
         set(Channel::stderr_r + c, std::sqrt(pixel.variance_of_mean(c)));
       }
       set(Channel::a, feature.samples > 0 ? feature.hits / feature.samples : 0);
-      set(Channel::samples, feature.samples);
+      set(Channel::samples, film.samples(bounds.x0 + x, bounds.y0 + y));
       set(Channel::id, feature.object);
       if (feature.hits == 0) continue;
       for (int c = 0; c < 3; ++c) {
@@ -86,7 +90,7 @@ PixelBuffer layers_of(const Rendering& rendering) {
       set(Channel::z, feature.depth / feature.hits);
     }
   if (rendering.motion) append_layer(image, "motion", *rendering.motion);
-  if (rendering.layers) append_light(image, *film.layers(), bounds, layer_names(*rendering.layers));
+  if (rendering.layers) append_light(image, *film.layers(), film.grid(), layer_names(*rendering.layers));
   return image;
 }
 

@@ -141,11 +141,33 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
 struct PicturePlan {
   const Plan& plan;
   const RenderSettings& render;
+  const ImageEstimate& image;
+  const ErrorEstimate& error;
 };
 
 // For a header, which has no lists.
 std::string list_or_none(const std::vector<std::string>& all, std::string_view separator = "; ") {
   return all.empty() ? std::string("none") : fmt::format("{}", fmt::join(all, separator));
+}
+
+// What a picture is called of which only one pixel in each square of pixels is sampled.
+std::string sparse_text(int stride) {
+  return fmt::format("one pixel of each {0} x {0} is sampled, the others repeat it", stride);
+}
+
+// The plan within the time that is left once the integrator is made; `before` grows by the time of the measurement.
+void plan_timed(const AnyIntegrator& integrator, RenderSettings& settings, double& before, RenderObserver& observer) {
+  const Stopwatch since_start;
+  const TimedPlan timed = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0), observer);
+  settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
+  if (timed.stride > 1)
+    observer.announce(fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: {}",
+                                  timed.sample_seconds, sparse_text(timed.stride)));
+  else if (integrator.coupled() && timed.sample_seconds > *settings.seconds)
+    observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the picture is one frame",
+                                  timed.sample_seconds));
+  before += since_start.seconds();
+  settings.seconds = std::max(*settings.seconds - before, 0.0);
 }
 
 std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
@@ -160,7 +182,8 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   add("sampler", std::string(name_of(picture.render.sampler)));
   add("seed", std::int32_t(picture.render.seed));
   add("samplesPerPass", std::int32_t(picture.render.plan.samples_per_pass));
-  add("passes", std::int32_t(result.film.image().passes));
+  const ImageEstimate& image = picture.image;
+  add("passes", std::int32_t(image.passes));
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
   add("biasedOptions", list_or_none(picture.plan.chosen.biases, ", "));
   add("missingLight", list_or_none(picture.plan.chosen.missing));
@@ -168,13 +191,15 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   for (const Replacement& r : picture.plan.replaced) replaced.push_back(to_text(r));
   add("replaced", list_or_none(replaced));
   add("leftOut", list_or_none(parts.info.left_out));
-  const ImageEstimate image = result.film.image();
   add("errorBar", image.passes >= 2 ? fmt::format("over {} independent passes", image.passes)
                                     : std::string("none: it takes two independent passes"));
-  const ErrorEstimate error = result.film.error(result.film.bounds());
-  if (error.pixels > 0) {
+  if (result.film.grid().stride > 1) add("sparse", sparse_text(result.film.grid().stride));
+  if (const ErrorEstimate& error = picture.error; error.whole()) {
     add("estimatedMSE", error.mse);
     add("estimatedRelativeMSE", error.relative_mse);
+    add("estimatedRelativeMSELow", error.relative_low);
+    add("estimatedRelativeMSEHigh", error.relative_high);
+    if (error.is_unsure()) add("unsureError", std::string("few bright samples decide the error"));
   }
   for (int c = 0; c < spectrum_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
@@ -195,28 +220,31 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
   // The integrator is made once, and that counts for the first picture of a sequence.
   double before = std::exchange(plan.preparation, 0.0);
   if (settings.seconds) {
-    // What goes before the render is taken from the time, too: the making of the integrator, and the pass that measures
-    // its speed.
-    const Stopwatch pilot;
-    settings.plan = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0), observer);
-    before += pilot.seconds();
-    settings.seconds = std::max(*settings.seconds - before, 0.0);
+    // The time includes the making of the integrator and the measurement of its speed.
+    plan_timed(integrator, settings, before, observer);
   }
   if (settings.budget) settings.budget->seconds -= before;
   RenderResult result = render(integrator, settings, observer);
   result.seconds += before;
+  const ImageEstimate image = result.film.image();
+  const ErrorEstimate error = result.film.error();
   if (settings.budget) {
     const PixelBounds& b = settings.bounds;
-    const int passes = std::max(result.film.image().passes, 1);
+    const int passes = std::max(image.passes, 1);
     settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
     plan.render.budget->ending = result.ending;
   }
-  std::vector<Attribute> header = header_of(parts, {plan, settings}, result);
-  return Rendering{std::move(result),   std::move(header), plan.chosen.notes,  settings.plan, settings.layers, 0, {},
-                   plan.chosen.missing, plan.replaced,     parts.info.left_out};
+  std::vector<Attribute> header = header_of(parts, {plan, settings, image, error}, result);
+  return Rendering{std::move(result), std::move(header), plan.chosen.notes,   settings.plan, settings.layers,   0, {},
+                   image,             error,             plan.chosen.missing, plan.replaced, parts.info.left_out};
 }
 
 }  // namespace
+
+std::optional<Interval> Rendering::interval_of_mean(int channel, double confidence) const {
+  if (!has_error_bar()) return std::nullopt;
+  return confidence_interval(image.mean[channel], image.standard_error[channel], image.passes, confidence);
+}
 
 struct PictureSequence::State {
   const LoadedScene::Parts& parts;

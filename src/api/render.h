@@ -6,6 +6,7 @@
 #include "image/display.h"
 #include "image/image_file.h"
 #include "math/result.h"
+#include "mc/confidence.h"
 #include "render/render.h"
 
 namespace montelux {
@@ -32,13 +33,18 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;        // that the chains of a sequence keep for the next picture
-  std::optional<PixelBuffer> motion;    // to the picture before, as motion_vectors() has it
+  std::size_t history_bytes = 0;      // that the chains of a sequence keep for the next picture
+  std::optional<PixelBuffer> motion;  // to the picture before, as motion_vectors() has it
+  ImageEstimate image;                // the mean of the whole picture
+  ErrorEstimate error;                // of the pixels
   std::vector<std::string> missing{};   // sorts of light of the scene that the integrator cannot find
   std::vector<Replacement> replaced{};  // of what the file names and no option replaces
   std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it
   // Whether a standard error is known: it takes two independent passes.
-  bool has_error_bar() const { return result.film.image().passes >= 2; }
+  bool has_error_bar() const { return image.passes >= 2; }
+  // The interval that holds the true mean of a channel of the picture with this probability, by Student's t over the
+  // passes; none where there is no error bar.
+  std::optional<Interval> interval_of_mean(int channel, double confidence = 0.95) const;
 };
 
 // What changes from one picture of a sequence to the next.

@@ -27,7 +27,10 @@ void PixelFeatures::add(const Features& f) {
   samples += 1;
   if (f.coverage <= 0) return;
   hits += 1;
-  for (int i = 0; i < spectrum_size; ++i) albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
+  for (int i = 0; i < spectrum_size; ++i) {
+    emission[i] += std::isfinite(f.emission.c[i]) ? f.emission.c[i] : 0;
+    albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
+  }
   const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
   for (int i = 0; i < 3; ++i) normal[i] += n[i], position[i] += p[i];
   depth += f.depth;
@@ -35,7 +38,7 @@ void PixelFeatures::add(const Features& f) {
 }
 
 void PixelFeatures::merge(const PixelFeatures& other) {
-  for (int c = 0; c < spectrum_size; ++c) albedo[c] += other.albedo[c];
+  for (int c = 0; c < spectrum_size; ++c) emission[c] += other.emission[c], albedo[c] += other.albedo[c];
   for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
   depth += other.depth, hits += other.hits, samples += other.samples;
   if (object == 0) object = other.object;
@@ -52,6 +55,10 @@ void PixelPass::add(const PixelSample& sample) {
 }
 
 void PixelEstimate::add(const double (&pass_mean)[spectrum_size]) {
+  if (passes % 2 == 0) {
+    for (int i = 0; i < spectrum_size; ++i) half_sum[i] += pass_mean[i];
+    ++half_passes;
+  }
   ++passes;
   for (int i = 0; i < spectrum_size; ++i) add_value(pass_mean[i], passes, mean[i], m2[i]);
 }
@@ -65,7 +72,9 @@ void PixelEstimate::merge(const PixelEstimate& other) {
     double delta = other.mean[i] - mean[i];
     mean[i] += delta * (double(other.passes) / n);
     m2[i] += other.m2[i] + delta * delta * (double(passes) * double(other.passes) / n);
+    half_sum[i] += other.half_sum[i];
   }
+  half_passes += other.half_passes;
   passes += other.passes;
 }
 
@@ -74,12 +83,24 @@ double PixelEstimate::variance_of_mean(int channel) const {
   return m2[channel] / (double(passes) - 1) / double(passes);
 }
 
-Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers)
-    : bounds_(bounds),
+Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride)
+    : grid_{bounds, stride},
       pixels_(std::size_t(bounds.area())),
       features_(std::size_t(bounds.area())),
       tile_sums_(std::size_t(bounds.area())) {
   if (layers) layers_.emplace(bounds, layers->count(), layers->spread);
+}
+
+void Film::PassSum::add(const double (&mean)[spectrum_size]) {
+  for (int i = 0; i < spectrum_size; ++i) sum[i] += mean[i];
+  ++pixels;
+}
+
+void Film::keep_pass_sum(const PixelBounds& tile, int pass, PassSum sum) {
+  sum.cells = tile.area();
+  auto& sums = tile_sums_[index_of_cell(tile.x0, tile.y0)];
+  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
+  sums[std::size_t(pass)] = sum;
 }
 
 void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
@@ -88,8 +109,8 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
   const PixelSample* sample = samples.data();
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
-      PixelEstimate& estimate = pixels_[index(x, y)];
-      PixelFeatures& features = features_[index(x, y)];
+      PixelEstimate& estimate = pixels_[index_of_cell(x, y)];
+      PixelFeatures& features = features_[index_of_cell(x, y)];
       double mean[spectrum_size] = {};
       int finite = 0;
       for (int s = 0; s < samples_per_pixel; ++s, ++sample) {
@@ -104,17 +125,14 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
         const std::size_t stride = std::size_t(layers_->count()) + 1;
         const auto own = sums.subspan(
             std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
-        layers_->add(x, y, finite, own);
+        layers_->add(grid_.pixel_x(x), grid_.pixel_y(y), finite, own);
         for (int i = 0; i < spectrum_size; ++i) mean[i] = own.front().c[i].value();
       }
       for (double& m : mean) m /= finite;
       estimate.add(mean);
-      for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
-      ++tile_sum.pixels;
+      tile_sum.add(mean);
     }
-  auto& tile_sums = tile_sums_[index(tile.x0, tile.y0)];
-  if (tile_sums.size() <= std::size_t(pass)) tile_sums.resize(std::size_t(pass) + 1);
-  tile_sums[std::size_t(pass)] = tile_sum;
+  keep_pass_sum(tile, pass, tile_sum);
 }
 
 void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels) {
@@ -122,22 +140,20 @@ void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass
   const PixelPass* of_pixel = pixels.data();
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) {
-      features_[index(x, y)].merge(of_pixel->features);
-      pixels_[index(x, y)].non_finite += std::uint32_t(of_pixel->non_finite);
+      features_[index_of_cell(x, y)].merge(of_pixel->features);
+      PixelEstimate& estimate = pixels_[index_of_cell(x, y)];
+      estimate.non_finite += std::uint32_t(of_pixel->non_finite);
       if (of_pixel->finite == 0) continue;
       double mean[spectrum_size] = {};
       for (int i = 0; i < spectrum_size; ++i) mean[i] = of_pixel->sum[i] / of_pixel->finite;
-      pixels_[index(x, y)].add(mean);
-      for (int i = 0; i < spectrum_size; ++i) tile_sum.sum[i] += mean[i];
-      ++tile_sum.pixels;
+      estimate.add(mean);
+      tile_sum.add(mean);
     }
-  auto& sums = tile_sums_[index(tile.x0, tile.y0)];
-  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
-  sums[std::size_t(pass)] = tile_sum;
+  keep_pass_sum(tile, pass, tile_sum);
 }
 
 void Film::merge(const Film& other) {
-  if (!(bounds_ == other.bounds_)) throw std::invalid_argument("films of different bounds cannot be merged");
+  if (!(grid_ == other.grid_)) throw std::invalid_argument("films of different bounds or strides cannot be merged");
   if (layers_.has_value() != other.layers_.has_value())
     throw std::invalid_argument("films of different layers cannot be merged");
   if (layers_) layers_->merge(*other.layers_);
@@ -162,9 +178,10 @@ ImageEstimate Film::image() const {
     for (const auto& sums : tile_sums_) {
       if (pass >= sums.size()) continue;
       for (int i = 0; i < spectrum_size; ++i) total.sum[i] += sums[pass].sum[i];
-      total.pixels += sums[pass].pixels;
+      total.pixels += sums[pass].pixels, total.cells += sums[pass].cells;
     }
-    if (total.pixels < bounds_.area()) break;
+    if (total.cells < grid_.cells().area()) break;
+    if (total.pixels == 0) continue;
     ++image.passes;
     for (int i = 0; i < spectrum_size; ++i) add_value(total.sum[i] / total.pixels, image.passes, image.mean[i], m2[i]);
   }
@@ -174,21 +191,20 @@ ImageEstimate Film::image() const {
   return image;
 }
 
-ErrorEstimate Film::error(const PixelBounds& part) const {
-  ErrorEstimate error;
-  for (int y = part.y0; y < part.y1; ++y)
-    for (int x = part.x0; x < part.x1; ++x) {
-      const PixelEstimate& p = pixel(x, y);
-      if (p.passes < 2) continue;
-      ++error.pixels;
-      for (int i = 0; i < spectrum_size; ++i) {
-        double variance = p.variance_of_mean(i) / spectrum_size;
-        error.mse += variance;
-        error.relative_mse += variance / (p.mean[i] * p.mean[i] + 0.01);
-      }
-    }
-  if (error.pixels > 0) error.mse /= double(error.pixels), error.relative_mse /= double(error.pixels);
-  return error;
+ErrorEstimate Film::error() const {
+  FilmPlanes planes(bounds());
+  planes.copy(*this, bounds());
+  return estimate_error(planes);
+}
+
+double Film::mse() const {
+  double sum = 0, pixels = 0;
+  for (const PixelEstimate& pixel : pixels_) {
+    if (pixel.passes < 2) continue;
+    for (int c = 0; c < spectrum_size; ++c) sum += pixel.variance_of_mean(c) / spectrum_size;
+    pixels += 1;
+  }
+  return pixels > 0 ? sum / pixels : 0;
 }
 
 }  // namespace montelux

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film/layer_film.h"
+#include "film/picture_error.h"
 #include "image/pixel_sample.h"
 
 namespace montelux {
@@ -16,6 +17,9 @@ namespace montelux {
 struct PixelEstimate {
   double mean[spectrum_size] = {};
   double m2[spectrum_size] = {};  // sum of squared deviations of the pass means
+  // The sum over every other pass, from the first on: with the rest an independent half.
+  double half_sum[spectrum_size] = {};
+  std::uint32_t half_passes = 0;
   std::uint32_t passes = 0;
   std::uint32_t non_finite = 0;  // samples kept out of the mean
 
@@ -26,7 +30,8 @@ struct PixelEstimate {
 };
 
 struct PixelFeatures {
-  double albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;  // sums over samples that hit
+  // Sums over samples that hit.
+  double emission[spectrum_size] = {}, albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
@@ -49,32 +54,27 @@ struct ImageEstimate {
   int passes = 0;
 };
 
-// Estimated from the spread over passes: means over pixels and channels, over the pixels that have two passes.
-struct ErrorEstimate {
-  double mse = 0;           // variance of the mean
-  double relative_mse = 0;  // variance / (mean^2 + 0.01)
-  std::size_t pixels = 0;
-};
-
 class Film {
  public:
-  explicit Film(PixelBounds bounds, const std::optional<LayerPlan>& layers = {});
+  // `stride`: only the pixels of that grid are sampled.
+  explicit Film(PixelBounds bounds, const std::optional<LayerPlan>& layers = {}, int stride = 1);
 
-  const PixelBounds& bounds() const { return bounds_; }
+  const PixelBounds& bounds() const { return grid_.bounds; }
+  const PixelGrid& grid() const { return grid_; }
   // The layers, where the film was made with a plan of them. Then the pass means are those of their exact sums.
   const std::optional<LayerFilm>& layers() const { return layers_; }
 
-  // Adds one pass of a tile: samples in row-major pixel order, `samples_per_pixel` of one pixel behind each other.
-  // Passes of one tile must be added in their order, for the sums to be the same bits in every run; tiles are
-  // independent, so different tiles may be added by different threads at once.
-  // `sums`: of a film with layers, as PixelIntegrator::trace_layers fills them.
+  // Adds one pass of a tile, which counts cells of the grid: samples in row-major order, those of one pixel
+  // consecutive. Passes of one tile must be added in their order, for the sums to be the same bits in every run; tiles
+  // are independent, so different tiles may be added by different threads at once. `sums`: of a film with layers, as
+  // PixelIntegrator::trace_layers fills them.
   void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
                 std::span<const ExactRgb> sums = {});
 
   // The same of a pass whose samples came one by one, and are summed for each pixel.
   void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> sums);
 
-  // The film of all passes of both; the same bounds and layers are required. `other` holds the later passes.
+  // The film of all passes of both; the same grid and layers are required. `other` holds the later passes.
   void merge(const Film& other);
 
   const PixelEstimate& pixel(int x, int y) const { return pixels_[index(x, y)]; }
@@ -82,20 +82,31 @@ class Film {
   // Samples taken at a pixel.
   double samples(int x, int y) const { return features_[index(x, y)].samples; }
   std::uint64_t non_finite() const;
-  // Over the passes that are complete.
+  // Over the passes that are complete: every tile has them. A pixel that has no finite sample in a pass is left out of
+  // that pass.
   ImageEstimate image() const;
-  // Estimated mean squared errors of a part of the picture.
-  ErrorEstimate error(const PixelBounds& part) const;
+  // Whether samples are taken at this pixel: all, unless the film has a stride.
+  bool is_sampled(int x, int y) const { return grid_.sampled_x(x) == x && grid_.sampled_y(y) == y; }
+  // Estimated mean squared errors of the picture.
+  ErrorEstimate error() const;
+  // Of them the squared error alone, which takes far less time.
+  double mse() const;
 
  private:
   struct PassSum {
     double sum[spectrum_size] = {};  // of the pass means of the pixels, in tile order
-    int pixels = 0;
+    int pixels = 0;                  // that have a finite sample
+    int cells = 0;                   // of the tile, where the pass is there
+
+    void add(const double (&mean)[spectrum_size]);
   };
   std::size_t index(int x, int y) const {
-    return std::size_t(y - bounds_.y0) * std::size_t(bounds_.width()) + std::size_t(x - bounds_.x0);
+    return std::size_t(y - grid_.bounds.y0) * std::size_t(grid_.bounds.width()) + std::size_t(x - grid_.bounds.x0);
   }
-  PixelBounds bounds_;
+  std::size_t index_of_cell(int x, int y) const { return index(grid_.pixel_x(x), grid_.pixel_y(y)); }
+  void keep_pass_sum(const PixelBounds& tile, int pass, PassSum sum);
+
+  PixelGrid grid_;
   std::vector<PixelEstimate> pixels_;
   std::vector<PixelFeatures> features_;
   // The sum of every pass over a tile, by the tile's first pixel and then by pass: threads write to different tiles,

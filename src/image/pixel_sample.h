@@ -16,8 +16,34 @@ struct PixelBounds {
   bool operator==(const PixelBounds&) const = default;
 };
 
+// The pixels of a picture that are sampled: one in each cell of stride x stride pixels. With a stride of 1 cells are
+// pixels, under the pixels' own coordinates; else cells are counted from 0.
+struct PixelGrid {
+  PixelBounds bounds;
+  int stride = 1;
+
+  PixelBounds cells() const {
+    if (stride == 1) return bounds;
+    return {0, 0, (bounds.width() + stride - 1) / stride, (bounds.height() + stride - 1) / stride};
+  }
+  // The pixel that stands for a cell: the one in its middle, or the last one where the picture cuts the cell off.
+  int pixel_x(int cell) const { return stride == 1 ? cell : middle(bounds.x0, bounds.x1, cell); }
+  int pixel_y(int cell) const { return stride == 1 ? cell : middle(bounds.y0, bounds.y1, cell); }
+  // The pixel that stands for the cell of this pixel.
+  int sampled_x(int x) const { return stride == 1 ? x : pixel_x((x - bounds.x0) / stride); }
+  int sampled_y(int y) const { return stride == 1 ? y : pixel_y((y - bounds.y0) / stride); }
+  bool operator==(const PixelGrid&) const = default;
+
+ private:
+  int middle(int first, int end, int cell) const {
+    const int pixel = first + cell * stride + stride / 2;
+    return pixel < end ? pixel : end - 1;
+  }
+};
+
 // What the first surface of a camera path shows; coverage 0: the path left the scene.
 struct Features {
+  Rgb emission{};    // radiance that reaches the camera from an emitter straight away, as part of the sample's
   Rgb albedo{};      // directional albedo: the weight of one scattered direction, whose mean it is
   Vec3f normal{};    // shading normal, world space, facing the camera
   Vec3f position{};  // world space

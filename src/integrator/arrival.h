@@ -2,6 +2,7 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/path/path_state.h"
 #include "integrator/tally.h"
 #include "mc/mis.h"
 #include "scene/scene.h"
@@ -130,12 +131,14 @@ Arrival<F> trace_to_arrival(const Scene& scene, const Rays& rays, const Departur
 
 // What the first surface of a camera path shows, for the feature layers.
 template <class F>
-void write_features(const Arrival<F>& at, const Spectrum<F>& albedo, Uint<F> slot, Mask<F> on,
+void write_features(const Arrival<F>& at, const Spectrum<F>& albedo, const PathState<F>& path, Mask<F> on,
                     std::span<PixelSample> out) {
   const Vec3<F> normal = face_forward(at.x.point.ns, -at.d);
+  const Spectrum<F> emission = at.light * path.weight;
   for_each_lane(on, [&](int k) {
-    out[lane(slot, k)].features = {
-        lane(albedo, k), lane(normal, k), lane(at.x.point.p, k), lane(at.distance, k), 1.0f, lane(at.x.object, k)};
+    out[lane(path.slot, k)].features = {lane(emission, k),     lane(albedo, k),      lane(normal, k),
+                                        lane(at.x.point.p, k), lane(at.distance, k), 1.0f,
+                                        lane(at.x.object, k)};
   });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <stop_token>
 
 #include "camera/shutter.h"
 #include "image/layers.h"
@@ -21,6 +22,8 @@ struct TilePass {
   std::optional<Shutter> shutter{};     // instead of the scene's
   std::optional<std::uint32_t> only{};  // this one of the samples alone
   std::optional<float> moment{};        // in [0, 1), of the exposure: of all samples; else each has its own
+  std::optional<PixelGrid> grid{};      // the tile counts the cells of this grid; else pixels
+  std::stop_token stop{};  // once a stop is requested, the tile may be left unfinished: the caller drops it
   std::uint32_t samples() const { return only ? 1 : points.samples_per_pass; }
 };
 

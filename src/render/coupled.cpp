@@ -194,7 +194,7 @@ class ChainJob {
         progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_), limit, finished);
     p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
     // It takes time, of which a budget has none.
-    if (!settings_.budget) p.error = film_.error(settings_.bounds);
+    if (!settings_.budget) p.error = error_.of(since_start_.seconds(), [&] { return film_.error(); });
     return p;
   }
 
@@ -209,6 +209,7 @@ class ChainJob {
   std::vector<ChainTile> tiles_;
   std::unique_ptr<Chain> chain_;
   ChainStep step_;
+  ErrorWatch error_;
   std::size_t next_tile_ = 0, tiles_done_ = 0;
   int pass_ = 0;  // chains that are in the film
   std::uint64_t shown_frames_ = 0;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -19,12 +20,14 @@ namespace {
 
 // Side of a tile: large enough that packs stay full, small enough that a unit of work is done within a moment, so that
 // threads share the work evenly and a stop is obeyed soon.
-int tile_side(int samples_per_pass) {
-  constexpr int most_samples = 1 << 16;
+int tile_side(int samples_per_pass, int max_unit_samples) {
   int side = 32;
-  while (side > 1 && side * side * samples_per_pass > most_samples) side /= 2;
+  while (side > 1 && side * side * samples_per_pass > max_unit_samples) side /= 2;
   return side;
 }
+
+// How long units in work may still take after a request to stop, or after the time is over, before they are dropped.
+constexpr double stop_grace = 0.25, time_grace = 0.1;
 
 // A tile, and how many of its passes are in the film.
 struct TileState {
@@ -42,7 +45,7 @@ class Job {
   Job(const PixelIntegrator& integrator, const RenderSettings& settings, const std::vector<PixelBounds>& tiles)
       : integrator_(integrator),
         settings_(settings),
-        film_(settings.bounds, settings.layers),
+        film_(settings.bounds, settings.layers, settings.stride),
         tiles_(tiles.begin(), tiles.end()),
         units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
 
@@ -53,13 +56,15 @@ class Job {
     try {
       for (std::uint64_t unit; !stop_ && (unit = next_unit_.fetch_add(1)) < units_;) {
         rays += do_unit(unit, space);
-        units_done_.fetch_add(1);
+        if (time_is_over()) stop_ = true;
       }
     } catch (...) {
-      std::scoped_lock lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
-      stop_ = true;
-      for (TileState& tile : tiles_) tile.added.notify_all();
+      {
+        std::scoped_lock lock(mutex_);
+        if (!failure_) failure_ = std::current_exception();
+        stop_ = true;
+      }
+      drop_units();
     }
     std::scoped_lock lock(mutex_);
     rays_ += rays;
@@ -73,10 +78,17 @@ class Job {
     for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
     bool interrupted = false;
     std::unique_lock lock(mutex_);
-    while (!finished_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
+    double requested = 0;  // when the observer wanted to stop
+    while (!finished_.wait_for(lock, next_look(), [this] { return running_ == 0; })) {
       lock.unlock();
-      if (observer.stop_requested()) stop_ = interrupted = true;
+      if (!interrupted && observer.stop_requested()) {
+        stop_ = interrupted = true;
+        requested = since_start_.seconds();
+      }
       if (time_is_over()) stop_ = true;
+      if (interrupted && since_start_.seconds() > requested + stop_grace) drop_units();
+      if (time_is_over() && first_pass_is_done() && since_start_.seconds() > *settings_.seconds + time_grace)
+        drop_units();
       observer.progress(progress(false));
       lock.lock();
     }
@@ -90,9 +102,27 @@ class Job {
   RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
 
  private:
-  // A picture has one pass at least: units are taken pass by pass, and those that are taken are done.
+  // A picture has one pass at least: units are taken pass by pass, and those of the first one are done.
   bool time_is_over() const {
     return settings_.seconds && next_unit_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
+  }
+  bool first_pass_is_done() const { return first_units_done_ == tiles_.size(); }
+
+  // Units in work are left unfinished and do not enter the film.
+  void drop_units() {
+    drop_.request_stop();
+    for (TileState& tile : tiles_) {
+      std::scoped_lock lock(tile.mutex);
+      tile.added.notify_all();
+    }
+  }
+
+  std::chrono::milliseconds next_look() const {
+    const double elapsed = since_start_.seconds();
+    const std::chrono::milliseconds interval = poll_interval(elapsed);
+    if (!settings_.seconds || elapsed >= *settings_.seconds) return interval;
+    const std::chrono::milliseconds left(1 + int(1000 * std::min(*settings_.seconds - elapsed, 1.0)));
+    return std::min(interval, left);
   }
 
   // What a thread keeps from one unit of work to the next.
@@ -116,11 +146,16 @@ class Job {
                      {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass), std::uint32_t(k),
                       std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
                      settings_.shutter};
+    if (settings_.stride > 1) request.grid = film_.grid();
+    request.stop = drop_.get_token();
     RayCounts rays = trace(request, space);
     std::unique_lock lock(tile.mutex);
-    tile.added.wait(lock, [&] { return tile.passes_added == pass || failure_; });
+    tile.added.wait(lock, [&] { return tile.passes_added == pass || drop_.stop_requested(); });
+    if (drop_.stop_requested()) return rays;
     film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
     ++tile.passes_added;
+    ++units_done_;
+    if (pass == 0) ++first_units_done_;
     tile.added.notify_all();
     return rays;
   }
@@ -132,12 +167,20 @@ class Job {
       std::scoped_lock lock(tile.mutex);
       p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(tile.passes_added) *
                    std::uint64_t(settings_.plan.samples_per_pass);
-      ErrorEstimate e = film_.error(tile.bounds);
-      p.error.mse += e.mse * double(e.pixels), p.error.relative_mse += e.relative_mse * double(e.pixels);
-      p.error.pixels += e.pixels;
     }
-    if (p.error.pixels > 0) p.error.mse /= double(p.error.pixels), p.error.relative_mse /= double(p.error.pixels);
+    p.error = error_.of(finished ? 0 : p.elapsed, [&] { return error(); });
     return p;
+  }
+
+  // Of a sparse picture there is none.
+  ErrorEstimate error() {
+    if (settings_.stride > 1) return {};
+    FilmPlanes planes(settings_.bounds);
+    for (TileState& tile : tiles_) {
+      std::scoped_lock lock(tile.mutex);
+      planes.copy(film_, tile.bounds);
+    }
+    return estimate_error(planes);
   }
 
   const PixelIntegrator& integrator_;
@@ -146,8 +189,10 @@ class Job {
   Film film_;
   std::deque<TileState> tiles_;
   const std::uint64_t units_;
-  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0};
+  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0}, first_units_done_{0};
   std::atomic<bool> stop_{false};
+  std::stop_source drop_;
+  ErrorWatch error_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable finished_;
   int running_ = 0;
@@ -194,26 +239,68 @@ class StopAlone final : public RenderObserver {
   RenderObserver& other_;
 };
 
-PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
-                       RenderObserver& observer) {
+namespace {
+
+// Seconds that one sample of every pixel takes: of a part of the pixels at first, and of four times as many while that
+// is a small part of the time that there is.
+double measure_sample(const PixelIntegrator& integrator, RenderSettings settings, double seconds,
+                      RenderObserver& observer) {
+  constexpr double share = 0.01;  // of the time, for one measurement
+  constexpr int first_cells = 2048;
+  while (PixelGrid{settings.bounds, 2 * settings.stride}.cells().area() >= first_cells) settings.stride *= 2;
+  for (;; settings.stride /= 2) {
+    const RenderResult result = render(integrator, settings, observer);
+    const double cells = PixelGrid{settings.bounds, settings.stride}.cells().area();
+    if (settings.stride == 1 || result.seconds > share * seconds || observer.stop_requested())
+      return result.seconds * (settings.bounds.area() / cells);
+  }
+}
+
+// So that a thread looks at the clock some thirty times a second.
+int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
+  constexpr double unit_seconds = 0.03;
+  const double threads = settings.threads > 0 ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+  const double samples = unit_seconds / (sample_seconds * threads) * settings.bounds.area();
+  return int(std::clamp(samples, 64.0, double(settings.max_unit_samples)));
+}
+
+// Of a coupled integrator, by one frame.
+PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, const RenderSettings& settings, double affordable) {
+  constexpr int endless = 1 << 20;  // time ends it
+  const int warm_up = settings.warm_up_counts ? coupled.warm_up() : 0;
+  const int frames = int(affordable) * (1 + warm_up) / least_chains - warm_up;
+  return {std::clamp(frames, 1, coupled.frames()), endless};
+}
+
+}  // namespace
+
+TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
+                        RenderObserver& observer) {
   constexpr int endless = 1 << 20;  // time ends it
   settings.seconds.reset();
   settings.memories = nullptr;
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   StopAlone silent(observer);
-  const RenderResult one = render(integrator, settings, silent);
-  const double one_sample = std::max(settings.warm_up_counts ? one.seconds : one.shown_seconds(), 1e-6);
   const double most = is_fixed(settings.sampler) ? most_fixed_samples : 1e6;
-  const auto affordable = int(std::min(seconds / one_sample, most));
+  TimedPlan timed{{1, 1}, 1, settings.max_unit_samples, 0};
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
-    const int warm_up = settings.warm_up_counts ? coupled->warm_up() : 0;
-    const int frames = affordable * (1 + warm_up) / least_chains - warm_up;
-    return {std::clamp(frames, 1, coupled->frames()), endless};
+    const RenderResult one = render(*coupled, settings, silent);
+    timed.sample_seconds = std::max(settings.warm_up_counts ? one.seconds : one.shown_seconds(), 1e-6);
+    timed.plan = plan_chains_for_time(*coupled, settings, std::min(seconds / timed.sample_seconds, most));
+    return timed;
   }
-  PassPlan plan = plan_passes(std::max(affordable, 1), settings.sampler);
-  if (!is_fixed(settings.sampler)) plan.passes = endless;
-  return plan;
+  const Stopwatch since_start(settings.clock);
+  timed.sample_seconds = std::max(measure_sample(*integrator.pixel(), settings, seconds, silent), 1e-6);
+  const double affordable = std::min((seconds - since_start.seconds()) / timed.sample_seconds, most);
+  timed.max_unit_samples = unit_samples_for(settings, timed.sample_seconds);
+  // The measurement is good to some percent, and the first pass is always completed.
+  constexpr double margin = 1.05;
+  while (timed.stride < 64 && affordable * timed.stride * timed.stride < margin) ++timed.stride;
+  if (timed.stride > 1) return timed;
+  timed.plan = plan_passes(std::max(int(affordable), 1), settings.sampler);
+  if (!is_fixed(settings.sampler)) timed.plan.passes = endless;
+  return timed;
 }
 
 PassPlan plan_for_budget(const AnyIntegrator& integrator) {
@@ -225,7 +312,9 @@ RenderResult render(const AnyIntegrator& integrator, const RenderSettings& setti
   if (integrator.coupled()) return render_chains(*integrator.coupled(), settings, observer);
   if (settings.budget) return render_chains(PassesAsChains(*integrator.pixel()), settings, observer);
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  Job job(*integrator.pixel(), settings, tiles_of(settings.bounds, tile_side(settings.plan.samples_per_pass)));
+  Job job(*integrator.pixel(), settings,
+          tiles_of(PixelGrid{settings.bounds, settings.stride}.cells(),
+                   tile_side(settings.plan.samples_per_pass, settings.max_unit_samples)));
   bool interrupted = job.watch(threads, observer);
   return job.take_result(interrupted);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "film/film.h"
@@ -47,7 +48,9 @@ struct RenderSettings {
   bool warm_up_counts = true;     // in these seconds; no: only the time of frames that are shown does
   std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
   int threads = 0;                   // 0: all of the machine
-  int first_pass = 0;                // for a render that goes on
+  int first_pass = 0;                // for a render that continues another
+  int stride = 1;                    // only one pixel of stride x stride is sampled; not for coupled integrators
+  int max_unit_samples = 1 << 16;    // of one unit of work of a thread, as far as a pass allows
   std::optional<LayerPlan> layers;   // of an integrator that has them
   std::optional<Shutter> shutter;    // instead of the scene's
   SecondsClock clock;                // that `seconds` and the result's time go by; empty: the machine's
@@ -67,11 +70,13 @@ struct Progress {
   bool finished = false;
 };
 
-// Told of progress a few times a second, from one thread; decides whether to go on.
+// Receives progress a few times a second, from one thread; decides whether the work continues.
 class RenderObserver {
  public:
   virtual ~RenderObserver() = default;
   virtual void progress(const Progress&) {}
+  // What the user should know before the work starts: one sentence.
+  virtual void announce(const std::string&) {}
   virtual bool stop_requested() { return false; }
 };
 
@@ -86,10 +91,18 @@ struct RenderResult {
   double shown_seconds() const { return seconds - warm_up; }
 };
 
-// The plan for a render that time ends: as many samples a pass as leave enough passes, by a measured pass, which ends
-// early where the observer asks for it.
-PassPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
-                       RenderObserver& observer);
+// A plan for a render that time ends, and the measurement behind it.
+struct TimedPlan {
+  PassPlan plan;
+  int stride = 1;             // above 1: less than a sample a pixel fits into the time
+  int max_unit_samples = 1;   // so that threads can stop in time
+  double sample_seconds = 0;  // that one sample of every pixel takes, as measured
+};
+
+// As many samples a pass as leave enough passes. Measures the speed on a part of the pixels, spread over the picture,
+// of a coupled integrator on a whole frame; ends early where the observer requests it.
+TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, double seconds,
+                        RenderObserver& observer);
 
 // The plan for a render within a budget: one chain of a coupled integrator, passes of one sample of any other, and as
 // many frames or passes as time allows.

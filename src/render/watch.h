@@ -26,6 +26,25 @@ inline Progress progress_after(double elapsed, double share, const std::optional
   return p;
 }
 
+// Estimates the error of a picture now and then, so that it takes a small part of the time.
+class ErrorWatch {
+ public:
+  // The last estimate, or a new one where it is due; `estimate` returns it.
+  template <class Estimate>
+  const ErrorEstimate& of(double elapsed, Estimate estimate) {
+    constexpr double share = 0.02;  // of the time
+    if (elapsed < next_) return error_;
+    const Stopwatch since_start;
+    error_ = estimate();
+    next_ = elapsed + std::max(since_start.seconds() / share, 0.1);
+    return error_;
+  }
+
+ private:
+  ErrorEstimate error_;
+  double next_ = 0;  // when it is due
+};
+
 // How long to sleep before looking again. Short at first, so that a quick render is not held up; then a few times a
 // second.
 inline std::chrono::milliseconds poll_interval(double elapsed) {

@@ -200,7 +200,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     const Vec2<F> u = sampler.get2(first + U(path_dimension::direction));
     const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo,
                                          Vec3<F>{sampler.get1(first + U(path_dimension::lobe)), u.x, u.y}, at.context);
-    write_features(at, select(next.valid & at.found, next.weight, gray(F(0.0f))), path.slot, at.found, out);
+    write_features(at, select(next.valid & at.found, next.weight, gray(F(0.0f))), path, at.found, out);
   }
 }
 

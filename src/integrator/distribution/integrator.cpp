@@ -143,7 +143,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
       const Vec2f u = sampler.get2(first + path_dimension::direction);
       const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo,
                                            Vec3f{sampler.get1(first + path_dimension::lobe), u.x, u.y}, at.context);
-      write_features(at, next.valid ? next.weight : gray(0.0f), path.slot, true, out);
+      write_features(at, next.valid ? next.weight : gray(0.0f), path, true, out);
     }
     out[path.slot].radiance = radiance * path.weight;
     if constexpr (Tally::records) tally.finish(0, path.slot, out[path.slot]);

@@ -1,6 +1,7 @@
 // Camera rays of a tile, traced as coherent packets, and the store of their hits from which the path loop fills its
 // lanes.
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "accel/accel.h"
@@ -23,7 +24,8 @@ class FirstHits {
   FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out)
       : FirstHits(scene, rays, pass, out, no_tally) {}
 
-  // Fills lanes that are off, as long as there are paths left; gives the lanes that are on now.
+  // Fills lanes that are off, as long as there are paths left; returns the lanes that are on now. None is on once the
+  // caller of the pass wants to stop.
   Mask<F> refill(PathState<F>& state, Mask<F> on);
   std::uint64_t rays() const { return rays_; }
 
@@ -33,6 +35,7 @@ class FirstHits {
                         LayerTally& tally);
 
   std::vector<PathStart<float>> starts_;
+  std::stop_token stop_;
   std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
 };
@@ -51,6 +54,17 @@ auto seen_directly([[maybe_unused]] const PathState<F>& path, [[maybe_unused]] T
 template <class F>
 constexpr int block_width() {
   return lanes_of<F> == 16 ? 4 : lanes_of<F> >= 4 ? lanes_of<F> / 2 : 1;
+}
+
+// The pixels that cells of the pass stand for.
+template <class F>
+std::pair<Uint<F>, Uint<F>> pixels_of(const TilePass& pass, Uint<F> x, Uint<F> y) {
+  if (!pass.grid || pass.grid->stride == 1) return {x, y};
+  for (int k = 0; k < lanes_of<F>; ++k) {
+    set_lane(x, k, std::uint32_t(pass.grid->pixel_x(int(lane(x, k)))));
+    set_lane(y, k, std::uint32_t(pass.grid->pixel_y(int(lane(y, k)))));
+  }
+  return {x, y};
 }
 
 template <class F>
@@ -92,6 +106,7 @@ template <class Rays, class Tally>
 FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out,
                         [[maybe_unused]] Tally& tally) {
   using U = Uint<F>;
+  stop_ = pass.stop;
   constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
   const PixelBounds& tile = pass.tile;
   const std::uint32_t samples = pass.samples(), first = pass.only.value_or(0);
@@ -106,7 +121,8 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
       for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
-        PathStart<F> state = start_of_path<F>(scene, pass, x, y, U(first + sample));
+        const auto [pixel_x, pixel_y] = pixels_of<F>(pass, x, y);
+        PathStart<F> state = start_of_path<F>(scene, pass, pixel_x, pixel_y, U(first + sample));
         state.slot =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +
@@ -128,6 +144,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
 
 template <class F>
 Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
+  if (stop_.stop_requested()) return Mask<F>(false);
   if (next_ == starts_.size()) return on;
   const std::uint32_t running = bits(on);
   std::uint32_t fresh = 0;

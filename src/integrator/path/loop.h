@@ -17,9 +17,11 @@ void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const 
                      Mask<F> first, std::span<PixelSample> out) {
   Vec3<F> normal = face_forward(at.ns, -path.d);
   F depth = length(at.p - path.p);
+  // Before its first event a path has gathered what it saw directly, and nothing else.
+  const Spectrum<F> emission = path.radiance * path.weight;
   for_each_lane(first, [&](int k) {
-    out[lane(path.slot, k)].features = {lane(albedo, k), lane(normal, k), lane(at.p, k), lane(depth, k), 1.0f,
-                                        lane(object, k)};
+    out[lane(path.slot, k)].features = {
+        lane(emission, k), lane(albedo, k), lane(normal, k), lane(at.p, k), lane(depth, k), 1.0f, lane(object, k)};
   });
 }
 

@@ -172,7 +172,7 @@ class RadiosityChain final : public Chain {
             point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, gathering(pass, path), counts, on);
       const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
       for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
-      write_features(at, point.albedo, path.slot, on, out);
+      write_features(at, point.albedo, path, on, out);
     }
     return counts;
   }

@@ -154,7 +154,7 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
       const float lobe = own.next();
       const Vec2f u = own.next2();
       const BsdfSample<float> next = sample<float>(at.bsdf.lanes(true), at.wo, Vec3f{lobe, u.x, u.y}, at.context);
-      write_features(at, next.valid ? next.weight : gray(0.0f), path.slot, true, out);
+      write_features(at, next.valid ? next.weight : gray(0.0f), path, true, out);
     }
   }
   return counts;

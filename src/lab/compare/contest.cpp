@@ -50,7 +50,7 @@ Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, 
   s.plan = {1, passes}, s.first_pass = pilot_pass;
   Stopper stopper(watch);
   const RenderResult r = render(contestant.integrator, s, stopper);
-  return {r.film.error(s.bounds).mse, passes, seconds_that_count(r, settings), r.seconds};
+  return {r.film.mse(), passes, seconds_that_count(r, settings), r.seconds};
 }
 
 // One turn of one method.
@@ -201,7 +201,7 @@ Reference make_reference(const std::vector<Contestant>& contestants, const std::
     s.plan = {samples_per_pass, more}, s.first_pass = reference_pass + passes;
     film.merge(render(best->integrator, s, stopper).film);
     passes += more;
-    const double variance = film.error(s.bounds).mse;
+    const double variance = film.mse();
     if (watch.progress)
       watch.progress(std::min(goal / variance, 1.0), since_start.seconds(),
                      fmt::format("reference by {}", best->label));
@@ -221,9 +221,10 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
   RenderObserver silent;
   for (const Contestant& c : contestants) {
     MethodState method;
-    method.plan = settings.seconds ? plan_for_time(c.integrator, settings_for(c, settings),
-                                                   *settings.seconds / settings.repeats, silent)
-                                   : plan_passes(c.integrator, settings.samples, c.sampler);
+    method.plan =
+        settings.seconds
+            ? plan_for_time(c.integrator, settings_for(c, settings), *settings.seconds / settings.repeats, silent).plan
+            : plan_passes(c.integrator, settings.samples, c.sampler);
     state.methods.push_back(std::move(method));
   }
   return state;

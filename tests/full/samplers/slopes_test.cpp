@@ -114,7 +114,7 @@ TEST(Samplers, have_less_noise_in_a_picture_than_independent_points) {
   const std::vector<int> counts{1, 4, 16, 64};
   const auto inefficiency = [&](PointSetKind kind, int n) {
     const Film film = scene.render(kind, {n, passes}, 3, Lanes::native, 0).film;
-    return film.error(film.bounds()).relative_mse * passes * n;
+    return film.error().relative_mse * passes * n;
   };
   std::vector<double> independent;
   for (int n : counts) independent.push_back(inefficiency(PointSetKind::independent, n));

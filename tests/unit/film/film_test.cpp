@@ -172,7 +172,7 @@ TEST(Film, below_two_passes_the_error_is_unknown) {
   const Film film = film_of(0, 1);
   EXPECT_TRUE(std::isinf(film.pixel(2, 1).variance_of_mean(0)));
   EXPECT_TRUE(std::isinf(film.image().standard_error[0]));
-  EXPECT_EQ(film.error(bounds).pixels, 0u);
+  EXPECT_EQ(film.error().pixels, 0u);
 }
 
 TEST(Film, image_counts_complete_passes_alone) {
@@ -193,7 +193,7 @@ TEST(Film, error_is_the_mean_variance_of_the_pixels) {
         mse += variance / (3 * bounds.area());
         relative += variance / (mean * mean + 0.01) / (3 * bounds.area());
       }
-  const ErrorEstimate e = film.error(bounds);
+  const ErrorEstimate e = film.error();
   EXPECT_EQ(e.pixels, std::size_t(bounds.area()));
   expect_near_relative(e.mse, mse, 1e-12);
   expect_near_relative(e.relative_mse, relative, 1e-12);

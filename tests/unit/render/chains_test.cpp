@@ -424,7 +424,7 @@ TEST(Budget, is_filled_by_whole_frames_of_one_chain) {
     EXPECT_FALSE(r.interrupted);
     // One chain has no error bar.
     EXPECT_EQ(r.film.image().passes, 1);
-    EXPECT_EQ(r.film.error(r.film.bounds()).pixels, 0u);
+    EXPECT_EQ(r.film.error().pixels, 0u);
   }
 }
 

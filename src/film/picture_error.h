@@ -1,0 +1,34 @@
+// How far a picture is from its expectation, estimated from the spread of its pixels over passes.
+#pragma once
+#include <cstddef>
+#include <limits>
+
+#include "film/film_planes.h"
+
+namespace montelux {
+
+// Estimated mean squared errors: means over channels and over the pixels that have two passes.
+struct ErrorEstimate {
+  double mse = 0;  // variance of the mean
+  // Variance of the mean over (expectation^2 + 0.01) (Rousselle, Knaus and Zwicker 2011, with their epsilon).
+  double relative_mse = 0;
+  double relative_low = 0, relative_high = 0;  // about 95 % of the pictures like this one have it between these
+  // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite where there is no
+  // tail. Below 1 their mean has no limit.
+  double tail_index = std::numeric_limits<double>::infinity();
+  std::size_t pixels = 0;  // that have two passes
+  std::size_t all = 0;     // that could have: sampled, with a finite sample
+
+  // Whether it is that of the whole picture.
+  bool whole() const { return pixels > 0 && pixels == all; }
+  // Whether few bright samples decide the relative error, which may then be far from the true one.
+  bool is_unsure() const { return pixels > 0 && (tail_index < 1 || relative_high > 2 * relative_low); }
+};
+
+// The divisor of a relative error must not share the noise of the squared error that it divides: else a bright outlier
+// counts as 1 at most, and the picture looks better than it is. So the expectation of a pixel is estimated from its
+// neighbours, and from the pixel itself as far as it is known to differ from them: by more than its noise explains, or,
+// where few samples made it bright, as often as such pixels of this picture are bright in both halves of their passes.
+ErrorEstimate estimate_error(const FilmPlanes& planes);
+
+}  // namespace montelux
