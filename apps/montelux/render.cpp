@@ -87,7 +87,7 @@ double sampled_share(const Rendering& rendering) {
 // The mean of each layer over the picture.
 Json layers_to_json(const Rendering& rendering) {
   const LayerFilm& film = *rendering.result.film.layers();
-  const PixelBounds& b = rendering.result.film.bounds();
+  const PixelBounds& b = rendering.result.film.grid().cells();
   Json json = Json::object();
   const std::vector<std::string> names = layer_names(*rendering.layers);
   for (int i = 0; i < film.count(); ++i) {
@@ -181,7 +181,7 @@ void print_mean(const Rendering& rendering) {
     mean += fmt::format(" {} {:.6g}", "RGB"[c], rendering.image.mean[c]);
     if (const auto range = rendering.interval_of_mean(c, confidence)) {
       mean += fmt::format(" ± {:.2g}", rendering.image.standard_error[c]);
-      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], range -> low, range -> high);
+      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], range->low, range->high);
     }
   }
   fmt::print("{}\n", mean);

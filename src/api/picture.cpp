@@ -40,17 +40,17 @@ std::vector<std::string> channel_names() {
 // as the layers know it, so that they sum to it.
 void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& grid,
                   const std::vector<std::string>& names) {
-  const auto sampled_x = [&](int x) { return grid.sampled_x(grid.bounds.x0 + x); };
-  const auto sampled_y = [&](int y) { return grid.sampled_y(grid.bounds.y0 + y); };
+  const auto cell_x = [&](int x) { return grid.cell_x(grid.bounds.x0 + x); };
+  const auto cell_y = [&](int y) { return grid.cell_y(grid.bounds.y0 + y); };
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < spectrum_size; ++c)
-        image.at(x, y, Channel::r + c) = float(film.mean(sampled_x(x), sampled_y(y), c));
+        image.at(x, y, Channel::r + c) = float(film.mean(cell_x(x), cell_y(y), c));
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
   const auto append = [&](const std::string& name, auto value) {
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
-        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(sampled_x(x), sampled_y(y), c));
+        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(cell_x(x), cell_y(y), c));
     append_layer(image, name, added);
   };
   for (int i = 0; i < film.count(); ++i) {
@@ -69,10 +69,8 @@ PixelBuffer layers_of(const Rendering& rendering) {
   PixelBuffer image = make_pixel_buffer(bounds.width(), bounds.height(), channel_names());
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      // Pixels of a sparse picture that are not sampled repeat the one that stands for them.
-      const int px = film.grid().sampled_x(bounds.x0 + x), py = film.grid().sampled_y(bounds.y0 + y);
-      const PixelEstimate& pixel = film.pixel(px, py);
-      const PixelFeatures& feature = film.features(px, py);
+      const PixelEstimate& pixel = film.pixel(bounds.x0 + x, bounds.y0 + y);
+      const PixelFeatures& feature = film.features(bounds.x0 + x, bounds.y0 + y);
       auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
       for (int c = 0; c < spectrum_size; ++c) {
         set(Channel::r + c, pixel.mean[c]);

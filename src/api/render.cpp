@@ -235,8 +235,9 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     plan.render.budget->ending = result.ending;
   }
   std::vector<Attribute> header = header_of(parts, {plan, settings, image, error}, result);
-  return Rendering{std::move(result), std::move(header), plan.chosen.notes,   settings.plan, settings.layers,   0, {},
-                   image,             error,             plan.chosen.missing, plan.replaced, parts.info.left_out};
+  return Rendering{
+      std::move(result),   std::move(header), plan.chosen.notes,  settings.plan, settings.layers, 0, {}, image, error,
+      plan.chosen.missing, plan.replaced,     parts.info.left_out};
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;      // that the chains of a sequence keep for the next picture
-  std::optional<PixelBuffer> motion;  // to the picture before, as motion_vectors() has it
-  ImageEstimate image;                // the mean of the whole picture
-  ErrorEstimate error;                // of the pixels
+  std::size_t history_bytes = 0;        // that the chains of a sequence keep for the next picture
+  std::optional<PixelBuffer> motion;    // to the picture before, as motion_vectors() has it
+  ImageEstimate image;                  // the mean of the whole picture
+  ErrorEstimate error;                  // of the pixels
   std::vector<std::string> missing{};   // sorts of light of the scene that the integrator cannot find
   std::vector<Replacement> replaced{};  // of what the file names and no option replaces
   std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it

@@ -28,7 +28,7 @@ void PixelFeatures::add(const Features& f) {
   if (f.coverage <= 0) return;
   hits += 1;
   for (int i = 0; i < spectrum_size; ++i) {
-    emission[i] += std::isfinite(f.emission.c[i]) ? f.emission.c[i] : 0;
+    emission += std::isfinite(f.emission.c[i]) ? f.emission.c[i] / spectrum_size : 0;
     albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
   }
   const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
@@ -38,9 +38,9 @@ void PixelFeatures::add(const Features& f) {
 }
 
 void PixelFeatures::merge(const PixelFeatures& other) {
-  for (int c = 0; c < spectrum_size; ++c) emission[c] += other.emission[c], albedo[c] += other.albedo[c];
+  for (int c = 0; c < spectrum_size; ++c) albedo[c] += other.albedo[c];
   for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
-  depth += other.depth, hits += other.hits, samples += other.samples;
+  emission += other.emission, depth += other.depth, hits += other.hits, samples += other.samples;
   if (object == 0) object = other.object;
 }
 
@@ -56,7 +56,7 @@ void PixelPass::add(const PixelSample& sample) {
 
 void PixelEstimate::add(const double (&pass_mean)[spectrum_size]) {
   if (passes % 2 == 0) {
-    for (int i = 0; i < spectrum_size; ++i) half_sum[i] += pass_mean[i];
+    for (double channel : pass_mean) half_sum += channel / spectrum_size;
     ++half_passes;
   }
   ++passes;
@@ -72,9 +72,8 @@ void PixelEstimate::merge(const PixelEstimate& other) {
     double delta = other.mean[i] - mean[i];
     mean[i] += delta * (double(other.passes) / n);
     m2[i] += other.m2[i] + delta * delta * (double(passes) * double(other.passes) / n);
-    half_sum[i] += other.half_sum[i];
   }
-  half_passes += other.half_passes;
+  half_sum += other.half_sum, half_passes += other.half_passes;
   passes += other.passes;
 }
 
@@ -85,10 +84,11 @@ double PixelEstimate::variance_of_mean(int channel) const {
 
 Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride)
     : grid_{bounds, stride},
-      pixels_(std::size_t(bounds.area())),
-      features_(std::size_t(bounds.area())),
-      tile_sums_(std::size_t(bounds.area())) {
-  if (layers) layers_.emplace(bounds, layers->count(), layers->spread);
+      cells_(grid_.cells()),
+      pixels_(std::size_t(cells_.area())),
+      features_(std::size_t(cells_.area())),
+      tile_sums_(std::size_t(cells_.area())) {
+  if (layers) layers_.emplace(cells_, layers->count(), layers->spread);
 }
 
 void Film::PassSum::add(const double (&mean)[spectrum_size]) {
@@ -125,7 +125,7 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
         const std::size_t stride = std::size_t(layers_->count()) + 1;
         const auto own = sums.subspan(
             std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
-        layers_->add(grid_.pixel_x(x), grid_.pixel_y(y), finite, own);
+        layers_->add(x, y, finite, own);
         for (int i = 0; i < spectrum_size; ++i) mean[i] = own.front().c[i].value();
       }
       for (double& m : mean) m /= finite;
@@ -180,7 +180,7 @@ ImageEstimate Film::image() const {
       for (int i = 0; i < spectrum_size; ++i) total.sum[i] += sums[pass].sum[i];
       total.pixels += sums[pass].pixels, total.cells += sums[pass].cells;
     }
-    if (total.cells < grid_.cells().area()) break;
+    if (total.cells < cells_.area()) break;
     if (total.pixels == 0) continue;
     ++image.passes;
     for (int i = 0; i < spectrum_size; ++i) add_value(total.sum[i] / total.pixels, image.passes, image.mean[i], m2[i]);

@@ -17,8 +17,8 @@ namespace montelux {
 struct PixelEstimate {
   double mean[spectrum_size] = {};
   double m2[spectrum_size] = {};  // sum of squared deviations of the pass means
-  // The sum over every other pass, from the first on: with the rest an independent half.
-  double half_sum[spectrum_size] = {};
+  // The sum over every other pass, from the first on, of the mean of the channels: with the rest an independent half.
+  double half_sum = 0;
   std::uint32_t half_passes = 0;
   std::uint32_t passes = 0;
   std::uint32_t non_finite = 0;  // samples kept out of the mean
@@ -30,8 +30,9 @@ struct PixelEstimate {
 };
 
 struct PixelFeatures {
+  double emission = 0;  // sum over samples of the mean of the channels
   // Sums over samples that hit.
-  double emission[spectrum_size] = {}, albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
+  double albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
@@ -77,16 +78,19 @@ class Film {
   // The film of all passes of both; the same grid and layers are required. `other` holds the later passes.
   void merge(const Film& other);
 
+  // Of a pixel that is not sampled those of the one that stands for its cell.
   const PixelEstimate& pixel(int x, int y) const { return pixels_[index(x, y)]; }
   const PixelFeatures& features(int x, int y) const { return features_[index(x, y)]; }
   // Samples taken at a pixel.
-  double samples(int x, int y) const { return features_[index(x, y)].samples; }
+  double samples(int x, int y) const { return is_sampled(x, y) ? features_[index(x, y)].samples : 0; }
   std::uint64_t non_finite() const;
   // Over the passes that are complete: every tile has them. A pixel that has no finite sample in a pass is left out of
   // that pass.
   ImageEstimate image() const;
   // Whether samples are taken at this pixel: all, unless the film has a stride.
-  bool is_sampled(int x, int y) const { return grid_.sampled_x(x) == x && grid_.sampled_y(y) == y; }
+  bool is_sampled(int x, int y) const {
+    return grid_.pixel_x(grid_.cell_x(x)) == x && grid_.pixel_y(grid_.cell_y(y)) == y;
+  }
   // Estimated mean squared errors of the picture.
   ErrorEstimate error() const;
   // Of them the squared error alone, which takes far less time.
@@ -100,13 +104,14 @@ class Film {
 
     void add(const double (&mean)[spectrum_size]);
   };
-  std::size_t index(int x, int y) const {
-    return std::size_t(y - grid_.bounds.y0) * std::size_t(grid_.bounds.width()) + std::size_t(x - grid_.bounds.x0);
+  std::size_t index_of_cell(int x, int y) const {
+    return std::size_t(y - cells_.y0) * std::size_t(cells_.width()) + std::size_t(x - cells_.x0);
   }
-  std::size_t index_of_cell(int x, int y) const { return index(grid_.pixel_x(x), grid_.pixel_y(y)); }
+  std::size_t index(int x, int y) const { return index_of_cell(grid_.cell_x(x), grid_.cell_y(y)); }
   void keep_pass_sum(const PixelBounds& tile, int pass, PassSum sum);
 
   PixelGrid grid_;
+  PixelBounds cells_;
   std::vector<PixelEstimate> pixels_;
   std::vector<PixelFeatures> features_;
   // The sum of every pass over a tile, by the tile's first pixel and then by pass: threads write to different tiles,

@@ -40,9 +40,9 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
         albedo[std::size_t(c)][i] = float(features.albedo[c] / hits);
       }
       for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal[c] / hits);
-      emission[i] = float(mean_of(features.emission) / samples);
+      emission[i] = float(features.emission / samples);
       object[i] = float(features.object);
-      const double all = mean_of(pixel.mean), half = mean_of(pixel.half_sum);
+      const double all = mean_of(pixel.mean), half = pixel.half_sum;
       const bool halves = pixel.half_passes > 0 && pixel.half_passes < pixel.passes;
       first_half[i] = float(halves ? half / pixel.half_passes : all);
       second_half[i] = float(halves ? (all * pixel.passes - half) / (pixel.passes - pixel.half_passes) : all);

@@ -16,8 +16,11 @@ constexpr double dark = 0.01;  // added to the squared expectation
 struct Excess {
   double own = 0, neighbours = 0, variance = 0;
   double first = 0, second = 0;  // of the halves over the neighbours
+  double emission = 0;           // of the pixel
 
   double value() const { return own - neighbours; }
+  // Whether an emitter that the camera sees makes most of it.
+  bool is_emission() const { return 2 * emission > value(); }
   // In standard errors, squared: the number of bright samples, where few of them make the excess.
   double significance() const { return value() * value() / std::max(variance, 1e-30); }
 };
@@ -29,39 +32,42 @@ Excess excess_of(const FilmPlanes& p, const ColorPlanes& neighbours, std::size_t
     e.variance += double(p.variance[c][i]) / spectrum_size;
   }
   e.first = double(p.first_half[i]) - e.neighbours, e.second = double(p.second_half[i]) - e.neighbours;
+  e.emission = double(p.emission[i]);
   return e;
 }
 
-// How much of what makes pixels brighter than their neighbours is their own, and not one rare sample that any of them
-// might have had: by classes of how much brighter the brighter half is.
-class PersistentShare {
+// Whether pixels that few bright samples made brighter than their neighbours are bright in both halves of their passes.
+// One rare sample that any of them might have had shows in one half alone. By classes of how much brighter the brighter
+// half is, and of whether the excess is an emitter that the camera sees.
+class Agreement {
  public:
   void add(const Excess& e) {
     // Where many samples made the pixel bright there is no question.
-    constexpr double few_samples = 6;
+    constexpr double few_samples = 2.5;
     const double squares = e.first * e.first + e.second * e.second;
     if (std::max(e.first, e.second) <= 0 || e.significance() >= few_samples || squares <= 0) return;
     Class& c = classes_[class_of(e)];
     c.agreement += 2 * e.first * e.second / squares, c.pixels += 1;
   }
-  double operator()(const Excess& e) const {
-    // Two pixels of share one half before any was seen. If a pixel is bright in a half by a probability whose logarithm
-    // is uniform, both halves of a persistent one agree by two thirds in the mean.
-    constexpr double prior_pixels = 2, prior_share = 0.5, agreement = 2.0 / 3;
+  // The mean over the pixel's class: 1 where both halves are bright, 0 where one is; with two pixels of this mean
+  // added.
+  double operator()(const Excess& e, double prior) const {
+    constexpr double prior_pixels = 2;
     const Class& c = classes_[class_of(e)];
-    return std::clamp((c.agreement + prior_pixels * prior_share) / (c.pixels * agreement + prior_pixels), 0.0, 1.0);
+    return std::max(c.agreement + prior_pixels * prior, 0.0) / (c.pixels + prior_pixels);
   }
 
  private:
   struct Class {
     double agreement = 0, pixels = 0;
   };
-  static constexpr std::size_t classes = 8;
+  static constexpr std::size_t ratios = 8;
   static std::size_t class_of(const Excess& e) {
     const double ratio = std::max(e.first, e.second) / (e.neighbours + 0.05);
-    return ratio < 0.5 ? 0 : std::min(classes - 1, std::size_t(1 + std::floor(std::log2(ratio) + 1)));
+    const std::size_t of_ratio = ratio < 0.5 ? 0 : std::min(ratios - 1, std::size_t(2 + std::floor(std::log2(ratio))));
+    return of_ratio + (e.is_emission() ? ratios : 0);
   }
-  std::array<Class, classes> classes_{};
+  std::array<Class, 2 * ratios> classes_{};
 };
 
 // The mean of 1 / (expectation^2 + dark) where the excess over the neighbours is known by `samples` bright samples: it
@@ -78,23 +84,43 @@ double mean_reciprocal(double neighbours, double excess, double samples) {
   return sum / std::size(normal_quantiles);
 }
 
-// The mean of 1 / (expectation^2 + dark) of one channel, by what the pixel and its neighbours say.
-double reciprocal_of(double own, double neighbours, const Excess& e, double persistent) {
-  const double t2 = e.significance();
+// What is known of the expectation of a pixel that is brighter than its neighbours.
+struct Belief {
+  double own = 1;    // the probability that the excess is the pixel's own; else it is as its neighbours are
+  double share = 1;  // then the mean of the expected excess, of the one that was seen
+};
+
+Belief belief_of(const Excess& e, const Agreement& agreement) {
+  const double surely = std::clamp((e.significance() - 1.2) / 1.5, 0.0, 1.0);
+  Belief belief;
+  if (e.is_emission()) {
+    // An emitter that covers a part of the pixel. The agreement of halves tells how probable it is that a half is
+    // bright if the other one is; the expectation is that of a bright sample times twice as much, for there are two
+    // halves.
+    const double both = agreement(e, 0.25);
+    belief.share = std::clamp(2.0 * 2 * both / (1 + both), 0.0, 1.0);
+    belief.share += surely * (1 - belief.share);
+  } else {
+    // Either a detail, whose halves agree by two thirds in the mean if the logarithm of the probability of a bright
+    // half is uniform, or a rare sample.
+    belief.own = std::clamp(agreement(e, 1.0 / 3) * 1.5, 0.0, 1.0);
+    belief.own += surely * (1 - belief.own);
+  }
+  return belief;
+}
+
+// The mean of 1 / (expectation^2 + dark) of one channel of a pixel, by its mean, its neighbours', and what is known of
+// the excess.
+double reciprocal_of(double own, double neighbours, const Excess& e, const Belief& belief) {
   if (e.value() < 0) {
     // Darker than its neighbours: shrinks toward them unless it is surely darker (James and Stein 1961).
-    constexpr double shrinkage = 4;
-    const double share = std::max(0.0, 1 - shrinkage / std::max(t2, 1e-9));
+    constexpr double shrinkage = 1;
+    const double share = e.significance() / (e.significance() + shrinkage);
     const double expected = neighbours + share * (own - neighbours);
     return 1 / (expected * expected + dark);
   }
-  const double surely = std::clamp((t2 - 4) / 8, 0.0, 1.0), share = surely + (1 - surely) * persistent;
-  return share * mean_reciprocal(neighbours, own - neighbours, t2) + (1 - share) / (neighbours * neighbours + dark);
-}
-
-// What a camera sees of an emitter directly is the pixel's own, however few samples found it.
-double share_of_emission(const FilmPlanes& p, const Excess& e, std::size_t i) {
-  return e.value() > 0 ? std::min(double(p.emission[i]) / e.value(), 1.0) : 0.0;
+  return belief.own * mean_reciprocal(neighbours, belief.share * (own - neighbours), e.significance()) +
+         (1 - belief.own) / (neighbours * neighbours + dark);
 }
 
 // Sums over pixels.
@@ -103,15 +129,15 @@ struct Sums {
   LargestTerms largest;
 };
 
-void add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const PersistentShare& share, std::size_t i,
+void add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreement& agreement, std::size_t i,
                Sums& sums) {
   const Excess e = excess_of(p, neighbours, i);
-  const double persistent = std::max(share(e), share_of_emission(p, e, i));
+  const Belief belief = belief_of(e, agreement);
   double relative = 0;
   for (std::size_t c = 0; c < spectrum_size; ++c) {
     const double variance = double(p.variance[c][i]) / spectrum_size;
     sums.squared += variance;
-    relative += variance * reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, persistent);
+    relative += variance * reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
   }
   sums.relative += relative, sums.relative_squares += relative * relative;
   sums.largest.add(relative);
@@ -125,12 +151,12 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   error.pixels = std::size_t(std::count(p.passes.begin(), p.passes.end(), std::uint8_t(2)));
   if (error.pixels == 0) return error;
   const ColorPlanes neighbours = mean_of_neighbours(p);
-  PersistentShare share;
+  Agreement agreement;
   for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) share.add(excess_of(p, neighbours, i));
+    if (p.passes[i] == 2) agreement.add(excess_of(p, neighbours, i));
   Sums sums;
   for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) add_pixel(p, neighbours, share, i, sums);
+    if (p.passes[i] == 2) add_pixel(p, neighbours, agreement, i, sums);
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);
   // Kish's number of pixels of equal error that would be as sure, and with it the spread of the logarithm.
   const double alike =

@@ -29,9 +29,9 @@ struct PixelGrid {
   // The pixel that stands for a cell: the one in its middle, or the last one where the picture cuts the cell off.
   int pixel_x(int cell) const { return stride == 1 ? cell : middle(bounds.x0, bounds.x1, cell); }
   int pixel_y(int cell) const { return stride == 1 ? cell : middle(bounds.y0, bounds.y1, cell); }
-  // The pixel that stands for the cell of this pixel.
-  int sampled_x(int x) const { return stride == 1 ? x : pixel_x((x - bounds.x0) / stride); }
-  int sampled_y(int y) const { return stride == 1 ? y : pixel_y((y - bounds.y0) / stride); }
+  // The cell of a pixel.
+  int cell_x(int x) const { return stride == 1 ? x : (x - bounds.x0) / stride; }
+  int cell_y(int y) const { return stride == 1 ? y : (y - bounds.y0) / stride; }
   bool operator==(const PixelGrid&) const = default;
 
  private:

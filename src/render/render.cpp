@@ -151,7 +151,7 @@ class Job {
     RayCounts rays = trace(request, space);
     std::unique_lock lock(tile.mutex);
     tile.added.wait(lock, [&] { return tile.passes_added == pass || drop_.stop_requested(); });
-    if (drop_.stop_requested()) return rays;
+    if (drop_.stop_requested()) return {};
     film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
     ++tile.passes_added;
     ++units_done_;
@@ -297,7 +297,10 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
   // The measurement is good to some percent, and the first pass is always completed.
   constexpr double margin = 1.05;
   while (timed.stride < 64 && affordable * timed.stride * timed.stride < margin) ++timed.stride;
-  if (timed.stride > 1) return timed;
+  if (timed.stride > 1) {
+    timed.plan.passes = is_fixed(settings.sampler) ? 1 : endless;
+    return timed;
+  }
   timed.plan = plan_passes(std::max(int(affordable), 1), settings.sampler);
   if (!is_fixed(settings.sampler)) timed.plan.passes = endless;
   return timed;

@@ -105,6 +105,43 @@ class Render(ProgramTest):
         self.assertGreater(told["seconds"], 0)
         self.assertFalse(told["interrupted"])
 
+    def test_time_that_is_too_short_for_a_sample_of_each_pixel_gives_a_sparse_picture_that_says_so(self):
+        result = self.run_program("render", SCENE, "--resolution", "1600x1200", "--time", "200ms", "--threads", 1, "--json",
+                                  "-o", "room.pfm")
+        told = json.loads(result.stdout)
+        self.assertIn("more than the time", result.stderr)
+        self.assertLess(told["sampled_pixels"], 0.6)
+        self.assertGreater(told["sampled_pixels"], 0)
+        self.assertLess(told["seconds"], 2)  # 4 s for one sample of every pixel, on a quick machine
+        self.assertIsNone(told["relative_mse"])
+        # The picture has no holes: unsampled pixels repeat those that are sampled.
+        _, _, rows = read_pfm(self.folder / "room.pfm")
+        black = sum(1 for row in rows[::7] for value in row[::3] if value == 0)
+        self.assertLess(black, 0.3 * len(rows[::7]) * 1600)
+
+    def test_the_interval_of_the_mean_is_students(self):
+        told = json.loads(self.render("--spp", "16", "--json").stdout)
+        self.assertEqual(told["passes"], 8)
+        interval = told["interval_of_mean"]
+        self.assertEqual(interval["confidence"], 0.95)
+        for channel in range(3):
+            width = 2.364624 * told["standard_error"][channel]  # t(0.975) of 7 degrees of freedom
+            self.assertAlmostEqual(interval["low"][channel], told["mean"][channel] - width, delta=1e-5 * width)
+            self.assertAlmostEqual(interval["high"][channel], told["mean"][channel] + width, delta=1e-5 * width)
+        self.assertIsNone(json.loads(self.render("--spp", "1", "--json").stdout)["interval_of_mean"])
+        self.assertIn("95 %", self.render("--spp", "16").stdout)
+
+    def test_an_error_that_few_bright_samples_decide_has_a_range(self):
+        result = self.render("--spp", "16")
+        self.assertIn("few bright samples decide it", result.stdout)
+        told = json.loads(self.render("--spp", "16", "--json").stdout)
+        self.assertTrue(told["unsure_error"])
+        low, high = told["relative_mse_range"]
+        self.assertLess(low, told["relative_mse"])
+        self.assertGreater(high, told["relative_mse"])
+        # Converged pictures of this size have 0.117 in the mean of seeds at these samples.
+        self.assertGreater(told["relative_mse"], 0.03)
+
     def test_layers_sum_to_the_picture(self):
         told = json.loads(self.render("--spp", "8", "--layers", "bounces:2,light-groups,errors", "--json", "-o",
                                       "room.exr").stdout)
@@ -151,6 +188,26 @@ class Signals(ProgramTest):
 
     def test_sigint_writes_what_is_done_and_returns_130(self):
         self.assertEqual(self.interrupted_by(signal.SIGINT), 130)
+
+    def test_a_signal_does_not_wait_for_a_costly_material(self):
+        scene = self.folder / "slow.pbrt"
+        scene.write_text('''
+            LookAt 0 0 -4  0 0 0  0 1 0
+            Camera "perspective"
+            Film "rgb" "integer xresolution" [ 64 ] "integer yresolution" [ 64 ]
+            WorldBegin
+            LightSource "infinite" "rgb L" [ 1 1 1 ]
+            Material "coateddiffuse" "integer nsamples" [ 100000 ] "float thickness" [ 0.1 ] "rgb albedo" [ 0.5 0.5 0.5 ]
+            Shape "sphere" "float radius" [ 1 ]
+            ''')
+        process = self.start("render", scene, "--spp", "64", "-o", "slow.pfm")
+        self.addCleanup(process.kill)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        process.communicate(timeout=120)
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertEqual(process.returncode, 130)
 
     def test_sigterm_writes_what_is_done_and_returns_143(self):
         self.assertEqual(self.interrupted_by(signal.SIGTERM), 143)

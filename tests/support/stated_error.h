@@ -10,7 +10,8 @@
 
 namespace montelux::test {
 
-// The relative mean squared error by the pixel's own mean, which shares the noise of the squared error: a planted fault.
+// The relative mean squared error by the pixel's own mean, which shares the noise of the squared error: a planted
+// fault.
 inline double error_over_own_mean(const Film& film) {
   double sum = 0;
   const PixelBounds& b = film.bounds();

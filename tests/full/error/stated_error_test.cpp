@@ -32,8 +32,8 @@ class StatedErrorOfScene : public testing::TestWithParam<ErrorScene> {
 
 }  // namespace
 
-// In the mean of 20 pictures within 0.8 to 1.25, as far as these can tell; and the divisor that shares the noise is found
-// out at few samples.
+// In the mean of 20 pictures within 0.8 to 1.25, as far as these can tell; and the divisor that shares the noise is
+// found out at few samples.
 TEST_P(StatedErrorOfScene, is_the_true_one_in_the_mean) {
   const auto scene = file();
   if (!scene) GTEST_SKIP() << "MONTELUX_SCENES has no " << GetParam().name;
@@ -52,7 +52,9 @@ TEST_P(StatedErrorOfScene, is_the_true_one_in_the_mean) {
     const bool says_so = unsure > seeds / 2;
     EXPECT_TRUE(ratio.high() > 0.8 || says_so) << samples << " samples: " << ratio.ratio;
     EXPECT_TRUE(ratio.low() < 1.25 || says_so) << samples << " samples: " << ratio.ratio;
-    if (samples == 16) EXPECT_LT(planted.ratio, 0.85);
+    if (samples == 16) {
+      EXPECT_LT(planted.ratio, 0.85);
+    }
   }
 }
 
@@ -62,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, StatedErrorOfScene,
                                          ErrorScene{"dining-room", false}, ErrorScene{"living-room", false},
                                          ErrorScene{"veach-mis", false}, ErrorScene{"staircase2", false},
                                          ErrorScene{"many-lights-city", false}),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& scene) {
+                           std::string name = scene.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

@@ -200,7 +200,7 @@ TEST(Chains, end_in_time) {
   // By a clock that the machine's load does not move: whole chains are planned where there is time for them.
   std::atomic<int> asked{0};
   s.clock = [&asked] { return 1e-5 * ++asked; };
-  s.plan = plan_for_time(chosen.any(), s, 0.3, silent);
+  s.plan = plan_for_time(chosen.any(), s, 0.3, silent).plan;
   EXPECT_EQ(s.plan.samples_per_pass, 4);
   s.clock = {};
   s.seconds = 0.3;

@@ -305,6 +305,90 @@ TEST(Render, that_time_ends_has_a_whole_pass) {
     for (int x = b.x0; x < b.x1; ++x) EXPECT_GE(result.film.pixel(x, y).passes, 1u) << x << " " << y;
 }
 
+// Takes time by the sample, as integrators do.
+class SlowSamples final : public PixelIntegrator {
+ public:
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    std::this_thread::sleep_for(out.size() * std::chrono::microseconds(50));
+    for (PixelSample& s : out) s.radiance = gray(1.0f);
+    samples_ += int(out.size());
+    if (pass.grid) stride_ = pass.grid->stride;
+    return {out.size(), 0, 0};
+  }
+  int samples() const { return samples_; }
+
+ private:
+  mutable std::atomic<int> samples_{0}, stride_{1};
+};
+
+TEST(Render, the_speed_is_measured_on_a_part_of_the_pixels) {
+  RenderSettings s;
+  s.bounds = {0, 0, 400, 300}, s.width = 400, s.height = 300, s.threads = 1;
+  const SlowSamples slow;  // a sample of every pixel takes 6 s
+  RenderObserver silent;
+  const TimedPlan timed = plan_for_time(slow, s, 1, silent);
+  EXPECT_LT(slow.samples(), 400 * 300 / 8);
+  EXPECT_GT(timed.sample_seconds, 5.9);
+  EXPECT_GE(timed.stride, 2);
+  EXPECT_EQ(timed.plan.samples_per_pass, 1);
+}
+
+TEST(Render, less_time_than_a_sample_of_every_pixel_gives_a_sparse_picture) {
+  RenderSettings s;
+  s.bounds = {3, 5, 203, 105}, s.width = 210, s.height = 110, s.threads = 1;
+  s.stride = 7, s.plan = {1, 1};
+  const SlowSamples slow;
+  RenderObserver silent;
+  const RenderResult result = render(slow, s, silent);
+  EXPECT_EQ(slow.samples(), 29 * 15);
+  EXPECT_EQ(result.film.image().passes, 1);
+  for (int y = 5; y < 105; ++y)
+    for (int x = 3; x < 203; ++x) EXPECT_EQ(result.film.pixel(x, y).mean[0], 1) << x << " " << y;
+}
+
+// The cells of a sparse picture are the pixels of the whole one, bit for bit.
+TEST(Render, sparse_pixels_are_those_of_the_whole_picture) {
+  RenderSettings s = scene().settings(PointSetKind::independent, {2, 1}, 5, 1);
+  const ChosenIntegrator chosen = scene().integrator("path");
+  RenderObserver silent;
+  const Film whole = render(chosen.any(), s, silent).film;
+  s.stride = 3;
+  const Film sparse = render(chosen.any(), s, silent).film;
+  int sampled = 0;
+  for (int y = 0; y < s.height; ++y)
+    for (int x = 0; x < s.width; ++x) {
+      if (!sparse.is_sampled(x, y)) continue;
+      ++sampled;
+      EXPECT_EQ(sparse.pixel(x, y).mean[0], whole.pixel(x, y).mean[0]) << x << " " << y;
+    }
+  EXPECT_EQ(sampled, 16 * 14);
+}
+
+// Traces until its caller wants to stop, as a path through a costly material does.
+class Endless final : public PixelIntegrator {
+ public:
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    if (pass.tile.x0 == 0 && pass.tile.y0 == 0) {
+      for (int i = 0; i < 10000 && !pass.stop.stop_requested(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    for (PixelSample& s : out) s.radiance = gray(1.0f);
+    return {out.size(), 0, 0};
+  }
+};
+
+TEST(Render, a_request_to_stop_drops_the_unit_in_work) {
+  const Endless endless;
+  class Stop final : public RenderObserver {
+    bool stop_requested() override { return true; }
+  } stop;
+  const RenderResult result = render(endless, slow_settings({2, 1}, 2), stop);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_LT(result.seconds, 5);  // 10 s by itself
+  EXPECT_EQ(result.film.samples(0, 0), 0);
+  EXPECT_EQ(result.film.image().passes, 0);
+}
+
 // Also the pass that measures the speed may take long.
 TEST(Render, a_request_to_stop_is_heard_while_the_speed_is_measured) {
   class Stop final : public RenderObserver {

@@ -109,9 +109,9 @@ TEST(WarmUp, is_planned_for_where_it_counts) {
   s.warm_up_counts = false;
   // Sixteen frames in four chains; a chain of one frame is all that is left of that with the warm-up.
   const double seconds = 16 * (begin_seconds + frame_seconds);
-  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).samples_per_pass, 4);
+  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).plan.samples_per_pass, 4);
   s.warm_up_counts = true;
-  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).samples_per_pass, 1);
+  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).plan.samples_per_pass, 1);
 }
 
 TEST(WarmUp, is_none_where_pixels_are_alone) {
@@ -158,12 +158,12 @@ TEST(Plans, of_points_that_are_fixed_have_one_pass) {
     EXPECT_EQ(plan.samples_per_pass, samples);
     EXPECT_EQ(plan.passes, 1) << samples;
     s.sampler = PointSetKind::uniform_grid;
-    const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent);
+    const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent).plan;
     EXPECT_EQ(by_time.samples_per_pass, std::min(samples, most_fixed_samples));
     EXPECT_EQ(by_time.passes, 1) << samples;
     // As many as time allows of others.
     s.sampler = PointSetKind::sobol;
-    EXPECT_GT(plan_for_time(alone, s, samples * sample_seconds, silent).passes, 100000);
+    EXPECT_GT(plan_for_time(alone, s, samples * sample_seconds, silent).plan.passes, 100000);
   }
   EXPECT_GT(plan_passes(2048, PointSetKind::sobol).passes, 1);
 }

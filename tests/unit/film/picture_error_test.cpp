@@ -1,0 +1,127 @@
+// The relative error that a film states, on noise whose law is known: the truth is the formula, not a picture.
+#include "film/picture_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "film/film.h"
+#include "mc/random.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr int side = 64, passes = 8;
+constexpr PixelBounds bounds{0, 0, side, side};
+
+// A pixel that is `base`, and `base + bright` with a probability; `emits`: the excess is an emitter that the camera
+// sees.
+struct RareLight {
+  float base = 0.2f, bright = 0;
+  double probability = 0;
+  bool emits = false;
+};
+
+// The film of eight passes of one sample, and its true relative mean squared error.
+struct Picture {
+  Film film{bounds};
+  double true_error = 0;
+};
+
+template <class Law>
+Picture picture_of(Law law, std::uint32_t seed) {
+  Picture picture;
+  const RandomStream<float> random(seed, 5u);
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<PixelSample> samples(std::size_t(bounds.area()));
+    for (int i = 0; i < bounds.area(); ++i) {
+      const RareLight light = law(i % side, i / side);
+      const bool hit = double(random.at(std::uint32_t(pass * bounds.area() + i))) < light.probability;
+      PixelSample& s = samples[std::size_t(i)];
+      s.radiance = gray(light.base + (hit ? light.bright : 0.0f));
+      s.features.coverage = 1, s.features.object = 1, s.features.albedo = gray(0.5f);
+      if (hit && light.emits) s.features.emission = gray(light.bright);
+    }
+    picture.film.add_pass(bounds, pass, 1, samples);
+  }
+  for (int i = 0; i < bounds.area(); ++i) {
+    const RareLight light = law(i % side, i / side);
+    const double expected = double(light.base) + light.probability * double(light.bright);
+    const double difference = picture.film.pixel(i % side, i / side).mean[0] - expected;
+    picture.true_error += difference * difference / (expected * expected + 0.01) / bounds.area();
+  }
+  return picture;
+}
+
+// Stated and true, by the law of the noise, in the mean of some pictures.
+struct Means {
+  double stated = 0, over_own_mean = 0, truth = 0;
+  int unsure = 0;
+};
+
+template <class Law>
+Means means_of(Law law) {
+  constexpr int seeds = 24;
+  Means means;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const Picture picture = picture_of(law, std::uint32_t(seed));
+    const ErrorEstimate error = picture.film.error();
+    means.stated += error.relative_mse / seeds, means.truth += picture.true_error / seeds;
+    means.unsure += error.is_unsure();
+    for (int i = 0; i < bounds.area(); ++i) {
+      const PixelEstimate& p = picture.film.pixel(i % side, i / side);
+      means.over_own_mean += p.variance_of_mean(0) / (p.mean[0] * p.mean[0] + 0.01) / bounds.area() / seeds;
+    }
+  }
+  return means;
+}
+
+}  // namespace
+
+TEST(PictureError, is_true_where_any_pixel_may_have_a_rare_bright_sample) {
+  const Means m = means_of([](int, int) { return RareLight{0.2f, 40, 0.002, false}; });
+  EXPECT_GT(m.stated, 0.8 * m.truth);
+  EXPECT_LT(m.stated, 1.25 * m.truth);
+  // A divisor that shares the noise counts each of them as 1 at most.
+  EXPECT_LT(m.over_own_mean, 0.2 * m.truth);
+}
+
+TEST(PictureError, is_true_where_every_sample_is_alike) {
+  const Means m = means_of([](int x, int y) {
+    return RareLight{0.1f + 0.01f * float(x), 0.2f + 0.02f * float(y), 0.5, false};
+  });
+  EXPECT_GT(m.stated, 0.8 * m.truth);
+  EXPECT_LT(m.stated, 1.25 * m.truth);
+}
+
+// Each lamp fills a part of one pixel, a part whose logarithm is uniform.
+TEST(PictureError, is_true_where_small_lamps_are_seen) {
+  const Means m = means_of([](int x, int y) {
+    const bool is_lamp = x % 4 == 1 && y % 4 == 2;
+    const double part = 0.001 * std::pow(800.0, double((x * 7 + y * 3) % 61) / 61);
+    return RareLight{0.05f, 30, is_lamp ? part : 0.0, true};
+  });
+  EXPECT_GT(m.stated, 0.8 * m.truth);
+  EXPECT_LT(m.stated, 1.25 * m.truth);
+}
+
+TEST(PictureError, knows_a_dark_pixel_beside_bright_ones_by_itself) {
+  // Columns of light without noise, and between them dark ones with a little.
+  const Means m = means_of([](int x, int) { return x % 2 ? RareLight{5} : RareLight{0.05f, 0.1f, 0.5, false}; });
+  EXPECT_GT(m.stated, 0.8 * m.truth);
+  EXPECT_LT(m.stated, 1.25 * m.truth);
+}
+
+TEST(PictureError, says_so_where_few_bright_samples_decide) {
+  const auto rare = [](int, int) { return RareLight{0.2f, 400, 5e-5, false}; };
+  const auto even = [](int, int) { return RareLight{0.2f, 0.2f, 0.5, false}; };
+  const ErrorEstimate unsure = picture_of(rare, 3).film.error(), sure = picture_of(even, 3).film.error();
+  EXPECT_TRUE(unsure.is_unsure());
+  EXPECT_GT(unsure.relative_high, 2 * unsure.relative_low);
+  EXPECT_FALSE(sure.is_unsure());
+  EXPECT_LT(sure.relative_low, sure.relative_mse);
+  EXPECT_LT(sure.relative_high, 1.2 * sure.relative_low);
+}
+
+}  // namespace montelux
