@@ -246,7 +246,7 @@ namespace {
 double measure_sample(const PixelIntegrator& integrator, RenderSettings settings, double seconds,
                       RenderObserver& observer) {
   constexpr double share = 0.01;  // of the time, for one measurement
-  constexpr int first_cells = 2048;
+  constexpr int first_cells = 128;
   while (PixelGrid{settings.bounds, 2 * settings.stride}.cells().area() >= first_cells) settings.stride *= 2;
   for (;; settings.stride /= 2) {
     const RenderResult result = render(integrator, settings, observer);
