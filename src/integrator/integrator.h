@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <stop_token>
 
 #include "camera/shutter.h"
 #include "image/layers.h"
@@ -13,6 +12,13 @@
 #include "mc/point_set.h"
 
 namespace montelux {
+
+// Whether the work at hand is still wanted. May be called from many threads at once.
+class StopQuery {
+ public:
+  virtual ~StopQuery() = default;
+  virtual bool stop_requested() const = 0;
+};
 
 // One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Only coupled integrators ask
 // for a single one of them.
@@ -23,8 +29,9 @@ struct TilePass {
   std::optional<std::uint32_t> only{};  // this one of the samples alone
   std::optional<float> moment{};        // in [0, 1), of the exposure: of all samples; else each has its own
   std::optional<PixelGrid> grid{};      // the tile counts the cells of this grid; else pixels
-  std::stop_token stop{};  // once a stop is requested, the tile may be left unfinished: the caller drops it
+  const StopQuery* stop = nullptr;      // once it wants a stop, the tile may be left unfinished: the caller drops it
   std::uint32_t samples() const { return only ? 1 : points.samples_per_pass; }
+  bool stop_requested() const { return stop && stop->stop_requested(); }
 };
 
 // Rays that were traced, for statistics.

@@ -6,7 +6,6 @@
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -28,6 +27,16 @@ int tile_side(int samples_per_pass, int max_unit_samples) {
 
 // How long units in work may still take after a request to stop, or after the time is over, before they are dropped.
 constexpr double stop_grace = 0.25, time_grace = 0.1;
+
+// Set once, by any thread.
+class StopFlag final : public StopQuery {
+ public:
+  bool stop_requested() const override { return set_; }
+  void request_stop() { set_ = true; }
+
+ private:
+  std::atomic<bool> set_{false};
+};
 
 // A tile, and how many of its passes are in the film.
 struct TileState {
@@ -147,7 +156,7 @@ class Job {
                       std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
                      settings_.shutter};
     if (settings_.stride > 1) request.grid = film_.grid();
-    request.stop = drop_.get_token();
+    request.stop = &drop_;
     RayCounts rays = trace(request, space);
     std::unique_lock lock(tile.mutex);
     tile.added.wait(lock, [&] { return tile.passes_added == pass || drop_.stop_requested(); });
@@ -191,7 +200,7 @@ class Job {
   const std::uint64_t units_;
   std::atomic<std::uint64_t> next_unit_{0}, units_done_{0}, first_units_done_{0};
   std::atomic<bool> stop_{false};
-  std::stop_source drop_;
+  StopFlag drop_;
   ErrorWatch error_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable finished_;

@@ -35,7 +35,7 @@ class FirstHits {
                         LayerTally& tally);
 
   std::vector<PathStart<float>> starts_;
-  std::stop_token stop_;
+  const StopQuery* stop_ = nullptr;
   std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
 };
@@ -144,7 +144,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
 
 template <class F>
 Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
-  if (stop_.stop_requested()) return Mask<F>(false);
+  if (stop_ && stop_->stop_requested()) return Mask<F>(false);
   if (next_ == starts_.size()) return on;
   const std::uint32_t running = bits(on);
   std::uint32_t fresh = 0;

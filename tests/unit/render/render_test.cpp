@@ -369,7 +369,7 @@ class Endless final : public PixelIntegrator {
  public:
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     if (pass.tile.x0 == 0 && pass.tile.y0 == 0) {
-      for (int i = 0; i < 10000 && !pass.stop.stop_requested(); ++i)
+      for (int i = 0; i < 10000 && !pass.stop_requested(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     for (PixelSample& s : out) s.radiance = gray(1.0f);
