@@ -266,5 +266,61 @@ class Mistakes(IntegrateTest):
         self.assertFalse(self.result("exp(x)", "--over", "x=0:1", "--method", "uniform")["heavy_tail"])
 
 
+class Doubts(IntegrateTest):
+    def test_warnings_are_the_exit_status_where_strict_is_given(self):
+        zero = ("0*x", "--over", "x=0:1", "--method", "uniform", "--samples", "1e4")
+        r = self.result(*zero)
+        self.assertEqual((r["mean"], r["standard_error"], r["interval"]), (0, None, None))
+        self.assertEqual(r["warnings"][0]["kind"], "nothing-found")
+        run = self.integrate(*zero, "--strict", "--save", "zero.json", status=1)
+        self.assertEqual(run.stdout.splitlines()[0], "0(?)")
+        self.run_program("merge", "zero.json", "--strict", status=1)
+        self.integrate("x", "--over", "x=0:1", "--strict")
+        divergent = self.integrate("1/x", "--over", "x=0:1", "--strict", "--method", "uniform", status=1)
+        self.assertIn("may not exist", divergent.stderr)
+
+    def test_methods_that_contradict_each_other_are_named(self):
+        # A density that misses half of the domain makes one of the two wrong.
+        arguments = ("x", "--over", "x=0:1", "--pdf", "x<0.5 ? 2 : 0", "--allow-missed", "--method", "importance",
+                     "--method", "qmc", "--samples", "1e5")
+        run = self.integrate(*arguments, "--json", "--strict", status=1)
+        found = json.loads(run.stdout)["disagreements"]
+        self.assertEqual([(d["first"], d["second"]) for d in found], [("importance", "qmc")])
+        self.assertIn("importance and qmc disagree", run.stderr)
+        agree = self.result("x", "--over", "x=0:1", "--method", "uniform", "--method", "qmc", "--samples", "1e5")
+        self.assertEqual(agree["disagreements"], [])
+
+    def test_a_control_integral_that_samples_rule_out_is_refused(self):
+        common = ["exp(x)", "--over", "x=0:1", "--control", "1+x", "--control-integral"]
+        self.assert_refused([*common, "1.51"], "--control-integral 1.51", "give 1.5000", "level 1e-06")
+        self.integrate(*common, "3/2", "--samples", "1e4")
+
+    def test_a_constant_is_printed_with_the_digits_that_a_double_has(self):
+        run = self.integrate("3", "--over", "x=0:1", "--samples", "1e5")
+        self.assertEqual(run.stdout.splitlines()[0], "3.000000000000000(3)")
+        self.assertEqual(run.stderr, "")
+
+    def test_a_negative_value_before_the_two_dashes_is_what_is_complained_of(self):
+        text = self.assert_refused(["--over", "x=0:1", "--samples", "-1", "--", "x"], "--samples: takes")
+        self.assertNotIn('"--"', text)
+
+    def test_a_domain_with_thousands_of_intervals_is_refused_at_once(self):
+        over = ",".join(f"x{i}=0:1" for i in range(8000))
+        text = self.assert_refused(["x0", "--over", over], "more than 64 dimensions")
+        self.assertLess(len(text), 1000)
+
+    def test_any_number_of_samples_takes_bounded_memory_and_ends_by_one_signal(self):
+        for method in "stratified", "uniform", "auto":
+            with self.subTest(method=method):
+                process = self.start("integrate", "x", "--over", "x=0:1", "--method", method, "--samples", "1e13", "--threads", "1")
+                Files.wait_for_handler(self, process)
+                time.sleep(0.5)
+                status = Path(f"/proc/{process.pid}/status").read_text()
+                process.send_signal(signal.SIGINT)
+                _, err = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, 130, err)
+                self.assertLess(int(re.search(r"VmHWM:\s*(\d+)", status)[1]), 200_000)
+
+
 if __name__ == "__main__":
     unittest.main()
