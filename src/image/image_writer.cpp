@@ -7,8 +7,6 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <bit>
@@ -19,6 +17,7 @@
 #include <ctime>
 #include <functional>
 
+#include "image/image_codec.h"
 #include "image/image_file.h"
 #include "image/output_file.h"
 
@@ -101,18 +100,6 @@ Result<std::string> encode_exr(const PixelBuffer& image, const ExrOptions& optio
   return stream.take();
 }
 
-// By the codec of a name's ending.
-template <class T>
-Result<std::string> encode_by_library(const std::string& name, const OIIO::ImageSpec& spec, const T* values) {
-  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
-  if (!output) return Failure{OIIO::geterror()};
-  OIIO::Filesystem::IOVecOutput memory;
-  const bool good = output->set_ioproxy(&memory) && output->open(name, spec) &&
-                    output->write_image(spec.format, values) && output->close();
-  if (!good) return Failure{output->geterror()};
-  return std::string(memory.buffer().begin(), memory.buffer().end());
-}
-
 // The colour channels alone, interleaved.
 std::vector<float> colors_of(const PixelBuffer& image) {
   std::vector<float> colors;
@@ -124,9 +111,14 @@ std::vector<float> colors_of(const PixelBuffer& image) {
   return colors;
 }
 
+Result<std::string> encode_by_module(const std::string& name, const SamplesToEncode& samples) {
+  const Result<const ImageCodec*> codec = image_codec();
+  if (!codec) return codec.failure();
+  return (*codec)->encode(name, samples);
+}
+
 Result<std::string> encode_hdr(const PixelBuffer& image) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeFloat);
-  return encode_by_library("image.hdr", spec, colors_of(image).data());
+  return encode_by_module("image.hdr", {image.width, image.height, 3, colors_of(image).data()});
 }
 
 // Portable float map: a text header whose negative scale means little-endian, then the rows from the bottom up.
@@ -156,10 +148,8 @@ Result<std::string> encode(const DisplayImage& image, const std::string& extensi
   constexpr int max_jpeg_side = 65500;
   if (jpeg && std::max(image.width, image.height) > max_jpeg_side)
     return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels a side"};
-  OIIO::ImageSpec spec(image.width, image.height, image.channel_count, OIIO::TypeUInt8);
-  spec["oiio:ColorSpace"] = "sRGB";
-  spec["CompressionQuality"] = 95;
-  return encode_by_library("image" + extension, spec, image.values.data());
+  return encode_by_module("image" + extension,
+                          {image.width, image.height, image.channel_count, nullptr, image.values.data()});
 }
 
 std::string lower_extension(const std::filesystem::path& path) {

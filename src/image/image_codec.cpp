@@ -1,0 +1,45 @@
+#include "image/image_codec.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <filesystem>
+
+namespace montelux {
+
+namespace {
+
+constexpr const char* module_file = "montelux_codec.so";
+
+// Beside the program, as in a folder of a build; where an installation has it; where it was built.
+std::array<std::filesystem::path, 3> module_folders() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  return {program, program / ".." / "lib" / "montelux", MONTELUX_CODEC_FOLDER};
+}
+
+Result<const ImageCodec*> load() {
+  std::string missing("the module of image formats is missing; looked for");
+  for (const std::filesystem::path& folder : module_folders()) {
+    const std::filesystem::path file = folder / module_file;
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) {
+      missing.append(" '").append(file.string()).append("'");
+      continue;
+    }
+    void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!module) return Failure{std::string("the module of image formats cannot be loaded: ").append(dlerror())};
+    if (const void* codec = dlsym(module, "montelux_image_codec")) return static_cast<const ImageCodec*>(codec);
+    return Failure{std::string("this is not the module of image formats: ").append(file.string())};
+  }
+  return Failure{missing};
+}
+
+}  // namespace
+
+Result<const ImageCodec*> image_codec() {
+  static const Result<const ImageCodec*> codec = load();
+  return codec;
+}
+
+}  // namespace montelux
