@@ -6,14 +6,18 @@
 
 namespace montelux {
 
-// More than this share of the smallest mean squared error may not be the reference's own.
+// More than this share of the smallest error may not be the reference's own.
 inline constexpr double largest_reference_share = 0.25;
 
 struct ContestOptions {
-  // As --integrator takes them, with `sampler=NAME` among the settings if need be: "path:mis=balance,sampler=halton".
+  // As --integrator takes them, with `sampler=NAME` among the settings if need be, and with a name before them if
+  // wanted: "path:mis=balance,sampler=halton", "mine=path:mis=balance".
   std::vector<std::string> methods;
-  std::optional<double> seconds;  // for each method, over all repeats
-  std::optional<int> samples;     // a pixel, in each repeat; default 64
+  // That all methods are to have, but where they have their own.
+  std::vector<std::pair<std::string, std::string>> settings;
+  lab::ErrorMeasure measure = lab::ErrorMeasure::relative_mse;  // that verdicts go by
+  std::optional<double> seconds;                                // for each method, over all repeats
+  std::optional<int> samples;                                   // a pixel, in each repeat; default 64
   int repeats = 8;
   std::optional<std::filesystem::path> reference;  // a picture; none: made by the most efficient unbiased method
   bool cache = true;                               // keep the reference that was made, and use it again
@@ -44,33 +48,61 @@ struct ContestBudget {
   std::optional<double> seconds;
 };
 
+// Seconds that a comparison is expected to take, by its pilots.
+struct ContestForecast {
+  double pilots = 0;     // that have been taken
+  double reference = 0;  // 0 where there is one
+  double repeats = 0;    // of all methods, with slopes and attribution
+  double total() const { return pilots + reference + repeats; }
+};
+struct ContestProgress {
+  double fraction = 0;                // of the time, in [0, 1]
+  double elapsed = 0, remaining = 0;  // seconds; the remaining ones are estimated
+  std::string what;                   // is under way
+};
+// Told of how a comparison gets on; may ask to stop. Each may be empty.
+struct ContestObserver {
+  std::function<bool()> stop;
+  std::function<void(const ContestForecast&)> forecast;  // once, before the reference and the repeats
+  std::function<void(const ContestProgress&)> progress;  // several times a second
+};
+
 // Everything that was found. `refusal` says why the verdicts do not count, where the reference is not good enough.
 struct Contest {
   lab::ContestResult result;
   std::string refusal;
   std::vector<std::string> notes;
   SavedContest saved;  // but for the scene, how it was loaded, and its fingerprint
+  ContestForecast forecast;
+  double seconds = 0;  // that all of it took, by the machine's clock
 };
 
-// What the verdict says, in a sentence; where the time of warm-up does not count, it says that, and what it would be.
+// What the verdict says, in a sentence: by the measure of the comparison, and what the other measures say. Where the
+// time of warm-up does not count, it says that, and what it would be.
 std::string sentence_of(const Contest& contest, const lab::PairVerdict& verdict, double confidence);
+
+// Whether the mean of a method is that of the reference, in a sentence with the power of the test.
+std::string sentence_of(const lab::Agreement& agreement, double reference_mean);
+
+// What a comparison is of, as pairs of a name and a value: what the page states on top.
+std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& contest, const std::string& scene);
 
 // Writes the report, one HTML page that needs no network. `commands` are those that make it again. Fails where the file
 // cannot be written or the program was built without the page.
 Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
                      double confidence, const std::vector<std::string>& commands);
 
-// Whether every method can be made; a scene is not needed to tell.
-Status check_methods(const std::vector<std::string>& methods);
+// Whether every method can be made and has a name of its own; a scene is not needed to tell.
+Status check_methods(const ContestOptions& options);
 
 // Fails where a method does not fit the scene, none has the warm-up that is not to count, or the reference cannot be
 // read or has another size.
 Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
-                                const lab::ContestWatch& watch);
+                                const ContestObserver& observer);
 // Goes on with a contest: its repeats and those that follow are as those of one contest. Fails where its methods or its
 // size do not fit the scene.
 Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, const ContestBudget& more,
-                                 const lab::ContestWatch& watch);
+                                 const ContestObserver& observer);
 
 // Changes with the content of the scene's file and of every file beside it or below that its text, or that of a text it
 // includes, names.

@@ -21,7 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr SavedFormat saved_format{"montelux comparison", 4, "montelux compare --save", "comparison"};
+// Version 4 had no settings of all methods, no measure (its verdicts were by mse), and repeats of 13 figures.
+constexpr SavedFormat saved_format{"montelux comparison", 5, "montelux compare --save", "comparison", 4};
+constexpr std::size_t figures = 17, figures_of_version_4 = 13;
 static_assert(std::endian::native == std::endian::little);
 
 // ---- long arrays ----------------------------------------------------------------------------------------------------
@@ -56,6 +58,8 @@ double number_from(const Json& json) { return unpacked<double>(json, 1).front();
 
 Json options_json(const ContestOptions& o) {
   Json json{{"methods", o.methods},
+            {"settings", o.settings},
+            {"measure", lab::key_of(o.measure)},
             {"seconds", or_null<Json>(o.seconds)},
             {"samples", or_null<Json>(o.samples)},
             {"repeats", o.repeats},
@@ -72,6 +76,13 @@ Json options_json(const ContestOptions& o) {
 ContestOptions options_from(const Json& j) {
   ContestOptions o;
   o.methods = j.at("methods").get<std::vector<std::string>>();
+  o.measure = lab::ErrorMeasure::mse;
+  if (j.contains("settings")) o.settings = j.at("settings").get<decltype(o.settings)>();
+  if (j.contains("measure")) {
+    const auto measure = lab::measure_named(j.at("measure").get<std::string>());
+    if (!measure) throw std::invalid_argument("its settings are damaged");
+    o.measure = *measure;
+  }
   o.seconds = optional_at<double>(j, "seconds"), o.samples = optional_at<int>(j, "samples");
   o.repeats = j.at("repeats"), o.confidence = j.at("confidence"), o.seed = j.at("seed");
   o.warm_frames = j.at("warm_frames"), o.processor_time = j.at("processor_time");
@@ -112,11 +123,15 @@ lab::Reference reference_from(const Json& j) {
 
 Json repeat_json(const lab::Repeat& r) {
   return packed(std::vector<double>{r.seconds, r.all_seconds, r.warm_up, r.rays, r.samples, r.mse, r.relative_mse,
-                                    r.flip, r.variance, r.coverage, r.image_mean[0], r.image_mean[1], r.image_mean[2]});
+                                    r.flip, r.variance, r.coverage, r.image_mean[0], r.image_mean[1], r.image_mean[2],
+                                    r.passes, r.image_error[0], r.image_error[1], r.image_error[2]});
 }
 lab::Repeat repeat_from(const Json& j) {
-  const std::vector<double> v = unpacked<double>(j, 13);
-  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], {v[10], v[11], v[12]}};
+  std::vector<double> v = unpacked(j);
+  if (v.size() == figures_of_version_4) v.resize(figures);
+  if (v.size() != figures) throw std::invalid_argument("its repeats are damaged");
+  return {
+      v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], {v[10], v[11], v[12]}, v[13], {v[14], v[15], v[16]}};
 }
 
 Json method_json(const lab::MethodState& m) {

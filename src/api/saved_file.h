@@ -18,9 +18,10 @@ namespace montelux {
 
 struct SavedFormat {
   std::string_view name;    // as it stands in the file
-  int version;              // that is written, and the only one that is read
+  int version;              // that is written
   std::string_view writer;  // the command that writes it
   std::string_view what;    // for messages: "comparison"
+  int oldest = version;     // that is read, with all up to that which is written
 };
 
 // Throws std::invalid_argument on a file of another kind or version.
@@ -28,9 +29,11 @@ template <class Json>
 void check_format(const Json& json, const SavedFormat& format) {
   const bool named = json.is_object() && json.contains("format") && json.at("format") == format.name;
   if (!named) throw std::invalid_argument("it is not a file that " + std::string(format.writer) + " wrote");
-  if (json.at("version") != format.version)
-    throw std::invalid_argument("its format has version " + json.at("version").dump() +
-                                ", this program reads version " + std::to_string(format.version));
+  const Json& version = json.at("version");
+  if (version.is_number_integer() && version >= format.oldest && version <= format.version) return;
+  const std::string oldest = format.oldest < format.version ? std::to_string(format.oldest) + " to " : "";
+  throw std::invalid_argument("its format has version " + version.dump() + ", this program reads version " + oldest +
+                              std::to_string(format.version));
 }
 
 template <class Json>

@@ -1,5 +1,12 @@
 """The verb compare of the program: its results, its refusals, and a clean end on a signal."""
+import array
+import csv
 import json
+import os
+import pty
+import re
+import signal
+import threading
 import unittest
 
 import program
@@ -17,16 +24,21 @@ class Compare(ProgramTest):
     def test_every_figure_has_an_interval(self):
         result = self.compare("-a", "path", "-b", "naive", "--json", "--quiet")
         found = json.loads(result.stdout)
-        self.assertEqual([m["label"] for m in found["methods"]], ["a", "b"])
+        self.assertEqual([m["name"] for m in found["methods"]], ["path", "naive"])
         for method in found["methods"]:
             self.assertEqual(method["repeats"], 4)
             self.assertEqual(method["samples"]["mean"], 4)
-            for key in ("mse", "relative_mse", "flip", "seconds", "efficiency", "coverage", "slope_by_samples"):
-                low, high = method[key]["interval"]
+            figures = {key: method[key] for key in ("mse", "relative_mse", "flip", "seconds", "coverage",
+                                                    "slope_by_samples")}
+            for measure in "relmse", "mse", "flip":
+                figures["efficiency by " + measure] = method["efficiency"][measure]
+            for key, figure in figures.items():
+                low, high = figure["interval"]
                 self.assertLess(low, high, key)
-                self.assertTrue(low <= method[key]["mean"] <= high, key)
+                self.assertTrue(low <= figure["mean"] <= high, key)
         self.assertEqual(len(found["verdicts"]), 1)
-        self.assertLess(found["reference"]["share_of_smallest_mse"], 0.25)
+        self.assertEqual(found["measure"], "relmse")
+        self.assertLess(found["reference"]["share_of_smallest_error"]["relmse"], 0.25)
 
     def test_the_reference_is_kept(self):
         self.compare("-a", "path", "-b", "naive")
@@ -40,7 +52,7 @@ class Compare(ProgramTest):
         self.assertIn("share_bounce1", names)
         shares = [i for i, name in enumerate(names) if name.startswith("share_bounce")]
         for line in lines[1:]:
-            values = line.replace('"', "").split(",")
+            values = next(csv.reader([line]))
             self.assertAlmostEqual(sum(float(values[i]) for i in shares), 1, delta=1e-6)
 
     def test_variance_is_attributed_where_there_are_layers(self):
@@ -50,7 +62,7 @@ class Compare(ProgramTest):
         for family in first["attribution"].values():
             self.assertAlmostEqual(sum(share["mean"] for share in family.values()), 1, delta=1e-9)
         self.assertIsNone(second["attribution"])
-        self.assertIn("tracepath) does not part its light into layers", result.stderr)
+        self.assertIn("the variance of tracepath is not attributed", result.stderr)
         without = json.loads(self.compare("-a", "path", "-b", "naive", "--no-attribution", "--json").stdout)
         self.assertTrue(all(method["attribution"] is None for method in without["methods"]))
 
@@ -64,22 +76,23 @@ class Compare(ProgramTest):
         self.assertGreater(frames["warm_up_seconds"]["mean"], frames["seconds"]["mean"])
         self.assertAlmostEqual(frames["seconds"]["mean"] + frames["warm_up_seconds"]["mean"],
                                frames["seconds_with_warm_up"]["mean"], delta=1e-9)
-        self.assertGreater(frames["efficiency"]["mean"], frames["efficiency_with_warm_up"]["mean"])
+        self.assertGreater(frames["efficiency"]["relmse"]["mean"], frames["efficiency_with_warm_up"]["relmse"]["mean"])
         verdict = found["verdicts"][0]
-        self.assertLess(verdict["efficiency_ratio"]["mean"], verdict["efficiency_ratio_with_warm_up"]["mean"])
+        self.assertLess(verdict["efficiency_ratio"]["relmse"]["mean"],
+                        verdict["efficiency_ratio_with_warm_up"]["relmse"]["mean"])
         # What is left out is said, in every form of the results.
         result = self.compare(*methods, "--warm-frames", "-o", "report.html")
-        self.assertRegex(result.stdout, r"not counted: \S+ s of warm-up in each repeat; with it efficiency")
-        self.assertRegex(result.stdout, r"the warm-up of b is not counted: with it \S+ times \(between")
+        self.assertRegex(result.stdout, r"not counted: \S+ m?s of warm-up in each repeat; with it efficiency")
+        self.assertRegex(result.stdout, r"the warm-up of restir-di:\S+ is not counted: with it \S+ \(\S+ to \S+\) times")
         page = (self.folder / "report.html").read_text()
-        for word in "ratio with the time of warm-up", "frames of a sequence", "--warm-frames":
+        for word in "with the time of warm-up", "frames of a sequence", "--warm-frames":
             self.assertIn(word, page)
         self.assertIn("warm_up_seconds", self.compare(*methods, "--warm-frames", "--csv").stdout.splitlines()[0])
         # By default all time counts.
         found = json.loads(self.compare(*methods, "--json").stdout)
         self.assertTrue(found["warm_up_counts"])
         self.assertEqual(found["methods"][1]["seconds"], found["methods"][1]["seconds_with_warm_up"])
-        self.assertNotIn("warm-up of b", self.compare(*methods).stdout)
+        self.assertNotIn("warm-up of", self.compare(*methods).stdout)
 
     def test_the_clock_and_slopes_may_be_chosen(self):
         found = json.loads(self.compare("-a", "path", "-b", "naive", "--clock", "processor", "--no-slopes", "--json",
@@ -119,6 +132,7 @@ class Compare(ProgramTest):
             (["--resume", "run.json", "--animation", "1"], "only the budget"),
             (["--resume", "run.json", "--shutter", "0:1"], "only the budget"),
             (["--resume", "run.json", "--no-cache"], "only the budget"),
+            (["--resume", "run.json", "--set", "maxdepth=3"], "only the budget"),
             (["--resume", "nowhere.json"], "cannot be read"),
             (["--save", "run.json"], "a scene is missing"),
         ]:
@@ -152,13 +166,138 @@ class Compare(ProgramTest):
         self.assertIn("no verdict by this reference", result.stdout)
         self.assertIn("would decide the comparison", result.stderr)
 
+    def reference_of(self, name, change):
+        """A reference of 16 x 12 pixels with a change of its values."""
+        values = [0.5] * (3 * 16 * 12)
+        change(values)
+        path = self.folder / name
+        path.write_bytes(b"PF\n16 12\n-1.0\n" + array.array("f", values).tobytes())
+        return path
+
+    def test_a_reference_with_holes_is_refused(self):
+        def holes(values):
+            values[3 * (16 * 11 + 5)] = float("nan")  # PFM begins with the lowest row
+            values[3 * 7 + 1] = float("inf")
+        file = self.reference_of("holes.pfm", holes)
+        result = self.compare("-a", "path", "-b", "naive", "--reference", file, "--json", status=2)
+        self.assertIn("holes.pfm: the reference is not finite in 2 of 192 pixels, the first at 5, 0", result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.compare("-a", "path", "-b", "naive", "--reference", self.reference_of("whole.pfm", lambda values: None))
+
+    def test_what_is_not_known_is_said_and_never_printed_as_a_number(self):
+        for arguments in (["--spp", 1], ["--spp", 1, "--reference", self.reference_of("a.pfm", lambda v: None)]):
+            result = self.run_program("compare", SCENE, *SMALL, "--no-cache", "--repeats", 2, "-a", "path", "-b", "naive",
+                                      "-o", "report.html", *arguments)
+            self.assertNotRegex(result.stdout, r"\b-?(nan|inf)\b")
+            self.assertIn("no 95 % intervals of its own, which take two passes", result.stdout)
+            self.assertIn("too few repeats to tell whether its mean is the reference's", result.stdout)
+            self.assertNotRegex((self.folder / "report.html").read_text().split('id="report-data">')[1].split("</script>")[0],
+                                r"\b-?(nan|inf)\b")
+        lines = self.run_program("compare", SCENE, *SMALL, "--no-cache", "--repeats", 2, "--spp", 1, "-a", "path", "-b",
+                                 "naive", "--csv", "--quiet").stdout
+        self.assertNotRegex(lines, r"\b-?(nan|inf)\b")
+
+    def test_figures_have_two_digits_of_their_error(self):
+        text = self.compare("-a", "path", "-b", "naive").stdout
+        self.assertNotRegex(text, r"± \d+e")
+        figures = re.findall(r"(-?\d+(?:\.(\d+))?) ± (\d+(?:\.(\d+))?)", text)
+        self.assertGreater(len(figures), 10)
+        for value, places, error, error_places in figures:
+            self.assertEqual(len(places), len(error_places), f"{value} ± {error}")
+            digits = error.replace(".", "").lstrip("0")
+            self.assertTrue(len(digits) == 2 or not error_places, f"{value} ± {error}")
+
+    def test_verdicts_go_by_the_measure(self):
+        methods = ["-a", "fast=path", "-b", "path:mis=balance"]
+        self.compare(*methods, "--save", "run.json", "--quiet")
+        for measure, title in ("relmse", "relMSE"), ("mse", "MSE"), ("flip", "FLIP"):
+            found = json.loads(self.compare(*methods, "--measure", measure, "--json", repeats=2).stdout)
+            self.assertEqual(found["measure"], measure)
+            verdict = found["verdicts"][0]
+            self.assertEqual((verdict["first"], verdict["second"]), ("fast", "path:mis=balance"))
+            self.assertIn(f"by {title}", verdict["sentence"].split(";")[0])
+            low, high = verdict["efficiency_ratio"][measure]["interval"]
+            self.assertEqual(verdict["decided"], low > 1 or high < 1)
+            # A saved comparison may be judged by another measure.
+            again = json.loads(self.run_program("compare", "--resume", "run.json", "--repeats", 1, "--measure", measure,
+                                                "--json").stdout)
+            self.assertEqual(again["measure"], measure)
+            self.assertEqual(again["methods"][0]["name"], "fast")
+
+    def test_methods_that_are_the_same_are_said_to_be(self):
+        text = self.compare("-a", "path", "-b", "path", "-c", "path:mis=power").stdout
+        self.assertIn("path (a) and path (b) are the same method with the same settings: there is nothing to decide", text)
+        # The default, typed.
+        self.assertIn("path (a) and path:mis=power gave the same pictures, to the bit", text)
+
+    def test_settings_of_all_methods(self):
+        found = json.loads(self.compare("-a", "path", "-b", "naive", "-c", "path:maxdepth=1", "--set", "maxdepth=2",
+                                        "--reference", self.reference_of("a.pfm", lambda v: None), "--json").stdout)
+        self.assertEqual([m["biases"] for m in found["methods"]], [["maxdepth=2"], ["maxdepth=2"], ["maxdepth=1"]])
+        self.assertEqual([m["name"] for m in found["methods"]], ["path", "naive", "path:maxdepth=1"])
+        self.assertEqual(found["settings"], {"maxdepth": "2"})
+        # Biases that all share do not keep them from making the reference.
+        result = self.compare("-a", "path", "-b", "naive", "-c", "path:mis=balance", "--set", "maxdepth=2")
+        self.assertIn("path, naive and path:mis=balance are biased: maxdepth=2", result.stderr)
+
+    def test_how_long_it_takes_is_said_before(self):
+        common = ["compare", SCENE, *SMALL, "--no-cache", "-a", "path", "-b", "naive", "--time", "0.4s", "--repeats", 4]
+        result = self.run_program(*common, "--json")
+        self.assertRegex(result.stderr, r"(?m)^about \S+ m?s: pilots \S+ m?s, reference \S+ m?s, 4 repeats of 2 methods "
+                                        r"with slopes and attribution \S+ m?s$")
+        found = json.loads(result.stdout)
+        self.assertGreater(found["predicted_seconds"], 0.8)  # two methods, all of their repeats
+        self.assertGreater(found["seconds"], 0.8)
+        self.assertEqual(self.run_program(*common, "--quiet").stderr, "")
+        self.assertIn("0.4 s for each method, 0.1 s in each of its repeats", self.run_program(*common).stdout)
+
+    def test_a_bar_runs_through_all_phases(self):
+        main, terminal = pty.openpty()
+        process = self.start("compare", SCENE, "--resolution", "64x48", "--no-cache", "-a", "path", "-b", "naive", "--spp", 32,
+                             "--repeats", 3, stderr=terminal)
+        os.close(terminal)
+        shown = b""
+        reading = threading.Thread(target=process.communicate)
+        reading.start()
+        try:
+            while chunk := os.read(main, 65536):
+                shown += chunk
+        except OSError:
+            pass  # the other end is closed
+        reading.join()
+        os.close(main)
+        self.assertEqual(process.returncode, 0)
+        text = shown.decode()
+        for phase in "pilot of path", "reference by ", "repeat 1 of 3, ", "repeat 3 of 3, ":
+            self.assertRegex(text, rf"\d+ % \[[= ]*\] \S+ m?s  left \S+ .*{phase}|\d+ % .*left .*{phase}")
+        self.assertNotIn("left", self.run_program("compare", SCENE, *SMALL, "--no-cache", "-a", "path", "-b", "naive",
+                                                  "--no-progress", "--spp", 2).stderr)
+
+    def test_an_interrupt_before_the_reference_is_its_status(self):
+        process = self.start("compare", SCENE, "--resolution", "320x240", "--no-cache", "-a", "path", "-b", "naive", "--spp",
+                             8192)
+        lines = [process.stderr.readline()]
+        while " left " not in lines[-1]:  # the first line of progress
+            lines.append(process.stderr.readline())
+        self.assertRegex(lines[-1], "timing of path|pilot of path")
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(out, "")
+        self.assertIn("interrupted before there was a reference", err)
+
     def test_mistakes_are_named(self):
         for arguments, word in [
             (["-a", "path"], "at least two methods"),
             (["-a", "path", "-b", "pth"], 'did you mean "path"'),
             (["-a", "path", "-b", "path:sampler=sobl"], 'did you mean "sobol"'),
             (["-a", "path", "-b", "path:mis=best"], "balance, power, off"),
-            (["-a", "direct", "-b", "ao"], "none of them can make the reference"),
+            (["-a", "direct", "-b", "ao"], "none of them can make a reference that is fair to all"),
+            (["-a", "path,mis=balance", "-b", "naive"], "settings follow a colon"),
+            (["-a", "x=path", "-b", "x=naive"], 'two methods are called "x"'),
+            (["-a", "path", "-b", "naive", "--measure", "psnr"], "relmse, mse, flip"),
+            (["-a", "path", "-b", "ao", "--set", "mis=balance"], 'ao: unknown setting'),
+            (["-a", "path", "-b", "naive", "--set", "maxdepht=3"], 'did you mean "maxdepth"'),
             (["-a", "path", "-b", "restir-di", "--warm-frames"], "no method has frames of warm-up"),
             (["-a", "path", "-b", "naive", "--clock", "sand"], "wall, processor"),
             (["-a", "path", "-b", "naive", "--reference", "nowhere.exr"], "nowhere.exr"),

@@ -4,7 +4,7 @@ import { element } from "./dom";
 import { paintError, paintPicture, unpackPicture, type Pixels } from "./pixels";
 import type { ComparisonSection } from "./report";
 import { settling } from "./settling";
-import { readable, rich } from "./text";
+import { plusMinus, readable, rich } from "./text";
 import { Viewer, zoomHint } from "./viewer";
 
 interface Painted { pixels: Pixels; canvas: HTMLCanvasElement }
@@ -87,8 +87,8 @@ class View {
       const cells = columns.map((_, c) => {
         const at = channels * pixel + c;
         const error = pixels.error[at];
-        const bar = error === undefined ? "" : ` ± ${readable(Number(error.toPrecision(2)))}`;
-        return element("td", { class: "number" }, `${readable(Number(pixels.mean[at]!.toPrecision(4)))}${bar}`);
+        const mean = pixels.mean[at]!;
+        return element("td", { class: "number" }, error === undefined ? readable(Number(mean.toPrecision(4))) : plusMinus(mean, error));
       });
       return element("tr", {}, element("th", {}, rich(pixels.name)), ...cells);
     });

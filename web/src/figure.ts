@@ -157,9 +157,15 @@ function drawSpread(u: uPlot, curves: Curve[], bands: boolean): void {
   });
 }
 
-function plotOptions(figure: FigureSection, joined: Joined, host: HTMLElement): uPlot.Options {
+interface Size { width: number; height: number }
+
+// The style sheet sizes a plot's place before the plot is made, so that nothing below it moves.
+const sizeOf = (host: HTMLElement): Size => ({ width: host.clientWidth, height: host.clientHeight });
+// On a page of A4 between margins of 16 mm, in CSS pixels.
+const sizeOnPaper = (figure: FigureSection): Size => (figure.square ? { width: 320, height: 292 } : { width: 660, height: 280 });
+
+function plotOptions(figure: FigureSection, joined: Joined, size: Size): uPlot.Options {
   const full = ranges(figure);
-  const width = Math.min(host.clientWidth, figure.square ? 460 : 900);
   const reset = (u: uPlot) => {
     u.batch(() => {
       u.setScale("x", { min: full.x[0], max: full.x[1] });
@@ -167,8 +173,8 @@ function plotOptions(figure: FigureSection, joined: Joined, host: HTMLElement): 
     });
   };
   return {
-    width,
-    height: figure.square ? width - 28 : Math.round(Math.max(260, width * 0.5)),
+    width: size.width,
+    height: size.height,
     pxAlign: false,
     padding: [10, 14, 0, 0],
     legend: { show: false },
@@ -216,27 +222,36 @@ export function figureView(figure: FigureSection): HTMLElement {
   const caption = element("figcaption", {}, rich(figure.caption), " ", hint);
   const made = element("figure", { class: figure.square ? "half" : "" }, legend(figure, () => plot), host, caption);
 
-  const draw = (): void => {
-    if (host.clientWidth === 0) return;
+  const draw = (size: Size): void => {
+    if (size.width === 0) return;
     const hidden = plot?.series.map((series) => series.show === false) ?? [];
     plot?.destroy();
-    plot = new uPlot(plotOptions(figure, joined, host), [joined.x, ...joined.columns] as uPlot.AlignedData, host);
+    plot = new uPlot(plotOptions(figure, joined, size), [joined.x, ...joined.columns] as uPlot.AlignedData, host);
     hidden.forEach((off, i) => off && plot!.setSeries(i, { show: false }));
   };
   // Plots are made when they come near to the window, and again at another width or in other colours.
   let width = 0;
+  let printing = false;
   new IntersectionObserver(
     (entries, observer) => {
       if (!entries.some((entry) => entry.isIntersecting)) return;
       observer.disconnect();
       new ResizeObserver(() => {
-        if (host.clientWidth !== width) draw();
+        if (printing) return;
+        if (host.clientWidth !== width) draw(sizeOf(host));
         width = host.clientWidth;
       }).observe(host);
     },
     { rootMargin: "600px" },
   ).observe(host);
-  onThemeChange(() => plot && draw());
-  addEventListener("beforeprint", draw);
+  onThemeChange(() => plot && !printing && draw(sizeOf(host)));
+  addEventListener("beforeprint", () => {
+    printing = true;
+    draw(sizeOnPaper(figure));
+  });
+  addEventListener("afterprint", () => {
+    printing = false;
+    draw(sizeOf(host));
+  });
   return made;
 }

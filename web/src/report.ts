@@ -31,6 +31,7 @@ export interface TableSection {
   columns: string[];
   rows: (string | Value)[][];
 }
+export interface FactsSection { kind: "facts"; rows: [string, string][] }
 export interface FigureSection {
   kind: "figure";
   name: string;
@@ -70,6 +71,7 @@ export type Section =
   | TextSection
   | FormulaSection
   | TableSection
+  | FactsSection
   | FigureSection
   | ImagesSection
   | ComparisonSection

@@ -3,11 +3,17 @@ import { comparisonView } from "./comparison";
 import { element } from "./dom";
 import { figureView } from "./figure";
 import { imagesView } from "./images";
-import type { CommandsSection, FormulaSection, Section, TableSection, VerdictSection } from "./report";
-import { formula, readable, rich } from "./text";
+import type { CommandsSection, FactsSection, FormulaSection, Section, TableSection, VerdictSection } from "./report";
+import { fitFormula, formula, readable, rich } from "./text";
 
 function formulaView(section: FormulaSection): HTMLElement {
-  const made = element("div", { class: "statement" }, formula(section.latex, true));
+  const shown = formula(section.latex, true);
+  const made = element("div", { class: "statement" }, shown);
+  let width = 0;
+  new ResizeObserver(() => {
+    if (made.clientWidth !== width) fitFormula(shown);
+    width = made.clientWidth;
+  }).observe(made);
   if (section.source) made.append(element("div", { class: "source" }, rich(section.source)));
   return made;
 }
@@ -23,6 +29,11 @@ function tableView(table: TableSection): HTMLElement {
   const made = element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows));
   return element("figure", { class: "table" }, element("figcaption", {}, rich(table.caption)),
     element("div", { class: "scroll" }, made));
+}
+
+function factsView(facts: FactsSection): HTMLElement {
+  return element("dl", { class: "facts" },
+    ...facts.rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
 }
 
 function verdictView(verdict: VerdictSection): HTMLElement {
@@ -44,6 +55,8 @@ export function sectionView(section: Section): HTMLElement {
       return formulaView(section);
     case "table":
       return tableView(section);
+    case "facts":
+      return factsView(section);
     case "figure":
       return figureView(section);
     case "images":

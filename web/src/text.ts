@@ -8,6 +8,18 @@ export function formula(latex: string, display: boolean): HTMLElement {
   return made;
 }
 
+// Formulas on a line of their own become smaller where they are too wide for it, but stay readable; what is wider still
+// scrolls, and shows that it does.
+export function fitFormula(made: HTMLElement): void {
+  const minSize = 0.7;
+  made.style.fontSize = "";
+  made.classList.remove("scrolls");
+  const excess = made.scrollWidth / made.clientWidth;
+  if (!(excess > 1)) return;
+  made.style.fontSize = `${Math.max(minSize, 0.98 / excess)}em`;
+  made.classList.toggle("scrolls", made.scrollWidth > made.clientWidth + 1);
+}
+
 // Text with formulas in dollars and code in backticks.
 export function rich(text: string): DocumentFragment {
   const made = document.createDocumentFragment();
@@ -37,6 +49,20 @@ export function readable(x: number | null, digits = 4): string {
     return minus(`${Number(scaled.toPrecision(Math.min(digits, 3)))} × ${powerOfTen(exponent)}`);
   }
   return minus(x.toPrecision(Math.max(digits, exponent + 1)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""));
+}
+
+// "540 ± 100": the error with two digits, the value to the same place; both with one power of ten where they are far from
+// one.
+export function plusMinus(value: number, error: number): string {
+  if (!Number.isFinite(error) || error <= 0) return `${readable(value)}${error === 0 ? " ± 0" : ""}`;
+  const size = Math.max(Math.abs(value), error);
+  const exponent = size < 1e-3 || size >= 1e7 ? Math.floor(Math.log10(size)) : 0;
+  const unit = 10 ** exponent;
+  const digits = Number((error / unit).toPrecision(2));
+  const places = 1 - Math.floor(Math.log10(digits) + 1e-9);
+  const shown = (x: number): string => (places >= 0 ? x.toFixed(places) : String(Math.round(x * 10 ** places) / 10 ** places));
+  const text = `${minus(shown(value / unit))} ± ${shown(digits)}`;
+  return exponent === 0 ? text : `(${text}) × ${powerOfTen(exponent)}`;
 }
 
 const minus = (text: string): string => text.replace(/^-/, "−");

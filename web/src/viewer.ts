@@ -23,14 +23,17 @@ export interface ViewerOptions {
 const views = [["grid", "Side by side"], ["slider", "Slider"], ["flip", "Flip"]] as const;
 const title = (caption: string, i: number): string => `${i + 1}. ${caption.split("\n").slice(0, 2).join(", ")}`;
 
-export const zoomHint = "Double-click to zoom all, drag to pan, shift and double-click to reset.";
+export const zoomHint =
+  "Double-click to zoom all, drag to pan, shift and double-click to reset. Drag the slider's line, or move it by the arrow keys.";
 
 export class Viewer {
   readonly element: HTMLElement;
   private readonly zoom = new SharedZoom();
   private readonly grid = element("div", { class: "pictures" });
   private readonly curtain = element("div", { class: "curtain" });
-  private readonly divider = element("i", { class: "divider" });
+  private readonly divider = element("div", {
+    class: "divider", role: "slider", tabindex: "0", "aria-label": "line between the pictures", "aria-valuemin": "0", "aria-valuemax": "100",
+  });
   private readonly frame = element("div", { class: "frame", tabindex: "0" });
   private readonly left = element("select", { "aria-label": "left or first picture" });
   private readonly right = element("select", { "aria-label": "right or second picture" });
@@ -43,6 +46,8 @@ export class Viewer {
   private pictures: Shown[] = [];
   private mode: ImagesView;
   private first = true; // the flip shows the first of the two
+  private line = 50; // where the slider's line is, in percent
+  private dragged: number | null = null; // the pointer that drags the line
 
   constructor(private readonly options: ViewerOptions) {
     this.mode = options.view;
@@ -55,7 +60,9 @@ export class Viewer {
     this.left.addEventListener("change", () => this.arrange());
     this.right.addEventListener("change", () => this.arrange());
     this.flip.addEventListener("click", () => this.toggle());
+    this.frame.addEventListener("pointerdown", (event) => this.onDown(event));
     this.frame.addEventListener("pointermove", (event) => this.onMove(event));
+    for (const kind of ["pointerup", "pointercancel"] as const) this.frame.addEventListener(kind, () => (this.dragged = null));
     this.frame.addEventListener("click", () => this.mode === "flip" && this.toggle());
     this.frame.addEventListener("keydown", (event) => this.onKey(event));
     this.element = element("div", { class: "viewer" },
@@ -84,6 +91,7 @@ export class Viewer {
     this.grid.hidden = mode !== "grid";
     this.stage.hidden = mode === "grid";
     this.divider.hidden = mode !== "slider";
+    this.frame.classList.toggle("slides", mode === "slider");
     this.flip.hidden = mode !== "flip";
     this.first = true;
     this.arrange();
@@ -101,14 +109,15 @@ export class Viewer {
     const [a, b] = [this.pictures[Number(this.left.value)]!, this.pictures[Number(this.right.value)]!];
     this.curtain.replaceChildren(...(a === b ? [] : [a.view]));
     this.frame.replaceChildren(b.view, this.curtain, this.divider);
-    this.split(this.mode === "slider" ? 50 : this.first ? 100 : 0);
+    this.split(this.mode === "slider" ? this.line : this.first ? 100 : 0);
   }
 
   private makeFrame(picture: Shown): HTMLElement {
     const frame = element("div", { class: "frame", style: `aspect-ratio: ${picture.width} / ${picture.height}` });
     this.zoom.add(frame);
     this.zoom.addView(picture.view);
-    frame.addEventListener("pointermove", (event) => this.readOut(picture.view, event));
+    for (const kind of ["pointerdown", "pointermove"] as const)
+      frame.addEventListener(kind, (event) => this.readOut(picture.view, event));
     return element("div", { class: "picture" }, frame, element("div", { class: "caption" }, rich(picture.caption)));
   }
 
@@ -116,6 +125,8 @@ export class Viewer {
   private split(at: number): void {
     this.curtain.style.clipPath = `inset(0 ${100 - at}% 0 0)`;
     this.divider.style.left = `${at}%`;
+    this.divider.setAttribute("aria-valuenow", String(Math.round(at)));
+    if (this.mode === "slider") this.line = at;
     const [a, b] = [this.left, this.right].map((select) => this.pictures[Number(select.value)]!.caption.split("\n")[0]!);
     this.now.replaceChildren(rich(this.mode === "slider" ? `left: ${a}; right: ${b}` : this.first ? a! : b!));
   }
@@ -125,11 +136,33 @@ export class Viewer {
     this.split(this.first ? 100 : 0);
   }
 
-  private onMove(event: PointerEvent): void {
-    if (this.mode === "slider" && event.buttons === 0) {
-      const box = this.frame.getBoundingClientRect();
-      this.split(Math.min(100, Math.max(0, ((event.clientX - box.left) / box.width) * 100)));
+  // The line is dragged by its handle, and from anywhere while the pictures are not zoomed: then a drag of those pans.
+  private onDown(event: PointerEvent): void {
+    if (this.mode === "slider" && event.button === 0 && (this.onHandle(event) || !this.zoom.zoomed)) {
+      this.dragged = event.pointerId;
+      this.frame.setPointerCapture(event.pointerId);
+      this.moveLine(event);
+      if (!this.onHandle(event)) event.preventDefault();
+      this.divider.focus({ preventScroll: true });
     }
+    this.readOutStage(event);
+  }
+
+  private onMove(event: PointerEvent): void {
+    if (this.dragged === event.pointerId && this.frame.hasPointerCapture(event.pointerId)) this.moveLine(event);
+    this.readOutStage(event);
+  }
+
+  private onHandle(event: PointerEvent): boolean {
+    return event.target instanceof Node && this.divider.contains(event.target);
+  }
+
+  private moveLine(event: PointerEvent): void {
+    const box = this.frame.getBoundingClientRect();
+    this.split(Math.min(100, Math.max(0, ((event.clientX - box.left) / box.width) * 100)));
+  }
+
+  private readOutStage(event: PointerEvent): void {
     const under = this.pictures[Number(this.right.value)];
     if (under) this.readOut(under.view, event);
   }
@@ -140,14 +173,21 @@ export class Viewer {
     if (u >= 0 && v >= 0 && u < 1 && v < 1) this.options.onPoint?.(u, v);
   }
 
-  // Space and F flip; the arrows go through the pictures.
+  // Space and F flip. Left and right move the line of the slider, and go through the pictures elsewhere; up and down always
+  // do.
   private onKey(event: KeyboardEvent): void {
+    const slides = this.mode === "slider";
+    const step = event.shiftKey ? 10 : 2;
     if (event.key === " " || event.key === "f") {
       if (this.mode === "flip") this.toggle();
-    } else if (event.key === "ArrowRight" || event.key === "ArrowLeft") {
+    } else if (slides && (event.key === "ArrowLeft" || event.key === "ArrowRight")) {
+      this.split(Math.min(100, Math.max(0, this.line + (event.key === "ArrowRight" ? step : -step))));
+    } else if (slides && (event.key === "Home" || event.key === "End")) {
+      this.split(event.key === "Home" ? 0 : 100);
+    } else if (event.key.startsWith("Arrow")) {
       const count = this.pictures.length;
-      const step = event.key === "ArrowRight" ? 1 : count - 1;
-      this.left.value = String((Number(this.left.value) + step) % count);
+      const forward = event.key === "ArrowRight" || event.key === "ArrowDown";
+      this.left.value = String((Number(this.left.value) + (forward ? 1 : count - 1)) % count);
       this.arrange();
     } else return;
     event.preventDefault();

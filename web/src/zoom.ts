@@ -6,6 +6,11 @@ export class SharedZoom {
   private place: Place = { scale: 1, x: 0, y: 0 };
   private readonly frames: HTMLElement[] = [];
   private readonly views: HTMLElement[] = [];
+  private pan: { pointer: number; x: number; y: number } | null = null; // the pointer that pans, and where it was
+
+  get zoomed(): boolean {
+    return this.place.scale > 1;
+  }
 
   // A view is moved inside of whatever frame it is in.
   addView(view: HTMLElement): void {
@@ -30,18 +35,22 @@ export class SharedZoom {
       else this.zoomAt(frame, event.clientX, event.clientY, 2.5);
     });
     frame.addEventListener("pointerdown", (event) => {
-      if (this.place.scale === 1) return;
+      if (!this.zoomed || (event.target as Element).closest(".divider")) return;
+      this.pan = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
       frame.setPointerCapture(event.pointerId);
       event.preventDefault();
     });
     frame.addEventListener("pointermove", (event) => {
-      if (!frame.hasPointerCapture(event.pointerId)) return;
+      if (this.pan?.pointer !== event.pointerId || !frame.hasPointerCapture(event.pointerId)) return;
+      const { x, y } = this.pan;
+      this.pan = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
       this.show({
         scale: this.place.scale,
-        x: this.place.x + event.movementX / frame.clientWidth,
-        y: this.place.y + event.movementY / frame.clientHeight,
+        x: this.place.x + (event.clientX - x) / frame.clientWidth,
+        y: this.place.y + (event.clientY - y) / frame.clientHeight,
       });
     });
+    for (const kind of ["pointerup", "pointercancel"] as const) frame.addEventListener(kind, () => (this.pan = null));
     this.show(this.place);
   }
 

@@ -61,3 +61,117 @@ export const drawnColors = (canvas) =>
     return colors.size;
   });
 export const pixels = (canvas) => canvas.evaluate((element) => element.toDataURL());
+
+// ---- dragging -------------------------------------------------------------------------------------------------------
+
+// From one place of an element to another, in parts of its width and height, by a mouse.
+export async function dragByMouse(page, element, from, to) {
+  const box = await element.boundingBox();
+  const at = ([u, v]) => [box.x + u * box.width, box.y + v * box.height];
+  await page.mouse.move(...at(from));
+  await page.mouse.down();
+  await page.mouse.move(...at(to), { steps: 6 });
+  await page.mouse.up();
+}
+
+// The same by a finger, as the browser gets it from a touch screen: what the page does not claim scrolls the page.
+export async function dragByTouch(page, element, from, to) {
+  const box = await element.boundingBox();
+  const session = await page.context().newCDPSession(page);
+  await session.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+  const send = (type, points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  const at = (t) => ({
+    x: box.x + (from[0] + t * (to[0] - from[0])) * box.width,
+    y: box.y + (from[1] + t * (to[1] - from[1])) * box.height,
+  });
+  await send("touchStart", [at(0)]);
+  for (let i = 1; i <= 8; ++i) await send("touchMove", [at(i / 8)]);
+  await send("touchEnd", []);
+  await session.send("Emulation.setTouchEmulationEnabled", { enabled: false });
+  await session.detach();
+}
+
+// A slider between two pictures: it stays under a pointer that only passes, follows a drag by mouse and by touch, and moves
+// by keys. `viewer` shows it.
+export async function examineSlider({ page, expect, shot }, viewer) {
+  const stage = viewer.locator(".stage .frame");
+  const at = async () => {
+    const clip = await viewer.locator(".curtain").evaluate((element) => element.style.clipPath);
+    return 100 - Number(/inset\(0(?:px)? ([\d.]+)%/.exec(clip)?.[1]);
+  };
+  const near = (value, wanted) => Math.abs(value - wanted) < 2;
+  await stage.scrollIntoViewIfNeeded();
+  const before = await at();
+  await stage.hover({ position: { x: 30, y: 40 } });
+  expect(near(await at(), before), `the line stays where it is under a pointer that passes (${await at()})`);
+  await dragByMouse(page, stage, [before / 100, 0.5], [0.25, 0.5]);
+  expect(near(await at(), 25), `a mouse drags the line by its handle (${await at()})`);
+  await dragByMouse(page, stage, [0.6, 0.2], [0.7, 0.2]);
+  expect(near(await at(), 70), `and from anywhere in the picture (${await at()})`);
+  await dragByTouch(page, stage, [0.7, 0.5], [0.2, 0.5]);
+  expect(near(await at(), 20), `a finger drags it (${await at()})`);
+  const line = viewer.locator(".divider");
+  await line.press("ArrowRight");
+  await line.press("Shift+ArrowRight");
+  expect(near(await at(), 32), `arrow keys move it (${await at()})`);
+  expect((await line.getAttribute("aria-valuenow")) === "32", "and its value can be read by a screen reader");
+  await shot("slider");
+  // Zoomed, a drag of the picture pans, and the handle still moves the line.
+  await stage.dblclick({ position: { x: 20, y: 20 } });
+  const zoomed = await at();
+  await dragByMouse(page, stage, [0.9, 0.8], [0.7, 0.7]);
+  expect(near(await at(), zoomed), "zoomed, a drag pans and leaves the line");
+  await dragByMouse(page, stage, [zoomed / 100, 0.5], [0.5, 0.5]);
+  expect(near(await at(), 50), `and the handle moves it all the same (${await at()})`);
+  await stage.dblclick({ position: { x: 20, y: 20 }, modifiers: ["Shift"] });
+}
+
+// ---- widths and places ----------------------------------------------------------------------------------------------
+
+// How many pixels the page is wider than the window.
+export const excessWidth = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+
+// What reaches beyond the window, and cannot be scrolled to: cut off for the reader.
+export const cutOff = (page, selector) =>
+  page.evaluate((wanted) => {
+    const scrolls = (element) => {
+      for (let e = element; e; e = e.parentElement)
+        if (["auto", "scroll"].includes(getComputedStyle(e).overflowX) && e.getBoundingClientRect().right <= innerWidth + 1) return true;
+      return false;
+    };
+    return [...document.querySelectorAll(wanted)]
+      .filter((e) => e.getBoundingClientRect().right > innerWidth + 1 && !scrolls(e))
+      .map((e) => e.textContent.slice(0, 40));
+  }, selector);
+
+// Links of the contents whose targets do not come to the top of the window, unless the page ends before. Each is followed on
+// a page that was just opened: the way leads past figures that have not been drawn yet.
+export async function misplacedLinks(page) {
+  const links = page.locator("nav a");
+  const count = await links.count();
+  const missed = [];
+  for (const i of [Math.floor(count / 3), Math.floor((2 * count) / 3), count - 1]) {
+    await page.reload();
+    await page.waitForSelector("article h2");
+    await links.nth(i).click();
+    for (let before = -1, now = 0; before !== now; ) {
+      before = now;
+      await page.waitForTimeout(400);
+      now = await page.evaluate(() => scrollY);
+    }
+    const off = await links.nth(i).evaluate((link) => {
+      const top = document.querySelector(link.hash).getBoundingClientRect().top;
+      const atEnd = scrollY + innerHeight >= document.documentElement.scrollHeight - 2;
+      return atEnd && top >= 0 && top < innerHeight ? 0 : Math.round(top);
+    });
+    // The page leaves a margin of 1 rem.
+    if (Math.abs(off) > 20) missed.push(`${await links.nth(i).getAttribute("href")}: ${off} pixels off`);
+  }
+  return missed;
+}
+
+// How many pages of paper the page takes; they are kept where a folder is given.
+export async function paperPages(page, folder) {
+  const pdf = await page.pdf({ format: "A4", ...(folder ? { path: join(folder, "print.pdf") } : {}) });
+  return (pdf.toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
+}

@@ -1,11 +1,27 @@
 // usage: node comparison.mjs REPORT.html [SCREENSHOT_FOLDER]
 // Opens the report of a comparison in headless Chromium: pictures that are drawn, values under the pointer, the ways to
 // hold pictures against each other, and where the variance comes from. Exit status: 0 all good, 1 not, 77 no Chromium here.
-import { drawnColors, examineReport, pixels } from "./browser.mjs";
+import { cutOff, drawnColors, examineReport, examineSlider, excessWidth, pixels } from "./browser.mjs";
 
 await examineReport(process.argv[2], process.argv[3], async ({ page, expect, shot, ground }) => {
   await page.waitForSelector(".comparison canvas");
   await shot("comparison-light", { fullPage: true });
+
+  const facts = await page.locator(".facts").textContent();
+  for (const [what, pattern] of [["the resolution", /64 × 48 pixels/], ["the samples", /4 samples a pixel in each repeat/],
+    ["the repeats", /4 of each method/], ["the measure", /relMSE/], ["the version", /Montelux \d+\.\d+/],
+    ["the reference", /reference.*samples a pixel/]])
+    expect(pattern.test(facts), `the conditions have ${what}`);
+  const place = await page.locator(".facts").boundingBox();
+  expect(place.y + place.height < 900, `and stand on top (${Math.round(place.y)} to ${Math.round(place.y + place.height)})`);
+  const verdict = await page.locator("article > p").first().textContent();
+  expect(/^path(:mis=balance)? (is|and) .*path/.test(verdict) && / by relMSE/.test(verdict) && / by MSE /.test(verdict),
+    `the verdict has names and measures ("${verdict}")`);
+  expect((await excessWidth(page)) <= 0, "the page fits 1280 pixels");
+  const cut = await page.locator(".scroll").evaluateAll((all) =>
+    all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.slice(0, 40)));
+  expect(cut.length === 0, `no table is cut at 1280 pixels ${cut.join("; ")}`);
+
   const viewer = page.locator(".comparison .viewer");
   const canvases = viewer.locator(".pictures canvas");
   expect((await canvases.count()) === 3, "the reference and both methods are shown");
@@ -20,6 +36,9 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.6 * box.height);
   const text = await page.locator(".pixel table").textContent();
   expect(/pixel \d+, \d+/.test(text) && /\d ± \d/.test(text), `the pointer reads a pixel with its error bars ("${text}")`);
+  const figures = [...text.matchAll(/(\d+\.(\d+)) ± (\d+\.(\d+))/g)];
+  expect(figures.length === 9 && figures.every((f) => f[2].length === f[4].length && /^0?\.?0*\d\.?\d$/.test(f[3])),
+    "with two digits of the error and as many places of the value");
   expect((await page.locator("canvas.settling").count()) === 1, "and shows how its mean settled");
 
   const errors = viewer.locator("button", { hasText: "errors" });
@@ -33,13 +52,8 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await page.locator("input[aria-label=exposure]").fill("0");
 
   await viewer.locator(".switcher button", { hasText: "Slider" }).click();
-  const clip = () => viewer.locator(".curtain").evaluate((element) => element.style.clipPath);
-  const before = await clip();
+  await examineSlider({ page, expect, shot }, viewer);
   const stage = viewer.locator(".stage .frame");
-  await stage.scrollIntoViewIfNeeded();
-  await stage.hover({ position: { x: 100, y: 40 } });
-  expect(before !== (await clip()), "the pointer moves the line between two pictures");
-  await shot("comparison-slider");
   await viewer.locator(".switcher button", { hasText: "Flip" }).click();
   const caption = () => viewer.locator(".stage .caption").textContent();
   const first = await caption();
@@ -52,7 +66,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   expect((await caption()) === "reference", "any of them can be chosen");
 
   await viewer.locator(".switcher button", { hasText: "Side by side" }).click();
-  await viewer.locator("select[aria-label=show]").selectOption("variance of a by bounces");
+  await viewer.locator("select[aria-label=show]").selectOption("variance of path by bounces");
   expect((await drawnColors(canvases.nth(1))) > 20, "the share of a layer in the variance is a picture");
   await viewer.locator(".pictures .frame").first().hover({ position: { x: 50, y: 40 } });
   const shares = await page.locator(".pixel table").textContent();
@@ -84,9 +98,14 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await shot("comparison-dark", { fullPage: true });
 
   await page.setViewportSize({ width: 390, height: 800 });
-  await viewer.locator(".pictures .frame").first().hover({ position: { x: 30, y: 20 } });
   await page.waitForTimeout(300);
-  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  await viewer.locator(".pictures .frame").first().hover({ position: { x: 30, y: 20 } });
+  const wide = await excessWidth(page);
   expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
-  await shot("comparison-narrow");
+  const lost = await cutOff(page, "td, th, .facts dd, article p, button, select, math");
+  expect(lost.length === 0, `and nothing is cut off there ${lost.slice(0, 3).join("; ")}`);
+  await shot("comparison-narrow", { fullPage: true });
+  await viewer.locator(".switcher button", { hasText: "Slider" }).click();
+  await stage.scrollIntoViewIfNeeded();
+  await shot("comparison-narrow-slider");
 });

@@ -2,10 +2,15 @@
 // Opens a report in headless Chromium and holds it to what a reader expects: no error on the console, plots that are
 // drawn, a read-out under the pointer, zoom, pictures that zoom together, and colours of its own in the dark. Exit status:
 // 0 all good, 1 not, 77 no Chromium here.
-import { drawnColors, examineReport, pixels } from "./browser.mjs";
+import { cutOff, drawnColors, examineReport, examineSlider, excessWidth, misplacedLinks, paperPages, pixels } from "./browser.mjs";
 
 await examineReport(process.argv[2], process.argv[3], async ({ page, expect, shot, ground }) => {
   await shot("top-light");
+  // First of all, while no figure has come near the window.
+  const missed = await misplacedLinks(page);
+  expect(missed.length === 0, `links of the contents land where they say ${missed.slice(0, 5).join("; ")}`);
+  await page.reload();
+  await page.waitForSelector("article h2");
 
   const figures = page.locator("figure:has(.plot)");
   const count = await figures.count();
@@ -59,13 +64,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
     await frames.first().dblclick({ modifiers: ["Shift"] });
     await shot("pictures");
     await views.locator(".switcher button", { hasText: "Slider" }).click();
-    const stage = views.locator(".stage .frame");
-    const place = await stage.boundingBox();
-    await stage.scrollIntoViewIfNeeded();
-    await stage.hover({ position: { x: 0.25 * place.width, y: 40 } });
-    const shown25 = await views.locator(".curtain").evaluate((curtain) => curtain.style.clipPath);
-    expect(/inset\(0(px)? 7[45]/.test(shown25), `a slider parts two pictures (${shown25})`);
-    await shot("slider");
+    await examineSlider({ page, expect, shot }, views);
     await views.locator(".switcher button", { hasText: "Flip" }).click();
     const curtain = () => views.locator(".curtain").evaluate((element) => element.style.clipPath);
     const one = await curtain();
@@ -95,7 +94,29 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await page.reload();
   await page.waitForSelector("article h2");
   await page.waitForTimeout(300);
-  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  const wide = await excessWidth(page);
   expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
   await shot("narrow");
+  const lost = await cutOff(page, "math, td, th, article p, button, select");
+  expect(lost.length === 0, `and nothing is cut off there, no formula either (${lost.length}: ${lost.slice(0, 3).join("; ")})`);
+  const wider = await page.locator(".formula").evaluateAll((all) =>
+    all.filter((e) => e.scrollWidth > e.clientWidth + 1 && !e.classList.contains("scrolls")).map((e) => e.textContent.slice(0, 30)));
+  expect(wider.length === 0, `formulas fit, or show that they scroll (${wider.length} do not: ${wider.slice(0, 3).join("; ")})`);
+  const scrolling = page.locator(".formula.scrolls");
+  if ((await scrolling.count()) > 0) {
+    await scrolling.first().scrollIntoViewIfNeeded();
+    await shot("narrow-formula");
+  }
+  const astray = await misplacedLinks(page);
+  expect(astray.length === 0, `its links land where they say, too ${astray.slice(0, 5).join("; ")}`);
+
+  // On A4 between margins of 16 mm: 673 x 1001 CSS pixels.
+  await page.setViewportSize({ width: 673, height: 1001 });
+  await page.emulateMedia({ media: "print" });
+  const pages = await paperPages(page, process.argv[3]);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const height = await page.evaluate(() => document.documentElement.scrollHeight);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  const full = Math.ceil(height / 1001);
+  expect(pages > 0 && pages <= 1.15 * full + 1, `paper is used: ${pages} pages for what fills ${full}`);
 });

@@ -9,7 +9,9 @@
 
 #include "image/pixel_buffer.h"
 #include "image/welch.h"
+#include "lab/compare/agreement.h"
 #include "lab/compare/attribution.h"
+#include "lab/compare/error_measure.h"
 #include "lab/compare/statistics.h"
 #include "render/render.h"
 
@@ -23,6 +25,10 @@ struct Contestant {
   PointSetKind sampler = PointSetKind::blue_noise;
   std::vector<std::string> biases;
   std::optional<LayerPlan> layers{};  // that its variance is attributed to; none: the integrator has no layers
+  std::string name{};                 // what people call it, unique in the contest; empty: the text
+  std::string settings{};             // all that it was asked for, in one order: equal for methods that are the same
+
+  const std::string& shown_name() const { return name.empty() ? text : name; }
 };
 
 struct ContestSettings {
@@ -33,7 +39,8 @@ struct ContestSettings {
   int samples = 64;               // a pixel, in each repeat
   int repeats = 8;
   double confidence = 0.95;
-  bool slopes = true;  // render passes of growing length, too
+  bool slopes = true;                                 // render passes of growing length, too
+  ErrorMeasure measure = ErrorMeasure::relative_mse;  // that verdicts go by
 };
 
 // What the methods are held against. `variance` is that of the mean, by pixel and channel; zero where it is exact.
@@ -55,7 +62,14 @@ struct Repeat {
   double variance = 0;  // that the method's own error bars state, mean over pixels
   double coverage = 0;  // share of pixels whose 95 % interval holds the reference
   double image_mean[3] = {};
+  // Complete passes, and the standard error of the image mean over them. 0 passes: not known.
+  double passes = 0;
+  double image_error[3] = {};
 };
+
+// The error of a repeat by a measure, in a form that falls as one over the time: squared errors as they are, FLIP
+// squared.
+double squared_error_by(ErrorMeasure measure, const Repeat& repeat);
 
 // The squared error of single passes of 1, 2, 4, ... samples, and the seconds that count.
 struct ConvergencePoint {
@@ -79,6 +93,7 @@ struct MethodState {
   std::vector<PixelEstimate> pixels;  // over the passes of all repeats
   int passes = 0;
   std::uint64_t non_finite = 0;
+  double repeat_seconds = 0;  // that a repeat is expected to take with all that belongs to it; 0: not known
 };
 
 // A contest that can go on. It is a function of the contestants, the settings and the number of rounds, but for the
@@ -92,58 +107,68 @@ struct MethodResult {
   Contestant contestant;
   std::vector<Repeat> repeats;
   Measured seconds, all_seconds, warm_up, rays, samples, mse, relative_mse, flip, variance, coverage;
-  Measured efficiency, relative_efficiency;              // 1 / (mse x seconds); 1 / (relative mse x seconds)
-  Measured whole_efficiency, whole_relative_efficiency;  // the same by all seconds
+  // 1 / (squared error x seconds), by the measure of the error; and the same by all seconds.
+  ByMeasure<Measured> efficiency, whole_efficiency;
   std::vector<ConvergencePoint> convergence;
   Measured slope_by_samples, slope_by_time;   // of log mse
   PixelBuffer mean, standard_error;           // over all repeats
   std::vector<std::vector<float>> luminance;  // of each repeat, one a pixel
-  WelchReport bias;                           // against the reference
+  WelchReport bias;                           // against the reference; blocks and pixels take pass means for normal
   Measured bias_squared;  // of luminance, mean over pixels: by products of the errors of different repeats
+  Agreement agreement;    // of its mean with the reference
   std::uint64_t non_finite = 0;
   std::optional<Attribution> attribution;  // where the method has layers
 };
 
-// The mean is another than the reference's: that of the image, or pixel by pixel (bias_squared is above zero by more
-// than its error explains). Tests of blocks and pixels are in `bias`, and do not count: they take pass means for
-// normal, which those of a few samples of a heavy tail are not.
-bool differs_from_reference(const MethodResult& m);
+// How two methods may be alike.
+enum class Likeness {
+  none,
+  settings,  // they are one method with the same settings
+  pictures,  // every repeat gave the same picture, to the bit
+};
 
 // How much more efficient `first` is than `second`.
 struct PairVerdict {
   std::size_t first = 0, second = 0;
-  Measured ratio, relative_ratio;
-  Measured whole_ratio, whole_relative_ratio;  // the same by all seconds
-  bool decided = false;
+  ByMeasure<Measured> ratio;        // of efficiencies
+  ByMeasure<Measured> whole_ratio;  // the same by all seconds
+  Likeness likeness = Likeness::none;
+  bool decided = false;     // by the measure of the settings
   double times_longer = 1;  // how many times the time would decide it, if the ratio is what it seems
 };
+// The interval excludes one: 1 in favour of the first, -1 of the second; 0: it does not.
+int winner_of(const Measured& ratio);
 
 struct ContestResult {
   bool warm_up_counts = true;  // in seconds and efficiencies; no: only the time of frames that are shown does
+  ErrorMeasure measure = ErrorMeasure::relative_mse;  // that verdicts go by
   std::vector<MethodResult> methods;
-  std::vector<PairVerdict> verdicts;  // of every pair, by mse
+  std::vector<PairVerdict> verdicts;  // of every pair
   Reference reference;
-  double reference_share = 0;  // the reference's variance over the smallest mse
+  // The reference's variance over the smallest error by each measure. That of relMSE and FLIP is that of MSE where this
+  // is larger: the noise of a reference is in the divisor of its own relative variance, too.
+  ByMeasure<double> reference_share;
   bool interrupted = false;
 };
 
 // The mean of a picture over its pixels and channels.
 double mean_value(const PixelBuffer& image);
+// The reference's mean variance as a squared error by this measure; of FLIP, as one by relMSE.
+double variance_by(ErrorMeasure measure, const Reference& reference);
 
-// Told between slices; may ask to stop.
+// A piece of work of a comparison: a pilot, the reference, a repeat.
+struct WorkPiece {
+  std::string what;    // "pilot of path"
+  double seconds = 0;  // that it is expected to take
+};
+// Told of progress, several times a second; may ask to stop.
 struct ContestWatch {
   std::function<bool()> stop;
-  std::function<void(double fraction, double elapsed, const std::string& what)> progress;
+  // How much of the piece is done: 0 as it begins, 1 as it ends.
+  std::function<void(const WorkPiece& piece, double done)> progress;
+
+  bool stopped() const { return stop && stop(); }
 };
-
-// The smallest mean squared error that the contest is going to see in one repeat, as short pilots say.
-double expected_smallest_mse(const std::vector<Contestant>& contestants, const ContestSettings& settings,
-                             const ContestWatch& watch);
-
-// A reference by the most efficient of the methods that `may_serve`, with a mean variance of `goal` at most (unless
-// that would take more than a million samples a pixel).
-Reference make_reference(const std::vector<Contestant>& contestants, const std::vector<std::size_t>& may_serve,
-                         const ContestSettings& settings, double goal, const ContestWatch& watch);
 
 // The plan of passes of each method; nothing is gathered yet.
 ContestState begin_contest(const std::vector<Contestant>& contestants, Reference reference,
@@ -152,6 +177,10 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
 // was under way is then left out.
 bool run_rounds(const std::vector<Contestant>& contestants, const ContestSettings& settings, int rounds,
                 const ContestWatch& watch, ContestState& state);
+// Seconds that one repeat of a method is expected to take with all that belongs to it, where a sample of the picture
+// takes `sample_seconds`.
+double expected_repeat_seconds(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+                               double sample_seconds);
 ContestResult result_of(const std::vector<Contestant>& contestants, const ContestState& state,
                         const ContestSettings& settings);
 // All of it: settings.repeats rounds.

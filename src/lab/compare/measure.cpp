@@ -48,7 +48,8 @@ Repeat measure(const Film& film, const Reference& reference) {
   Repeat r;
   const PixelBounds& b = film.bounds();
   const ImageEstimate image = film.image();
-  for (int c = 0; c < 3; ++c) r.image_mean[c] = image.mean[c];
+  r.passes = image.passes;
+  for (int c = 0; c < 3; ++c) r.image_mean[c] = image.mean[c], r.image_error[c] = image.standard_error[c];
   double held = 0, intervals = 0, values = 0;
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {

@@ -5,65 +5,112 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/statement/value_text.h"
+
 namespace montelux::lab {
 
 namespace {
 
-std::string spread(const Measured& m) {
-  if (m.count < 2) return fmt::format("{:.4g}", m.mean);
-  return fmt::format("{:.4g} ({:.3g} … {:.3g})", m.mean, m.low, m.high);
-}
+const std::string& name_of(const MethodResult& m) { return m.contestant.shown_name(); }
 
-std::string name_of(const MethodResult& m) { return m.contestant.label + ": " + m.contestant.text; }
+constexpr const char* seconds_note = " Seconds are those of frames that are shown.";
 
 Table table_of_methods(const ContestResult& result) {
-  Table table{"methods",
-              fmt::format("Means over the repeats, with their intervals; squared errors and FLIP of one repeat against "
-                          "the reference. Efficiency is 1 / (mse × seconds).{}",
-                          result.warm_up_counts ? "" : " Seconds are those of frames that are shown."),
-              {"method", "mse", "relMSE", "FLIP", "seconds", "samples a pixel", "rays", "efficiency"},
+  const std::string by(title_of(result.measure));
+  Table table{
+      "methods",
+      fmt::format("Means over the repeats, ± half of their intervals. The errors are those of one repeat against "
+                  "the reference; the efficiency is 1 / ({} × seconds).{}",
+                  result.measure == ErrorMeasure::flip ? "FLIP²" : by, result.warm_up_counts ? "" : seconds_note),
+      {"method", "efficiency by " + by, "relMSE", "MSE", "FLIP"},
+      {}};
+  for (const MethodResult& m : result.methods)
+    table.rows.push_back(
+        {name_of(m), text_of(m.efficiency[result.measure]), text_of(m.relative_mse), text_of(m.mse), text_of(m.flip)});
+  return table;
+}
+
+Table table_of_costs(const ContestResult& result) {
+  Table table{"costs",
+              fmt::format("What one repeat took.{}", result.warm_up_counts ? "" : seconds_note),
+              {"method", "seconds", "samples a pixel", "rays"},
               {}};
   for (const MethodResult& m : result.methods)
-    table.rows.push_back({name_of(m), spread(m.mse), spread(m.relative_mse), spread(m.flip), spread(m.seconds),
-                          m.samples.mean, fmt::format("{:.3g}", m.rays.mean), spread(m.efficiency)});
+    table.rows.push_back({name_of(m), text_of(m.seconds), m.samples.mean, fmt::format("{:.3g}", m.rays.mean)});
   if (result.warm_up_counts) return table;
   table.columns.insert(table.columns.end(), {"seconds of warm-up, not counted", "efficiency with these"});
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    table.rows[i].insert(table.rows[i].end(),
-                         {spread(result.methods[i].warm_up), spread(result.methods[i].whole_efficiency)});
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const MethodResult& m = result.methods[i];
+    table.rows[i].insert(table.rows[i].end(), {text_of(m.warm_up), text_of(m.whole_efficiency[result.measure])});
+  }
   return table;
+}
+
+// How many percent of the mean a bias is.
+std::string share_of_mean(double bias, double mean) {
+  return mean > 0 && std::isfinite(bias) ? fmt::format("{:.2g} %", 100 * bias / mean) : "not known";
+}
+
+std::string outcome_text(const Agreement& a) {
+  using Outcome = Agreement::Outcome;
+  return a.outcome == Outcome::agrees ? "agrees" : a.outcome == Outcome::differs ? "differs" : "too few repeats";
 }
 
 Table table_of_truth(const ContestResult& result) {
   Table table{
       "truth",
-      "Is the mean of all repeats that of the reference? Standard errors that the image mean is off, the "
-      "squared bias of pixels, and the smallest p-value among blocks of 8 × 8 pixels (these take pass means for "
-      "normal). And how often a pixel's own 95 % "
-      "interval holds the reference.",
-      {"method", "image mean", "blocks", "mean", "squared bias", "error bars hold", "its own variance"},
+      fmt::format("Is the mean of all repeats that of the reference? Tests of the image mean and of the squared "
+                  "bias over pixels, at a level of 1 % for all of them together. A bias of the image mean of at "
+                  "least the size in the third column would be found {:.0f} times in 10.",
+                  10 * Agreement::power),
+      {"method", "mean", "bias that would be found", "off by", "standard errors", "squared bias of pixels"},
       {}};
-  for (const MethodResult& m : result.methods)
-    table.rows.push_back({name_of(m), fmt::format("{:+.2f}", m.bias.image.t),
-                          fmt::format("p = {:.2g}", m.bias.blocks.smallest_p),
-                          differs_from_reference(m) ? "differs" : "agrees", spread(m.bias_squared),
-                          fmt::format("{:.1f} %", 100 * m.coverage.mean), spread(m.variance)});
+  const double mean = mean_value(result.reference.mean);
+  for (const MethodResult& m : result.methods) {
+    const Agreement& a = m.agreement;
+    table.rows.push_back({name_of(m), outcome_text(a), share_of_mean(a.detectable, mean),
+                          share_of_mean(a.difference, mean), fmt::format("{:+.2f}", a.t), text_of(m.bias_squared)});
+  }
   return table;
 }
 
+Table table_of_bars(const ContestResult& result) {
+  Table table{
+      "bars",
+      "What each method states of its own error: the variance of a pixel's mean, which is its MSE where it has no "
+      "bias, and how often a pixel's own 95 % interval holds the reference.",
+      {"method", "its own variance", "MSE", "intervals that hold"},
+      {}};
+  for (const MethodResult& m : result.methods)
+    table.rows.push_back({name_of(m), text_of(m.variance), text_of(m.mse),
+                          m.coverage.count > 0 ? fmt::format("{:.1f} %", 100 * m.coverage.mean) : "not known"});
+  return table;
+}
+
+std::string ratio_text(const Measured& m) {
+  return m.count < 2 ? "not known" : value_in_interval(m.mean, m.low, m.high);
+}
+
 Table table_of_ratios(const ContestResult& result) {
-  Table table{"ratios",
-              "How many times as efficient the first is as the second: by squared error, and by relMSE.",
-              {"first", "second", "ratio", "ratio by relMSE", "decided"},
-              {}};
-  for (const PairVerdict& v : result.verdicts)
-    table.rows.push_back({result.methods[v.first].contestant.label, result.methods[v.second].contestant.label,
-                          spread(v.ratio), spread(v.relative_ratio), v.decided ? "yes" : "no"});
-  if (result.warm_up_counts) return table;
-  table.columns.insert(table.columns.end(), {"ratio with the time of warm-up", "the same by relMSE"});
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    table.rows[i].insert(table.rows[i].end(),
-                         {spread(result.verdicts[i].whole_ratio), spread(result.verdicts[i].whole_relative_ratio)});
+  Table table{
+      "ratios",
+      "How many times as efficient the first is as the second, with intervals, by each measure. The verdict goes "
+      "by the first of the measures.",
+      {"first", "second"},
+      {}};
+  std::vector<ErrorMeasure> order{result.measure};
+  for (ErrorMeasure m : error_measures)
+    if (m != result.measure) order.push_back(m);
+  for (ErrorMeasure m : order) table.columns.push_back(fmt::format("by {}", title_of(m)));
+  table.columns.push_back("decided");
+  if (!result.warm_up_counts) table.columns.push_back("with the time of warm-up");
+  for (const PairVerdict& v : result.verdicts) {
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row.emplace_back(name_of(result.methods[v.first])), row.emplace_back(name_of(result.methods[v.second]));
+    for (ErrorMeasure m : order) row.emplace_back(ratio_text(v.ratio[m]));
+    row.emplace_back(v.decided ? "yes" : "no");
+    if (!result.warm_up_counts) row.emplace_back(ratio_text(v.whole_ratio[result.measure]));
+  }
   return table;
 }
 
@@ -78,7 +125,7 @@ Figure convergence(const ContestResult& result, bool by_time) {
   for (const MethodResult& m : result.methods) {
     const Measured& slope = by_time ? m.slope_by_time : m.slope_by_samples;
     Curve line;
-    line.name = fmt::format("{}, slope {:.2f} ± {:.2f}", m.contestant.label, slope.mean, slope.high - slope.mean);
+    line.name = fmt::format("{}, slope {}", name_of(m), text_of(slope));
     line.color = color;
     Curve bars;
     bars.mark = Mark::points, bars.color = color++;
@@ -101,16 +148,19 @@ bool has_slopes(const ContestResult& result) {
 Figure repeats(const ContestResult& result) {
   Figure figure;
   figure.name = "repeats";
-  figure.caption = "The efficiency of each repeat, in the order of the rounds: a machine that drifts shows here.";
+  figure.caption = fmt::format(
+      "The efficiency by {} of each repeat, in the order of the rounds: a machine that drifts "
+      "shows here.",
+      title_of(result.measure));
   figure.x = {"round", false, {}, {}};
   figure.y = {"efficiency", true, {}, {}};
   int color = 0;
   for (const MethodResult& m : result.methods) {
     Curve curve;
-    curve.name = m.contestant.label, curve.mark = Mark::points, curve.color = color++;
+    curve.name = name_of(m), curve.mark = Mark::points, curve.color = color++;
     for (std::size_t i = 0; i < m.repeats.size(); ++i)
-      if (const double e = 1 / (m.repeats[i].mse * m.repeats[i].seconds); e > 0)
-        curve.x.push_back(double(i + 1)), curve.y.push_back(e);
+      if (const double cost = squared_error_by(result.measure, m.repeats[i]) * m.repeats[i].seconds; cost > 0)
+        curve.x.push_back(double(i + 1)), curve.y.push_back(1 / cost);
     figure.curves.push_back(std::move(curve));
   }
   return figure;
@@ -131,7 +181,7 @@ void add_shares(const ContestResult& result, std::size_t values, Comparison& com
         values += by_pixel.size();
         if (values > most_values) return;
         MeasuredPicture picture{share.name, m.mean.width, m.mean.height, by_pixel, {}, {}, m.samples.mean};
-        picture.set = "variance of " + m.contestant.label + " by " + family.name;
+        picture.set = "variance of " + name_of(m) + " by " + family.name;
         comparison.pictures.push_back(std::move(picture));
       }
   }
@@ -214,9 +264,8 @@ void add_attribution(const ContestResult& result, Report& report) {
   }
   if (!without.empty())
     report.sections.push_back(
-        Text{"Not attributed, since the method does not part its light into layers, or was not asked "
-             "to: " +
-             without + "."});
+        Text{"Not attributed, since the method does not split its light into layers, or it was not wanted: " + without +
+             "."});
 }
 
 }  // namespace
@@ -224,20 +273,23 @@ void add_attribution(const ContestResult& result, Report& report) {
 ReportSet report_of(const ContestResult& result, const ContestWords& words) {
   Report report;
   report.name = "comparison", report.title = "Which method is better, and how sure that is";
+  report.sections.push_back(Facts{words.conditions});
   for (const std::string& sentence : words.sentences) report.sections.push_back(Text{sentence + "."});
+  for (std::size_t i = 0; i < words.agreement.size(); ++i)
+    report.sections.push_back(Text{name_of(result.methods[i]) + ": " + words.agreement[i] + "."});
   for (const std::string& note : words.notes) report.sections.push_back(Text{"Note: " + note + "."});
   report.sections.push_back(table_of_ratios(result));
-  report.sections.push_back(pictures(result));
   report.sections.push_back(table_of_methods(result));
+  report.sections.push_back(pictures(result));
+  report.sections.push_back(table_of_costs(result));
   report.sections.push_back(table_of_truth(result));
+  report.sections.push_back(table_of_bars(result));
   add_attribution(result, report);
   if (has_slopes(result)) {
     report.sections.push_back(convergence(result, false));
     report.sections.push_back(convergence(result, true));
   }
   report.sections.push_back(repeats(result));
-  report.sections.push_back(Text{fmt::format("Reference: {}; its own variance is {:.2g} of the smallest squared error.",
-                                             result.reference.origin, result.reference_share)});
   report.sections.push_back(Commands{words.commands});
   return {"Comparison of methods", words.scene, {std::move(report)}};
 }

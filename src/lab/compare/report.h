@@ -8,7 +8,9 @@ namespace montelux::lab {
 // What the report says beside the figures.
 struct ContestWords {
   std::string scene;
+  std::vector<std::pair<std::string, std::string>> conditions;
   std::vector<std::string> sentences;  // one a verdict
+  std::vector<std::string> agreement;  // one a method: is its mean the reference's?
   std::vector<std::string> notes;      // what the reader must know
   std::vector<std::string> commands;   // that make it again
 };

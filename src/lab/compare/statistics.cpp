@@ -1,13 +1,18 @@
 #include "lab/compare/statistics.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
+#include "lab/statement/value_text.h"
 #include "mc/confidence.h"
 
 namespace montelux::lab {
 
-Measured measured(const std::vector<double>& values, double confidence) {
+Measured measured(const std::vector<double>& all, double confidence) {
+  std::vector<double> values = all;
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
   Measured m;
   m.count = int(values.size());
   const double n = double(values.size()), infinite = std::numeric_limits<double>::infinity();
@@ -19,6 +24,11 @@ Measured measured(const std::vector<double>& values, double confidence) {
   const double half = student_t_quantile(0.5 + 0.5 * confidence, n - 1) * m.standard_error;
   m.low = m.mean - half, m.high = m.mean + half;
   return m;
+}
+
+std::string text_of(const Measured& m) {
+  if (m.count == 0) return "not known";
+  return m.count == 1 ? fmt::format("{:.4g} (one repeat)", m.mean) : value_plus_minus(m.mean, m.high - m.mean);
 }
 
 Measured measured_ratio(const std::vector<double>& a, const std::vector<double>& b, double confidence) {

@@ -1,16 +1,21 @@
 // What can be said of a figure from a few independent repeats of it.
 #pragma once
+#include <string>
 #include <vector>
 
 namespace montelux::lab {
 
-// A mean over repeats with its interval (Student's t). With one repeat the interval is infinite.
+// A mean over repeats with its interval (Student's t). With one repeat the interval is infinite. Values that are not
+// finite (a figure that a repeat does not have) are left out; `count` is of those that are left.
 struct Measured {
   double mean = 0, low = 0, high = 0;
   double standard_error = 0;
   int count = 0;
 };
 Measured measured(const std::vector<double>& values, double confidence);
+
+// "540 ± 100", with half of the interval; of one value "541.1 (one repeat)"; of none "not known".
+std::string text_of(const Measured& m);
 
 // The geometric mean of paired ratios a[i] / b[i] of positive values, with its interval: the mean of the logarithms
 // and Student's t. Pairs that hold a value that is not positive are left out.

@@ -35,10 +35,15 @@ std::vector<double> column(const MethodResult& method, double (*value)(const Rep
   for (const Repeat& r : method.repeats) values.push_back(value(r));
   return values;
 }
-double efficiency_of(const Repeat& r) { return 1 / (r.mse * r.seconds); }
-double relative_efficiency_of(const Repeat& r) { return 1 / (r.relative_mse * r.seconds); }
-double whole_efficiency_of(const Repeat& r) { return 1 / (r.mse * r.all_seconds); }
-double whole_relative_efficiency_of(const Repeat& r) { return 1 / (r.relative_mse * r.all_seconds); }
+// Of each repeat, 1 / (error x seconds); without a value where the error came out at or below zero.
+std::vector<double> efficiencies(const MethodResult& method, ErrorMeasure measure, double Repeat::*seconds) {
+  std::vector<double> values;
+  for (const Repeat& r : method.repeats) {
+    const double cost = squared_error_by(measure, r) * (r.*seconds);
+    values.push_back(cost > 0 ? 1 / cost : std::nan(""));
+  }
+  return values;
+}
 
 void summarize(MethodResult& m, double confidence) {
   const auto of = [&](double (*value)(const Repeat&)) { return measured(column(m, value), confidence); };
@@ -52,21 +57,23 @@ void summarize(MethodResult& m, double confidence) {
   m.flip = of([](const Repeat& r) { return r.flip; });
   m.variance = of([](const Repeat& r) { return r.variance; });
   m.coverage = of([](const Repeat& r) { return r.coverage; });
-  m.efficiency = of(efficiency_of);
-  m.relative_efficiency = of(relative_efficiency_of);
-  m.whole_efficiency = of(whole_efficiency_of);
-  m.whole_relative_efficiency = of(whole_relative_efficiency_of);
+  for (ErrorMeasure measure : error_measures) {
+    m.efficiency[measure] = measured(efficiencies(m, measure, &Repeat::seconds), confidence);
+    m.whole_efficiency[measure] = measured(efficiencies(m, measure, &Repeat::all_seconds), confidence);
+  }
 }
 
 // The mean over pixels of the squared bias. The errors of two repeats are independent, so their product has the squared
-// bias for its mean, and the reference's variance, which is taken off. The jackknife over repeats gives its error.
+// bias for its mean, and the reference's variance, which is taken off. The jackknife over repeats gives its error, to
+// which the reference adds its own: its squared error at a pixel has about twice its squared variance for variance, the
+// variance that is taken off is an estimate, too, and what all pixels have in common does not average out.
 Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Reference& reference, double confidence) {
   const double n = double(repeats.size());
   if (n < 3) return measured({}, confidence);
   constexpr double weights[] = {0.2126, 0.7152, 0.0722};
   const std::size_t pixels = reference.mean.pixel_count();
   std::vector<double> own(repeats.size()), with_sum(repeats.size());
-  double all = 0, known = 0;
+  double all = 0, known = 0, known_spread = 0;
   for (std::size_t p = 0; p < pixels; ++p) {
     double truth = 0, deviation = 0, sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -79,6 +86,7 @@ Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Refe
       own[r] += off * off / double(pixels), with_sum[r] += off * sum / double(pixels);
     }
     all += sum * sum / double(pixels), known += deviation * deviation / double(pixels);
+    known_spread += 2 * std::pow(deviation, 4) / double(pixels) / double(pixels);
   }
   double squares = 0;
   for (double x : own) squares += x;
@@ -89,36 +97,54 @@ Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Refe
     const double rest = all - 2 * with_sum[r] + own[r] - (squares - own[r]);
     pseudo.push_back(n * whole - (n - 1) * (rest / ((n - 1) * (n - 2)) - known));
   }
-  return measured(pseudo, confidence);
+  Measured squared = measured(pseudo, confidence);
+  if (reference.degrees_of_freedom > 0) known_spread *= 1 + 1 / reference.degrees_of_freedom;
+  double common = 0;
+  for (std::size_t c = 0; reference.variance_of_image && c < 3; ++c)
+    common += weights[c] * std::sqrt((*reference.variance_of_image)[c]);
+  known_spread += 2 * std::pow(common, 4);
+  const double half_widths = squared.standard_error > 0 ? (squared.high - squared.mean) / squared.standard_error : 0;
+  squared.standard_error = std::sqrt(squared.standard_error * squared.standard_error + known_spread);
+  squared.low = squared.mean - half_widths * squared.standard_error;
+  squared.high = squared.mean + half_widths * squared.standard_error;
+  return squared;
 }
 
-// The mean of the image against the reference's, by the spread of the repeats' image means: right whatever the
-// correlation between pixels.
-WelchScale test_of_image_means(const MethodResult& m, const Reference& reference, double level) {
-  const double n = double(m.repeats.size()), pixels = double(reference.mean.pixel_count());
-  WelchScale worst;
-  worst.tests = 3;
+// Complete passes of all repeats as one sample of image means, for one channel: passes are independent, so their spread
+// is right whatever the correlation between pixels. Repeats that do not know theirs count as one pass each.
+Moments image_means(const MethodResult& m, std::size_t channel) {
+  const bool by_pass = std::ranges::all_of(m.repeats, [](const Repeat& r) { return r.passes > 0; });
+  Moments all;
+  for (const Repeat& r : m.repeats) {
+    Moments one;
+    one.count = by_pass ? std::uint64_t(r.passes) : 1, one.mean = r.image_mean[channel];
+    const double n = double(one.count);
+    if (one.count > 1) one.m2 = r.image_error[channel] * r.image_error[channel] * n * (n - 1);
+    all.merge(one);
+  }
+  return all;
+}
+
+std::array<MeanDifference, 3> image_differences(const MethodResult& m, const Reference& reference) {
+  const double pixels = double(reference.mean.pixel_count());
+  std::array<MeanDifference, 3> differences;
   for (std::size_t c = 0; c < 3; ++c) {
-    Moments means;
-    for (const Repeat& r : m.repeats) means.add(r.image_mean[c]);
+    const Moments means = image_means(m, c);
     double truth = 0, variance = 0;
     for (std::size_t p = 0; p < reference.mean.pixel_count(); ++p) {
       truth += double(reference.mean.values[3 * p + c]) / pixels;
       variance += double(reference.variance.values[3 * p + c]) / (pixels * pixels);
     }
     if (reference.variance_of_image) variance = (*reference.variance_of_image)[c];
-    const double error = std::sqrt(means.variance() / n + variance), difference = means.mean - truth;
-    const double t = difference == 0 ? 0 : difference / error, p_value = 2 * student_t_cdf(-std::abs(t), n - 1);
-    if (c > 0 && !(p_value < worst.smallest_p)) continue;
-    worst.smallest_p = p_value, worst.t = t, worst.difference = difference, worst.channel = int(c);
-    worst.detectable = student_t_quantile(1 - level / (2 * 3), n - 1) * error;
+    const double n = double(means.count);
+    const double own = n < 2 ? std::numeric_limits<double>::infinity() : means.variance() / n;
+    differences[c] = {means.mean - truth, own, n - 1, variance, reference.degrees_of_freedom};
   }
-  worst.differs = worst.smallest_p < level / 3;
-  return worst;
+  return differences;
 }
 
 // All repeats together against the reference: is the mean another?
-void summarize_film(const MethodState& state, const Reference& reference, MethodResult& m) {
+void summarize_film(const MethodState& state, const Reference& reference, double level, MethodResult& m) {
   m.mean = make_pixel_buffer(reference.mean.width, reference.mean.height, {"R", "G", "B"});
   m.standard_error = m.mean;
   for (std::size_t p = 0; p < state.pixels.size(); ++p)
@@ -132,25 +158,33 @@ void summarize_film(const MethodState& state, const Reference& reference, Method
   for (float& v : reference_error.values) v = std::sqrt(v);
   m.bias = welch_test({m.mean, m.standard_error, double(state.passes - 1)},
                       {reference.mean, reference_error, reference.degrees_of_freedom}, 0.01);
-  if (m.repeats.size() >= 2) m.bias.image = test_of_image_means(m, reference, 0.01 / 3);
+  m.agreement = judge_agreement(image_differences(m, reference), m.bias_squared, int(m.repeats.size()), level);
   m.non_finite = state.non_finite;
+}
+
+Likeness likeness_of(const MethodResult& a, const MethodResult& b) {
+  if (!a.contestant.settings.empty() && a.contestant.settings == b.contestant.settings &&
+      a.contestant.sampler == b.contestant.sampler)
+    return Likeness::settings;
+  const bool equal = !a.luminance.empty() && a.luminance == b.luminance && a.mean.values == b.mean.values;
+  return equal ? Likeness::pictures : Likeness::none;
 }
 
 PairVerdict judge(const ContestResult& result, std::size_t a, std::size_t b, double confidence) {
   const MethodResult &first = result.methods[a], &second = result.methods[b];
   PairVerdict v;
-  v.first = a, v.second = b;
-  const auto ratio_of = [&](double (*value)(const Repeat&)) {
-    return measured_ratio(column(first, value), column(second, value), confidence);
-  };
-  v.ratio = ratio_of(efficiency_of);
-  v.relative_ratio = ratio_of(relative_efficiency_of);
-  v.whole_ratio = ratio_of(whole_efficiency_of);
-  v.whole_relative_ratio = ratio_of(whole_relative_efficiency_of);
-  v.decided = v.ratio.count >= 2 && (v.ratio.low > 1 || v.ratio.high < 1);
-  if (!v.decided && v.ratio.count >= 2) {
+  v.first = a, v.second = b, v.likeness = likeness_of(first, second);
+  for (ErrorMeasure measure : error_measures) {
+    const auto ratio_of = [&](double Repeat::*seconds) {
+      return measured_ratio(efficiencies(first, measure, seconds), efficiencies(second, measure, seconds), confidence);
+    };
+    v.ratio[measure] = ratio_of(&Repeat::seconds), v.whole_ratio[measure] = ratio_of(&Repeat::all_seconds);
+  }
+  const Measured& ratio = v.ratio[result.measure];
+  v.decided = v.likeness != Likeness::settings && winner_of(ratio) != 0;
+  if (!v.decided && ratio.count >= 2) {
     // The half width shrinks with the root of the number of repeats, and must come below the distance from one.
-    const double half = 0.5 * std::log(v.ratio.high / v.ratio.low), distance = std::abs(std::log(v.ratio.mean));
+    const double half = 0.5 * std::log(ratio.high / ratio.low), distance = std::abs(std::log(ratio.mean));
     v.times_longer = distance > 0 ? (half / distance) * (half / distance) : std::numeric_limits<double>::infinity();
   }
   return v;
@@ -158,18 +192,41 @@ PairVerdict judge(const ContestResult& result, std::size_t a, std::size_t b, dou
 
 }  // namespace
 
-bool differs_from_reference(const MethodResult& m) {
-  const Measured& b = m.bias_squared;
-  const bool by_pixel = b.count >= 3 && b.mean > student_t_quantile(0.9995, b.count - 1.0) * b.standard_error;
-  return m.bias.image.differs || by_pixel;
+double squared_error_by(ErrorMeasure measure, const Repeat& r) {
+  switch (measure) {
+    case ErrorMeasure::relative_mse:
+      return r.relative_mse;
+    case ErrorMeasure::mse:
+      return r.mse;
+    case ErrorMeasure::flip:
+      return r.flip * r.flip;
+  }
+  return std::nan("");
+}
+
+double variance_by(ErrorMeasure measure, const Reference& reference) {
+  if (measure == ErrorMeasure::mse) return mean_value(reference.variance);
+  double sum = 0;
+  for (std::size_t i = 0; i < reference.mean.values.size(); ++i) {
+    const double mean = double(reference.mean.values[i]);
+    sum += double(reference.variance.values[i]) / (mean * mean + 0.01);
+  }
+  return sum / double(reference.mean.values.size());
+}
+
+int winner_of(const Measured& ratio) {
+  if (ratio.count < 2) return 0;
+  return ratio.low > 1 ? 1 : ratio.high < 1 ? -1 : 0;
 }
 
 ContestResult result_of(const std::vector<Contestant>& contestants, const ContestState& state,
                         const ContestSettings& settings) {
   ContestResult result;
   result.reference = state.reference;
-  result.warm_up_counts = settings.render.warm_up_counts;
-  double smallest_mse = std::numeric_limits<double>::infinity();
+  result.warm_up_counts = settings.render.warm_up_counts, result.measure = settings.measure;
+  // Of all tests of all methods together.
+  const double level = level_of_each_test(0.01, contestants.size());
+  double smallest_mse = std::numeric_limits<double>::infinity(), smallest_relative = smallest_mse;
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     const MethodState& gathered = state.methods[i];
     MethodResult& method = result.methods.emplace_back();
@@ -179,13 +236,22 @@ ContestResult result_of(const std::vector<Contestant>& contestants, const Contes
     if (method.repeats.empty()) continue;
     summarize(method, settings.confidence);
     summarize_convergence(gathered.convergence, settings.confidence, method);
-    summarize_film(gathered, result.reference, method);
+    summarize_film(gathered, result.reference, level, method);
     if (method.contestant.layers && !gathered.attribution.empty())
       method.attribution = attribution_of(*method.contestant.layers, gathered.attribution, gathered.pixel_shares,
                                           {method.mean.width, method.mean.height, settings.confidence});
     if (method.mse.mean > 0) smallest_mse = std::min(smallest_mse, method.mse.mean);
+    if (method.relative_mse.mean > 0) smallest_relative = std::min(smallest_relative, method.relative_mse.mean);
   }
-  result.reference_share = mean_value(result.reference.variance) / smallest_mse;
+  const auto share = [&](ErrorMeasure measure, double smallest) {
+    const double variance = variance_by(measure, result.reference);
+    if (variance == 0) return 0.0;
+    // No error above zero: the reference's noise is all that there is.
+    return std::isfinite(smallest) ? variance / smallest : std::numeric_limits<double>::infinity();
+  };
+  result.reference_share[ErrorMeasure::mse] = share(ErrorMeasure::mse, smallest_mse);
+  result.reference_share[ErrorMeasure::relative_mse] = result.reference_share[ErrorMeasure::flip] =
+      std::max(share(ErrorMeasure::relative_mse, smallest_relative), result.reference_share[ErrorMeasure::mse]);
   for (std::size_t a = 0; a < contestants.size(); ++a)
     for (std::size_t b = a + 1; b < contestants.size(); ++b)
       result.verdicts.push_back(judge(result, a, b, settings.confidence));

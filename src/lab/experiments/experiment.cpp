@@ -85,6 +85,7 @@ struct MarkdownWriter {
   }
   // Numbers belong to a run, not to the documentation.
   std::string operator()(const Table&) const { return ""; }
+  std::string operator()(const Facts&) const { return ""; }
   std::string operator()(const Figure& figure) const {
     return fmt::format("![{0}]({1}/{0}.svg)\n\n*{2}*\n\n", figure.name, folder, figure.caption);
   }

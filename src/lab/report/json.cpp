@@ -75,6 +75,11 @@ struct SectionWriter {
     json["columns"] = table.columns, json["rows"] = std::move(rows);
     return json;
   }
+  Json operator()(const Facts& facts) const {
+    Json rows = Json::array();
+    for (const auto& [name, value] : facts.rows) rows.push_back({name, value});
+    return {{"kind", "facts"}, {"rows", std::move(rows)}};
+  }
   Json operator()(const Figure& figure) const {
     Json json{{"kind", "figure"}, {"name", figure.name}, {"caption", figure.caption}};
     json["x"] = to_json(figure.x), json["y"] = to_json(figure.y), json["square"] = figure.square;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -99,6 +100,10 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;
 };
+// What a report is of, as names and values.
+struct Facts {
+  std::vector<std::pair<std::string, std::string>> rows;
+};
 // A claim and how it was decided: `detail` gives statistic, p-value and level.
 struct Verdict {
   std::string claim, detail;
@@ -108,7 +113,7 @@ struct Commands {
   std::vector<std::string> lines;
 };
 
-using Section = std::variant<Text, Formula, Table, Figure, Images, Comparison, Verdict, Commands>;
+using Section = std::variant<Text, Formula, Table, Facts, Figure, Images, Comparison, Verdict, Commands>;
 
 // `name` is good for a file and for a link; `group` gathers the reports of a page.
 struct Report {

@@ -23,6 +23,17 @@ std::string digits_of(double error, int places) {
   return fmt::format("{:.0f}", std::max(1.0, std::round(error * std::pow(10.0, places))));
 }
 
+// To so many decimal places, which may be below zero: 541.1 to -1 place is "540".
+std::string to_places(double value, int places) {
+  if (!std::isfinite(value)) return value > 0 ? "any more" : value < 0 ? "any less" : "not known";
+  if (places >= 0) return fmt::format("{:.{}f}", value, std::min(places, 12));
+  const double unit = std::pow(10.0, -places);
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+// Sizes that are not written in plain digits.
+bool needs_exponent(double size) { return size > 0 && (size < 1e-3 || size >= 1e7); }
+
 }  // namespace
 
 std::string value_with_error(double value, double error) {
@@ -43,6 +54,39 @@ std::string value_with_error(double value, double error) {
   if (places == 0) return fmt::format("{:.0f}({:.0f})", value, error);
   if (error >= 0.995) return fmt::format("{:.{}f}({:.{}f})", value, places, error, places);
   return fmt::format("{:.{}f}({})", value, places, digits_of(error, places));
+}
+
+std::string value_plus_minus(double value, double error) {
+  if (!std::isfinite(value)) return "not known";
+  if (!std::isfinite(error)) return fmt::format("{:.4g} (error not known)", value);
+  if (error <= 0) return fmt::format("{:.4g} ± 0", value);
+  const double size = std::max(std::abs(value), error);
+  if (!needs_exponent(size)) {
+    const int places = places_of(error);
+    return fmt::format("{} ± {}", to_places(value, places), to_places(error, places));
+  }
+  const int exponent = int(std::floor(std::log10(size)));
+  const double unit = std::pow(10.0, exponent);
+  const int places = places_of(error / unit);
+  return fmt::format("({} ± {})e{:+03d}", to_places(value / unit, places), to_places(error / unit, places), exponent);
+}
+
+std::string value_in_interval(double value, double low, double high) {
+  if (!std::isfinite(value)) return "not known";
+  const double below = value - low, above = high - value;
+  const double nearer = std::min(std::isfinite(below) ? below : above, std::isfinite(above) ? above : below);
+  if (!std::isfinite(nearer)) return fmt::format("{:.3g} (interval not known)", value);
+  if (nearer <= 0) return fmt::format("{:.4g} ({:.4g} to {:.4g})", value, low, high);
+  const double size = std::abs(value);
+  if (!needs_exponent(size)) {
+    const int places = places_of(nearer);
+    return fmt::format("{} ({} to {})", to_places(value, places), to_places(low, places), to_places(high, places));
+  }
+  const int exponent = int(std::floor(std::log10(size)));
+  const double unit = std::pow(10.0, exponent);
+  const int places = places_of(nearer / unit);
+  return fmt::format("{}e{:+03d} ({} to {})", to_places(value / unit, places), exponent, to_places(low / unit, places),
+                     to_places(high / unit, places));
 }
 
 }  // namespace montelux::lab

@@ -219,7 +219,7 @@ TEST(Contest, ends_the_round_in_which_it_was_stopped_before_it_goes_on) {
   run_rounds(both, settings(3), 3, {}, whole);
   int turns = 0;
   ContestWatch watch;
-  watch.progress = [&](double, double, const std::string&) { ++turns; };
+  watch.progress = [&](const WorkPiece&, double done) { turns += done == 0; };
   watch.stop = [&] { return turns == 4; };
   EXPECT_FALSE(run_rounds(both, settings(3), 3, watch, cut));
   EXPECT_NE(cut.methods[0].repeats.size(), cut.methods[1].repeats.size());
@@ -233,9 +233,9 @@ TEST(Contest, refuses_files_that_are_no_saved_contest) {
   for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
            {"not JSON", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux integrals"})", "not a file that montelux compare --save wrote"},
-           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 4"},
+           {R"({"format": "montelux comparison", "version": 99})", "version 99, this program reads version 4 to 5"},
            {R"({"format": "montelux comparison"})", "its entry \"version\" is missing"},
-           {R"({"format": "montelux comparison", "version": 4})", "it is damaged"}}) {
+           {R"({"format": "montelux comparison", "version": 5})", "it is damaged"}}) {
     std::ofstream(file) << text;
     const Result<SavedContest> read = load_contest(file);
     ASSERT_FALSE(read);

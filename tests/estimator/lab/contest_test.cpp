@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <numeric>
 
+#include "lab/compare/pilot.h"
 #include "noise.h"
 #include "statistics.h"
 #include "work_clock.h"
@@ -94,7 +96,7 @@ TEST(Contest, measures_the_squared_error_and_states_it_by_its_own_bars) {
     EXPECT_LT(std::abs(m.mse.mean - truth) / m.mse.standard_error, student_t_quantile(1 - family_level / 8, 11));
     EXPECT_LT(std::abs(m.variance.mean - truth) / m.variance.standard_error,
               student_t_quantile(1 - family_level / 8, 11));
-    EXPECT_FALSE(differs_from_reference(m));
+    EXPECT_FALSE(m.agreement.differs());
     EXPECT_EQ(m.repeats.size(), 12u);
     EXPECT_EQ(m.samples.mean, 16);
     // Independent samples: the squared error falls with their number.
@@ -119,8 +121,11 @@ bool holds(const Measured& interval, double truth) { return interval.low < truth
 // The pair is decided, its ratio is the true one, and each of the ratios that a fault would give is excluded.
 void expect_ratio(const PairVerdict& v, double truth, std::initializer_list<double> faults) {
   EXPECT_TRUE(v.decided);
-  EXPECT_TRUE(holds(v.ratio, truth)) << v.ratio.low << " to " << v.ratio.high;
-  for (double fault : faults) EXPECT_FALSE(holds(v.ratio, fault)) << fault;
+  for (ErrorMeasure measure : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {
+    const Measured& ratio = v.ratio[measure];
+    EXPECT_TRUE(holds(ratio, truth)) << ratio.low << " to " << ratio.high;
+    for (double fault : faults) EXPECT_FALSE(holds(ratio, fault)) << fault;
+  }
 }
 
 // Planted faults: the variance is taken for four fifths of what it is; or is not squared.
@@ -135,6 +140,104 @@ TEST(Contest, decides_for_the_cheaper_of_equal_noise) {
   WorkClock clock;
   const Noise cheap(1, 1, 200, clock, 0), dear(1, 1, 2000, clock, 3);
   expect_ratio(verdict_by_work(dear, cheap, clock), 0.1, {1});
+}
+
+// The pilots of a contest, and what they make of the reference.
+ReferenceGoal goal_of(const std::vector<Contestant>& contestants, const ContestSettings& s) {
+  const ContestState state = begin_contest(contestants, {}, s);
+  std::vector<std::size_t> all(contestants.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const std::vector<double> samples(contestants.size(), s.samples);
+  const auto pilots = run_pilots(contestants, state, std::vector<double>(contestants.size(), 1e-6), s, {});
+  return plan_reference(pilots, all, samples, s.measure, 0.05);
+}
+
+// Bright on the left (mean 10), dark on the right (mean 0.1), with noise of its own on each side.
+class TwoTone final : public PixelIntegrator {
+ public:
+  TwoTone(float bright, float dark, WorkClock& clock, std::uint32_t first)
+      : sigma_{bright, dark}, clock_(&clock), first_(first) {}
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    for_each_noise(pass, false, [&](std::size_t i, const Sampler<float>& sampler) {
+      const auto x = int(i / pass.points.samples_per_pass) % (pass.tile.x1 - pass.tile.x0) + pass.tile.x0;
+      const std::size_t side = x < 16 ? 0 : 1;
+      for (int c = 0; c < 3; ++c)
+        out[i].radiance[c] = (side == 0 ? 10.0f : 0.1f) + noise(sampler, first_ + std::uint32_t(c), sigma_[side]);
+    });
+    clock_->pass(4e-7 * double(out.size()));
+    return {};
+  }
+  static Reference truth() {
+    Reference r = exact(10);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 16; x < 32; ++x)
+        for (int c = 0; c < 3; ++c) r.mean.at(x, y, c) = 0.1f;
+    return r;
+  }
+
+ private:
+  float sigma_[2];
+  WorkClock* clock_;
+  std::uint32_t first_;
+};
+
+TEST(Contest, decides_by_the_measure_that_is_chosen) {
+  // By squared error the first is twice as good, by relative squared error the second four times.
+  WorkClock clock;
+  const TwoTone bright(0.5f, 0.5f, clock, 0), dark(1, 0.25f, clock, 3);
+  for (ErrorMeasure measure : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {
+    ContestSettings s = settings(16, 8);
+    s.render.clock = clock.clock(), s.confidence = 1 - family_level, s.measure = measure, s.slopes = false;
+    const std::vector<Contestant> both{contestant("a", bright), contestant("b", dark)};
+    const ContestResult r = run_contest(both, TwoTone::truth(), s, {});
+    const PairVerdict& v = r.verdicts.front();
+    EXPECT_TRUE(v.decided);
+    EXPECT_EQ(winner_of(v.ratio[ErrorMeasure::relative_mse]), -1);
+    EXPECT_EQ(winner_of(v.ratio[ErrorMeasure::mse]), 1);
+    EXPECT_EQ(v.likeness, Likeness::none);
+    // 1 / 100.01 and 1 / 0.02 are the divisors of both sides.
+    const auto error = [](double left, double right) { return left * left / 100.01 + right * right / 0.02; };
+    EXPECT_TRUE(holds(v.ratio[ErrorMeasure::relative_mse], error(1, 0.25) / error(0.5, 0.5)));
+    // Its reference is made by the method that the verdict is going to prefer.
+    EXPECT_EQ(goal_of(both, s).method, measure == ErrorMeasure::mse ? 0u : 1u);
+  }
+}
+
+TEST(Contest, sees_which_methods_are_the_same) {
+  const Noise one(1, 0.5f), same(1, 0.5f), other(1, 0.5f, true);
+  std::vector<Contestant> three{contestant("a", one), contestant("b", same), contestant("c", other)};
+  EXPECT_EQ(run_contest(three, exact(1), settings(4, 2), {}).verdicts[0].likeness, Likeness::pictures);
+  EXPECT_EQ(run_contest(three, exact(1), settings(4, 2), {}).verdicts[1].likeness, Likeness::none);
+  three[0].settings = three[1].settings = "noise", three[2].settings = "noise together";
+  const ContestResult r = run_contest(three, exact(1), settings(4, 2), {});
+  EXPECT_EQ(r.verdicts[0].likeness, Likeness::settings);
+  EXPECT_FALSE(r.verdicts[0].decided);
+  EXPECT_EQ(r.verdicts[1].likeness, Likeness::none);
+}
+
+TEST(Contest, of_one_pass_a_repeat_knows_no_error_bars_and_says_no_more) {
+  const Noise one(1, 0.5f), two(1, 1);
+  const ContestResult r = run_contest({contestant("a", one), contestant("b", two)}, exact(1), settings(1, 6), {});
+  for (const MethodResult& m : r.methods) {
+    EXPECT_EQ(m.coverage.count, 0);
+    EXPECT_EQ(m.variance.count, 0);
+    EXPECT_EQ(m.efficiency[ErrorMeasure::mse].count, 6);
+    EXPECT_EQ(m.agreement.degrees_of_freedom, 5);
+  }
+}
+
+TEST(Contest, takes_passes_of_all_repeats_for_the_error_of_the_image_mean) {
+  const Noise one(1, 0.5f);
+  const ContestResult r = run_contest({contestant("a", one)}, exact(1), settings(16, 4), {});
+  const MethodResult& m = r.methods[0];
+  EXPECT_EQ(m.agreement.degrees_of_freedom, 4 * m.repeats[0].passes - 1);
+  // 1024 pixels of 64 samples: standard error 0.5 / 256; its own relative error is that of a chi of many degrees.
+  EXPECT_NEAR(m.agreement.standard_error / (0.5 / 256), 1, 0.5);
+  // A repeat that does not know its passes counts as one.
+  ContestState state = begin_contest({contestant("a", one)}, exact(1), settings(16, 4));
+  run_rounds({contestant("a", one)}, settings(16, 4), 4, {}, state);
+  for (Repeat& repeat : state.methods[0].repeats) repeat.passes = 0;
+  EXPECT_EQ(result_of({contestant("a", one)}, state, settings(16, 4)).methods[0].agreement.degrees_of_freedom, 3);
 }
 
 TEST(Contest, leaves_equals_undecided) {
@@ -177,12 +280,12 @@ TEST(Contest, leaves_the_time_of_warm_up_out_if_told_to) {
   for (const Repeat& repeat : r.methods[0].repeats) EXPECT_EQ(repeat.seconds, repeat.all_seconds);
   const PairVerdict& v = r.verdicts.front();
   EXPECT_FALSE(v.decided);
-  EXPECT_TRUE(holds(v.ratio, 1)) << v.ratio.low << " to " << v.ratio.high;
-  EXPECT_TRUE(holds(v.whole_ratio, 13)) << v.whole_ratio.low << " to " << v.whole_ratio.high;
-  EXPECT_TRUE(holds(v.relative_ratio, 1));
-  EXPECT_TRUE(holds(v.whole_relative_ratio, 13));
-  // A planted fault: warm-up is counted all the same.
-  EXPECT_FALSE(holds(v.ratio, 13));
+  for (ErrorMeasure measure : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {
+    EXPECT_TRUE(holds(v.ratio[measure], 1)) << v.ratio[measure].low << " to " << v.ratio[measure].high;
+    EXPECT_TRUE(holds(v.whole_ratio[measure], 13));
+    // A planted fault: warm-up is counted all the same.
+    EXPECT_FALSE(holds(v.ratio[measure], 13));
+  }
   // Single passes of k samples have one warm-up each, and errors and seconds as without.
   for (const ConvergencePoint& p : r.methods[1].convergence)
     EXPECT_NEAR(p.seconds.mean, p.samples * frame, 1e-9 * frame) << p.samples;
@@ -194,7 +297,7 @@ TEST(Contest, counts_all_time_by_default) {
   for (const MethodResult& m : r.methods)
     for (const Repeat& repeat : m.repeats) EXPECT_EQ(repeat.seconds, repeat.all_seconds);
   EXPECT_TRUE(r.verdicts.front().decided);
-  EXPECT_TRUE(holds(r.verdicts.front().ratio, 13));
+  EXPECT_TRUE(holds(r.verdicts.front().ratio[ErrorMeasure::mse], 13));
   // A planted fault: a slope over seconds with the warm-up in them is another.
   EXPECT_FALSE(holds(r.methods[1].slope_by_time, -1));
 }
@@ -218,8 +321,8 @@ TEST(Contest, gives_warm_frames_as_much_counted_time_as_the_others) {
 TEST(Contest, finds_a_bias_and_its_size) {
   const Noise right(1, 0.5f), wrong(1.02f, 0.5f);
   const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(64, 8), {});
-  EXPECT_FALSE(differs_from_reference(r.methods[0]));
-  EXPECT_TRUE(differs_from_reference(r.methods[1]));
+  EXPECT_FALSE(r.methods[0].agreement.differs());
+  EXPECT_TRUE(r.methods[1].agreement.differs());
   const Measured& b = r.methods[1].bias_squared;
   const double most = student_t_quantile(1 - family_level / 8, 7);
   EXPECT_LT(std::abs(b.mean - 0.0004) / b.standard_error, most);
@@ -230,8 +333,8 @@ TEST(Contest, finds_a_bias_and_its_size) {
 TEST(Contest, takes_no_common_error_of_all_pixels_for_a_bias) {
   const Noise right(1, 0.5f, true), wrong(1.5f, 0.5f, true);
   const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(16, 12), {});
-  EXPECT_FALSE(differs_from_reference(r.methods[0])) << r.methods[0].bias.image.t;
-  EXPECT_TRUE(differs_from_reference(r.methods[1]));
+  EXPECT_FALSE(r.methods[0].agreement.differs()) << r.methods[0].agreement.t;
+  EXPECT_TRUE(r.methods[1].agreement.differs());
 }
 
 TEST(Contest, takes_no_common_error_of_the_reference_for_a_bias) {
@@ -241,23 +344,27 @@ TEST(Contest, takes_no_common_error_of_the_reference_for_a_bias) {
   for (float& v : off.mean.values) v += 0.02f;
   for (float& v : off.variance.values) v = 1e-4f;
   off.variance_of_image = {1e-4, 1e-4, 1e-4};
-  EXPECT_FALSE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].bias.image.differs);
+  EXPECT_FALSE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
   // A planted fault: its pixels are taken as independent.
   off.variance_of_image.reset();
-  EXPECT_TRUE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].bias.image.differs);
+  EXPECT_TRUE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
 }
 
 TEST(Contest, makes_a_reference_that_is_good_enough) {
   const Noise quiet(1, 0.5f), loud(1, 2);
   const std::vector<Contestant> both{contestant("a", quiet), contestant("b", loud)};
   const ContestSettings s = settings(16, 4);
-  const double goal = 0.05 * expected_smallest_mse(both, s, {});
-  const Reference r = make_reference(both, {0, 1}, s, goal, {});
-  EXPECT_LE(mean_value(r.variance), goal);
+  const ReferenceGoal goal = goal_of(both, s);
+  EXPECT_EQ(goal.method, 0u);
+  const Reference r = make_reference(both, goal, s, {});
+  for (ErrorMeasure by : {ErrorMeasure::relative_mse, ErrorMeasure::mse})
+    EXPECT_LE(variance_by(by, r), goal.variance[by]);
+  // Two fifths of the samples would not have been enough.
+  EXPECT_GT(variance_by(s.measure, r), 0.4 * goal.variance[s.measure]);
   // Independent pixels: the variance of the image mean is that of a pixel over their number, but for its spread.
   for (double v : r.variance_of_image.value()) EXPECT_LT(std::abs(std::log(v * 1024 / mean_value(r.variance))), 3);
   EXPECT_EQ(r.origin.substr(0, 2), "a,");
-  EXPECT_LT(run_contest(both, r, s, {}).reference_share, 0.25);
+  EXPECT_LT(run_contest(both, r, s, {}).reference_share[s.measure], 0.25);
 }
 
 TEST(Contest, takes_the_reference_s_own_noise_off) {
@@ -278,7 +385,8 @@ TEST(Contest, takes_the_reference_s_own_noise_off) {
   EXPECT_LT(std::abs(r.methods[0].mse.mean - truth) / error, most);
   // A planted fault: the reference's noise is left in.
   EXPECT_GT(std::abs(r.methods[0].mse.mean - truth * (1 + share)) / error, most);
-  EXPECT_NEAR(r.reference_share, 0.25 / 64 / std::min(r.methods[0].mse.mean, r.methods[1].mse.mean), 1e-6);
+  EXPECT_NEAR(r.reference_share[ErrorMeasure::mse], 0.25 / 64 / std::min(r.methods[0].mse.mean, r.methods[1].mse.mean),
+              1e-6);
 }
 
 TEST(Contest, stops_when_told) {

@@ -21,6 +21,20 @@ TEST(Measured, says_nothing_from_one_value) {
   EXPECT_EQ(m.high, INFINITY);
 }
 
+TEST(Measured, leaves_out_what_is_not_finite) {
+  const Measured m = measured({1, NAN, 3, INFINITY, 2}, 0.95), none = measured({NAN, NAN}, 0.95);
+  EXPECT_EQ(m.count, 3);
+  EXPECT_DOUBLE_EQ(m.mean, 2);
+  EXPECT_EQ(none.count, 0);
+}
+
+TEST(Measured, is_written_with_what_is_known_of_it) {
+  EXPECT_EQ(text_of(measured({1, 2, 3}, 0.95)), "2.0 ± 2.5");
+  EXPECT_EQ(text_of(measured({2}, 0.95)), "2 (one repeat)");
+  EXPECT_EQ(text_of(measured({NAN, NAN}, 0.95)), "not known");
+  EXPECT_EQ(text_of(Measured{}), "not known");
+}
+
 TEST(MeasuredRatio, pairs_the_values) {
   const Measured m = measured_ratio({2, 20, 200}, {1, 10, 100}, 0.95);
   EXPECT_NEAR(m.mean, 2, 1e-12);

@@ -40,5 +40,39 @@ TEST(ValueText, an_error_of_rounding_shows_the_digits_that_a_double_has) {
   EXPECT_EQ(value_with_error(3e-16, 2.7e-31), "3.000000000000000(3)e-16");
 }
 
+TEST(ValueText, plus_minus_rounds_both_to_the_second_digit_of_the_error) {
+  EXPECT_EQ(value_plus_minus(541.1, 100), "540 ± 100");
+  EXPECT_EQ(value_plus_minus(541.1, 99.7), "540 ± 100");
+  EXPECT_EQ(value_plus_minus(0.123456, 0.00213), "0.1235 ± 0.0021");
+  EXPECT_EQ(value_plus_minus(-1.0049, 0.0251), "-1.005 ± 0.025");
+  EXPECT_EQ(value_plus_minus(12345, 2000), "12300 ± 2000");
+  EXPECT_EQ(value_plus_minus(3, 12), "3 ± 12");
+  EXPECT_EQ(value_plus_minus(0.01, 2), "0.0 ± 2.0");
+  EXPECT_EQ(value_plus_minus(541.1, 1), "541.1 ± 1.0");
+}
+
+TEST(ValueText, plus_minus_of_very_small_and_very_large_values_has_one_exponent) {
+  EXPECT_EQ(value_plus_minus(5.41e-5, 1e-6), "(5.41 ± 0.10)e-05");
+  EXPECT_EQ(value_plus_minus(2.5e9, 3e7), "(2.500 ± 0.030)e+09");
+  EXPECT_EQ(value_plus_minus(1e-7, 3e-4), "(0.0 ± 3.0)e-04");
+}
+
+TEST(ValueText, plus_minus_says_what_is_not_known) {
+  EXPECT_EQ(value_plus_minus(NAN, 1), "not known");
+  EXPECT_EQ(value_plus_minus(INFINITY, NAN), "not known");
+  EXPECT_EQ(value_plus_minus(541.1, INFINITY), "541.1 (error not known)");
+  EXPECT_EQ(value_plus_minus(541.1, NAN), "541.1 (error not known)");
+  EXPECT_EQ(value_plus_minus(2, 0), "2 ± 0");
+}
+
+TEST(ValueText, intervals_have_the_places_of_their_nearer_bound) {
+  EXPECT_EQ(value_in_interval(2.3123, 2.1019, 2.5512), "2.31 (2.10 to 2.55)");
+  EXPECT_EQ(value_in_interval(1.5, 1.0, 300.0), "1.50 (1.00 to 300.00)");
+  EXPECT_EQ(value_in_interval(541.1, 441.1, 661.1), "540 (440 to 660)");
+  EXPECT_EQ(value_in_interval(4.2e-5, 4.0e-5, 4.5e-5), "4.20e-05 (4.00 to 4.50)");
+  EXPECT_EQ(value_in_interval(2, 0, INFINITY), "2.0 (0.0 to any more)");
+  EXPECT_EQ(value_in_interval(NAN, 0, INFINITY), "not known");
+}
+
 }  // namespace
 }  // namespace montelux::lab

@@ -1,0 +1,190 @@
+#include "api/contest_methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "api/render.h"
+
+namespace montelux {
+
+namespace {
+
+bool has_setting(const ChoiceText& choice, const std::string& key) {
+  return std::ranges::any_of(choice.settings, [&](const Setting& s) { return s.first == key; });
+}
+
+// "name=" before the integrator. A name is of letters, digits, spaces and a few marks, so that it stands as it is in
+// any form of the results.
+Status read_name(const std::string& typed, MethodText& method) {
+  method.text = typed;
+  const std::size_t equals = typed.find('='), colon = typed.find(':');
+  if (equals == std::string::npos || equals > colon) return Done{};
+  method.name = typed.substr(0, equals), method.text = typed.substr(equals + 1);
+  const auto good = [](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || std::string_view(" -_.+").find(char(c)) != std::string_view::npos;
+  };
+  const bool edges = !method.name.empty() && method.name.front() != ' ' && method.name.back() != ' ';
+  if (edges && method.name.size() <= 60 && std::ranges::all_of(method.name, good)) return Done{};
+  return Failure{fmt::format(
+      "\"{}\" cannot name a method: names have 1 to 60 letters, digits, spaces and -_.+ (settings follow a colon: "
+      "path:mis=balance)",
+      method.name)};
+}
+
+Result<PointSetKind> read_sampler(const std::string& value) {
+  if (auto kind = point_set_named(value)) return *kind;
+  std::vector<std::string_view> names;
+  const auto samplers = sampler_names();
+  for (const auto& [known, description] : samplers) names.push_back(known);
+  return unknown_name("sampler", value, names);
+}
+
+Result<MethodText> read_method(const std::string& typed, const std::vector<Setting>& common) {
+  MethodText method;
+  if (Status named = read_name(typed, method); !named) return named.failure();
+  auto choice = parse_choice(method.text);
+  if (!choice) return choice.failure();
+  for (const Setting& setting : common)
+    if (!has_setting(*choice, setting.first)) choice->settings.push_back(setting);
+  method.integrator = *choice;
+  std::erase_if(method.integrator.settings, [](const Setting& s) { return s.first == "sampler"; });
+  for (const auto& [key, value] : choice->settings) {
+    if (key != "sampler") continue;
+    auto kind = read_sampler(value);
+    if (!kind) return kind.failure();
+    method.sampler = *kind;
+  }
+  if (Status known = check_integrator(method.integrator); !known) return known.failure();
+  return method;
+}
+
+// The settings that a method was typed with, sampler and all.
+std::vector<Setting> typed_settings(const MethodText& method) { return parse_choice(method.text)->settings; }
+
+// What distinguishes methods: the integrator, and those of the typed settings that not all methods have alike. Methods
+// that are typed alike get their letters.
+void name_methods(std::vector<MethodText>& methods) {
+  std::map<Setting, std::size_t> shared;
+  for (const MethodText& m : methods) {
+    const std::vector<Setting> typed = typed_settings(m);
+    for (const Setting& s : std::set<Setting>(typed.begin(), typed.end())) ++shared[s];
+  }
+  std::map<std::string, int> times;
+  std::vector<std::string> names;
+  for (const MethodText& m : methods) {
+    std::string name = m.integrator.name;
+    char separator = ':';
+    for (const Setting& s : typed_settings(m)) {
+      if (shared[s] == methods.size()) continue;
+      name += fmt::format("{}{}={}", separator, s.first, s.second), separator = ',';
+    }
+    names.push_back(m.name.empty() ? name : m.name);
+    ++times[names.back()];
+  }
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const bool typed = !methods[i].name.empty();
+    methods[i].name = typed || times[names[i]] == 1 ? names[i] : fmt::format("{} ({})", names[i], methods[i].label);
+  }
+}
+
+// The families of layers that variance is attributed to.
+LayerPlan attribution_layers(const Scene& scene) {
+  LayerPlan plan;
+  plan.bounces = 4;
+  plan.techniques = true;
+  plan.group_of_light = scene.lights.groups();
+  plan.group_names = scene.lights.group_names();
+  plan.light_groups = !plan.group_names.empty();
+  return plan;
+}
+
+std::set<std::string> biases_of(const lab::Contestant& c) { return {c.biases.begin(), c.biases.end()}; }
+
+// "maxdepth=5: path, naive; direct light alone: direct".
+std::string biases_text(const std::vector<lab::Contestant>& contestants) {
+  std::map<std::string, std::vector<std::string>> by_bias;
+  for (const lab::Contestant& c : contestants)
+    by_bias[fmt::format("{}", fmt::join(c.biases, ", "))].push_back(c.shown_name());
+  std::string text;
+  for (const auto& [bias, names] : by_bias)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", fmt::join(names, ", "), bias);
+  return text;
+}
+
+}  // namespace
+
+std::string MethodText::canonical() const {
+  std::vector<Setting> sorted = integrator.settings;
+  std::ranges::sort(sorted);
+  std::string all = integrator.name;
+  for (const auto& [key, value] : sorted) all += fmt::format(",{}={}", key, value);
+  return all;
+}
+
+Result<std::vector<MethodText>> read_methods(const ContestOptions& options) {
+  std::vector<MethodText> methods;
+  for (const std::string& typed : options.methods) {
+    auto method = read_method(typed, options.settings);
+    if (!method) return Failure{typed + ": " + method.error()};
+    method->label = std::string(1, char('a' + int(methods.size())));
+    methods.push_back(*std::move(method));
+  }
+  name_methods(methods);
+  std::set<std::string> names;
+  for (const MethodText& m : methods)
+    if (!names.insert(m.name).second) return Failure{fmt::format("two methods are called \"{}\"", m.name)};
+  return methods;
+}
+
+Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& options) {
+  auto methods = read_methods(options);
+  if (!methods) return methods.failure();
+  Field field;
+  for (const MethodText& method : *methods) {
+    auto chosen = choose_integrator(
+        method.integrator,
+        {parts.picture.max_depth, parts.picture.max_component, parts.picture.width, parts.picture.height}, parts.scene,
+        *parts.accel);
+    if (!chosen) return Failure{method.text + ": " + chosen.error()};
+    const PointSetKind sampler = method.sampler.value_or(parts.picture.sampler);
+    note_sampler(*chosen, sampler);
+    field.integrators.push_back(*std::move(chosen));
+    lab::Contestant contestant;
+    contestant.label = method.label, contestant.name = method.name, contestant.text = method.text;
+    contestant.settings = method.canonical();
+    contestant.integrator = field.integrators.back().any();
+    contestant.sampler = sampler;
+    contestant.biases = field.integrators.back().biases;
+    const PixelIntegrator* pixels = contestant.integrator.pixel();
+    if (options.attribution && pixels && pixels->has_layers()) contestant.layers = attribution_layers(parts.scene);
+    field.contestants.push_back(std::move(contestant));
+  }
+  return field;
+}
+
+Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants) {
+  std::vector<std::size_t> unbiased, of_shared;
+  std::set<std::string> shared = biases_of(contestants.front());
+  for (const lab::Contestant& c : contestants) {
+    const std::set<std::string> own = biases_of(c);
+    std::erase_if(shared, [&](const std::string& bias) { return !own.contains(bias); });
+  }
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    const std::set<std::string> own = biases_of(contestants[i]);
+    if (is_fixed(contestants[i].sampler)) continue;  // nothing would state the reference's error
+    if (own.empty()) unbiased.push_back(i);
+    if (own == shared) of_shared.push_back(i);
+  }
+  if (!unbiased.empty()) return unbiased;
+  if (!of_shared.empty()) return of_shared;
+  return Failure{fmt::format(
+      "every method is biased, and not all in one way: {}; none of them can make a reference that is fair to all: name "
+      "one by --reference, or add a method without bias (path:maxdepth=none)",
+      biases_text(contestants))};
+}
+
+}  // namespace montelux

@@ -1,0 +1,166 @@
+#include "lab/compare/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "image/flip.h"
+#include "lab/compare/measure.h"
+#include "lab/compare/passes.h"
+#include "lab/compare/work.h"
+
+namespace montelux::lab {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Passes of one half of a pilot: of both together as many as a repeat has, and enough for a variance.
+int half_passes(const PassPlan& plan, const ContestSettings& settings, double sample_seconds) {
+  constexpr int min_passes = 4, max_passes = 64;
+  double passes = plan.passes;
+  if (settings.seconds) passes = *settings.seconds / settings.repeats / (plan.samples_per_pass * sample_seconds);
+  return int(std::clamp(std::ceil(passes / 2), double(min_passes), double(max_passes)));
+}
+
+Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+                 const PieceProgress& piece) {
+  Pilot pilot;
+  const Stopwatch wall;
+  for (int h = 0; h < 2; ++h) {
+    RenderSettings s = settings_for(contestant, settings);
+    s.plan = plan, s.first_pass = pilot_pass + h * plan.passes;
+    PartOfPiece part(piece, 0.5 * h, 0.5 * h + 0.5);
+    const RenderResult r = render(contestant.integrator, s, part);
+    pilot.halves[std::size_t(h)] = {mean_of(r.film), variance_of(r.film)};
+    pilot.all_seconds += r.seconds;
+  }
+  pilot.samples = 2.0 * plan.samples(), pilot.wall_seconds = wall.seconds();
+  return pilot;
+}
+
+// The mean of a function of the finite values; infinite where there is none.
+template <class Function>
+double mean_of_finite(std::size_t count, Function f) {
+  double sum = 0, values = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const double v = f(i); std::isfinite(v)) sum += v, values += 1;
+  return values > 0 ? sum / values : infinite;
+}
+
+double mse_of(const Pilot::Half& half) {
+  return mean_of_finite(half.variance.values.size(), [&](std::size_t i) { return double(half.variance.values[i]); });
+}
+
+// The mean of all trusted pilots in this half, each weighted by its precision.
+PixelBuffer pooled_mean(const std::vector<Pilot>& pilots, const std::vector<std::size_t>& trusted, std::size_t half) {
+  PixelBuffer pooled = pilots.front().halves[half].mean;
+  std::vector<double> sum(pooled.values.size());
+  double weights = 0;
+  for (std::size_t i : trusted) {
+    const Pilot::Half& h = pilots[i].halves[half];
+    const double weight = 1 / std::max(mse_of(h), 1e-30);
+    weights += weight;
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * double(h.mean.values[k]);
+  }
+  if (weights > 0)
+    for (std::size_t k = 0; k < sum.size(); ++k) pooled.values[k] = float(sum[k] / weights);
+  return pooled;
+}
+
+double error_of(const Pilot::Half& half, const PixelBuffer& truth, ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::mse:
+      return mse_of(half);
+    case ErrorMeasure::relative_mse:
+      return mean_of_finite(half.variance.values.size(), [&](std::size_t i) {
+        const double mean = double(truth.values[i]);
+        return double(half.variance.values[i]) / (mean * mean + 0.01);
+      });
+    case ErrorMeasure::flip:
+      return std::pow(hdr_flip(half.mean, truth).mean, 2);
+  }
+  return infinite;
+}
+
+}  // namespace
+
+std::vector<double> time_methods(const std::vector<Contestant>& contestants, const ContestState& state,
+                                 const ContestSettings& settings, const ContestWatch& watch) {
+  std::vector<double> sample_seconds;
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    RenderSettings s = settings_for(contestants[i], settings);
+    s.plan = {1, 1}, s.first_pass = timing_pass;
+    const PieceProgress piece(watch, {"timing of " + contestants[i].shown_name(), 0});
+    PartOfPiece part(piece, 0, 1);
+    // Of a few short ones the shortest: the first one meets cold caches, and any the work of others.
+    double one = infinite;
+    const Stopwatch all;
+    for (int k = 0; k < 5 && all.seconds() < 0.05; ++k) {
+      const Stopwatch wall;
+      (void)render(contestants[i].integrator, s, part);
+      one = std::min(one, std::max(wall.seconds(), 1e-6));
+    }
+    // A chain has its warm-up once for all of its frames.
+    if (const CoupledIntegrator* coupled = contestants[i].integrator.coupled()) {
+      const double warm_up = coupled->warm_up(), frames = state.methods[i].plan.samples_per_pass;
+      one *= (warm_up + frames) / (warm_up + 1) / frames;
+    }
+    sample_seconds.push_back(one);
+  }
+  return sample_seconds;
+}
+
+std::vector<Pilot> run_pilots(const std::vector<Contestant>& contestants, const ContestState& state,
+                              const std::vector<double>& sample_seconds, const ContestSettings& settings,
+                              const ContestWatch& watch) {
+  std::vector<Pilot> pilots;
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    PassPlan plan = state.methods[i].plan;
+    plan.passes = half_passes(plan, settings, sample_seconds[i]);
+    const PieceProgress piece(watch,
+                              {"pilot of " + contestants[i].shown_name(), 2 * plan.samples() * sample_seconds[i]});
+    pilots.push_back(take_pilot(contestants[i], settings, plan, piece));
+    if (watch.stopped()) break;
+  }
+  return pilots;
+}
+
+std::vector<double> pilot_errors(const std::vector<Pilot>& pilots, const std::vector<std::size_t>& trusted,
+                                 ErrorMeasure measure) {
+  std::vector<double> errors(pilots.size());
+  for (std::size_t half = 0; half < 2; ++half) {
+    const PixelBuffer other = pooled_mean(pilots, trusted, 1 - half);
+    // A half has half the samples, so twice the squared error of the whole; and the mean of the two is taken.
+    for (std::size_t i = 0; i < pilots.size(); ++i)
+      errors[i] += 0.25 * error_of(pilots[i].halves[half], other, measure);
+  }
+  return errors;
+}
+
+ReferenceGoal plan_reference(const std::vector<Pilot>& pilots, const std::vector<std::size_t>& may_serve,
+                             const std::vector<double>& samples_of_repeat, ErrorMeasure measure, double share) {
+  ReferenceGoal goal;
+  goal.method = may_serve.front();
+  double least = infinite;
+  const std::vector<double> ranked = pilot_errors(pilots, may_serve, measure);
+  for (std::size_t i : may_serve)
+    if (const double cost = ranked[i] * pilots[i].all_seconds; cost < least) least = cost, goal.method = i;
+  // FLIP has no variance: the goal is stated by the others.
+  const Pilot& best = pilots[goal.method];
+  for (ErrorMeasure by : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {
+    const std::vector<double> errors = by == measure ? ranked : pilot_errors(pilots, may_serve, by);
+    double smallest = infinite;
+    for (std::size_t i = 0; i < pilots.size(); ++i)
+      if (errors[i] > 0) smallest = std::min(smallest, errors[i] * pilots[i].samples / samples_of_repeat[i]);
+    const bool first = by == measure || (measure == ErrorMeasure::flip && by == ErrorMeasure::relative_mse);
+    goal.variance[by] = (first ? 1 : 3) * share * smallest;
+    const double samples = errors[goal.method] * best.samples / goal.variance[by];
+    goal.samples = std::max(goal.samples, std::isfinite(samples) ? samples : 0);
+  }
+  goal.variance[ErrorMeasure::flip] = infinite;
+  goal.seconds = goal.samples * best.wall_seconds / best.samples;
+  return goal;
+}
+
+}  // namespace montelux::lab

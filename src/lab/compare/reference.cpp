@@ -1,0 +1,63 @@
+// Making the picture that methods are held against.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/compare/measure.h"
+#include "lab/compare/passes.h"
+#include "lab/compare/pilot.h"
+#include "lab/compare/work.h"
+#include "mc/random.h"
+
+namespace montelux::lab {
+
+namespace {
+
+constexpr int samples_per_pass = 16, max_passes = 1 << 16, min_more = 16;
+
+Reference reference_of(const Film& film, int passes) {
+  const ImageEstimate image = film.image();
+  std::array<double, 3> variance_of_image{};
+  for (std::size_t c = 0; c < 3; ++c) variance_of_image[c] = image.standard_error[c] * image.standard_error[c];
+  return {mean_of(film), variance_of(film), double(passes - 1), variance_of_image, {}};
+}
+
+// How many passes are to come, where so many have left so many times the variance of the goal: what is expected to be
+// missing, but never more than there are, since a variance by few passes may be far too small or large.
+int more_passes(int passes, double excess) {
+  const double needed = 1.05 * passes * excess;
+  const int most = std::min(passes, max_passes - passes);
+  return std::clamp(int(std::min(needed - passes, 1e9)), std::min(min_more, most), most);
+}
+
+}  // namespace
+
+Reference make_reference(const std::vector<Contestant>& contestants, const ReferenceGoal& goal,
+                         const ContestSettings& settings, const ContestWatch& watch) {
+  const Contestant& method = contestants[goal.method];
+  RenderSettings s = settings_for(method, settings);
+  s.seed = mix_bits(settings.render.seed ^ 0x5bd1e995u);
+  const PieceProgress piece(watch, {"reference by " + method.shown_name(), goal.seconds});
+  const double expected = std::clamp(goal.samples / samples_per_pass, double(min_more), double(max_passes));
+  Film film(s.bounds);
+  Reference reference;
+  int passes = 0;
+  for (int more = std::max(min_more, int(0.6 * expected)); more > 0 && !watch.stopped();) {
+    s.plan = {samples_per_pass, more}, s.first_pass = reference_pass + passes;
+    const double whole = std::max(expected, double(passes + more));
+    PartOfPiece part(piece, passes / whole, std::min(0.99, (passes + more) / whole));
+    film.merge(render(method.integrator, s, part).film);
+    passes += more;
+    reference = reference_of(film, passes);
+    double excess = 0;
+    for (ErrorMeasure by : {ErrorMeasure::relative_mse, ErrorMeasure::mse})
+      excess = std::max(excess, variance_by(by, reference) / goal.variance[by]);
+    more = excess > 1 ? more_passes(passes, excess) : 0;
+  }
+  reference.origin = fmt::format("{}, {} samples a pixel; of the pilots it was the most efficient by {}",
+                                 method.shown_name(), passes * samples_per_pass, title_of(settings.measure));
+  return reference;
+}
+
+}  // namespace montelux::lab

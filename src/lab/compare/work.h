@@ -1,0 +1,44 @@
+// Pieces of work of a comparison while renders are under way.
+#pragma once
+#include <string>
+
+#include "lab/compare/contest.h"
+
+namespace montelux::lab {
+
+// States how a piece gets on, over the renders that it is made of.
+class PieceProgress {
+ public:
+  PieceProgress(const ContestWatch& watch, WorkPiece piece) : watch_(watch), piece_(std::move(piece)) { state(0); }
+  ~PieceProgress() { state(1); }
+  PieceProgress(const PieceProgress&) = delete;
+  PieceProgress& operator=(const PieceProgress&) = delete;
+
+  void state(double done) const {
+    if (watch_.progress) watch_.progress(piece_, done);
+  }
+  const ContestWatch& watch() const { return watch_; }
+
+ private:
+  const ContestWatch& watch_;
+  WorkPiece piece_;
+};
+
+// A render that is the part [from, to] of a piece; it passes on the wish to stop.
+class PartOfPiece final : public RenderObserver {
+ public:
+  PartOfPiece(const PieceProgress& piece, double from, double to) : piece_(piece), from_(from), to_(to) {}
+  void progress(const Progress& p) override { piece_.state(from_ + (to_ - from_) * (p.finished ? 1 : p.fraction)); }
+  bool stop_requested() override { return piece_.watch().stopped(); }
+
+ private:
+  const PieceProgress& piece_;
+  double from_, to_;
+};
+
+// The render's settings for one method: its own point set, no end by time.
+RenderSettings settings_for(const Contestant& contestant, const ContestSettings& settings);
+// Of all that a render took, what counts.
+double seconds_that_count(const RenderResult& result, const ContestSettings& settings);
+
+}  // namespace montelux::lab
