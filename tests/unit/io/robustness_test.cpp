@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 #include <string>
 
+#include "damage.h"
 #include "io/pbrt.h"
 #include "io/ply.h"
 #include "io/report.h"
@@ -12,9 +12,9 @@
 namespace montelux {
 namespace {
 
-using Random = std::mt19937;
-
-std::size_t below(Random& random, std::size_t n) { return n == 0 ? 0 : random() % n; }
+using Random = test::DamageRandom;
+using test::below;
+using test::damage;
 
 constexpr std::string_view seed_scene = R"(# a scene with a bit of everything
 Option "integer seed" 3
@@ -54,55 +54,6 @@ Shape "curve" "point3 P" [ 0 0 0 1 0 0 2 0 0 3 0 0 ] "string type" "ribbon" "nor
 Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] "texture alpha" "f"
 Include "missing.pbrt"
 )";
-
-// One act of damage: a byte, a cut, a copy, an interesting word, a swap of two parts.
-void damage(std::string& text, Random& random) {
-  static constexpr std::array<std::string_view, 24> words{"[",
-                                                          "]",
-                                                          "\"",
-                                                          "\"\"",
-                                                          "#",
-                                                          "\\",
-                                                          "-1",
-                                                          "1e999",
-                                                          "nan",
-                                                          "0",
-                                                          "99999999999",
-                                                          "Shape",
-                                                          "\n",
-                                                          "WorldBegin",
-                                                          "AttributeEnd",
-                                                          "ObjectBegin \"x\"",
-                                                          "ObjectEnd",
-                                                          "\"rgb L\"",
-                                                          "true",
-                                                          "\"texture u\"",
-                                                          "Include \".\"",
-                                                          "[ 1 2",
-                                                          "65536",
-                                                          "\xff\xfe"};
-  std::size_t at = below(random, text.size());
-  std::size_t length = below(random, 40);
-  switch (random() % 6) {
-    case 0:
-      if (!text.empty()) text[at] = static_cast<char>(random() & 255);
-      break;
-    case 1:
-      text.erase(at, length);
-      break;
-    case 2:
-      text.insert(at, words[below(random, words.size())]);
-      break;
-    case 3:
-      text.insert(at, text.substr(below(random, text.size()), length));
-      break;
-    case 4:
-      text.resize(at);
-      break;
-    default:
-      text.replace(at, std::min(length, text.size() - at), words[below(random, words.size())]);
-  }
-}
 
 TEST(DamagedScenes, end_in_a_scene_or_in_errors) {
   Random random(20240131);
