@@ -1,5 +1,6 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -192,6 +193,7 @@ ImageEstimate Film::image() const {
 }
 
 ErrorEstimate Film::error() const {
+  if (std::none_of(pixels_.begin(), pixels_.end(), [](const PixelEstimate& p) { return p.passes > 1; })) return {};
   FilmPlanes planes(bounds());
   planes.copy(*this, bounds());
   return estimate_error(planes);

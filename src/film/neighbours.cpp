@@ -48,6 +48,11 @@ void add_neighbour(const FilmPlanes& p, int row, Offset offset, RowSums& sums) {
   const auto mean_there = rows_at(p.mean, other);
   const float *object = p.object.data() + own, *object_there = p.object.data() + other;
   const std::uint8_t* passes_there = p.passes.data() + other;
+  // Nothing else points to the sums.
+  float* __restrict weights = sums.weight.data();
+  std::array<float*, spectrum_size> light;
+  for (std::size_t c = 0; c < spectrum_size; ++c) light[c] = sums.light[c].data();
+#pragma GCC ivdep
   for (int x = x0; x < x1; ++x) {
     float albedos = 0, normals = 0;
     for (std::size_t c = 0; c < spectrum_size; ++c) {
@@ -60,9 +65,9 @@ void add_neighbour(const FilmPlanes& p, int row, Offset offset, RowSums& sums) {
     }
     const float alike = 1 / (1 + albedos * (1 / albedo_scale) + normals * (1 / normal_scale));
     const float same = object[x] == object_there[x] ? 1.0f : other_object;
-    const float w = passes_there[x] > 0 ? near * same * alike * alike : 0.0f;
-    for (std::size_t c = 0; c < spectrum_size; ++c) sums.light[c][std::size_t(x)] += w * mean_there[c][x];
-    sums.weight[std::size_t(x)] += w;
+    const float w = near * same * alike * alike * float(passes_there[x] > 0);
+    for (std::size_t c = 0; c < spectrum_size; ++c) light[c][x] += w * mean_there[c][x];
+    weights[x] += w;
   }
 }
 
