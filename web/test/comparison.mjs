@@ -36,8 +36,9 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.6 * box.height);
   const text = await page.locator(".pixel table").textContent();
   expect(/pixel \d+, \d+/.test(text) && /\d ± \d/.test(text), `the pointer reads a pixel with its error bars ("${text}")`);
-  const figures = [...text.matchAll(/(\d+\.(\d+)) ± (\d+\.(\d+))/g)];
-  expect(figures.length === 9 && figures.every((f) => f[2].length === f[4].length && /^0?\.?0*\d\.?\d$/.test(f[3])),
+  const cells = await page.locator(".pixel td.number").allTextContents();
+  const figures = cells.map((cell) => /^[−]?\d+\.(\d+) ± (\d+\.(\d+))$/.exec(cell));
+  expect(cells.length === 9 && figures.every((f) => f && f[1].length === f[3].length && f[2].replace(".", "").replace(/^0+/, "").length === 2),
     "with two digits of the error and as many places of the value");
   expect((await page.locator("canvas.settling").count()) === 1, "and shows how its mean settled");
 
