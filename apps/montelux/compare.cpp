@@ -55,6 +55,7 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
   if (c.reference) line += fmt::format(" --reference {}", c.reference->string());
   if (arguments.load.resolution)
     line += fmt::format(" --resolution {}x{}", arguments.load.resolution->first, arguments.load.resolution->second);
+  if (arguments.load.resolution_scale) line += fmt::format(" --resolution {}%", 100 * *arguments.load.resolution_scale);
   if (c.crop) line += fmt::format(" --crop {},{},{},{}", c.crop->x0, c.crop->y0, c.crop->x1, c.crop->y1);
   if (arguments.load.camera) line += fmt::format(" --camera '{}'", *arguments.load.camera);
   if (arguments.load.animation) line += fmt::format(" --animation '{}'", *arguments.load.animation);
@@ -75,9 +76,11 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
 Result<SavedContest> resumed(CompareArguments& arguments) {
   ContestOptions& now = arguments.contest;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
-      arguments.load.resolution || arguments.load.lenient || arguments.load.camera || arguments.load.animation ||
-      arguments.load.shutter || arguments.no_cache || now.confidence != ContestOptions{}.confidence ||
-      arguments.no_attribution || arguments.no_slopes || now.warm_frames || now.processor_time || !now.settings.empty())
+      arguments.load.resolution || arguments.load.resolution_scale || arguments.load.lenient || arguments.load.camera ||
+      arguments.load.animation || arguments.load.shutter || arguments.no_cache ||
+      now.confidence != ContestOptions{}.confidence || arguments.no_attribution || arguments.no_slopes ||
+      now.warm_frames || now.processor_time ||
+      !now.settings.empty())
     return Failure{
         "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "
         "--repeats) and --measure may be given"};

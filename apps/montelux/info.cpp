@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -22,12 +23,42 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   std::string scene;
   LoadOptions load;
-  bool json = false;
+  bool json = false, quiet = false;
 };
 
 std::string bytes_text(std::size_t bytes) { return count_text(double(bytes), "B"); }
 
 bool has_bounds(const SceneInfo& info) { return info.low[0] <= info.high[0]; }
+
+Json to_json(const std::vector<NamedThing>& things) {
+  Json list = Json::array();
+  for (const NamedThing& thing : things) list.push_back({{"name", thing.name}, {"kind", thing.kind}});
+  return list;
+}
+
+// The first of a list, and how many more there are: "floor (diffuse), ball (conductor) and 12 more".
+template <class List, class Text>
+std::string first_of(const List& list, Text text) {
+  constexpr std::size_t shown = 8;
+  std::string line;
+  for (std::size_t i = 0; i < std::min(list.size(), shown); ++i) line += (i > 0 ? ", " : "") + text(list[i]);
+  if (list.size() > shown) line += fmt::format(" and {} more", list.size() - shown);
+  return line;
+}
+
+std::string text_of(const NamedThing& thing) {
+  return fmt::format("{} ({})", thing.name.empty() ? "-" : thing.name, thing.kind);
+}
+
+// Cameras and animations of a file that may have several.
+void print_choices(const SceneInfo& info) {
+  const auto name = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
+  if (!info.cameras.empty()) fmt::print("cameras   {}: {}\n", info.cameras.size(), first_of(info.cameras, name));
+  if (!info.animations.empty())
+    fmt::print("animated  {}: {}\n", info.animations.size(), first_of(info.animations, [&](const AnimationInfo& a) {
+                 return fmt::format("{} ({})", name(a.name), time_text(a.seconds));
+               }));
+}
 
 void print_json(const SceneInfo& info, const std::vector<std::string>& missing) {
   Json lights = Json::object();
@@ -44,7 +75,12 @@ void print_json(const SceneInfo& info, const std::vector<std::string>& missing) 
   json["quadrics"] = info.quadrics, json["patches"] = info.patches, json["curve_segments"] = info.curve_segments;
   json["instances"] = info.instances, json["objects"] = info.objects;
   json["materials"] = info.materials, json["textures"] = info.textures;
+  json["material_list"] = to_json(info.material_names), json["texture_list"] = to_json(info.texture_names);
   json["lights"] = lights;
+  json["cameras"] = info.cameras;
+  json["animations"] = Json::array();
+  for (const AnimationInfo& a : info.animations)
+    json["animations"].push_back({{"name", a.name}, {"seconds", a.seconds}});
   json["bounds"] = nullptr;  // of nothing
   if (has_bounds(info))
     json["bounds"] = {{info.low[0], info.low[1], info.low[2]}, {info.high[0], info.high[1], info.high[2]}};
@@ -70,7 +106,11 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
     fmt::print(" ({} as rays see them: {} instances of {} objects)", info.instanced_triangles, info.instances,
                info.objects);
   fmt::print(", {} quadrics, {} patches, {} curve segments\n", info.quadrics, info.patches, info.curve_segments);
-  fmt::print("looks     {} materials, {} textures\nlights   ", info.materials, info.textures);
+  print_choices(info);
+  fmt::print("looks     {} materials, {} textures\n", info.materials, info.textures);
+  if (!info.material_names.empty()) fmt::print("          {}\n", first_of(info.material_names, text_of));
+  if (!info.texture_names.empty()) fmt::print("          {}\n", first_of(info.texture_names, text_of));
+  fmt::print("lights   ");
   for (const auto& [kind, count] : info.lights) fmt::print(" {} {}", count, kind);
   if (info.lights.empty()) fmt::print(" none: the picture will be black");
   if (has_bounds(info))
@@ -87,7 +127,7 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
 
 int run_info(const InfoArguments& arguments) {
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
-  print_diagnostics(loaded.diagnostics, false);
+  print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
   const std::vector<std::string> missing = missing_light_of(*loaded.scene);
   if (arguments.json)
@@ -101,10 +141,11 @@ int run_info(const InfoArguments& arguments) {
 
 void add_info(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App& verb = *app.add_subcommand("info", "Say what is in a scene: counts, sizes, lights, memory");
+  CLI::App& verb = *app.add_subcommand("info", "Say what is in a scene: counts, names, sizes, lights, memory");
   verb.footer("Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n");
   add_scene_options(verb, arguments->scene, arguments->load);
   verb.add_flag("--json", arguments->json, "as one JSON object");
+  verb.add_flag("--quiet", arguments->quiet, "no notes, no warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
 }
 

@@ -53,13 +53,7 @@ goes behind "--". Ctrl-C ends early and tells the result so far.
 
 // "1000000", "1e6" or "4M".
 Result<std::uint64_t> parse_samples(const std::string& text) {
-  std::string digits = text;
-  double factor = 1;
-  for (auto [unit, size] : {std::pair{'k', 1e3}, {'M', 1e6}, {'G', 1e9}})
-    if (!digits.empty() && digits.back() == unit) factor = size, digits.pop_back();
-  const Result<double> value = parse_number(digits, 0, 1e15);
-  if (value && *value * factor >= 2 && *value * factor <= 1e15 && *value * factor == std::floor(*value * factor))
-    return std::uint64_t(*value * factor);
+  if (const auto samples = parse_large_whole(text, 2, 1'000'000'000'000'000)) return samples;
   return Failure{fmt::format("takes a whole number from 2, as 100000, 1e6 or 4M; found \"{}\"", text)};
 }
 

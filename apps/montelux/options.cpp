@@ -25,10 +25,23 @@ std::optional<T> number_in(std::string_view text) {
 
 }  // namespace
 
-Result<int> parse_whole(const std::string& text, int low, int high) {
-  auto value = number_in<int>(text);
-  if (value && *value >= low && *value <= high) return *value;
+Result<std::uint64_t> parse_large_whole(const std::string& text, std::uint64_t low, std::uint64_t high) {
+  std::string_view digits = text;
+  double unit = 1;
+  for (auto [name, size] : {std::pair{'k', 1e3}, {'M', 1e6}, {'G', 1e9}})
+    if (digits.ends_with(name)) digits.remove_suffix(1), unit = size;
+  // Up to 2^53 a double holds every whole number.
+  const auto value = number_in<double>(digits);
+  const double whole = value.value_or(-1) * unit;
+  if (whole >= double(low) && whole <= std::min(double(high), 0x1p53) && whole == std::floor(whole))
+    return std::uint64_t(whole);
   return Failure{fmt::format("takes a whole number from {} to {}; found \"{}\"", low, high, text)};
+}
+
+Result<int> parse_whole(const std::string& text, int low, int high) {
+  const auto value = parse_large_whole(text, std::uint64_t(low), std::uint64_t(high));
+  if (!value) return value.failure();
+  return int(*value);
 }
 
 Result<double> parse_number(const std::string& text, double low, double high) {
@@ -48,17 +61,30 @@ Result<double> parse_time(const std::string& text) {
   return Failure{fmt::format("takes a time above zero such as 500ms, 30s, 10m or 2h; found \"{}\"", text)};
 }
 
-Result<std::pair<int, int>> parse_resolution(const std::string& text) {
+Status parse_resolution(const std::string& text, LoadOptions& options) {
+  options.resolution.reset(), options.resolution_scale.reset();
+  if (text.ends_with('%')) {
+    const auto percent = number_in<double>(std::string_view(text).substr(0, text.size() - 1));
+    if (percent && *percent > 0 && *percent <= 1000) {
+      options.resolution_scale = *percent / 100;
+      return Done{};
+    }
+    return Failure{
+        fmt::format("takes WIDTHxHEIGHT in pixels, or a percentage of the scene's size above 0% and up to "
+                    "1000%; found \"{}\"",
+                    text)};
+  }
   const std::size_t x = text.find('x');
   if (x != std::string::npos) {
     auto width = number_in<int>(std::string_view(text).substr(0, x));
     auto height = number_in<int>(std::string_view(text).substr(x + 1));
     if (width && height) {
-      if (Status possible = check_resolution(*width, *height); !possible) return possible.failure();
-      return std::pair{*width, *height};
+      if (Status possible = check_resolution(*width, *height); !possible) return possible;
+      options.resolution = std::pair{*width, *height};
+      return Done{};
     }
   }
-  return Failure{fmt::format("takes WIDTHxHEIGHT in pixels, as 1280x720; found \"{}\"", text)};
+  return Failure{fmt::format("takes WIDTHxHEIGHT in pixels, as 1280x720, or a percentage, as 50%; found \"{}\"", text)};
 }
 
 Result<PixelBounds> parse_crop(const std::string& text) {
@@ -98,6 +124,17 @@ Result<ShutterTimes> parse_shutter(const std::string& text) {
       fmt::format("takes OPEN:CLOSE, two times of which the second is not before the first; found \"{}\"", text)};
 }
 
+Result<ValueRange> parse_range(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto low = number_in<float>(std::string_view(text).substr(0, colon));
+    const auto high = number_in<float>(std::string_view(text).substr(colon + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) return ValueRange{*low, *high};
+  }
+  return Failure{
+      fmt::format("takes auto, or LOW:HIGH, two numbers of which the first is the smaller; found \"{}\"", text)};
+}
+
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) return Failure{fmt::format("takes key=value; found \"{}\"", text)};
@@ -132,8 +169,8 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set) {
 
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {
   verb.add_option("SCENE", file, "scene file (.pbrt, .pbrt.gz, .gltf, .glb)")->required()->type_name("FILE");
-  add_option(verb, {"--resolution", "WxH", "size of the picture in pixels, instead of the file's"},
-             into(options.resolution, parse_resolution));
+  add_option(verb, {"--resolution", "WxH|P%", "size of the picture in pixels, or as a percentage of the file's"},
+             [&options](const std::string& text) { return parse_resolution(text, options); });
   add_option(verb, {"--camera", "NAME|N", "camera of a glTF scene, by its name or number; default: the first"},
              [&options](const std::string& text) -> Status {
                options.camera = text;
@@ -154,19 +191,52 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }
 
-void add_display_options(CLI::App& verb, DisplayTransform& display) {
-  add_option(verb, {"--exposure", "STOPS", "for 8-bit pictures: multiply by 2^STOPS (default 0)"},
-             into(display.exposure, [](const std::string& text) -> Result<float> {
-               auto stops = parse_number(text, -100, 100);
-               if (!stops) return stops.failure();
-               return float(*stops);
-             }));
+void add_display_options(CLI::App& verb, DisplayRequest& display) {
+  add_option(
+      verb,
+      {"--exposure", "auto|EV",
+       "for 8-bit pictures: multiply by 2^EV; auto: by the picture; default: 0, or auto where the scene states no "
+       "exposure and nearly all of the picture would be black or white"},
+      [&display](const std::string& text) -> Status {
+        display.automatic_exposure = text == "auto";
+        display.exposure.reset();
+        if (display.automatic_exposure) return Done{};
+        auto stops = parse_number(text, -100, 100);
+        if (!stops) return Failure{"takes auto, or stops: " + stops.error().substr(stops.error().find(' ') + 1)};
+        display.exposure = float(*stops);
+        return Done{};
+      });
   add_option(verb, {"--tone", alternatives(names_of(tone_curves())), "for 8-bit pictures: tone curve (default clip)"},
              into(display.curve, [](const std::string& text) -> Result<ToneCurve> {
                auto name = parse_choice(text, names_of(tone_curves()));
                if (!name) return name.failure();
                return *tone_curve_named(*name);
              }));
+  add_option(
+      verb,
+      {"--range", "auto|LOW:HIGH",
+       "for 8-bit pictures: values from black to white, or over the colours of a map, instead of exposure and tone"},
+      [&display](const std::string& text) -> Status {
+        display.automatic_range = text == "auto";
+        display.range.reset();
+        if (display.automatic_range) return Done{};
+        auto range = parse_range(text);
+        if (!range) return range.failure();
+        display.range = *range;
+        return Done{};
+      });
+  add_option(verb,
+             {"--colormap", alternatives(names_of(color_maps())),
+              "for 8-bit pictures: false colours (default: viridis for distances, errors and numbers of samples)"},
+             [&display](const std::string& text) -> Status {
+               auto name = parse_choice(text, names_of(color_maps()));
+               if (!name) return name.failure();
+               display.map.reset();
+               display.no_map = *name == "none";
+               for (std::size_t i = 0; i < color_map_names.size(); ++i)
+                 if (color_map_names[i] == *name) display.map = ColorMap(i);
+               return Done{};
+             });
 }
 
 }  // namespace montelux::cli

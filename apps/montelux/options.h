@@ -13,18 +13,22 @@ class App;
 namespace montelux::cli {
 
 // Readers of option values. A failure says what is valid.
+// A whole number, in any notation in which it is exact: 1000, 1e3, 1k (k, M and G are 10^3, 10^6 and 10^9).
 Result<int> parse_whole(const std::string& text, int low, int high);
+Result<std::uint64_t> parse_large_whole(const std::string& text, std::uint64_t low, std::uint64_t high);
 Result<double> parse_number(const std::string& text, double low, double high);
 // Seconds, from a number with ms, s, m or h behind it; without a unit: seconds.
 Result<double> parse_time(const std::string& text);
-// "WxH".
-Result<std::pair<int, int>> parse_resolution(const std::string& text);
+// "WxH" into options.resolution, "50%" into options.resolution_scale.
+Status parse_resolution(const std::string& text, LoadOptions& options);
 // "x0,y0,x1,y1": pixels x0 <= x < x1, y0 <= y < y1.
 Result<PixelBounds> parse_crop(const std::string& text);
 // One of the names; a failure names them all and the nearest.
 Result<std::string> parse_choice(const std::string& text, const std::vector<std::string>& names);
 // "OPEN:CLOSE", two numbers.
 Result<ShutterTimes> parse_shutter(const std::string& text);
+// "LOW:HIGH", two numbers.
+Result<ValueRange> parse_range(const std::string& text);
 // "key=value".
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text);
 
@@ -56,6 +60,6 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set);
 
 // Options that more than one verb has.
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options);
-void add_display_options(CLI::App& verb, DisplayTransform& display);
+void add_display_options(CLI::App& verb, DisplayRequest& display);
 
 }  // namespace montelux::cli

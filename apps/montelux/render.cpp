@@ -11,6 +11,7 @@
 
 #include "api/images.h"
 #include "api/json_text.h"
+#include "display_json.h"
 #include "options.h"
 #include "progress.h"
 #include "shortcomings.h"
@@ -29,7 +30,9 @@ struct RenderArguments {
   std::vector<std::string> files;
   LoadOptions load;
   RenderOptions render;
-  DisplayTransform display;
+  DisplayRequest display;
+  // Of the first picture of a sequence, for those after it.
+  std::shared_ptr<std::optional<ChosenDisplay>> shown = std::make_shared<std::optional<ChosenDisplay>>();
   bool json = false, quiet = false, no_progress = false;
   std::optional<FrameRange> frames;
   std::optional<double> fps;
@@ -37,6 +40,9 @@ struct RenderArguments {
   // Whether a picture took longer than its budget.
   bool is_late(const Rendering& rendering) const { return render.budget && rendering.result.seconds > *render.budget; }
 };
+
+bool has_display_file(const RenderArguments& arguments);
+const ChosenDisplay& display_of(const RenderArguments& arguments, const Rendering& rendering);
 
 constexpr const char* examples = R"(Examples:
   montelux render room.pbrt                                 writes room.exr
@@ -165,6 +171,7 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
   json["non_finite"] = outcome.non_finite;
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
+  if (has_display_file(arguments)) json["display"] = display_json<Json>(display_of(arguments, rendering));
   add_to(json, {rendering.missing, rendering.replaced, rendering.left_out});
   // A line for each frame of a sequence.
   fmt::print("{}\n", json_text(std::move(json), arguments.frame ? -1 : 2));
@@ -205,6 +212,7 @@ void print_text(const RenderArguments& arguments, const Rendering& rendering, co
   for (const std::string& file : arguments.files) fmt::print("picture  {}\n", file);
   print_mean(rendering);
   fmt::print("error    {}\n", error_line(rendering));
+  if (outcome.non_finite > 0) fmt::print("not finite {} samples, which are not in the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
   fmt::print("samples  {:.3g} a pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
@@ -216,11 +224,21 @@ void print_text(const RenderArguments& arguments, const Rendering& rendering, co
       arguments.is_late(rendering) ? fmt::format(", over the budget of {}", time_text(*arguments.render.budget)) : "");
 }
 
+// How 8-bit pictures show the rendering. All pictures of a sequence are shown like the first.
+const ChosenDisplay& display_of(const RenderArguments& arguments, const Rendering& rendering) {
+  if (!*arguments.shown) *arguments.shown = choose_display(rendering, arguments.display);
+  return **arguments.shown;
+}
+
+bool has_display_file(const RenderArguments& arguments) {
+  return std::ranges::any_of(arguments.files, is_display_file);
+}
+
 // Writes every file, also when one of them fails.
 int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   int status = done;
   for (const std::string& file : arguments.files)
-    if (Status written = write_rendering(file, rendering, arguments.display); !written) {
+    if (Status written = write_rendering(file, rendering, display_of(arguments, rendering).transform); !written) {
       complain(written.error());
       status = failed;
     }
@@ -261,7 +279,10 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
   // Notes are the same for every frame.
   if (!arguments.quiet && (!arguments.frame || *arguments.frame == arguments.frames->first))
     for (const std::string& note : rendering->notes) warn(note);
-  if (outcome.non_finite > 0)
+  if (!arguments.quiet && has_display_file(arguments) &&
+      (!arguments.frame || *arguments.frame == arguments.frames->first))
+    if (const std::string text = choice_text(display_of(arguments, *rendering)); !text.empty()) warn(text);
+  if (outcome.non_finite > 0 && !arguments.quiet)
     warn(fmt::format("{} samples were not finite; they are not in the mean", outcome.non_finite));
   if (status != done) return status;
   if (arguments.json)
@@ -398,8 +419,9 @@ int run_render(RenderArguments& arguments) {
 // A sequence of pictures.
 void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(verb,
-             {"--frames", "A:B[/N]",
-              "a picture for each of these frames, into which the time of the scene's transforms falls in equal parts "
+             {"--frames", "A[:B][/N]",
+              "a picture for each of these frames (A: for one), into which the time of the scene's transforms falls in "
+              "equal parts "
               "(A:B/N: N parts, counted from 0); their number goes to #### or %04d in -o, else before the extension"},
              into(arguments.frames, parse_frames));
   add_option(verb, {"--fps", "F", "frames in a unit of the scene's time: frame f has the scene's shutter, f / F later"},
@@ -487,7 +509,7 @@ void add_render(CLI::App& app, Action& chosen) {
   add_algorithm_options(verb, arguments->render);
   add_display_options(verb, arguments->display);
   verb.add_flag("--json", arguments->json, "results as one JSON object (a line for each frame)");
-  verb.add_flag("--quiet", arguments->quiet, "no progress, no warnings");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, no notes, no warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });
 }

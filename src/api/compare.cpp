@@ -134,16 +134,9 @@ Result<PixelBuffer> difference_map(std::string_view name, const PictureEstimate&
 
 Status write_map(const std::filesystem::path& file, const PixelBuffer& map) {
   if (!is_display_file(file)) return write_picture(file, map, {});
-  std::vector<float> finite;
-  for (float value : map.values)
-    if (std::isfinite(value)) finite.push_back(value);
-  float largest = 0;
-  if (!finite.empty()) {
-    auto at = finite.begin() + std::ptrdiff_t(0.99 * double(finite.size() - 1));
-    std::nth_element(finite.begin(), at, finite.end());
-    largest = *at > 0 ? *at : *std::max_element(finite.begin(), finite.end());
-  }
-  return write_picture(file, false_color(map, largest > 0 ? largest : 1.0f), {});
+  DisplayRequest request;
+  request.map = ColorMap::magma;
+  return write_picture(file, map, choose_display(map, Content::amount, request, false).transform);
 }
 
 }  // namespace montelux

@@ -59,14 +59,14 @@ std::vector<Place> places_of(const std::string& text) {
 
 Result<FrameRange> parse_frames(const std::string& text) {
   const std::size_t colon = text.find(':'), slash = text.find('/');
-  const auto first = whole(text.substr(0, colon));
+  const auto first = whole(text.substr(0, std::min(colon, slash)));
   const auto last = colon == std::string::npos
                         ? first
                         : whole(text.substr(colon + 1, slash == std::string::npos ? slash : slash - colon - 1));
   const auto of = slash == std::string::npos ? std::nullopt : whole(text.substr(slash + 1));
-  if (colon == std::string::npos || !first || !last || (slash != std::string::npos && !of))
-    return Failure{
-        fmt::format("frames are stated as A:B, or A:B/N for those of N, as 0:23 or 12:23/48; found '{}'", text)};
+  if (!first || !last || (slash != std::string::npos && !of))
+    return Failure{fmt::format(
+        "frames are stated as A:B, or A for one, or A:B/N for those of N, as 0:23, 5 or 12:23/48; found '{}'", text)};
   if (*first > *last) return Failure{fmt::format("frames {} end before they begin", text)};
   if (*last >= most_frames || of.value_or(0) > most_frames)
     return Failure{fmt::format("frames must be below {}; found '{}'", most_frames, text)};

@@ -30,7 +30,36 @@ constexpr std::array<NamedCurve, 3> curves{{
     {"aces", ToneCurve::aces, "fit of Narkowicz (2015) to the ACES reference transform"},
 }};
 
+// A text of the header; empty where there is none.
+std::string attribute_of(const Image& image, std::string_view name) {
+  for (const Attribute& attribute : image.attributes)
+    if (attribute.name == name)
+      if (auto* text = std::get_if<std::string>(&attribute.value)) return *text;
+  return {};
+}
+
+bool states_exposure(const Image& image) {
+  return image.stored == SampleType::uint8 || image.stored == SampleType::uint16 ||
+         attribute_of(image, "montelux:exposure") == "stated by the scene";
+}
+
+// The colours, as the header says what they hold.
+PictureLayer colors_with_content(Image image) {
+  PictureLayer all{{}, Content::light, states_exposure(image)};
+  const std::string content = attribute_of(image, "montelux:display");
+  for (std::size_t i = 0; i < content_names.size(); ++i)
+    if (content_names[i] == content) all.content = Content(i);
+  all.pixels = std::move(image.pixels);
+  return all;
+}
+
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> color_maps() {
+  return {{"viridis", "dark violet over green to yellow"},
+          {"magma", "black over red to pale yellow"},
+          {"none", "no false colours"}};
+}
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string e = file.extension().string();
@@ -65,17 +94,19 @@ Status write_picture(const std::filesystem::path& file, const PixelBuffer& pictu
   return write_image(file, to_display(picture, display));
 }
 
-Result<PixelBuffer> read_layer(const std::filesystem::path& file, const std::string& name) {
+Result<PictureLayer> read_layer(const std::filesystem::path& file, const std::string& name) {
   Result<Image> image = read_image(file);
   if (!image) return image.failure();
   PixelBuffer& pixels = image->pixels;
-  if (name.empty()) return std::move(pixels);
-  if (auto found = layer(pixels, name)) return std::move(*found);
+  if (name.empty()) return colors_with_content(*std::move(image));
+  const Content content = content_of_layer(name);
+  const bool has_own_exposure = states_exposure(*image);
+  if (auto found = layer(pixels, name)) return PictureLayer{std::move(*found), content, has_own_exposure};
   if (auto channel = find_channel(pixels, name)) {
     PixelBuffer single = make_pixel_buffer(pixels.width, pixels.height, {"Y"});
     for (std::size_t i = 0; i < single.values.size(); ++i)
       single.values[i] = pixels.values[i * pixels.channels.size() + std::size_t(*channel)];
-    return single;
+    return PictureLayer{std::move(single), content, has_own_exposure};
   }
   std::vector<std::string> names;
   for (const std::string& channel : pixels.channels) {

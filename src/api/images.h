@@ -17,6 +17,9 @@ namespace montelux {
 std::vector<std::pair<std::string, std::string>> tone_curves();
 std::optional<ToneCurve> tone_curve_named(std::string_view name);
 
+// Colour maps by name, with a line for each.
+std::vector<std::pair<std::string, std::string>> color_maps();
+
 // Why a picture could not be written to this file: an unknown extension, or what check_output_file() finds. To be
 // called before a render, so that the work is not lost.
 Status check_picture_file(const std::filesystem::path& file);
@@ -30,8 +33,15 @@ bool is_display_file(const std::filesystem::path& file);
 // Writes a linear picture by the extension of the file, 8-bit formats through the display transform. One step.
 Status write_picture(const std::filesystem::path& file, const PixelBuffer& picture, const DisplayTransform& display);
 
+// One layer of a picture, and what tells how it is shown.
+struct PictureLayer {
+  PixelBuffer pixels;
+  Content content = Content::light;
+  bool has_own_exposure = false;  // the scene states one, or the file is one for display
+};
+
 // Reads one layer of a picture: the colours for the empty name, else the channels "name.X", or the channel "name"
 // alone. A failure names the layers that there are.
-Result<PixelBuffer> read_layer(const std::filesystem::path& file, const std::string& name);
+Result<PictureLayer> read_layer(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace montelux

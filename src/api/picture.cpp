@@ -92,6 +92,22 @@ PixelBuffer layers_of(const Rendering& rendering) {
   return image;
 }
 
+namespace {
+
+PixelBuffer colors_of(const PixelBuffer& image) {
+  PixelBuffer color = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) color.at(x, y, c) = image.at(x, y, c);
+  return color;
+}
+
+}  // namespace
+
+ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request) {
+  return choose_display(colors_of(layers_of(rendering)), rendering.content, request, rendering.has_own_exposure);
+}
+
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display) {
   PixelBuffer image = layers_of(rendering);
   const std::string extension = extension_of(file);
@@ -100,10 +116,7 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
     options.attributes = rendering.header;
     return write_image(file, image, options);
   }
-  PixelBuffer color = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 3; ++c) color.at(x, y, c) = image.at(x, y, c);
+  const PixelBuffer color = colors_of(image);
   if (extension == ".hdr" || extension == ".pfm") return write_image(file, color);
   return write_image(file, to_display(color, display));
 }

@@ -186,6 +186,8 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   add("passes", std::int32_t(image.passes));
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
   add("biasedOptions", list_or_none(picture.plan.chosen.biases, ", "));
+  add("display", std::string(content_names[std::size_t(picture.plan.chosen.content)]));
+  add("exposure", std::string(parts.info.states_exposure ? "stated by the scene" : "not stated"));
   add("missingLight", list_or_none(picture.plan.chosen.missing));
   std::vector<std::string> replaced;
   for (const Replacement& r : picture.plan.replaced) replaced.push_back(to_text(r));
@@ -235,9 +237,20 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     plan.render.budget->ending = result.ending;
   }
   std::vector<Attribute> header = header_of(parts, {plan, settings, image, error}, result);
-  return Rendering{
-      std::move(result),   std::move(header), plan.chosen.notes,  settings.plan, settings.layers, 0, {}, image, error,
-      plan.chosen.missing, plan.replaced,     parts.info.left_out};
+  return Rendering{std::move(result),
+                   std::move(header),
+                   plan.chosen.notes,
+                   settings.plan,
+                   settings.layers,
+                   0,
+                   {},
+                   image,
+                   error,
+                   plan.chosen.missing,
+                   plan.replaced,
+                   parts.info.left_out,
+                   plan.chosen.content,
+                   parts.info.states_exposure};
 }
 
 }  // namespace

@@ -40,6 +40,8 @@ struct Rendering {
   std::vector<std::string> missing{};   // sorts of light of the scene that the integrator cannot find
   std::vector<Replacement> replaced{};  // of what the file names and no option replaces
   std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it
+  Content content = Content::light;     // what the colours hold
+  bool has_own_exposure = false;        // the scene states one
   // Whether a standard error is known: it takes two independent passes.
   bool has_error_bar() const { return image.passes >= 2; }
   // The interval that holds the true mean of a channel of the picture with this probability, by Student's t over the
@@ -81,6 +83,9 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
 // errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding. Motion is
 // motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
+
+// How an 8-bit picture shows the colours, by what is asked for and by the picture itself.
+ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
 // file is replaced in one step.

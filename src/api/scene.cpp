@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "api/frames.h"
@@ -75,8 +76,14 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   const auto whole = desc.whole_time.value_or(std::pair{desc.transforms_start, desc.transforms_end});
   info.time_start = whole.first, info.time_end = whole.second;
   info.frame_rate = desc.frame_rate, info.frames_held = desc.frames_held;
+  info.states_exposure = desc.film.parameters.find("iso") != nullptr;
   count_geometry(parts.scene.geometry, info);
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
+  for (const MaterialDesc& material : desc.materials)
+    info.material_names.push_back({material.name, material.entity.type});
+  for (const TextureDesc& texture : desc.textures) info.texture_names.push_back({texture.name, texture.entity.type});
+  const auto has_name = [](const NamedThing& thing) { return !thing.name.empty(); };
+  std::stable_partition(info.material_names.begin(), info.material_names.end(), has_name);
   std::map<std::string, std::size_t> lights;
   for (std::uint32_t i = 0; i < parts.scene.lights.count(); ++i)
     ++lights[std::string(light_kind_names[std::size_t(parts.scene.lights.kind(LightId(i)))])];
@@ -115,6 +122,17 @@ std::vector<std::string> left_out(const std::vector<Omission>& omissions) {
     all.push_back(where.empty() ? omission.what : fmt::format("{} ({}{})", omission.what, count, where));
   }
   return all;
+}
+
+// Width and height where they are not the film's.
+std::optional<std::pair<int, int>> resolution_of(const LoadOptions& options, const SceneDesc& desc) {
+  if (!options.resolution_scale) return options.resolution;
+  const PictureSettings otherwise;
+  const auto scaled = [&](std::string_view name, int size) {
+    const double pixels = desc.film.parameters.integer(name, size) * *options.resolution_scale;
+    return int(std::clamp(std::round(pixels), 1.0, 1e9));
+  };
+  return std::pair{scaled("xresolution", otherwise.width), scaled("yresolution", otherwise.height)};
 }
 
 // The part of an animation that the pictures need: each frame's moment and that of the frame before the first.
@@ -160,7 +178,14 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
     if (!read.scene) return result;
     if (options.shutter) read.scene->shutter = std::pair{options.shutter->open, options.shutter->close};
     const double read_seconds = watch.lap();
-    std::optional<PreparedScene> prepared = prepare(*read.scene, {options.resolution}, result.diagnostics);
+    LoadOptions settled = options;
+    settled.resolution = resolution_of(options, *read.scene), settled.resolution_scale.reset();
+    if (settled.resolution)
+      if (Status possible = check_resolution(settled.resolution->first, settled.resolution->second); !possible) {
+        result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0}, possible.error());
+        return result;
+      }
+    std::optional<PreparedScene> prepared = prepare(*read.scene, {settled.resolution}, result.diagnostics);
     if (!prepared || result.diagnostics.has_errors()) return result;
     // The description's meshes are copied: their memory goes before the kernel takes its own.
     SceneDesc desc = std::move(*read.scene);
@@ -169,7 +194,7 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
       for (ShapeDesc& shape : object.shapes) shape.mesh.reset();
     const double prepare_seconds = watch.lap();
     auto parts = std::make_unique<LoadedScene::Parts>(
-        LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}, options});
+        LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}, settled});
     const Scene& scene = parts->scene;
     parts->accel = std::make_unique<Accel>(
         scene.geometry,
@@ -179,6 +204,9 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
     parts->info = info_of(desc, *parts);
     parts->info.replaced = replacements(desc);
     parts->info.left_out = left_out(read.omissions);
+    parts->info.cameras = read.cameras;
+    for (const NamedAnimation& animation : read.animations)
+      parts->info.animations.push_back({animation.name, animation.seconds});
     parts->info.read_seconds = read_seconds;
     parts->info.prepare_seconds = prepare_seconds;
     parts->info.build_seconds = build_seconds;

@@ -18,6 +18,7 @@ struct LoadOptions {
   bool lenient = false;  // unknown parameters and what Montelux cannot do yet are warnings, not errors
   bool verbose = false;  // each warning and note by itself, not one for all of a kind
   std::optional<std::pair<int, int>> resolution;  // width, height instead of the file's
+  std::optional<double> resolution_scale{};       // or that many times those of the file
   int threads = 0;                                // for building; 0: all of the machine
   // Of a file that may hold several: by name or number; default: the first.
   std::optional<std::string> camera{}, animation{};
@@ -34,6 +35,17 @@ struct Replacement {
 
 // "integrator sppm by path".
 std::string to_text(const Replacement& replacement);
+
+// A material or a texture: "" where it has no name; "conductor".
+struct NamedThing {
+  std::string name, kind;
+};
+
+// An animation of a file that may hold several, with its length in the file's unit of time.
+struct AnimationInfo {
+  std::string name;
+  double seconds = 0;
+};
 
 // What is in a scene, for people.
 struct SceneInfo {
@@ -56,10 +68,14 @@ struct SceneInfo {
   std::size_t instanced_triangles = 0;  // as rays see them
   std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;
   std::size_t materials = 0, textures = 0, images = 0;
+  std::vector<NamedThing> material_names, texture_names;  // the named ones first, both in the order of the file
+  std::vector<std::string> cameras;                       // of a file that may hold several; a name may be empty
+  std::vector<AnimationInfo> animations;
   std::vector<std::pair<std::string, std::size_t>> lights;  // by kind, with how many there are
   float low[3] = {}, high[3] = {};                          // bounds of the scene
   std::size_t geometry_bytes = 0, accel_bytes = 0, texture_bytes = 0, light_bytes = 0;
   double read_seconds = 0, prepare_seconds = 0, build_seconds = 0;
+  bool states_exposure = false;  // how sensitive the film is: a picture is then not made brighter or darker by itself
   std::vector<Replacement> replaced;
   // By a lenient reading: what, how often, and where first, a line each.
   std::vector<std::string> left_out;

@@ -57,19 +57,4 @@ PixelBuffer error_map(const PixelBuffer& test, const PixelBuffer& reference, Err
   return map;
 }
 
-PixelBuffer false_color(const PixelBuffer& map, float largest) {
-  // Linear colours at equal steps, each brighter than the one before.
-  static constexpr float ramp[5][3] = {
-      {0.0f, 0.0f, 0.01f}, {0.09f, 0.005f, 0.16f}, {0.48f, 0.04f, 0.12f}, {0.96f, 0.26f, 0.02f}, {0.98f, 0.96f, 0.6f}};
-  PixelBuffer out = make_pixel_buffer(map.width, map.height, {"R", "G", "B"});
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      float t = map.at(x, y, 0) / largest;
-      t = 4.0f * (t > 0.0f ? std::min(t, 1.0f) : 0.0f);
-      int i = std::min(int(t), 3);
-      for (int c = 0; c < 3; ++c) out.at(x, y, c) = lerp(t - float(i), ramp[i][c], ramp[i + 1][c]);
-    }
-  return out;
-}
-
 }  // namespace montelux

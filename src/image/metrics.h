@@ -21,7 +21,4 @@ enum class ErrorKind { absolute, squared, relative_squared };
 // One channel "error": the mean over the colour channels of the error of that kind at each pixel.
 PixelBuffer error_map(const PixelBuffer& test, const PixelBuffer& reference, ErrorKind kind);
 
-// A map of one channel as colours for display, dark to bright over [0, largest]: black, purple, orange, pale yellow.
-PixelBuffer false_color(const PixelBuffer& map, float largest);
-
 }  // namespace montelux

@@ -168,6 +168,7 @@ struct Row {
   EntitySpec spec;
   Made (*make)(const Request&);
   LightSearch search = LightSearch::any_length;
+  Content content = Content::light;
 };
 
 // The one table of integrators.
@@ -185,7 +186,9 @@ const std::vector<Row>& rows() {
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();
-    for (std::size_t i = 0; i < specs.size(); ++i) all.push_back({specs[i], looks[i], LightSearch::none});
+    using enum Content;
+    constexpr Content contents[] = {share, encoded, share, distance, light};
+    for (std::size_t i = 0; i < specs.size(); ++i) all.push_back({specs[i], looks[i], LightSearch::none, contents[i]});
     for (Row& row : all)
       row.spec.parameters.push_back({"maxcomponent",
                                      {ParameterType::number},
@@ -276,7 +279,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
         "all camera rays go through the centres of pixels, as the scene's disablepixeljitter asks: the picture is "
         "biased, without the pixel filter, depth of field and motion blur");
   }
-  result->search = row->search;
+  result->search = row->search, result->content = row->content;
   if (most) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *most);

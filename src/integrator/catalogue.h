@@ -6,6 +6,7 @@
 #include <string>
 
 #include "accel/accel.h"
+#include "image/display.h"
 #include "integrator/integrator.h"
 #include "integrator/path_classes.h"
 #include "parameter/choice.h"
@@ -30,6 +31,7 @@ struct ChosenIntegrator {
   std::vector<std::string> notes;               // the same for people, in sentences
   std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels learn from each other
   LightSearch search = LightSearch::any_length;
+  Content content = Content::light;    // what its pictures hold, and so how they are displayed
   std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
   AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
 };

@@ -44,11 +44,20 @@ struct Omission {
   int count = 1;  // of the same
 };
 
+// An animation and its length, in the file's unit of time.
+struct NamedAnimation {
+  std::string name;
+  double seconds = 0;
+};
+
 // A scene, or no scene where an error was found. Diagnostics may hold warnings and notes beside a scene.
 struct ReadResult {
   std::optional<SceneDesc> scene;
   Diagnostics diagnostics;
   std::vector<Omission> omissions{};  // in the order of their first places
+  // Of a file that may hold several, whether they are rendered or not; a name may be empty.
+  std::vector<std::string> cameras{};
+  std::vector<NamedAnimation> animations{};
 };
 
 }  // namespace montelux

@@ -1,0 +1,22 @@
+// How a picture was shown, as results state it.
+#pragma once
+#include "api/images.h"
+
+namespace montelux::cli {
+
+// {"content": "light", "exposure": -12.3, "range": null, "colormap": null, "automatic": true}: exposure in stops, null
+// where a range shows the values; automatic: exposure or range was chosen by the picture.
+template <class Json>
+Json display_json(const ChosenDisplay& chosen) {
+  const DisplayTransform& t = chosen.transform;
+  Json json;
+  json["content"] = content_names[std::size_t(t.content)];
+  json["exposure"] = nullptr, json["range"] = nullptr, json["colormap"] = nullptr;
+  if (t.content == Content::light && !t.range) json["exposure"] = t.exposure;
+  if (t.range) json["range"] = {t.range->low, t.range->high};
+  if (t.map) json["colormap"] = color_map_names[std::size_t(*t.map)];
+  json["automatic"] = chosen.exposure_chosen || chosen.range_chosen;
+  return json;
+}
+
+}  // namespace montelux::cli
