@@ -79,8 +79,7 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
       arguments.load.resolution || arguments.load.resolution_scale || arguments.load.lenient || arguments.load.camera ||
       arguments.load.animation || arguments.load.shutter || arguments.no_cache ||
       now.confidence != ContestOptions{}.confidence || arguments.no_attribution || arguments.no_slopes ||
-      now.warm_frames || now.processor_time ||
-      !now.settings.empty())
+      now.warm_frames || now.processor_time || !now.settings.empty())
     return Failure{
         "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "
         "--repeats) and --measure may be given"};

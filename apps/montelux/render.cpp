@@ -188,7 +188,7 @@ void print_mean(const Rendering& rendering) {
     mean += fmt::format(" {} {:.6g}", "RGB"[c], rendering.image.mean[c]);
     if (const auto range = rendering.interval_of_mean(c, confidence)) {
       mean += fmt::format(" ± {:.2g}", rendering.image.standard_error[c]);
-      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], range -> low, range -> high);
+      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], (*range).low, (*range).high);
     }
   }
   fmt::print("{}\n", mean);
