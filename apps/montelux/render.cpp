@@ -33,7 +33,7 @@ struct RenderArguments {
   DisplayRequest display;
   // Of the first picture of a sequence, for those after it.
   std::shared_ptr<std::optional<ChosenDisplay>> shown = std::make_shared<std::optional<ChosenDisplay>>();
-  bool json = false, quiet = false, no_progress = false;
+  bool json = false, quiet = false, no_progress = false, half = false;
   std::optional<FrameRange> frames;
   std::optional<double> fps;
   std::optional<int> frame;  // the one at hand
@@ -238,7 +238,8 @@ bool has_display_file(const RenderArguments& arguments) {
 int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   int status = done;
   for (const std::string& file : arguments.files)
-    if (Status written = write_rendering(file, rendering, display_of(arguments, rendering).transform); !written) {
+    if (Status written = write_rendering(file, rendering, display_of(arguments, rendering).transform, arguments.half);
+        !written) {
       complain(written.error());
       status = failed;
     }
@@ -508,6 +509,9 @@ void add_render(CLI::App& app, Action& chosen) {
   add_frame_options(verb, *arguments);
   add_algorithm_options(verb, arguments->render);
   add_display_options(verb, arguments->display);
+  verb.add_flag(
+      "--half", arguments->half,
+      "light, albedo and normals of an .exr as 16-bit floats, which halves the file; errors and places stay 32-bit");
   verb.add_flag("--json", arguments->json, "results as one JSON object (a line for each frame)");
   verb.add_flag("--quiet", arguments->quiet, "no progress, no notes, no warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");

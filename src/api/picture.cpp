@@ -61,6 +61,20 @@ void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& gr
   }
 }
 
+// What an eye sees or a compositor weighs; a standard error or a place would lose what it is for.
+std::vector<std::string> half_channels(const PixelBuffer& image) {
+  std::vector<std::string> names;
+  for (const std::string& channel : image.channels) {
+    const std::size_t dot = channel.rfind('.');
+    const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
+    const bool of_picture = layer.empty() && std::string_view("RGBA").find(channel) != std::string_view::npos;
+    const bool of_light = layer.starts_with("bounce") || layer.starts_with("Combined_");
+    if (of_picture || (of_light && !layer.ends_with("_stderr")) || layer == "albedo" || layer == "N")
+      names.push_back(channel);
+  }
+  return names;
+}
+
 }  // namespace
 
 PixelBuffer layers_of(const Rendering& rendering) {
@@ -108,12 +122,14 @@ ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& r
   return choose_display(colors_of(layers_of(rendering)), rendering.content, request, rendering.has_own_exposure);
 }
 
-Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display) {
+Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display,
+                       bool half) {
   PixelBuffer image = layers_of(rendering);
   const std::string extension = extension_of(file);
   if (extension == ".exr") {
     ExrOptions options;
     options.attributes = rendering.header;
+    if (half) options.half_channels = half_channels(image);
     return write_image(file, image, options);
   }
   const PixelBuffer color = colors_of(image);

@@ -88,8 +88,10 @@ PixelBuffer layers_of(const Rendering& rendering);
 ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
-// file is replaced in one step.
-Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display);
+// file is replaced in one step. `half`: of an .exr, light, albedo, normals and coverage as 16-bit floats; standard
+// errors, places, depths, counts and numbers of objects stay 32-bit floats.
+Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display,
+                       bool half = false);
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

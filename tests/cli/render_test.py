@@ -142,6 +142,25 @@ class Render(ProgramTest):
         # Converged pictures of this size have 0.117 in the mean of seeds at these samples.
         self.assertGreater(told["relative_mse"], 0.03)
 
+    def test_half_is_for_what_is_seen_and_not_for_errors_and_places(self):
+        def types(name):
+            header, found = (self.folder / name).read_bytes(), {}
+            at = header.index(b"channels\0chlist\0") + 20
+            while header[at]:
+                end = header.index(b"\0", at)
+                found[header[at:end].decode()] = header[end + 1]
+                at = end + 17
+            return found
+        for options in [], ["--half"]:
+            self.render("--spp", "4", "--layers", "bounces:1,errors", *options, "-o", f"a{len(options)}.exr")
+        self.assertEqual(set(types("a0.exr").values()), {2})  # 32-bit floats
+        half = {name for name, kind in types("a1.exr").items() if kind == 1}
+        colors = {f"{layer}.{c}" for layer in ("albedo", "bounce0", "bounce1", "bounce_rest") for c in "RGB"}
+        self.assertEqual(half, {*"RGBA", *colors, "N.X", "N.Y", "N.Z"})
+        told = json.loads(self.run_program("diff", "a1.exr", "a0.exr", "--json").stdout)
+        self.assertFalse(told["welch"]["differs"])
+        self.assertLess(told["relative_mse"], 1e-6)
+
     def test_layers_sum_to_the_picture(self):
         told = json.loads(self.render("--spp", "8", "--layers", "bounces:2,light-groups,errors", "--json", "-o",
                                       "room.exr").stdout)

@@ -138,8 +138,8 @@ IntegralState state_from_json(std::string_view text) {
     s.probe = probe_from(j.at("probe"));
     check_counts(s);
     return s;
-  } catch (const Json::exception& e) {
-    throw std::invalid_argument(fmt::format("the state of an integral cannot be read: {}", e.what()));
+  } catch (const Json::exception&) {
+    throw std::invalid_argument("the state of an integral is damaged: an entry of it is missing or of another type");
   }
 }
 
