@@ -42,8 +42,12 @@ TEST(ColorMaps, grow_lighter_all_the_way_and_evenly) {
 TEST(ColorMaps, have_their_published_ends) {
   const auto byte = [](float x) { return int(std::lround(255 * srgb_encode(x))); };
   const Rgb low = color_at(ColorMap::viridis, -1), high = color_at(ColorMap::viridis, 2);
-  EXPECT_EQ(byte(low.c[0]), 0x44), EXPECT_EQ(byte(low.c[1]), 0x01), EXPECT_EQ(byte(low.c[2]), 0x54);
-  EXPECT_EQ(byte(high.c[0]), 0xfd), EXPECT_EQ(byte(high.c[1]), 0xe7), EXPECT_EQ(byte(high.c[2]), 0x25);
+  EXPECT_EQ(byte(low.c[0]), 0x44);
+  EXPECT_EQ(byte(low.c[1]), 0x01);
+  EXPECT_EQ(byte(low.c[2]), 0x54);
+  EXPECT_EQ(byte(high.c[0]), 0xfd);
+  EXPECT_EQ(byte(high.c[1]), 0xe7);
+  EXPECT_EQ(byte(high.c[2]), 0x25);
   EXPECT_EQ(byte(color_at(ColorMap::magma, std::nanf("")).c[2]), 0x04);
 }
 
@@ -69,7 +73,8 @@ TEST(DisplayOfLayers, shows_distances_over_their_range_and_nothing_as_black) {
   depth.values[100] = infinity;
   const ChosenDisplay chosen = choose_display(depth, content_of_layer("Z"), {}, false);
   ASSERT_TRUE(chosen.transform.range && chosen.range_chosen);
-  EXPECT_NEAR(chosen.transform.range->low, 50, 1), EXPECT_NEAR(chosen.transform.range->high, 149, 2);
+  EXPECT_NEAR(chosen.transform.range->low, 50, 1);
+  EXPECT_NEAR(chosen.transform.range->high, 149, 2);
   const DisplayImage shown = to_display(depth, chosen.transform);
   ASSERT_EQ(shown.channel_count, 3);
   EXPECT_EQ(std::set<std::uint8_t>(shown.values.end() - 6, shown.values.end()), std::set<std::uint8_t>{0});
