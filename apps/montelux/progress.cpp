@@ -54,7 +54,9 @@ void StatusLine::finish() {
   print_log("\r\x1b[K");
 }
 
-void ProgressLine::announce(const std::string& text) { warn(text); }
+void ProgressLine::announce(const std::string& text) {
+  if (notes_) warn(text);
+}
 
 bool ProgressLine::stop_requested() { return signals_.received() != 0; }
 

@@ -26,9 +26,13 @@ class StatusLine {
 // The progress of a render as a status line; and it passes on the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
+  // What a user wants to see while the work runs.
+  struct Shows {
+    bool line = true, notes = true;
+  };
   // Of `parts` pictures that take about as long each: bar, time and time left are those of all of them.
-  ProgressLine(bool visible, const StopSignals& signals, int parts = 1)
-      : signals_(signals), line_(visible), parts_(parts) {}
+  ProgressLine(Shows shows, const StopSignals& signals, int parts = 1)
+      : signals_(signals), line_(shows.line), notes_(shows.notes), parts_(parts) {}
 
   // Which picture is at hand; `name` stands before the numbers.
   void begin(int part, std::string name) { part_ = part, name_ = std::move(name); }
@@ -40,6 +44,7 @@ class ProgressLine final : public RenderObserver {
  private:
   const StopSignals& signals_;
   StatusLine line_;
+  bool notes_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string name_;
   int part_ = 0, parts_;

@@ -347,7 +347,7 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
   std::optional<LoadedScene> scene(std::move(loaded_first));
   if (!scene->info().moves && scene->info().frames_held >= all.frames->count() && !all.quiet)
     warn("nothing moves in the scene: its frames differ by their seeds alone");
-  ProgressLine observer(!all.quiet && !all.no_progress, signals, all.frames->count());
+  ProgressLine observer({!all.quiet && !all.no_progress, !all.quiet}, signals, all.frames->count());
   int late = 0;
   for (int first = all.frames->first; first <= all.frames->last;) {
     const int last = int(std::min<std::int64_t>(std::int64_t(first) + scene->info().frames_held - 1, all.frames->last));
@@ -413,7 +413,7 @@ int run_render(RenderArguments& arguments) {
 
   StopSignals signals;
   if (arguments.frames) return render_frames(arguments, *std::move(loaded.scene), signals);
-  ProgressLine observer(!arguments.quiet && !arguments.no_progress, signals);
+  ProgressLine observer({!arguments.quiet && !arguments.no_progress, !arguments.quiet}, signals);
   return finish_picture(arguments, render_scene(*loaded.scene, arguments.render, observer), signals);
 }
 

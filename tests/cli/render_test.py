@@ -114,6 +114,8 @@ class Render(ProgramTest):
         self.assertGreater(told["sampled_pixels"], 0)
         self.assertLess(told["seconds"], 2)  # 4 s for one sample of every pixel, on a quick machine
         self.assertIsNone(told["relative_mse"])
+        self.assertEqual(self.run_program("render", SCENE, "--resolution", "1600x1200", "--time", "200ms", "--threads", 1,
+                                          "--quiet", "-o", "quiet.pfm").stderr, "")
         # The picture has no holes: unsampled pixels repeat those that are sampled.
         _, _, rows = read_pfm(self.folder / "room.pfm")
         black = sum(1 for row in rows[::7] for value in row[::3] if value == 0)
