@@ -16,13 +16,17 @@ struct ErrorEstimate {
   // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite where there is no
   // tail. Below 1 their mean has no limit.
   double tail_index = std::numeric_limits<double>::infinity();
-  std::size_t pixels = 0;  // that have two passes
-  std::size_t all = 0;     // that could have: sampled, with a finite sample
+  double effective_pixels = 0;  // so many pixels of equal error would be as sure (Kish 1965)
+  std::size_t pixels = 0;       // that have two passes
+  std::size_t all = 0;          // that could have: sampled, with a finite sample
 
   // Whether it is that of the whole picture.
   bool whole() const { return pixels > 0 && pixels == all; }
   // Whether few bright samples decide the relative error, which may then be far from the true one.
-  bool is_unsure() const { return pixels > 0 && (tail_index < 1 || relative_high > 2 * relative_low); }
+  bool is_unsure() const {
+    const bool few = effective_pixels < double(pixels) / 8;
+    return pixels > 0 && (tail_index < 1 || (few && relative_high > 2 * relative_low));
+  }
 };
 
 // The divisor of a relative error must not share the noise of the squared error that it divides: else a bright outlier

@@ -104,7 +104,7 @@ class Frames(ProgramTest):
 
     def test_what_makes_no_frames_is_refused(self):
         self.write_scene()
-        for arguments, word in [(["--frames", "3"], "A:B"), (["--frames", "5:3"], "end before"),
+        for arguments, word in [(["--frames", "x"], "A:B"), (["--frames", "5:3"], "end before"),
                                 (["--frames", "-1:3"], "A:B"), (["--frames", "0:8/8"], "no frame 8"),
                                 (["--frames", "0:x"], "A:B"), (["--frames", "0:1/0"], "no frame 1"),
                                 (["--frames", "0:1/2", "--fps", "24"], "exclude"),

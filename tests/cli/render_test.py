@@ -74,7 +74,7 @@ class Render(ProgramTest):
         self.assertFalse((self.folder / "scenes" / "shown.pfm").exists())
 
     def test_a_picture_of_the_film_that_cannot_be_written_is_refused_before_the_render(self):
-        for name, word in ("shown.tga", "extension must be one of .exr"), ("none/shown.exr", "no folder"):
+        for name, word in ("shown.tga", "extension must be one of .exr"), ("none/shown.exr", "no such folder"):
             scene = self.write_scene(f'Film "rgb" "string filename" "{name}"')
             result = self.render("--time", "1h", scene=scene, status=2)
             for part in word, name, "the scene's film names this picture, -o":
