@@ -37,7 +37,7 @@ BsdfRow bench_row(BsdfKind kind) {
       put(DiffuseTransmissionSlots::reflectance, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f});
       break;
     case BsdfKind::thin_dielectric:
-      put(ThinDielectricSlots::eta, {1.5f});
+      put(ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
       break;
     case BsdfKind::phong:
       put(PhongSlots::diffuse, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f, 30});

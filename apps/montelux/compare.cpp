@@ -61,6 +61,8 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
   if (arguments.load.animation) line += fmt::format(" --animation '{}'", *arguments.load.animation);
   if (arguments.load.shutter)
     line += fmt::format(" --shutter {}:{}", arguments.load.shutter->open, arguments.load.shutter->close);
+  if (const auto& e = arguments.load.environment)
+    line += fmt::format(" --environment '{}:rotation={},scale={}'", e->file, e->rotation, e->scale);
   if (arguments.load.lenient) line += " --lenient";
   for (const auto& [key, value] : c.settings) line += fmt::format(" --set '{}={}'", key, value);
   if (c.measure != ContestOptions{}.measure) line += fmt::format(" --measure {}", lab::key_of(c.measure));
@@ -77,7 +79,7 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
   ContestOptions& now = arguments.contest;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
       arguments.load.resolution || arguments.load.resolution_scale || arguments.load.lenient || arguments.load.camera ||
-      arguments.load.animation || arguments.load.shutter || arguments.no_cache ||
+      arguments.load.animation || arguments.load.shutter || arguments.load.environment || arguments.no_cache ||
       now.confidence != ContestOptions{}.confidence || arguments.no_attribution || arguments.no_slopes ||
       now.warm_frames || now.processor_time || !now.settings.empty())
     return Failure{
@@ -131,7 +133,7 @@ Status write_results(const CompareArguments& arguments, Contest& contest) {
   if (arguments.save) {
     contest.saved.scene = std::filesystem::absolute(arguments.scene);
     contest.saved.load = arguments.load;
-    contest.saved.fingerprint = scene_fingerprint(arguments.scene);
+    contest.saved.fingerprint = scene_fingerprint(arguments.scene, arguments.load.environment);
     if (Status written = save_contest(*arguments.save, contest.saved); !written) return written;
   }
   if (!arguments.report) return Done{};

@@ -135,6 +135,29 @@ Result<ValueRange> parse_range(const std::string& text) {
       fmt::format("takes auto, or LOW:HIGH, two numbers of which the first is the smaller; found \"{}\"", text)};
 }
 
+Result<EnvironmentOptions> parse_environment(const std::string& text) {
+  // A file's name may have colons of its own: settings have an = behind the last one.
+  const std::size_t colon = text.rfind(':');
+  const bool has_settings = colon != std::string::npos && text.find('=', colon) != std::string::npos;
+  EnvironmentOptions environment{has_settings ? text.substr(0, colon) : text};
+  if (environment.file.empty()) return Failure{fmt::format("takes FILE[:rotation=DEG,scale=S]; found \"{}\"", text)};
+  if (!has_settings) return environment;
+  for (std::string rest = text.substr(colon + 1); !rest.empty();) {
+    const std::size_t comma = rest.find(',');
+    const auto setting = parse_setting(rest.substr(0, comma));
+    if (!setting) return setting.failure();
+    const auto& [key, value] = *setting;
+    if (key != "rotation" && key != "scale")
+      return Failure{fmt::format("takes FILE[:rotation=DEG,scale=S]; found the setting \"{}\"{}", key,
+                                 montelux::did_you_mean(key, {"rotation", "scale"}))};
+    const auto number = key == "scale" ? parse_number(value, 0, 1e30) : parse_number(value, -1e6, 1e6);
+    if (!number) return Failure{fmt::format("{} {}", key, number.error())};
+    (key == "scale" ? environment.scale : environment.rotation) = *number;
+    rest = comma == std::string::npos ? std::string() : rest.substr(comma + 1);
+  }
+  return environment;
+}
+
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) return Failure{fmt::format("takes key=value; found \"{}\"", text)};
@@ -187,6 +210,10 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
               "with --frames in frame 0, and where they part the scene's whole time, before it is parted; the "
               "brightness stays"},
              into(options.shutter, parse_shutter));
+  add_option(verb,
+             {"--environment", "FILE[:rotation=DEG,scale=S]",
+              "panorama around the scene instead of its own: equirectangular with +y on top, or square and equal-area"},
+             into(options.environment, parse_environment));
   verb.add_flag("--verbose", options.verbose, "list each warning and note of the scene, not one for all of a kind");
   verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
 }

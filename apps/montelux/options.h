@@ -29,6 +29,8 @@ Result<std::string> parse_choice(const std::string& text, const std::vector<std:
 Result<ShutterTimes> parse_shutter(const std::string& text);
 // "LOW:HIGH", two numbers.
 Result<ValueRange> parse_range(const std::string& text);
+// "FILE", or "FILE:rotation=DEGREES,scale=S" with one of these or both.
+Result<EnvironmentOptions> parse_environment(const std::string& text);
 // "key=value".
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text);
 

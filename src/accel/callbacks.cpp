@@ -18,6 +18,17 @@ bool may_be_open_to_shadow_rays(const GeometryRow& row) {
   return row.alpha != 0 || (row.flags & GeometryRow::open_to_some_shadow_rays) != 0;
 }
 
+bool is_asked_of(const GeometryRow& row, RayUse use) {
+  return use == RayUse::shadow ? may_be_open_to_shadow_rays(row) : row.alpha != 0;
+}
+
+// Whether a ray meets the back of a triangle. The kernel's normal is that of the winding.
+bool meets_back(const GeometryRow& row, RTCRayN* rays, RTCHitN* hits, unsigned n, unsigned i) {
+  const Vec3f d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+  const Vec3f ng{RTCHitN_Ng_x(hits, n, i), RTCHitN_Ng_y(hits, n, i), RTCHitN_Ng_z(hits, n, i)};
+  return (dot(d, ng) > 0.0f) != ((row.flags & GeometryRow::flip_normal) != 0);
+}
+
 const GeometryContext& context_of(void* user) { return *static_cast<const GeometryContext*>(user); }
 
 // As Hit counts instances.
@@ -29,8 +40,12 @@ std::uint32_t instance_number(const GeometryContext& context, std::uint32_t kern
 template <RayUse use>
 void reject_open(const RTCFilterFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
+  const GeometryRow& row = context.store->rows[context.row];
+  const bool one_sided = (row.flags & GeometryRow::one_sided) != 0, asks = is_asked_of(row, use);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0) continue;
+    if (one_sided && meets_back(row, a->ray, a->hit, a->N, i)) a->valid[i] = 0;
+    if (!asks || a->valid[i] == 0) continue;
     Hit<float> hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
                    RTCHitN_v(a->hit, a->N, i),      context.row,
                    RTCHitN_primID(a->hit, a->N, i), instance_number(context, a->context->instID[0])};
@@ -175,8 +190,11 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
   }
   rtcSetGeometryUserData(geometry, context);
   if (row.kind == GeometryKind::shape) return geometry;  // their own functions ask
-  if (row.alpha != 0) rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);
-  if (may_be_open_to_shadow_rays(row)) rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
+  const bool one_sided = (row.flags & GeometryRow::one_sided) != 0;
+  if (one_sided || is_asked_of(row, RayUse::path))
+    rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);
+  if (one_sided || is_asked_of(row, RayUse::shadow))
+    rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
   if (row.flags & GeometryRow::invisible_to_shadow_rays) rtcSetGeometryOccludedFilterFunction(geometry, reject_all);
   return geometry;
 }

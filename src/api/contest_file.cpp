@@ -215,6 +215,8 @@ SavedContest saved_from(const Json& j) {
   if (const Json& name = j.at("camera"); !name.is_null()) saved.load.camera = name.get<std::string>();
   if (const Json& name = j.at("animation"); !name.is_null()) saved.load.animation = name.get<std::string>();
   if (const Json& times = j.at("shutter"); !times.is_null()) saved.load.shutter = {times.at(0), times.at(1)};
+  if (const auto e = j.find("environment"); e != j.end())
+    saved.load.environment = EnvironmentOptions{e->at("file"), e->at("rotation"), e->at("scale")};
   saved.fingerprint = fingerprint_from(j.at("scene_fingerprint").get_ref<const std::string&>());
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
@@ -249,6 +251,8 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
   if (c.load.camera) json["camera"] = *c.load.camera;
   if (c.load.animation) json["animation"] = *c.load.animation;
   if (c.load.shutter) json["shutter"] = {c.load.shutter->open, c.load.shutter->close};
+  if (const auto& e = c.load.environment)
+    json["environment"] = {{"file", fs::absolute(e->file).string()}, {"rotation", e->rotation}, {"scale", e->scale}};
   for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
   return save_json(file, std::move(json));
 }
@@ -256,7 +260,7 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
 Result<SavedContest> load_contest(const fs::path& file) {
   return load_saved<Json>(file, saved_format, [](const Json& json) {
     SavedContest saved = saved_from(json);
-    if (scene_fingerprint(saved.scene) != saved.fingerprint)
+    if (scene_fingerprint(saved.scene, saved.load.environment) != saved.fingerprint)
       throw std::invalid_argument(
           fmt::format("the scene {} has changed since, or is no longer there", saved.scene.string()));
     return saved;

@@ -62,11 +62,19 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
 
 // ---- the cache of references ----------------------------------------------------------------------------------------
 
+// With the time of the image, which may change.
+std::string environment_text(const EnvironmentOptions& e) {
+  std::error_code ignored;
+  return fmt::format("{} {} {} {}", e.file, e.rotation, e.scale,
+                     fs::last_write_time(e.file, ignored).time_since_epoch().count());
+}
+
 // What the picture is of, of all that the scene's files may hold.
 std::string view_of(const LoadOptions& load) {
-  return fmt::format(
-      "camera {}, animation {}, shutter {}, lenient {}", load.camera.value_or("-"), load.animation.value_or("-"),
-      load.shutter ? fmt::format("{} to {}", load.shutter->open, load.shutter->close) : "-", load.lenient);
+  return fmt::format("camera {}, animation {}, shutter {}, lenient {}, environment {}", load.camera.value_or("-"),
+                     load.animation.value_or("-"),
+                     load.shutter ? fmt::format("{} to {}", load.shutter->open, load.shutter->close) : "-",
+                     load.lenient, load.environment ? environment_text(*load.environment) : "-");
 }
 
 // Changes with any file beside the scene or below, with the camera, the moment and the size of the picture, and with

@@ -172,8 +172,11 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
   Stopwatch watch;
   LoadResult result;
   try {
-    ReadResult read = read_scene(file.string(), {options.lenient, options.camera, options.animation,
-                                                 [&](const AnimationTime& time) { return window_of(options, time); }});
+    ReadOptions how{options.lenient, options.camera, options.animation,
+                    [&](const AnimationTime& time) { return window_of(options, time); }};
+    if (options.environment)
+      how.environment = {options.environment->file, options.environment->rotation, options.environment->scale};
+    ReadResult read = read_scene(file.string(), how);
     result.diagnostics = std::move(read.diagnostics);
     if (!read.scene) return result;
     if (options.shutter) read.scene->shutter = std::pair{options.shutter->open, options.shutter->close};

@@ -14,6 +14,13 @@
 
 namespace montelux {
 
+// A panorama that takes the place of the scene's own environment: equirectangular (twice as wide as high: column u
+// shows the azimuth atan2(z, x) = 2 pi u, row v the angle acos(y) = pi v) or square and of equal areas.
+struct EnvironmentOptions {
+  std::string file;                // relative to the working directory
+  double rotation = 0, scale = 1;  // degrees about +y, from +x toward +z; factor of the radiance
+};
+
 struct LoadOptions {
   bool lenient = false;  // unknown parameters and what Montelux cannot do yet are warnings, not errors
   bool verbose = false;  // each warning and note by itself, not one for all of a kind
@@ -25,6 +32,7 @@ struct LoadOptions {
   // When the shutter is open, in the scene's unit of time, instead of as the file says; of a sequence as
   // frame_shutter() takes that of the file. The brightness of the picture does not hang on it.
   std::optional<ShutterTimes> shutter{};
+  std::optional<EnvironmentOptions> environment{};
   std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed
 };
 

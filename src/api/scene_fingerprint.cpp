@@ -57,7 +57,7 @@ std::string naming_text(const fs::path& file, const std::string& content) {
 
 }  // namespace
 
-std::uint64_t scene_fingerprint(const fs::path& scene) {
+std::uint64_t scene_fingerprint(const fs::path& scene, const std::optional<EnvironmentOptions>& environment) {
   std::error_code ignored;
   std::vector<fs::path> around;
   for (const auto& entry : fs::recursive_directory_iterator(fs::absolute(scene, ignored).parent_path(),
@@ -81,6 +81,8 @@ std::uint64_t scene_fingerprint(const fs::path& scene) {
         reached.insert(file), open.push_back(file);
     }
   }
+  if (!environment) return all;
+  if (const auto content = read_whole_file(environment->file)) all = checksum(*content, all);
   return all;
 }
 

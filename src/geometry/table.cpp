@@ -28,14 +28,19 @@ std::vector<EntitySpec> meshes() {
   ParameterSpec face_indices = later(array("faceIndices", integer, "numbers of the faces, for ptex"));
   return {
       {"trianglemesh", "triangles",
-       with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
+       with_alpha({array("P", point3, "vertices"),
+                   array("N", normal, "normals, one a vertex"),
                    later(array("S", vector3, "tangents, one a vertex; they follow uv instead")),
                    array("uv", point2, "texture coordinates, one a vertex"),
                    array("indices", integer, "three a triangle; default 0 1 2", 0),
                    array("P1", point3,
                          "vertices at later moments, all of one moment behind all of another, evenly spaced to the end "
                          "of TransformTimes (Montelux alone)"),
-                   array("N1", normal, "the normals at the same moments (Montelux alone)"), face_indices})},
+                   {"onesided",
+                    {ParameterType::boolean},
+                    "not there for rays that meet its back, as in glTF; default false (Montelux alone)"},
+                   array("N1", normal, "the normals at the same moments (Montelux alone)"),
+                   face_indices})},
       {"plymesh", "triangles and quadrilaterals of a PLY file",
        with_alpha({{"filename", {string}, "the file"},
                    array("filename1", string,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/environment.h"
 #include "parameter/diagnostic.h"
 #include "scene/description.h"
 
@@ -35,6 +36,8 @@ struct ReadOptions {
   std::optional<std::string> animation{};
   // Which part of the animation is needed; default: its beginning, as a still picture.
   std::function<AnimationWindow(const AnimationTime&)> window{};
+  // In place of the scene's own.
+  std::optional<Environment> environment{};
 };
 
 // What a lenient reading left out of a scene, or took otherwise than it is stated.

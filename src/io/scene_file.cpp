@@ -24,7 +24,7 @@ bool ends_like(const std::string& path, std::string_view ending) {
 
 std::span<const std::string_view> scene_file_endings() { return endings; }
 
-ReadResult read_scene(const std::string& path, const ReadOptions& options) {
+static ReadResult read_scene_alone(const std::string& path, const ReadOptions& options) {
   if (ends_like(path, ".gltf") || ends_like(path, ".glb")) return read_gltf(path, options);
   if (ends_like(path, ".pbrt") || ends_like(path, ".pbrt.gz")) {
     ReadResult result = read_pbrt(path, options);
@@ -44,6 +44,13 @@ ReadResult read_scene(const std::string& path, const ReadOptions& options) {
                            ending.empty() ? "the name of a scene file must end in " + valid
                                           : "'" + printable(ending) + "' is no ending of a scene file; valid: " + valid,
                            nearest.empty() ? std::string() : "did you mean '" + std::string(nearest) + "'?");
+  return result;
+}
+
+ReadResult read_scene(const std::string& path, const ReadOptions& options) {
+  ReadResult result = read_scene_alone(path, options);
+  if (result.scene && options.environment) replace_environment(*options.environment, *result.scene, result.diagnostics);
+  if (result.diagnostics.has_errors()) result.scene.reset();
   return result;
 }
 

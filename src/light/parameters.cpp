@@ -106,9 +106,17 @@ LightImage equal_area_image(const LightImage& angles) {
 std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read) {
   if (read.light.parameters.string("filename", "").empty())
     return builder.add_uniform_infinite(read.spectrum("L") * (read.scale() * read.factor_for("illuminance", pi)));
-  const bool by_angles = read.light.parameters.string("mapping", "equalarea") == "latlong";
-  auto image = read.image(!by_angles);
+  const std::string mapping = read.light.parameters.string("mapping", "equalarea");
+  auto image = read.image(mapping == "equalarea");
   if (!image) return std::nullopt;
+  const bool by_angles = mapping == "latlong" || (mapping == "auto" && image->width == 2 * image->height);
+  if (mapping == "auto" && !by_angles && image->width != image->height) {
+    read.diagnostics.error(read.light.where,
+                           "an environment is square (equal-area) or twice as wide as high (longitude by latitude); "
+                           "the image has " +
+                               std::to_string(image->width) + " x " + std::to_string(image->height) + " pixels");
+    return std::nullopt;
+  }
   if (by_angles) image = std::make_shared<const LightImage>(equal_area_image(*image));
   float factor = read.scale() * read.factor_for("illuminance", illuminance(*image));
   return builder.add_image_infinite(read.to_world, gray(factor), image);

@@ -71,10 +71,10 @@ std::vector<EntitySpec> lights() {
         {"mapping",
          {string},
          "of the image: a square equal-area one, or longitude by latitude with the light's +z on top, which is sampled "
-         "anew; default equalarea (Montelux alone)",
+         "anew; auto: by the image's shape; default equalarea (Montelux alone)",
          0,
          0,
-         {"equalarea", "latlong"}},
+         {"equalarea", "latlong", "auto"}},
         illuminance("illuminance of the upward plane in lux that the light is scaled to; default: not"),
         scale(),
         group(),

@@ -18,6 +18,9 @@ F encoded(F x, const RowBinding& binding) {
       break;
     case RowEncoding::unit:
       return clamp(x * binding.scale, 0.0f, 1.0f);
+    case RowEncoding::signed_unit:
+      x = 2.0f * x - 1.0f;
+      break;
     case RowEncoding::roughness:
       x = safe_sqrt(x);
       break;
@@ -47,6 +50,12 @@ class RowBuilder {
   void spectrum(int slot, std::string_view name, Rgb otherwise, float scale = 1) {
     bind({std::uint8_t(slot), RowEncoding::unit, true,
           std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), scale});
+  }
+
+  // A spectrum that is no share of light, stated in place; default 0.
+  void coefficients(int slot, std::string_view name) {
+    const auto stated = entity_.parameters.spectrum(name);
+    put(slot, stated ? inputs_.unbounded(*stated) : gray(0.0f));
   }
 
   // A factor that may be above one.
@@ -169,6 +178,30 @@ struct MaterialRow {
   Fill fill;
 };
 
+void metallic_roughness(RowBuilder& b) {
+  using Slots = MetallicRoughnessSlots;
+  b.spectrum(Slots::base, "basecolor", gray(1.0f));
+  b.number(Slots::metallic, "metallic", 1, RowEncoding::unit);
+  b.number(Slots::roughness, "roughness", 1, RowEncoding::unit);
+  b.number(Slots::specular, "specular", 1, RowEncoding::unit);
+  b.unbounded(Slots::specular_color, "specularcolor", gray(1.0f));
+  const float eta = b.index("eta", 1.5f), ratio = (eta - 1) / (eta + 1);
+  b.put(Slots::reflected, ratio * ratio);
+}
+
+void coat_and_grain(RowBuilder& b, const Entity& entity) {
+  using Slots = CoatedMetallicRoughnessSlots;
+  b.number(Slots::coat, "clearcoat", 1, RowEncoding::unit);
+  b.number(Slots::coat_roughness, "clearcoatroughness", 0, RowEncoding::unit);
+  b.number(Slots::anisotropy, "anisotropy", 0, RowEncoding::unit);
+  // As an image holds a direction: 1 and 1/2 are 1 and 0.
+  b.number(Slots::grain_x, "grainx", 1, RowEncoding::signed_unit);
+  b.number(Slots::grain_y, "grainy", 0.5f, RowEncoding::signed_unit);
+  const float angle = entity.parameters.number("anisotropyrotation", 0) * (pi / 180);
+  b.put(Slots::turn_cos, std::cos(angle)), b.put(Slots::turn_sin, std::sin(angle));
+  b.put(Slots::side, entity.parameters.boolean("grainmirrored", false) ? -1.0f : 1.0f);
+}
+
 const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
   static const std::array<MaterialRow, bsdf_kind_count> rows{{
       {"diffuse", BsdfKind::diffuse,
@@ -203,23 +236,26 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
          b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray(0.25f), scale);
        }},
       {"thindielectric", BsdfKind::thin_dielectric,
-       [](RowBuilder& b, const Entity&) { b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f)); }},
+       [](RowBuilder& b, const Entity&) {
+         b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f));
+         b.spectrum(ThinDielectricSlots::tint, "tint", gray(1.0f));
+       }},
       {"phong", BsdfKind::phong,
        [](RowBuilder& b, const Entity&) {
          b.spectrum(PhongSlots::diffuse, "kd", gray(0.5f));
          b.spectrum(PhongSlots::specular, "ks", gray(0.3f));
          b.number(PhongSlots::exponent, "exponent", 32);
        }},
-      {"metallicroughness", BsdfKind::metallic_roughness,
+      {"metallicroughness", BsdfKind::metallic_roughness, [](RowBuilder& b, const Entity&) { metallic_roughness(b); }},
+      {"coatedmetallicroughness", BsdfKind::coated_metallic_roughness,
+       [](RowBuilder& b, const Entity& entity) { metallic_roughness(b), coat_and_grain(b, entity); }},
+      {"tinteddielectric", BsdfKind::tinted_dielectric,
        [](RowBuilder& b, const Entity&) {
-         using Slots = MetallicRoughnessSlots;
-         b.spectrum(Slots::base, "basecolor", gray(1.0f));
-         b.number(Slots::metallic, "metallic", 1, RowEncoding::unit);
-         b.number(Slots::roughness, "roughness", 1, RowEncoding::unit);
-         b.number(Slots::specular, "specular", 1, RowEncoding::unit);
-         b.unbounded(Slots::specular_color, "specularcolor", gray(1.0f));
-         const float eta = b.index("eta", 1.5f), ratio = (eta - 1) / (eta + 1);
-         b.put(Slots::reflected, ratio * ratio);
+         using Slots = TintedDielectricSlots;
+         b.roughness(Slots::alpha_x, "");
+         b.put(Slots::eta, b.index("eta", 1.5f));
+         b.spectrum(Slots::tint, "tint", gray(1.0f));
+         b.coefficients(Slots::absorption, "absorption");
        }},
   }};
   return rows;
@@ -259,7 +295,10 @@ bool uses_parameters(const Material& material) {
     case BsdfKind::conductor:
       return v[ConductorSlots::alpha_x] != v[ConductorSlots::alpha_y];
     case BsdfKind::dielectric:
+    case BsdfKind::tinted_dielectric:
       return v[DielectricSlots::alpha_x] != v[DielectricSlots::alpha_y];
+    case BsdfKind::coated_metallic_roughness:
+      return v[CoatedMetallicRoughnessSlots::anisotropy] != 0;
     case BsdfKind::coated_diffuse:
       return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y];
     case BsdfKind::coated_conductor:

@@ -16,6 +16,7 @@ namespace montelux {
 enum class RowEncoding : std::uint8_t {
   plain,
   unit,             // scaled, then clamped to [0, 1]
+  signed_unit,      // 2 x - 1, as images hold directions
   roughness,        // alpha = sqrt(roughness)
   reflectance_to_k  // of a metal with eta = 1: k = 2 sqrt(r / (1 - r))
 };

@@ -6,6 +6,7 @@
 
 #include "material/coated_conductor.h"
 #include "material/coated_diffuse.h"
+#include "material/coated_metallic_roughness.h"
 #include "material/conductor.h"
 #include "material/dielectric.h"
 #include "material/diffuse.h"
@@ -13,6 +14,7 @@
 #include "material/metallic_roughness.h"
 #include "material/phong.h"
 #include "material/thin_dielectric.h"
+#include "material/tinted_dielectric.h"
 
 namespace montelux {
 
@@ -26,14 +28,17 @@ enum class BsdfKind : std::uint32_t {
   diffuse_transmission,
   thin_dielectric,
   phong,
-  metallic_roughness
+  metallic_roughness,
+  coated_metallic_roughness,
+  tinted_dielectric
 };
 
 template <class F>
-using BsdfModels = std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>,
-                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>, MetallicRoughness<F>>;
+using BsdfModels =
+    std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>, DiffuseTransmission<F>,
+               ThinDielectric<F>, Phong<F>, MetallicRoughness<F>, CoatedMetallicRoughness<F>, TintedDielectric<F>>;
 inline constexpr std::size_t bsdf_kind_count = std::tuple_size_v<BsdfModels<float>>;
-static_assert(bsdf_kind_count == std::size_t(BsdfKind::metallic_roughness) + 1);
+static_assert(bsdf_kind_count == std::size_t(BsdfKind::tinted_dielectric) + 1);
 
 template <BsdfKind kind, class F>
 using BsdfOf = std::tuple_element_t<std::size_t(kind), BsdfModels<F>>;
@@ -66,6 +71,14 @@ struct BsdfLanes {
   const BsdfSlots<F>* slots;  // idle lanes may hold anything
   Mask<F> on;                 // the lanes to serve; results are zero and invalid in the others
 };
+
+// Tells what absorbs how far the ray came that arrives at the surface.
+template <class F>
+MONTELUX_INLINE void set_way(Uint<F> kind, F distance, BsdfSlots<F>& slots) {
+  const Mask<F> absorbs = kind == Uint<F>(std::uint32_t(BsdfKind::tinted_dielectric));
+  F& way = slots.v[TintedDielectricSlots::way];
+  if (any(absorbs)) way = select(absorbs, distance, way);
+}
 
 // The questions of one vertex: how much comes from wi_light, where `light_wanted`, and where does the path go on?
 template <class F>

@@ -24,17 +24,22 @@ class MetallicRoughness {
   static constexpr std::string_view name = "metallicroughness";
   static constexpr bool has_reflection = true, has_transmission = false;
 
-  MONTELUX_INLINE explicit MetallicRoughness(const BsdfRows<F>& rows) {
+  MetallicRoughness() = default;
+  MONTELUX_INLINE explicit MetallicRoughness(const BsdfRows<F>& rows)
+      : MetallicRoughness(rows, square(rows.number(MetallicRoughnessSlots::roughness))) {}
+  MONTELUX_INLINE MetallicRoughness(const BsdfRows<F>& rows, F alpha)
+      : MetallicRoughness(rows, GgxFacets<F>(alpha, alpha)) {}
+  // With facets of another shape.
+  MONTELUX_INLINE MetallicRoughness(const BsdfRows<F>& rows, const GgxFacets<F>& facets) : facets_(facets) {
     using S = MetallicRoughnessSlots;
     const Spectrum<F> base = rows.spectrum(S::base), color = rows.spectrum(S::specular_color);
     const F metallic = rows.number(S::metallic), specular = rows.number(S::specular);
-    const F reflected = rows.number(S::reflected), alpha = rows.number(S::roughness) * rows.number(S::roughness);
+    const F reflected = rows.number(S::reflected);
     f0_ = per_component(
         [&](F b, F c) { return (F(1.0f) - metallic) * (min(reflected * c, F(1.0f)) * specular) + metallic * b; }, base,
         color);
     f90_ = specular * (F(1.0f) - metallic) + metallic;
     diffuse_ = base * (F(1.0f) - metallic);
-    facets_ = GgxFacets<F>(alpha, alpha);
     is_metal_ = max_component(diffuse_) <= F(0.0f);
     is_matt_ = f90_ <= F(0.0f);
   }

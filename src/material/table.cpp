@@ -50,6 +50,15 @@ List layer() {
           {"nsamples", {integer}, "random walks an evaluation; default 1", 1, 100000}};
 }
 
+List metallic_roughness() {
+  return {{"basecolor", spectrum_map, "albedo of the diffuse part, and colour of the metal; default 1", 0, 1},
+          {"metallic", number_map, "share of the metal; default 1", 0, 1},
+          {"roughness", number_map, "alpha of the facets is its square; default 1", 0, 1},
+          {"specular", number_map, "strength of the dielectric's reflection; default 1", 0, 1},
+          {"specularcolor", spectrum_map, "its colour at normal incidence; default 1", 0, most},
+          {"eta", index, "index of refraction of the dielectric; default 1.5", 1, most}};
+}
+
 List metal(std::string_view eta, std::string_view k) {
   return {{eta, spectrum_map, "index of refraction; default metal-Cu-eta", 0, most},
           {k, spectrum_map, "absorption coefficient; default metal-Cu-k", 0, most},
@@ -84,12 +93,18 @@ std::vector<EntitySpec> opaque_materials() {
              common()})},
       {"metallicroughness",
        "the material of glTF 2.0: a dielectric coat over a diffuse base, or a metal (Montelux alone)",
-       join({{{"basecolor", spectrum_map, "albedo of the diffuse part, and colour of the metal; default 1", 0, 1},
-              {"metallic", number_map, "share of the metal; default 1", 0, 1},
-              {"roughness", number_map, "alpha of the facets is its square; default 1", 0, 1},
-              {"specular", number_map, "strength of the dielectric's reflection; default 1", 0, 1},
-              {"specularcolor", spectrum_map, "its colour at normal incidence; default 1", 0, most},
-              {"eta", index, "index of refraction of the dielectric; default 1.5", 1, most}},
+       join({metallic_roughness(), common()})},
+      {"coatedmetallicroughness",
+       "metallicroughness with a grain and under a clear coat of index 1.5, as extensions of glTF have it (Montelux "
+       "alone)",
+       join({metallic_roughness(),
+             {{"clearcoat", number_map, "share of the coat; default 1", 0, 1},
+              {"clearcoatroughness", number_map, "alpha of its facets is the square; default 0", 0, 1},
+              {"anisotropy", number_map, "strength of the grain; default 0", 0, 1},
+              {"anisotropyrotation", {number}, "degrees by which the grain is turned from u toward v; default 0"},
+              {"grainx", number_map, "the grain before that, u component, from 0 (-1) to 1 (1); default 1", 0, 1},
+              {"grainy", number_map, "the same along v; default 0.5, that is 0", 0, 1},
+              {"grainmirrored", {boolean}, "v is against n x u; default false"}},
              common()})},
       {"mix",
        "a choice between two materials, point by point",
@@ -106,8 +121,17 @@ std::vector<EntitySpec> transparent_materials() {
              roughness("roughness", "uroughness", "vroughness"),
              remap(),
              common()})},
+      {"tinteddielectric", "glass that tints what goes through it and absorbs within (Montelux alone)",
+       join({{{"eta", index, "index of refraction; default 1.5", 1e-3, most},
+              {"tint", spectrum_map, "factor of what goes through the surface; default 1", 0, 1},
+              {"absorption", {spectrum}, "absorbed within, a unit of length; default 0", 0, most}},
+             roughness("roughness", "uroughness", "vroughness"),
+             remap(),
+             common()})},
       {"thindielectric", "a thin smooth pane that does not bend light",
-       join({{{"eta", index, "index of refraction; default 1.5", 1e-3, most}}, common()})},
+       join({{{"eta", index, "index of refraction; default 1.5", 1e-3, most},
+              {"tint", spectrum_map, "factor of what goes through; default 1 (Montelux alone)", 0, 1}},
+             common()})},
       {"diffusetransmission", "Lambertian reflection and transmission",
        join({{{"reflectance", spectrum_map, "albedo of reflection; default 0.25", 0, 1},
               {"transmittance", spectrum_map, "albedo of transmission; default 0.25", 0, 1},

@@ -215,6 +215,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   row.object = next_object_number_++;
   if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
   if (partly_interface) row.flags |= GeometryRow::open_to_some_shadow_rays;
+  if (shape.entity.parameters.boolean("onesided", false)) row.flags |= GeometryRow::one_sided;
   const std::string& type = shape.entity.type;
   if (is_mesh(type) && shape.mesh) {
     if (type == "loopsubdiv")
@@ -268,6 +269,8 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow ro
   grow(bounds_of(world.positions));
   if (emission)
     for (std::uint32_t i = 0; i < count; ++i) {
+      // What shines must be seen from the side to which it shines.
+      if (faces_backward(world, i, flip) != flip) row.flags &= ~GeometryRow::one_sided;
       TriangleShape triangle;
       Vec3f* p[3] = {&triangle.p0, &triangle.p1, &triangle.p2};
       Vec2f* uv[3] = {&triangle.uv0, &triangle.uv1, &triangle.uv2};

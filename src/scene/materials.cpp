@@ -19,13 +19,17 @@ std::uint32_t slots_of(BsdfKind kind) {
     case BsdfKind::coated_diffuse:
       return CoatedDiffuseSlots::internal + 1;
     case BsdfKind::thin_dielectric:
-      return ThinDielectricSlots::eta + 1;
+      return ThinDielectricSlots::tint + spectrum;
     case BsdfKind::diffuse_transmission:
       return DiffuseTransmissionSlots::transmittance + spectrum;
     case BsdfKind::phong:
       return PhongSlots::exponent + 1;
     case BsdfKind::metallic_roughness:
       return MetallicRoughnessSlots::reflected + 1;
+    case BsdfKind::coated_metallic_roughness:
+      return CoatedMetallicRoughnessSlots::side + 1;
+    case BsdfKind::tinted_dielectric:
+      return TintedDielectricSlots::way + 1;
     case BsdfKind::coated_conductor:
       break;
   }
@@ -122,6 +126,7 @@ SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3
       material, on & ((trait & U(std::uint32_t(needs_look_up))) != U(0u)),
       [&](std::uint32_t number, Mask<F> same) { look_up<F>(materials_[number], at.point, points, same, s); });
 
+  set_way<F>(s.kind, at.distance, s.slots);
   s.is_delta = is_delta<F>(s.lanes(on));
   const Mask<F> both_sides = on & (gather(two_sided_.data(), s.kind) != U(0u));
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};

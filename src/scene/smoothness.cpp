@@ -20,6 +20,7 @@ bool is_smooth(const Material& material) {
     case BsdfKind::conductor:
       return are_smooth(ConductorSlots::alpha_x, ConductorSlots::alpha_y, 1);
     case BsdfKind::dielectric:
+    case BsdfKind::tinted_dielectric:
       return material.row.v[DielectricSlots::eta] == 1 ||
              are_smooth(DielectricSlots::alpha_x, DielectricSlots::alpha_y, 1);
     case BsdfKind::coated_diffuse:
@@ -27,6 +28,9 @@ bool is_smooth(const Material& material) {
       return are_smooth(LayeredSlots::alpha_x, LayeredSlots::alpha_y, 1);
     case BsdfKind::metallic_roughness:
       return are_smooth(MetallicRoughnessSlots::roughness, MetallicRoughnessSlots::roughness, 2);
+    case BsdfKind::coated_metallic_roughness:
+      return are_smooth(MetallicRoughnessSlots::roughness, MetallicRoughnessSlots::roughness, 2) ||
+             are_smooth(CoatedMetallicRoughnessSlots::coat_roughness, CoatedMetallicRoughnessSlots::coat_roughness, 2);
     case BsdfKind::thin_dielectric:
       return true;
     case BsdfKind::diffuse:
@@ -39,7 +43,9 @@ bool is_smooth(const Material& material) {
 
 bool is_partly_smooth(const Material& material) {
   if (!is_smooth(material)) return false;
-  if (material.kind == BsdfKind::conductor || material.kind == BsdfKind::dielectric) return false;
+  if (material.kind == BsdfKind::conductor || material.kind == BsdfKind::dielectric ||
+      material.kind == BsdfKind::tinted_dielectric)
+    return false;
   return !material.bindings.empty() || !is_delta<float>({std::uint32_t(material.kind), &material.row, true});
 }
 

@@ -256,6 +256,7 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
     set_lane(s.point, k, other_point(store, one, to_object_space(store, one.instance, world)));
   });
   place_instances<F>(store, hit, time, s.point, on);
+  s.distance = hit.t;
   s.material = gather(words + RowWord::material, row);
   U first_light = gather(words + RowWord::first_light, row);
   s.light = select(on & (first_light != U(0u)), first_light + hit.primitive, U(0u));

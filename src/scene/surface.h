@@ -8,6 +8,7 @@ namespace montelux {
 template <class F>
 struct SurfaceHit {
   SurfacePoint<F> point;
+  F distance;  // that the ray has come, of a unit direction
   Uint<F> material;
   Uint<F> light;   // 1 + number of the light; 0: emits nothing
   Uint<F> object;  // number of the object, from 1

@@ -100,6 +100,17 @@ class Options(ProgramTest):
         self.assertIn("many.pbrt:2:1: warning: 60 meshes have faces without area, 120 in all", short)
         self.assertEqual(self.run_program("info", "many.pbrt", "--verbose").stderr.count("2 faces have no area"), 60)
 
+    def test_an_environment_that_cannot_be_used_is_refused(self):
+        scene = self.folder / "a.pbrt"
+        scene.write_text('WorldBegin Shape "sphere"\n')
+        self.assert_refused(["info", scene, "--environment", "none.exr"], "none.exr: error: there is no file")
+        self.assert_refused(["info", scene, "--environment", "a.exr:rotaton=3"], 'did you mean "rotation"')
+        self.assert_refused(["info", scene, "--environment", "a.exr:scale=-3"], "scale takes a number from 0")
+        (self.folder / "sky:1.pfm").write_bytes(b"PF\n2 1\n-1.0\n" + bytes(24))
+        lights = json.loads(self.run_program("info", scene, "--json", "--environment",
+                                             "sky:1.pfm:rotation=-30,scale=2").stdout)["lights"]
+        self.assertEqual(sum(lights.values()), 1)
+
     def test_volpath_of_a_scene_without_media_is_no_news(self):
         (self.folder / "a.pbrt").write_text('Integrator "volpath"\nWorldBegin\nLightSource "infinite"\n')
         self.assertEqual(self.run_program("info", "a.pbrt").stderr, "")

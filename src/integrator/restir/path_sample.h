@@ -27,9 +27,12 @@ struct JoinedSurface {
   Frame<F> frame;
   RandomStream<F> random;
 
-  BsdfValue<F> scattered(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
+  // `distance`: from which wo comes.
+  BsdfValue<F> scattered(const Vec3<F>& wo, F distance, const Vec3<F>& wi, Mask<F> on) const {
+    BsdfSlots<F> here = slots;
+    set_way<F>(kind, distance, here);
     const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
-    return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, frame.to_local(wo), frame.to_local(wi), context);
+    return evaluate<F>(BsdfLanes<F>{kind, &here, on}, frame.to_local(wo), frame.to_local(wi), context);
   }
 };
 

@@ -101,7 +101,7 @@ class PathReplay {
     const Vec3<F> wi = way / select(good, distance, F(1.0f));
     const BsdfValue<F> here = vertex_.scattered(wi, good);
     good = good & (here.density.value > F(0.0f)) & !may_join(here.density.value);
-    const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
+    const BsdfValue<F> there = at.scattered(-wi, distance, sample_.wi, good);
     const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density.value, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density.value);
     const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));

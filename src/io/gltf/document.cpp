@@ -49,10 +49,10 @@ std::optional<std::string> from_base64(std::string_view text) {
 }
 
 // Extensions that the reader knows, in part or in whole.
-constexpr std::array<std::string_view, 9> known_extensions{
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_materials_volume",   "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::array<std::string_view, 11> known_extensions{
+    "KHR_lights_punctual",  "KHR_materials_anisotropy", "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_specular",   "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_volume", "KHR_mesh_quantization",    "KHR_texture_transform"};
 
 }  // namespace
 

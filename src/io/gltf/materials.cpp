@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "io/gltf/parameters.h"
 
@@ -24,6 +25,8 @@ std::vector<double> shares(const Element& element, std::vector<double> otherwise
     }
   return *list;
 }
+
+bool is_double_sided(const Element& material) { return material["doubleSided"].boolean().value_or(false); }
 
 double share(const Element& element, double otherwise) { return element.number(0, 1).value_or(otherwise); }
 
@@ -89,6 +92,43 @@ void MaterialReader::put_specular(Entity& e, const Element& extensions) {
   put_spectrum(e, "specularcolor", color, TexelMeaning::color);
 }
 
+// KHR_materials_clearcoat and KHR_materials_anisotropy.
+void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
+  const Element coat = extensions["KHR_materials_clearcoat"], grain = extensions["KHR_materials_anisotropy"];
+  const Factor amount{gray(float(share(coat["clearcoatFactor"], 0))), textures_.use(coat["clearcoatTexture"])};
+  const Factor strength{gray(float(share(grain["anisotropyStrength"], 0))), textures_.use(grain["anisotropyTexture"])};
+  const Factor roughness{gray(float(share(coat["clearcoatRoughnessFactor"], 0))),
+                         textures_.use(coat["clearcoatRoughnessTexture"])};
+  if (is_black(amount.value) && is_black(strength.value)) return;
+  for (const Factor* factor : {&amount, &roughness, &strength}) note_uv_set(factor->texture, coat ? coat : grain);
+  e.type = "coatedmetallicroughness";
+  put_channel(e, "clearcoat", amount, "r");
+  put_channel(e, "clearcoatroughness", roughness, "g");
+  if (coat["clearcoatNormalTexture"])
+    coat["clearcoatNormalTexture"].warning("the normals of a clear coat are not read: the coat lies as the base does");
+  if (is_black(strength.value)) return;
+  put_channel(e, "anisotropy", strength, "b");
+  put_number(e, "anisotropyrotation", grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
+  if (!strength.texture) return;
+  const Factor direction{gray(1.0f), strength.texture};
+  put_channel(e, "grainx", direction, "r");
+  put_channel(e, "grainy", direction, "g");
+}
+
+// KHR_materials_volume: attenuationColor is left of white light after attenuationDistance.
+void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
+  const std::vector<double> left = shares(volume["attenuationColor"], {1, 1, 1});
+  const Element stated = volume["attenuationDistance"];
+  const auto distance = stated.number();
+  if (!distance) return;
+  if (!(*distance > 0)) return stated.error("must be above 0");
+  Rgb absorption;
+  // What is black is so after a distance, not at once.
+  for (int i = 0; i < spectrum_size; ++i)
+    absorption.c[i] = float(-std::log(std::max(left[std::size_t(i)], 1e-6)) / *distance);
+  if (!is_black(absorption)) put_rgb(glass, "absorption", absorption);
+}
+
 bool MaterialReader::put_normal_map(Entity& e, const Element& material) {
   const Element info = material["normalTexture"];
   const auto use = textures_.use(info);
@@ -119,7 +159,7 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   const bool is_solid = volume && volume["thicknessFactor"].number().value_or(0) > 0;
   const double roughness = share(model["roughnessFactor"], 1);
   const float eta = base.parameters.number("eta", 1.5f);
-  Entity glass{is_solid ? "dielectric" : "thindielectric", {}, material.where()};
+  Entity glass{is_solid ? "tinteddielectric" : "thindielectric", {}, material.where()};
   put_number(glass, "eta", double(eta));
   std::string lost;
   const auto lose = [&](bool is_lost, const char* what) {
@@ -129,14 +169,14 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
     put_number(glass, "roughness", roughness * roughness);
     put_boolean(glass, "remaproughness", false);
     lose(bool(model["metallicRoughnessTexture"]), "the texture of its roughness");
-    const auto tint = volume["attenuationColor"].numbers(3).value_or(std::vector<double>{1, 1, 1});
-    lose(volume["attenuationDistance"] && tint != std::vector<double>{1, 1, 1}, "absorption in the volume");
+    put_absorption(glass, volume);
   } else {
     lose(roughness > 0.05, "its roughness");
   }
-  const Factor base_factor = base_color(material);
-  lose(base_factor.texture || base_factor.value[0] < 1 || base_factor.value[1] < 1 || base_factor.value[2] < 1,
-       "the base colour of what goes through");
+  const Factor tint = base_color(material);
+  if (tint.texture || tint.value[0] < 1 || tint.value[1] < 1 || tint.value[2] < 1)
+    put_spectrum(glass, "tint", tint, TexelMeaning::color);
+  lose(base.type == "coatedmetallicroughness", "its clear coat and its grain");
   // Once, however many materials lose the same.
   if (!lost.empty() && lost_.insert(lost).second)
     transmission.warning("glass that transmits is shown without " + lost + ", here and in all materials like this one");
@@ -175,7 +215,7 @@ std::optional<Entity> MaterialReader::emission(const Element& material) {
   const double scale = strength.number(0, 1e30).value_or(1);
   note_uv_set(factor.texture, material);
   std::optional<Entity> light = emission_of(factor, scale, material);
-  if (light && material["doubleSided"].boolean().value_or(false)) put_boolean(*light, "twosided", true);
+  if (light && is_double_sided(material)) put_boolean(*light, "twosided", true);
   return light;
 }
 
@@ -195,14 +235,15 @@ std::optional<Parameter> MaterialReader::alpha(const Element& material) {
   return e.parameters.all().front();
 }
 
-// KHR_materials_unlit: a black surface that shines in its base colour, on both sides.
+// KHR_materials_unlit: a black surface that shines in its base colour, on the sides that are shown.
 MaterialUse MaterialReader::read_unlit(const Element& material) {
   MaterialUse use;
   Entity black{"diffuse", {}, material.where()};
   put_rgb(black, "reflectance", gray(0.0f));
   use.id = add(std::move(black), material["name"].text().value_or(""));
   use.area_light = emission_of(base_color(material), 1, material);
-  if (use.area_light) put_boolean(*use.area_light, "twosided", true);
+  use.one_sided = !is_double_sided(material);
+  if (use.area_light && !use.one_sided) put_boolean(*use.area_light, "twosided", true);
   use.repeats_emission = repeats(base_color(material).texture);
   use.alpha = alpha(material);
   return use;
@@ -225,8 +266,10 @@ MaterialUse MaterialReader::read(const Element& material) {
 
   Entity e{"metallicroughness", {}, material.where()};
   put_specular(e, extensions);
+  put_coat_and_grain(e, extensions);
+  const bool is_coated = e.type == "coatedmetallicroughness";
   // Without a specular part it is Lambert's law.
-  const bool is_diffuse = is_black(metallic.value) && e.parameters.number("specular", 1) == 0;
+  const bool is_diffuse = !is_coated && is_black(metallic.value) && e.parameters.number("specular", 1) == 0;
   if (is_diffuse) e = Entity{"diffuse", {}, material.where()};
   put_spectrum(e, is_diffuse ? "reflectance" : "basecolor", base, TexelMeaning::color);
   if (!is_diffuse) {
@@ -236,15 +279,19 @@ MaterialUse MaterialReader::read(const Element& material) {
   const bool has_normal_map = put_normal_map(e, material);
   MaterialUse use;
   use.id = transmitting(e, material, name);
-  if (has_normal_map && !extensions["KHR_materials_transmission"]) {
+  const bool has_grain = e.parameters.find("anisotropyrotation") != nullptr;
+  if ((has_normal_map || has_grain) && !extensions["KHR_materials_transmission"]) {
     const double scale = material["normalTexture"]["scale"].number().value_or(1);
     Entity mirrored = e;
-    put_numbers(mirrored, "normalscale", {float(scale), float(-scale)});
+    if (has_normal_map) put_numbers(mirrored, "normalscale", {float(scale), float(-scale)});
+    if (has_grain) put_boolean(mirrored, "grainmirrored", true);
     use.mirrored = add(std::move(mirrored), name.empty() ? "mirrored" : name + " mirrored");
   }
   use.area_light = emission(material);
   use.repeats_emission = use.area_light && repeats(textures_.use(material["emissiveTexture"]));
   use.alpha = alpha(material);
+  // Glass has an inside, which is seen from there.
+  use.one_sided = !is_double_sided(material) && scene_.materials[std::size_t(use.id)].entity.type == e.type;
   use.uv_set = uv_set_.value_or(0);
   return use;
 }

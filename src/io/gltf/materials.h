@@ -12,6 +12,7 @@ struct MaterialUse {
   std::optional<Entity> area_light;
   bool repeats_emission = false;   // its texture goes on beyond its edges, which that of an area light does not
   std::optional<Parameter> alpha;  // of the shapes
+  bool one_sided = false;          // backs are not shown
   int uv_set = 0;
 };
 
@@ -34,6 +35,9 @@ class MaterialReader {
   void put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning);
   void put_channel(Entity& e, const char* name, const Factor& factor, const char* channel);
   void put_specular(Entity& e, const Element& extensions);
+  // Where there are any; then the material is a coated one.
+  void put_coat_and_grain(Entity& e, const Element& extensions);
+  void put_absorption(Entity& glass, const Element& volume);
   bool put_normal_map(Entity& e, const Element& material);
   MaterialDescId add(Entity e, const std::string& name);
   MaterialDescId transmitting(const Entity& base, const Element& material, const std::string& name);

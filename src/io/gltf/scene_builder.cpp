@@ -121,6 +121,7 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   ShapeDesc shape;
   shape.entity = {"trianglemesh", {}, primitive.where.where()};
   if (material.alpha) shape.entity.parameters.add(*material.alpha);
+  if (material.one_sided) put_boolean(shape.entity, "onesided", true);
   shape.material = turned ? material.mirrored.value_or(material.id) : material.id;
   shape.area_light = material.area_light;
   const auto& uvs = primitive.mesh->uvs;
@@ -184,7 +185,9 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   drop_degenerate_faces(*mesh);
   if (mesh->triangles.empty()) return;
   const Transform placed(moments_.world.front()[node], Matrix4{});
-  ShapeDesc shape = shape_of(primitive, !skin && placed.swaps_handedness());
+  const bool mirrored = !skin && placed.swaps_handedness();
+  ShapeDesc shape = shape_of(primitive, mirrored);
+  shape.reverse_orientation = mirrored;  // the winding is that of the mesh's own space
   shape.mesh = std::move(mesh);
   scene_.shapes.push_back(std::move(shape));
 }
@@ -234,6 +237,7 @@ void SceneBuilder::place_lights() {
     if (std::optional<LightDesc> light = light_of(document_, *node.light, moments_.world.front()[i]))
       scene_.lights.push_back(*std::move(light));
   }
+  if (options_.environment) return;
   if (std::optional<LightDesc> sky = environment_of(document_, tree_.scene)) scene_.lights.push_back(*std::move(sky));
   const bool shines = std::any_of(scene_.shapes.begin(), scene_.shapes.end(),
                                   [](const ShapeDesc& shape) { return shape.area_light.has_value(); });

@@ -35,7 +35,8 @@ const std::vector<std::string> direct_scenes{
     "rectangle-light.pbrt",    "rectangle-light-near.pbrt", "rectangle-light-tilted.pbrt", "sky-two-tone.pbrt",
     "rough-metal-45.pbrt",     "sky-two-tone-tilted.pbrt",  "sphere-light.pbrt",           "sphere-light-near.pbrt",
     "spot-light-core.pbrt",    "triangle-light.pbrt",       "triangle-light-far.pbrt",     "translucent-sheet.pbrt",
-    "mixed-sheet-shadow.pbrt", "mixed-sheet-in-place.pbrt", "half-open-ball.pbrt",         "sphere-light-inside.pbrt"};
+    "mixed-sheet-shadow.pbrt", "mixed-sheet-in-place.pbrt", "half-open-ball.pbrt",         "sphere-light-inside.pbrt",
+    "one-sided-sheets.pbrt"};
 const std::vector<std::string> direct_ways{
     "direct:strategy=light-area",
     "direct:strategy=light-solid-angle",

@@ -68,6 +68,32 @@ struct CasesOf<BsdfKind::metallic_roughness> {
   }
 };
 
+// A grain of this strength along the turned x axis under a share of a coat.
+inline BsdfCase coated_metallic_case(std::string label, float metallic, float roughness, float anisotropy, float coat,
+                                     float coat_roughness) {
+  BsdfCase c = metallic_roughness_case(std::move(label), {0.9f, 0.5f, 0.2f}, metallic, roughness);
+  put(c.row, CoatedMetallicRoughnessSlots::anisotropy, {anisotropy, 0.6f, -0.3f, 0.8f, 0.6f, coat, coat_roughness, -1});
+  return c;
+}
+template <>
+struct CasesOf<BsdfKind::coated_metallic_roughness> {
+  static std::vector<BsdfCase> all() {
+    BsdfCase white = coated_metallic_case("white under a rough coat", 0, 0.8f, 0, 1, 1);
+    put(white.row, MetallicRoughnessSlots::base, {1, 1, 1});
+    BsdfCase mirror = coated_metallic_case("white mirror under a smooth coat", 1, 0, 0, 1, 0);
+    put(mirror.row, MetallicRoughnessSlots::base, {1, 1, 1});
+    BsdfCase turned = coated_metallic_case("a grain of no direction", 1, 0.5f, 0.7f, 0.2f, 0.7f);
+    put(turned.row, CoatedMetallicRoughnessSlots::grain_x, {0, 0});
+    return {coated_metallic_case("paint under a smooth coat", 0, 0.6f, 0, 1, 0),
+            coated_metallic_case("metal under a rough coat", 1, 0.5f, 0, 0.8f, 0.5f),
+            coated_metallic_case("metal with a grain", 1, 0.4f, 0.9f, 0, 0),
+            coated_metallic_case("half a metal with a grain under half a coat", 0.5f, 0.5f, 0.5f, 0.5f, 0.4f),
+            turned,
+            white,
+            mirror};
+  }
+};
+
 inline BsdfCase conductor_case(std::string label, float alpha_x, float alpha_y, int first = 0) {
   BsdfCase c{std::move(label), {}};
   put(c.row, first + ConductorSlots::alpha_x, {alpha_x, alpha_y, 0.2f, 0.92f, 1.1f, 3.9f, 2.45f, 2.14f});
@@ -95,12 +121,28 @@ struct CasesOf<BsdfKind::dielectric> {
   }
 };
 
+// What absorbs on its way to the surface does so whatever comes then, and is tested on paths.
+template <>
+struct CasesOf<BsdfKind::tinted_dielectric> {
+  static std::vector<BsdfCase> all() {
+    std::vector<BsdfCase> cases{dielectric_case("rough", 0.5f, 0.5f, 1.5f),
+                                dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f),
+                                dielectric_case("smooth", 0, 0, 1.5f)};
+    for (BsdfCase& c : cases) {
+      put(c.row, TintedDielectricSlots::tint, {0.3f, 0.9f, 0.6f, 1, 2, 3});
+      c.lossless = false;
+    }
+    return cases;
+  }
+};
+
 template <>
 struct CasesOf<BsdfKind::thin_dielectric> {
   static std::vector<BsdfCase> all() {
-    BsdfCase c{"pane", {}, true};
-    put(c.row, ThinDielectricSlots::eta, {1.5f});
-    return {c};
+    BsdfCase pane{"pane", {}, true}, green{"green pane", {}};
+    put(pane.row, ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
+    put(green.row, ThinDielectricSlots::eta, {1.5f, 0.2f, 0.8f, 0.4f});
+    return {pane, green};
   }
 };
 

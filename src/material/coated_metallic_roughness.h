@@ -1,0 +1,94 @@
+// The metallic-roughness model of glTF 2.0 with KHR_materials_clearcoat and KHR_materials_anisotropy.
+#pragma once
+#include "material/metallic_roughness.h"
+
+namespace montelux {
+
+// The first as those of MetallicRoughness. (grain_x, grain_y): the direction of the grain in the tangent plane, of any
+// length above zero, turned by the angle whose cosine and sine are `turn_cos` and `turn_sin`; `side` is -1 where the
+// plane lies as in a mirror, else 1.
+struct CoatedMetallicRoughnessSlots {
+  static constexpr int anisotropy = 10, grain_x = 11, grain_y = 12, turn_cos = 13, turn_sin = 14, coat = 15,
+                       coat_roughness = 16, side = 17;
+};
+
+// f = (1 - c F(cos o)) (1 - c F(cos i)) f_base + c D V F(wo.h): the share c of a coat of GGX facets of index 1.5, with
+// alpha the square of its roughness and Schlick's F from 0.04. KHR_materials_clearcoat has the first factor alone,
+// which is not reciprocal: light passes the coat on its way in and on its way out. The base's facets have alpha along
+// the grain of mix(alpha, 1, anisotropy^2) and alpha across it (KHR_materials_anisotropy).
+template <class F>
+class CoatedMetallicRoughness {
+ public:
+  static constexpr std::string_view name = "coatedmetallicroughness";
+  static constexpr bool has_reflection = true, has_transmission = false;
+
+  MONTELUX_INLINE explicit CoatedMetallicRoughness(const BsdfRows<F>& rows)
+      : coat_(rows.number(S::coat)),
+        facets_(square(rows.number(S::coat_roughness)), square(rows.number(S::coat_roughness))) {
+    const F roughness = rows.number(MetallicRoughnessSlots::roughness), alpha = roughness * roughness;
+    const F strength = rows.number(S::anisotropy);
+    const F x = rows.number(S::grain_x), y = rows.number(S::grain_y), c = rows.number(S::turn_cos),
+            s = rows.number(S::turn_sin), length = sqrt(x * x + y * y);
+    const Mask<F> points = length > F(1e-6f);
+    const F scale = F(1.0f) / select(points, length, F(1.0f));
+    cos_ = select(points, (c * x - s * y) * scale, c),
+    sin_ = select(points, (s * x + c * y) * scale, s) * rows.number(S::side);
+    base_ = MetallicRoughness<F>(rows, GgxFacets<F>(alpha + (F(1.0f) - alpha) * strength * strength, alpha));
+  }
+
+  MONTELUX_INLINE Mask<F> is_delta() const { return base_.is_delta() & (facets_.is_smooth() | (coat_ <= F(0.0f))); }
+
+  MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+    const BsdfValue<F> below = base_.evaluate(along_grain(wo), along_grain(wi), context);
+    const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)};
+    const Mask<F> same = same_side(wo, wi);
+    const Vec3<F> m = face_forward(normalize(select(same, wo + wi, up)), up);
+    const F o_m = abs_dot(wo, m), p = coat_share(wo);
+    const F seen = select(facets_.is_smooth() | !same, F(0.0f), facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f)));
+    const F coat = coat_ * fresnel(o_m) * seen * facets_.unshadowed(wo, wi);
+    return {below.f_cos * (passed(wo) * passed(wi)) + gray(coat), {p * seen + (F(1.0f) - p) * below.density.value}};
+  }
+
+  MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+    const F p = coat_share(wo);
+    const Mask<F> from_coat = u < p, from_base = !from_coat, smooth = facets_.is_smooth(), mirrors = from_coat & smooth;
+    // The part of u that is left is uniform again.
+    const F rest = clamp((u - p) / max(F(1.0f) - p, F(1e-10f)), F(0.0f), F(one_minus_epsilon));
+    BsdfSample<F> below = base_.sample(along_grain(wo), rest, u2, context);
+    Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
+    if (!all(smooth)) m = select(smooth, m, facets_.sample(wo, u2));
+    const Vec3<F> wi = select(from_coat, reflect(wo, m), off_grain(below.wi));
+    const Mask<F> delta = mirrors | (from_base & below.delta);
+    const BsdfValue<F> value = evaluate(wo, wi, context);
+    const Spectrum<F> mirrored = gray(coat_ * fresnel(abs(wo.z)) / max(p, F(1e-10f)));
+    const Spectrum<F> through = below.weight * (passed(wo) * passed(wi) / max(F(1.0f) - p, F(1e-10f)));
+    const Spectrum<F> weight =
+        select(mirrors, mirrored, select(delta, through, value.f_cos / max(value.density.value, F(1e-30f))));
+    const Mask<F> valid = same_side(wo, wi) & (from_coat | below.valid) & (delta | (value.density.value > F(0.0f)));
+    return {wi, weight, value.density, F(1.0f), valid, delta};
+  }
+
+ private:
+  using S = CoatedMetallicRoughnessSlots;
+
+  MONTELUX_INLINE Vec3<F> along_grain(Vec3<F> w) const {
+    return {cos_ * w.x + sin_ * w.y, cos_ * w.y - sin_ * w.x, w.z};
+  }
+  MONTELUX_INLINE Vec3<F> off_grain(Vec3<F> w) const { return {cos_ * w.x - sin_ * w.y, sin_ * w.x + cos_ * w.y, w.z}; }
+  static MONTELUX_INLINE F fresnel(F cos) {
+    const F x = max(F(1.0f) - cos, F(0.0f)), x2 = x * x;
+    return F(0.04f) + F(0.96f) * (x2 * x2 * x);
+  }
+  // What gets through the coat.
+  MONTELUX_INLINE F passed(Vec3<F> w) const { return F(1.0f) - coat_ * fresnel(abs(w.z)); }
+  // Chance of the coat in sampling.
+  MONTELUX_INLINE F coat_share(Vec3<F> wo) const {
+    return select(coat_ > F(0.0f), clamp(coat_ * fresnel(abs(wo.z)) * 2.0f, F(0.05f), F(0.5f)), F(0.0f));
+  }
+
+  F coat_, cos_, sin_;
+  GgxFacets<F> facets_;
+  MetallicRoughness<F> base_;
+};
+
+}  // namespace montelux

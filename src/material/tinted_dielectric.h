@@ -1,0 +1,51 @@
+// Coloured glass: an interface that tints what goes through it, around a body that absorbs.
+#pragma once
+#include "material/dielectric.h"
+
+namespace montelux {
+
+// The first as those of Dielectric. `way`: the distance, in scene units, from which wo comes; set at each vertex.
+struct TintedDielectricSlots {
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = 6, way = 9;
+};
+
+// A Dielectric whose transmission is multiplied by `tint` (KHR_materials_transmission), and that absorbs on the way to
+// it where that lies within, by Beer and Lambert's law (KHR_materials_volume): a path that arrives at the inside of the
+// surface has come through the body. A path that goes from the surface to something else within, or a shadow ray to a
+// light within, is not absorbed on that part of its way.
+template <class F>
+class TintedDielectric {
+ public:
+  static constexpr std::string_view name = "tinteddielectric";
+  static constexpr bool has_reflection = true, has_transmission = true;
+
+  MONTELUX_INLINE explicit TintedDielectric(const BsdfRows<F>& rows)
+      : glass_(rows), tint_(rows.spectrum(TintedDielectricSlots::tint)) {
+    const F way = rows.number(TintedDielectricSlots::way);
+    within_ = per_component([way](F a) { return exp(-a * way); }, rows.spectrum(TintedDielectricSlots::absorption));
+  }
+
+  MONTELUX_INLINE Mask<F> is_delta() const { return glass_.is_delta(); }
+  MONTELUX_INLINE F eta() const { return glass_.eta(); }
+
+  MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
+    const BsdfValue<F> value = glass_.evaluate(wo, wi, context);
+    return {value.f_cos * color(wo, wi), value.density};
+  }
+  MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
+    BsdfSample<F> s = glass_.sample(wo, u, u2, context);
+    s.weight = s.weight * color(wo, s.wi);
+    return s;
+  }
+
+ private:
+  MONTELUX_INLINE Spectrum<F> color(Vec3<F> wo, Vec3<F> wi) const {
+    const Spectrum<F> white = gray(F(1.0f));
+    return select(wo.z < F(0.0f), within_, white) * select(same_side(wo, wi), white, tint_);
+  }
+
+  Dielectric<F> glass_;
+  Spectrum<F> tint_, within_;
+};
+
+}  // namespace montelux

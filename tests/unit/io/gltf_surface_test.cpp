@@ -1,0 +1,147 @@
+// What the extensions of glTF's materials become, and which side of a surface is shown.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gltf_files.h"
+#include "render_scenes.h"
+#include "scene/prepare.h"
+
+namespace montelux {
+namespace {
+
+using namespace test;
+using test::read_text;
+
+ReadResult with_material(const std::string& material, const std::string& node = R"("mesh": 0)",
+                         const std::string& more = "") {
+  return read_text(triangle_json(R"("attributes": {"POSITION": 0}, "indices": 1, "material": 0)", node,
+                                 R"(, "materials": [{)" + material + "}]" + more));
+}
+
+const Entity& material_of(const ReadResult& result) {
+  EXPECT_TRUE(result.scene) << render(result.diagnostics);
+  return result.scene->materials[std::size_t(result.scene->shapes.at(0).material)].entity;
+}
+
+Rgb rgb_of(const Entity& e, const char* name) {
+  const auto stated = e.parameters.spectrum(name);
+  EXPECT_TRUE(stated) << name;
+  return stated ? std::get<RgbValue>(*stated).rgb : gray(-1.0f);
+}
+
+bool is_one_sided(const ReadResult& result) {
+  EXPECT_TRUE(result.scene) << render(result.diagnostics);
+  return result.scene->shapes.at(0).entity.parameters.boolean("onesided", false);
+}
+
+TEST(GltfMaterial, shows_its_back_if_it_is_double_sided_or_glass) {
+  EXPECT_TRUE(is_one_sided(read_text(triangle_json())));
+  EXPECT_TRUE(is_one_sided(with_material(R"("doubleSided": false)")));
+  EXPECT_FALSE(is_one_sided(with_material(R"("doubleSided": true)")));
+  EXPECT_FALSE(
+      is_one_sided(with_material(R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}})")));
+  EXPECT_TRUE(
+      is_one_sided(with_material(R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 0}})")));
+}
+
+// The triangle (0, 0), (2, 0), (0, 3) of a scene, seen by one ray from each side.
+struct Seen {
+  bool front, back, front_shadow, back_shadow;
+};
+Seen seen(ReadResult read) {
+  const TestScene scene(std::move(read));
+  const Ray<float> toward{{0.5f, 0.5f, 1}, {0, 0, -1}, 100.0f, 0.0f},
+      from_behind{{0.5f, 0.5f, -1}, {0, 0, 1}, 100.0f, 0.0f};
+  return {scene.accel().trace<float>(toward, true).found, scene.accel().trace<float>(from_behind, true).found,
+          scene.accel().occluded<float>(toward, true), scene.accel().occluded<float>(from_behind, true)};
+}
+
+TEST(GltfFace, is_shown_from_the_front_alone_to_paths_and_shadow_rays) {
+  // Its winding is counter-clockwise as +z sees it.
+  const Seen single = seen(with_material(""));
+  EXPECT_TRUE(single.front && single.front_shadow);
+  EXPECT_FALSE(single.back || single.back_shadow);
+  const Seen both = seen(with_material(R"("doubleSided": true)"));
+  EXPECT_TRUE(both.front && both.front_shadow && both.back && both.back_shadow);
+}
+
+TEST(GltfFace, keeps_its_front_where_its_node_mirrors) {
+  // glTF 2.0, 3.7.4: a mirroring node turns the winding round, so that the front stays the front.
+  const Seen mirrored = seen(with_material("", R"("mesh": 0, "scale": [1, 1, -1])"));
+  EXPECT_FALSE(mirrored.front || mirrored.front_shadow);
+  EXPECT_TRUE(mirrored.back && mirrored.back_shadow);
+  const Seen aside = seen(with_material("", R"("mesh": 0, "scale": [-1, 1, 1], "translation": [2, 0, 0])"));
+  EXPECT_TRUE(aside.front && aside.front_shadow);
+  EXPECT_FALSE(aside.back || aside.back_shadow);
+}
+
+TEST(GltfMaterial, of_a_volume_absorbs_and_is_tinted) {
+  const ReadResult result = with_material(
+      R"("pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "roughnessFactor": 0.5},
+         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.33},
+         "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationColor": [0.5, 0.25, 1],
+         "attenuationDistance": 2}})");
+  const Entity& e = material_of(result);
+  EXPECT_EQ(e.type, "tinteddielectric");
+  const Rgb absorption = rgb_of(e, "absorption"), tint = rgb_of(e, "tint");
+  // exp(-absorption * 2) is the attenuation colour.
+  EXPECT_NEAR(absorption[0], -std::log(0.5) / 2, 1e-6);
+  EXPECT_NEAR(absorption[1], -std::log(0.25) / 2, 1e-6);
+  EXPECT_EQ(absorption[2], 0);
+  EXPECT_EQ(tint[1], 0.5f);
+  EXPECT_EQ(e.parameters.number("eta", 0), 1.33f);
+  EXPECT_EQ(e.parameters.number("roughness", 0), 0.25f);
+  EXPECT_TRUE(result.diagnostics.all().size() <= 2) << render(result.diagnostics);  // no light, no camera
+}
+
+TEST(GltfMaterial, of_a_pane_is_tinted) {
+  const ReadResult result = with_material(
+      R"("pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "roughnessFactor": 0},
+         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}})");
+  EXPECT_EQ(material_of(result).type, "thindielectric");
+  EXPECT_EQ(rgb_of(material_of(result), "tint")[2], 0.25f);
+}
+
+TEST(GltfMaterial, has_a_clear_coat_and_a_grain) {
+  const ReadResult result = with_material(
+      R"("pbrMetallicRoughness": {"metallicFactor": 0.25}, "extensions": {
+         "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.125},
+         "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966}})");
+  const Entity& e = material_of(result);
+  EXPECT_EQ(e.type, "coatedmetallicroughness");
+  EXPECT_EQ(e.parameters.number("clearcoat", 0), 0.75f);
+  EXPECT_EQ(e.parameters.number("clearcoatroughness", 0), 0.125f);
+  EXPECT_EQ(e.parameters.number("anisotropy", 0), 0.5f);
+  EXPECT_NEAR(e.parameters.number("anisotropyrotation", 0), 90, 1e-4);
+  EXPECT_EQ(e.parameters.number("metallic", 0), 0.25f);
+  EXPECT_EQ(material_of(with_material(R"("extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0}})")).type,
+            "metallicroughness");
+}
+
+TEST(GltfExtension, that_is_not_read_is_warned_of) {
+  const ReadResult result = with_material(R"("extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}})",
+                                          R"("mesh": 0)", R"(, "extensionsUsed": ["KHR_materials_sheen"])");
+  EXPECT_NE(render(result.diagnostics).find("\"KHR_materials_sheen\" is not read: the scene is shown without it"),
+            std::string::npos);
+}
+
+// Nothing that the reader of glTF states is left unused.
+TEST(GltfMaterial, states_what_is_used) {
+  for (const char* material :
+       {"", R"("doubleSided": true)", R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}})",
+        R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume":
+           {"thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [0.5, 0.5, 0.5]}})",
+        R"("extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_anisotropy":
+           {"anisotropyStrength": 1}})",
+        R"("extensions": {"KHR_materials_unlit": {}})", R"("emissiveFactor": [1, 1, 1])"}) {
+    ReadResult result = with_material(material);
+    ASSERT_TRUE(result.scene) << render(result.diagnostics);
+    EXPECT_TRUE(prepare(*result.scene, {}, result.diagnostics));
+    EXPECT_EQ(render(result.diagnostics).find("no effect"), std::string::npos) << material << ":\n"
+                                                                               << render(result.diagnostics);
+  }
+}
+
+}  // namespace
+}  // namespace montelux
