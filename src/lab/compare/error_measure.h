@@ -10,7 +10,8 @@ namespace montelux::lab {
 // relative_mse: mean over pixels and channels of (x - r)^2 / (r^2 + 0.01), r the reference; mse: of (x - r)^2; flip:
 // the mean of HDR-FLIP.
 enum class ErrorMeasure { relative_mse, mse, flip };
-inline constexpr std::array error_measures{ErrorMeasure::relative_mse, ErrorMeasure::mse, ErrorMeasure::flip};
+inline constexpr std::array<ErrorMeasure, 3> error_measures{ErrorMeasure::relative_mse, ErrorMeasure::mse,
+                                                            ErrorMeasure::flip};
 
 // As options and JSON name it, and as sentences do.
 struct MeasureName {
