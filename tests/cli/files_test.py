@@ -280,7 +280,7 @@ class Bounds(FilesTest):
         good = (self.folder / "a.json").read_text()
         for text, word in ((good[:len(good) // 2], "line"), ("{\n  5\n}", "line 2, column 3"), ("[]", "not a file that"),
                            ('{"format": "montelux integrals"}', '"version"'), ("", "line 1"),
-                           ('{"format": "montelux integrals", "version": 2}', "checksum"), ("[" * 100000, "line 1"),
+                           ('{"format": "montelux integrals", "version": 3}', "checksum"), ("[" * 100000, "line 1"),
                            (good.replace('"seed": 0', '"seed": "x"', 1), "checksum")):
             (self.folder / "b.json").write_text(text)
             with self.subTest(word=word):
