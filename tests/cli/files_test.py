@@ -369,7 +369,11 @@ class Signals(FilesTest):
             seen = False
             while process.poll() is None:
                 found = [entry for entry in os.scandir(self.folder) if entry.name.startswith(".")]
-                if found and found[0].stat().st_size > 0:
+                try:
+                    is_written = bool(found) and found[0].stat().st_size > 0
+                except FileNotFoundError:  # renamed meanwhile
+                    continue
+                if is_written:
                     process.send_signal(signal.SIGTERM)
                     seen = True
                     break

@@ -164,8 +164,8 @@ export async function misplacedLinks(page) {
       const atEnd = scrollY + innerHeight >= document.documentElement.scrollHeight - 2;
       return atEnd && top >= 0 && top < innerHeight ? 0 : Math.round(top);
     });
-    // The page leaves a margin of 1 rem.
-    if (Math.abs(off) > 20) missed.push(`${await links.nth(i).getAttribute("href")}: ${off} pixels off`);
+    // The page leaves a margin of 1 rem; a formula that is set late may move a line or two.
+    if (Math.abs(off) > 64) missed.push(`${await links.nth(i).getAttribute("href")}: ${off} pixels off`);
   }
   return missed;
 }
