@@ -164,8 +164,9 @@ export async function misplacedLinks(page) {
       const atEnd = scrollY + innerHeight >= document.documentElement.scrollHeight - 2;
       return atEnd && top >= 0 && top < innerHeight ? 0 : Math.round(top);
     });
-    // The page leaves a margin of 1 rem; a formula that is set late may move a line or two.
-    if (Math.abs(off) > 64) missed.push(`${await links.nth(i).getAttribute("href")}: ${off} pixels off`);
+    // The page leaves a margin of 1 rem, so 20 pixels would do. Known defect: at 390 pixels the link #neighbour-bias lands
+    // 34 pixels off in most runs, for a reason that is not found yet. Back to 20 once it is.
+    if (Math.abs(off) > 48) missed.push(`${await links.nth(i).getAttribute("href")}: ${off} pixels off`);
   }
   return missed;
 }
