@@ -1,10 +1,10 @@
-// What a picture lacks of what the scene's file asks for, as results state it.
+// What a picture lacks of what its scene file names, as results state it.
 #pragma once
 #include "api/scene.h"
 
 namespace montelux::cli {
 
-// What the picture of a scene lacks of what its file asks for.
+// What the picture of a scene lacks of what its file names.
 struct Shortcomings {
   const std::vector<std::string>& missing;  // light
   const std::vector<Replacement>& replaced;

@@ -100,7 +100,7 @@ std::optional<double> seconds_of_repeat(const lab::ContestState& state, const la
   return sum / repeats;
 }
 
-// What all rounds together are expected to take; each method's state is told of its own share.
+// How long all rounds together are expected to take; a method reports its share of the whole.
 double expect_repeats(const Field& field, const lab::ContestSettings& settings, int rounds,
                       const std::vector<double>& sample_seconds, lab::ContestState& state) {
   double all = 0;

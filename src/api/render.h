@@ -12,7 +12,7 @@
 namespace montelux {
 
 struct RenderOptions {
-  std::optional<int> samples;             // a pixel; default: what the file asks for
+  std::optional<int> samples;             // a pixel; default: what the file states
   std::optional<double> seconds;          // instead of a number of samples
   std::optional<double> budget;           // seconds: whole frames of one chain, or passes of one sample, as many as fit
   std::optional<std::uint32_t> seed;      // default: the file's

@@ -62,9 +62,9 @@ struct SceneInfo {
   PixelBounds crop;  // of the file; the whole picture where it has none
   std::string camera, film, filter, sampler, integrator;
   std::string picture_file;      // that the film names, relative to the working directory; empty: none
-  std::uint32_t seed = 0;        // that the file asks for
-  int samples = 0;               // that the file asks for
-  std::optional<int> max_depth;  // that the file asks for
+  std::uint32_t seed = 0;        // that the file states
+  int samples = 0;               // that the file states
+  std::optional<int> max_depth;  // that the file states
   bool moves = false;            // the camera or a shape
   double transforms_start = 0, transforms_end = 1, shutter_open = 0, shutter_close = 1;  // in the scene's unit of time
   // What the frames of a sequence share out, how many there are in a unit of time where nothing else is asked for, and
