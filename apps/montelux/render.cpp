@@ -411,6 +411,7 @@ int run_render(RenderArguments& arguments) {
                                        : good.error() + "; the scene's film names this picture, -o names another one");
   }
 
+  arguments.render.files = {{arguments.files.begin(), arguments.files.end()}, arguments.half};
   StopSignals signals;
   if (arguments.frames) return render_frames(arguments, *std::move(loaded.scene), signals);
   ProgressLine observer({!arguments.quiet && !arguments.no_progress, !arguments.quiet}, signals);
@@ -434,7 +435,9 @@ void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
 void add_sampling_options(CLI::App& verb, RenderOptions& render) {
   add_option(verb, {"--spp", "N", "samples a pixel; default: what the scene asks for"},
              into(render.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 24); }));
-  add_option(verb, {"--time", "TIME", "render for that long instead (500ms, 30s, 10m, 2h)"},
+  add_option(verb,
+             {"--time", "TIME",
+              "be done that long after the scene is loaded, with as many samples as fit (500ms, 30s, 10m, 2h)"},
              into(render.seconds, parse_time));
   verb.get_option("--time")->excludes("--spp");
   add_option(verb,

@@ -3,6 +3,8 @@
 
 #include "api/images.h"
 #include "api/render.h"
+#include "mc/random.h"
+#include "render/stopwatch.h"
 
 namespace montelux {
 
@@ -36,16 +38,21 @@ std::vector<std::string> channel_names() {
           "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
 }
 
-// Of every layer of light its mean, and where it is known its standard error. The colour becomes the mean of all light
-// as the layers know it, so that they sum to it.
+// The colour of a pixel of the picture: the mean of all light, as the layers know it where there are any, so that they
+// sum to it.
+double color_at(const Rendering& rendering, int x, int y, int channel) {
+  const Film& film = rendering.result.film;
+  const PixelGrid& grid = film.grid();
+  const int px = grid.bounds.x0 + x, py = grid.bounds.y0 + y;
+  if (rendering.layers) return film.layers()->mean(grid.cell_x(px), grid.cell_y(py), channel);
+  return film.pixel(px, py).mean[channel];
+}
+
+// Of every layer of light its mean, and where it is known its standard error.
 void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& grid,
                   const std::vector<std::string>& names) {
   const auto cell_x = [&](int x) { return grid.cell_x(grid.bounds.x0 + x); };
   const auto cell_y = [&](int y) { return grid.cell_y(grid.bounds.y0 + y); };
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < spectrum_size; ++c)
-        image.at(x, y, Channel::r + c) = float(film.mean(cell_x(x), cell_y(y), c));
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
   const auto append = [&](const std::string& name, auto value) {
     for (int y = 0; y < image.height; ++y)
@@ -87,7 +94,7 @@ PixelBuffer layers_of(const Rendering& rendering) {
       const PixelFeatures& feature = film.features(bounds.x0 + x, bounds.y0 + y);
       auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
       for (int c = 0; c < spectrum_size; ++c) {
-        set(Channel::r + c, pixel.mean[c]);
+        set(Channel::r + c, color_at(rendering, x, y, c));
         set(Channel::stderr_r + c, std::sqrt(pixel.variance_of_mean(c)));
       }
       set(Channel::a, feature.samples > 0 ? feature.hits / feature.samples : 0);
@@ -108,33 +115,77 @@ PixelBuffer layers_of(const Rendering& rendering) {
 
 namespace {
 
-PixelBuffer colors_of(const PixelBuffer& image) {
-  PixelBuffer color = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 3; ++c) color.at(x, y, c) = image.at(x, y, c);
+PixelBuffer colors_of(const Rendering& rendering) {
+  const PixelBounds& bounds = rendering.result.film.bounds();
+  PixelBuffer color = make_pixel_buffer(bounds.width(), bounds.height(), {"R", "G", "B"});
+  for (int y = 0; y < color.height; ++y)
+    for (int x = 0; x < color.width; ++x)
+      for (int c = 0; c < spectrum_size; ++c) color.at(x, y, c) = float(color_at(rendering, x, y, c));
   return color;
+}
+
+// The bytes of a file of the picture.
+Result<std::string> encode_rendering(const std::filesystem::path& file, const Rendering& rendering,
+                                     const DisplayTransform& display, bool half) {
+  const std::string extension = extension_of(file);
+  if (extension == ".exr") {
+    const PixelBuffer layers = layers_of(rendering);
+    ExrOptions options{rendering.header, {}};
+    if (half) options.half_channels = half_channels(layers);
+    return encode_image(file, layers, options);
+  }
+  const PixelBuffer color = colors_of(rendering);
+  if (extension == ".hdr" || extension == ".pfm") return encode_image(file, color);
+  return encode_image(file, to_display(color, display));
+}
+
+// Two passes of noise.
+Rendering noise(const PixelBounds& bounds) {
+  Rendering rendering{RenderResult{Film(bounds), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
+  std::vector<PixelSample> samples(std::size_t(bounds.area()));
+  RandomStream<float> random(0, 0);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (PixelSample& sample : samples) {
+      for (float& channel : sample.radiance.c) channel = random.next();
+      sample.features.coverage = 1, sample.features.object = 1;
+      sample.features.depth = 1 + 0.001f * random.next();
+    }
+    rendering.result.film.add_pass(bounds, pass, 1, samples);
+  }
+  return rendering;
+}
+
+// Of a picture of noise; 0 where it cannot be encoded.
+double seconds_to_finish_strip(int width, int height, const FilesToWrite& files) {
+  Rendering strip = noise({0, 0, width, height});
+  const Stopwatch since_start;
+  strip.error = strip.result.film.error();
+  for (const std::filesystem::path& file : files.paths) {
+    const DisplayTransform display = is_display_file(file) ? choose_display(strip, {}).transform : DisplayTransform{};
+    if (!encode_rendering(file, strip, display, files.half)) return 0;
+  }
+  return since_start.seconds();
 }
 
 }  // namespace
 
 ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request) {
-  return choose_display(colors_of(layers_of(rendering)), rendering.content, request, rendering.has_own_exposure);
+  return choose_display(colors_of(rendering), rendering.content, request, rendering.has_own_exposure);
 }
 
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display,
                        bool half) {
-  PixelBuffer image = layers_of(rendering);
-  const std::string extension = extension_of(file);
-  if (extension == ".exr") {
-    ExrOptions options;
-    options.attributes = rendering.header;
-    if (half) options.half_channels = half_channels(image);
-    return write_image(file, image, options);
-  }
-  const PixelBuffer color = colors_of(image);
-  if (extension == ".hdr" || extension == ".pfm") return write_image(file, color);
-  return write_image(file, to_display(color, display));
+  const Result<std::string> bytes = encode_rendering(file, rendering, display, half);
+  return bytes ? write_file(file, *bytes) : Status(bytes.failure());
+}
+
+double seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files) {
+  // Without what happens once: libraries are loaded, memory is mapped.
+  (void)seconds_to_finish_strip(bounds.width(), 1, files);
+  // As many rows as an .exr packs together, or some such.
+  constexpr int rows_together = 32;
+  const int rows = std::min((bounds.height() / (32 * rows_together) + 1) * rows_together, bounds.height());
+  return seconds_to_finish_strip(bounds.width(), rows, files) * bounds.height() / rows;
 }
 
 }  // namespace montelux

@@ -49,6 +49,7 @@ struct Plan {
   RenderSettings render;
   ChosenIntegrator chosen;
   std::vector<Replacement> replaced;
+  FilesToWrite files;
   bool motion = false;     // of a sequence
   double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
 };
@@ -124,6 +125,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.threads = options.threads;
   if (options.shutter) r.shutter = shutter_for(*options.shutter, picture);
   r.seconds = options.seconds;
+  plan.files = options.files;
   if (options.budget && (options.seconds || options.samples || plan.render.layers))
     return Failure{"a time budget takes the place of a number of samples and of a time, and has no layers of light"};
   if (options.budget) r.budget = {*options.budget, 0};
@@ -155,19 +157,30 @@ std::string sparse_text(int stride) {
   return fmt::format("one pixel of each {0} x {0} is sampled, the others repeat it", stride);
 }
 
-// The plan within the time that is left once the integrator is made; `before` grows by the time of the measurement.
-void plan_timed(const AnyIntegrator& integrator, RenderSettings& settings, double& before, RenderObserver& observer) {
+// The plan within the time that is left: the making of the integrator has taken `before`, which grows by what this
+// takes, and in the end the picture is written.
+void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, RenderSettings& settings, double& before,
+                RenderObserver& observer) {
+  // Of the time, what is rendered in however long the rest takes.
+  constexpr double min_share = 0.1;
+  const double all = *settings.seconds;
   const Stopwatch since_start;
-  const TimedPlan timed = plan_for_time(integrator, settings, std::max(*settings.seconds - before, 0.0), observer);
+  const auto left = [&](double end) { return std::max(end - before - since_start.seconds(), min_share * all); };
+  const double finish = seconds_to_finish(settings.bounds, files), end = all - finish;
+  if (left(end) == min_share * all)
+    observer.announce(
+        fmt::format("to prepare and to write the picture takes about {:.2g} s of its own, in addition to the time",
+                    before + finish));
+  const TimedPlan timed = plan_for_time(integrator, settings, left(end), observer);
   settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
   if (timed.stride > 1)
     observer.announce(fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: {}",
                                   timed.sample_seconds, sparse_text(timed.stride)));
-  else if (integrator.coupled() && timed.sample_seconds > *settings.seconds)
+  else if (integrator.coupled() && timed.sample_seconds > left(end))
     observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the picture is one frame",
                                   timed.sample_seconds));
+  settings.seconds = left(end);
   before += since_start.seconds();
-  settings.seconds = std::max(*settings.seconds - before, 0.0);
 }
 
 std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
@@ -222,8 +235,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
   // The integrator is made once, and that counts for the first picture of a sequence.
   double before = std::exchange(plan.preparation, 0.0);
   if (settings.seconds) {
-    // The time includes the making of the integrator and the measurement of its speed.
-    plan_timed(integrator, settings, before, observer);
+    // The time includes the making of the integrator, the measurement of its speed, and the writing of the picture.
+    plan_timed(integrator, plan.files, settings, before, observer);
   }
   if (settings.budget) settings.budget->seconds -= before;
   RenderResult result = render(integrator, settings, observer);

@@ -11,9 +11,16 @@
 
 namespace montelux {
 
+// Files that a picture will be written to.
+struct FilesToWrite {
+  std::vector<std::filesystem::path> paths;
+  bool half = false;  // of an .exr, as write_rendering() has it
+};
+
 struct RenderOptions {
   std::optional<int> samples;             // a pixel; default: what the file states
-  std::optional<double> seconds;          // instead of a number of samples
+  std::optional<double> seconds;          // instead of a number of samples; includes preparation and what follows
+  FilesToWrite files{};                   // `seconds` includes the time to encode them
   std::optional<double> budget;           // seconds: whole frames of one chain, or passes of one sample, as many as fit
   std::optional<std::uint32_t> seed;      // default: the file's
   int threads = 0;                        // 0: all of the machine
@@ -92,6 +99,10 @@ ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& r
 // errors, places, depths, counts and numbers of objects stay 32-bit floats.
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display,
                        bool half = false);
+
+// How many seconds of one thread it takes to estimate the error of a picture of this size and to encode it for these
+// files. Measured on a strip of noise, which takes some percent of that time itself.
+double seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files);
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

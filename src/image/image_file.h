@@ -51,8 +51,12 @@ struct ExrOptions {
   std::vector<std::string> half_channels;
 };
 
-// Writes linear values by the extension of path: .exr with every channel under its own name, .hdr and .pfm with the
-// colour alone. The same arguments give the same bytes. Writes as write_file() does; never throws.
+// The bytes of a file with linear values, by the extension of path: .exr with every channel under its own name, .hdr
+// and .pfm with the colour alone. The same arguments give the same bytes. Never throws; failures name the path.
+Result<std::string> encode_image(const std::filesystem::path& path, const PixelBuffer& image,
+                                 const ExrOptions& options = {});
+
+// Writes them as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options = {});
 
 // An 8-bit picture that is ready for display: 1 (gray) or 3 (RGB) interleaved channels, the top row first.
@@ -62,6 +66,9 @@ struct DisplayImage {
   int channel_count = 3;
   std::vector<std::uint8_t> values;
 };
+
+// The bytes of a .png or .jpg. Never throws; failures name the path.
+Result<std::string> encode_image(const std::filesystem::path& path, const DisplayImage& image);
 
 // Writes .png or .jpg, as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const DisplayImage& image);

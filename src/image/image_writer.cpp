@@ -69,7 +69,8 @@ std::vector<half> to_half(const PixelBuffer& image, int channel) {
 
 Result<std::string> encode_exr(const PixelBuffer& image, const ExrOptions& options) {
   Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  // On noise this is twice as fast as deflate, and the files are a little smaller.
+  header.compression() = Imf::PIZ_COMPRESSION;
   for (const Attribute& attribute : options.attributes) insert(header, attribute);
 
   Imf::FrameBuffer frame;
@@ -158,12 +159,12 @@ std::string lower_extension(const std::filesystem::path& path) {
   return text;
 }
 
-// Encodes in memory, then writes. Exceptions of codecs become failures.
-Status write_encoded(const std::filesystem::path& path, const std::function<Result<std::string>()>& encoder) {
+// Exceptions of codecs become failures, which name the file.
+Result<std::string> encode_for(const std::filesystem::path& path, const std::function<Result<std::string>()>& encoder) {
   const std::string prefix = "cannot write '" + path.string() + "': ";
   try {
-    const Result<std::string> bytes = encoder();
-    return bytes ? write_file(path, *bytes) : Status(Failure{prefix + bytes.error()});
+    Result<std::string> bytes = encoder();
+    return bytes ? std::move(bytes) : Failure{prefix + bytes.error()};
   } catch (const std::bad_alloc&) {
     return Failure{prefix + "there is not enough memory"};
   } catch (const std::exception& e) {
@@ -171,14 +172,27 @@ Status write_encoded(const std::filesystem::path& path, const std::function<Resu
   }
 }
 
+Status write_bytes(const std::filesystem::path& path, const Result<std::string>& bytes) {
+  return bytes ? write_file(path, *bytes) : Status(bytes.failure());
+}
+
 }  // namespace
 
+Result<std::string> encode_image(const std::filesystem::path& path, const PixelBuffer& image,
+                                 const ExrOptions& options) {
+  return encode_for(path, [&] { return encode(image, lower_extension(path), options); });
+}
+
+Result<std::string> encode_image(const std::filesystem::path& path, const DisplayImage& image) {
+  return encode_for(path, [&] { return encode(image, lower_extension(path)); });
+}
+
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options) {
-  return write_encoded(path, [&] { return encode(image, lower_extension(path), options); });
+  return write_bytes(path, encode_image(path, image, options));
 }
 
 Status write_image(const std::filesystem::path& path, const DisplayImage& image) {
-  return write_encoded(path, [&] { return encode(image, lower_extension(path)); });
+  return write_bytes(path, encode_image(path, image));
 }
 
 std::optional<Attribute> date_attribute() {

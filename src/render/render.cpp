@@ -116,6 +116,8 @@ class Job {
     return settings_.seconds && next_unit_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
   }
   bool first_pass_is_done() const { return first_units_done_ == tiles_.size(); }
+  // The error takes two passes of every pixel.
+  bool has_two_passes() const { return second_units_done_ == tiles_.size(); }
 
   // Units in work are left unfinished and do not enter the film.
   void drop_units() {
@@ -165,6 +167,7 @@ class Job {
     ++tile.passes_added;
     ++units_done_;
     if (pass == 0) ++first_units_done_;
+    if (pass == 1) ++second_units_done_;
     tile.added.notify_all();
     return rays;
   }
@@ -177,7 +180,8 @@ class Job {
       p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(tile.passes_added) *
                    std::uint64_t(settings_.plan.samples_per_pass);
     }
-    p.error = error_.of(finished ? 0 : p.elapsed, [&] { return error(); });
+    // At the end the film has it.
+    if (!finished && has_two_passes()) p.error = error_.of(p.elapsed, [&] { return error(); });
     return p;
   }
 
@@ -198,7 +202,8 @@ class Job {
   Film film_;
   std::deque<TileState> tiles_;
   const std::uint64_t units_;
-  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0}, first_units_done_{0};
+  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0};
+  std::atomic<std::uint64_t> first_units_done_{0}, second_units_done_{0};  // of the first pass, and of the second
   std::atomic<bool> stop_{false};
   StopFlag drop_;
   ErrorWatch error_;
