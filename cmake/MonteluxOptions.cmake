@@ -26,6 +26,8 @@ target_include_directories(montelux_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(montelux_options INTERFACE
   -march=${MONTELUX_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Wno-psabi)
+# Masks of one lane are bool, and code for any number of lanes joins them by & and |.
+target_compile_options(montelux_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 if(MONTELUX_WERROR)
   target_compile_options(montelux_options INTERFACE -Werror)
 endif()

@@ -5,7 +5,8 @@
 namespace montelux {
 
 // At every pixel the mean of the pixels around it, without itself, weighted by distance and by how alike albedo, normal
-// and object are. Where there is no neighbour with a pass, the pixel's own mean.
+// and object are. As far as these are too few for their noise, that of a wider neighbourhood. Where there is no
+// neighbour with a pass, the pixel's own mean.
 ColorPlanes mean_of_neighbours(const FilmPlanes& planes);
 
 }  // namespace montelux

@@ -1,5 +1,6 @@
 // How far a picture is from its expectation, estimated from the spread of its pixels over passes.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -24,8 +25,8 @@ struct ErrorEstimate {
   bool whole() const { return pixels > 0 && pixels == all; }
   // Whether few bright samples decide the relative error, which may then be far from the true one.
   bool is_unsure() const {
-    const bool few = effective_pixels < double(pixels) / 8;
-    return pixels > 0 && (tail_index < 1 || (few && relative_high > 2 * relative_low));
+    constexpr double few = 64;  // known to a factor of 1.4 at best
+    return pixels > 0 && (tail_index < 1 || effective_pixels < std::min(few, double(pixels) / 8));
   }
 };
 

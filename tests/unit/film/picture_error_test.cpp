@@ -113,6 +113,13 @@ TEST(PictureError, knows_a_dark_pixel_beside_bright_ones_by_itself) {
   EXPECT_LT(m.stated, 1.25 * m.truth);
 }
 
+// Most of the nearest neighbours have none of the bright samples.
+TEST(PictureError, is_true_where_bright_samples_are_rare_among_the_neighbours) {
+  const Means m = means_of([](int, int) { return RareLight{0.02f, 250, 0.001, false}; });
+  EXPECT_GT(m.stated, 0.8 * m.truth);
+  EXPECT_LT(m.stated, 1.25 * m.truth);
+}
+
 TEST(PictureError, says_so_where_few_bright_samples_decide) {
   const auto rare = [](int, int) { return RareLight{0.2f, 400, 5e-5, false}; };
   const auto even = [](int, int) { return RareLight{0.2f, 0.2f, 0.5, false}; };
@@ -121,7 +128,8 @@ TEST(PictureError, says_so_where_few_bright_samples_decide) {
   EXPECT_GT(unsure.relative_high, 2 * unsure.relative_low);
   EXPECT_FALSE(sure.is_unsure());
   EXPECT_LT(sure.relative_low, sure.relative_mse);
-  EXPECT_LT(sure.relative_high, 1.2 * sure.relative_low);
+  // Of many pixels nothing is left but what the divisor may be off.
+  EXPECT_LT(sure.relative_high, 1.6 * sure.relative_low);
 }
 
 }  // namespace montelux
