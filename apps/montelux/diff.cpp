@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "api/compare.h"
 #include "api/json_text.h"
@@ -33,7 +34,7 @@ constexpr const char* examples = R"(Examples:
   montelux diff a.exr reference.exr --stderr-b reference.stderr.exr --dof 63 --json
 
 With standard errors of both pictures (layer stderr, or --stderr-a, --stderr-b) a Welch t-test of the image mean, of
-8 x 8 blocks and of pixels decides; else whether all values are the same.
+blocks of 8 x 8, 16 x 16, ... pixels and of pixels decides; else whether all values are the same.
 Exit status: 0 equal, or the noise explains the difference; 1 they differ; 2 trouble.
 )";
 
@@ -43,6 +44,7 @@ Json to_json(const WelchScale& scale) {
   Json json;
   json["tests"] = scale.tests, json["p"] = scale.smallest_p, json["t"] = number_or_null(scale.t);
   json["difference"] = number_or_null(scale.difference), json["detectable"] = number_or_null(scale.detectable);
+  json["detectable_median"] = number_or_null(scale.detectable_median), json["side"] = scale.side;
   json["x"] = scale.x, json["y"] = scale.y, json["channel"] = std::string(1, "RGB"[scale.channel]);
   json["differs"] = scale.differs;
   return json;
@@ -69,9 +71,19 @@ void print_json(const DiffArguments& arguments, const PictureDifference& d) {
 }
 
 void print_scale(std::string_view name, const WelchScale& scale, double level) {
-  fmt::print("  {:7} {:>8} {:>10.3g} {:>10.3g}  {:>5}, {:<5} {} {:>11.4g} {:>11.4g}  {}\n", name, scale.tests,
-             scale.smallest_p, level / (3 * double(scale.tests)), scale.x, scale.y, "RGB"[scale.channel],
-             scale.difference, scale.detectable, scale.differs ? "differs" : "");
+  fmt::print("  {:7} {:>8} {:>10.3g} {:>10.3g}  {:>5} {:>5}, {:<5} {} {:>11.4g} {:>11.4g}  {}\n", name, scale.tests,
+             scale.smallest_p, level / (3 * double(scale.tests)), scale.side > 0 ? std::to_string(scale.side) : "all",
+             scale.x, scale.y, "RGB"[scale.channel], scale.difference, scale.detectable,
+             scale.differs ? "differs" : "");
+}
+
+// The power of the tests, as shares of the mean of B.
+void print_power(const PictureDifference& d) {
+  const double mean = d.mean_b[std::size_t(d.welch->image.channel)];
+  if (!(mean > 0) || !(d.welch->image.detectable > 0)) return;
+  fmt::print("found in half of the cases: {:.3g} % of the mean image, {:.3g} % of it in a block, {:.3g} % in a pixel\n",
+             100 * d.welch->image.detectable / mean, 100 * d.welch->blocks.detectable_median / mean,
+             100 * d.welch->pixels.detectable_median / mean);
 }
 
 void print_text(const DiffArguments& arguments, const PictureDifference& d) {
@@ -85,11 +97,12 @@ void print_text(const DiffArguments& arguments, const PictureDifference& d) {
   if (d.measures.non_finite > 0) fmt::print("{} pixels are not finite and left out above\n", d.measures.non_finite);
   if (d.welch) {
     fmt::print("Welch t-test, family-wise level {}; of each scale the most significant test:\n", arguments.level);
-    fmt::print("  {:7} {:>8} {:>10} {:>10}  {:>14} {:>11} {:>11}\n", "scale", "tests", "p", "below is", "at pixel",
-               "difference", "detectable");
+    fmt::print("  {:7} {:>8} {:>10} {:>10}  {:>5} {:>14} {:>11} {:>11}\n", "scale", "tests", "p", "below is", "side",
+               "at pixel", "difference", "detectable");
     print_scale("image", d.welch->image, arguments.level);
     print_scale("blocks", d.welch->blocks, arguments.level);
     print_scale("pixels", d.welch->pixels, arguments.level);
+    print_power(d);
   }
   if (d.equal)
     fmt::print("equal\n");

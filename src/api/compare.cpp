@@ -35,15 +35,21 @@ std::optional<double> number(const Image& image, std::string_view name) {
   return std::nullopt;
 }
 
-// Three numbers of the header as a picture of one pixel.
-std::optional<PixelBuffer> pixel_of_header(const Image& image, std::string_view prefix) {
-  PixelBuffer pixel = make_pixel_buffer(1, 1, rgb_names());
-  for (int c = 0; c < 3; ++c) {
+std::string text(const Image& image, std::string_view name) {
+  for (const Attribute& attribute : image.attributes)
+    if (auto* value = std::get_if<std::string>(&attribute.value); value && attribute.name == name) return *value;
+  return {};
+}
+
+// Three numbers of the header.
+std::optional<std::array<double, 3>> rgb_of_header(const Image& image, std::string_view prefix) {
+  std::array<double, 3> values{};
+  for (std::size_t c = 0; c < 3; ++c) {
     auto value = number(image, fmt::format("{}{}", prefix, "RGB"[c]));
     if (!value || !std::isfinite(*value)) return std::nullopt;
-    pixel.at(0, 0, c) = float(*value);
+    values[c] = *value;
   }
-  return pixel;
+  return values;
 }
 
 std::array<double, 3> mean_of(const PixelBuffer& color) {
@@ -55,19 +61,13 @@ std::array<double, 3> mean_of(const PixelBuffer& color) {
 
 bool same(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// The Welch test of pixels and blocks, and of the image by its passes where both know them.
-WelchReport test(const PictureEstimate& a, const PictureEstimate& b, double level) {
-  const ErrorBars &ea = *a.bars, &eb = *b.bars;
-  WelchReport report = welch_test({a.color, ea.standard_error, ea.degrees_of_freedom},
-                                  {b.color, eb.standard_error, eb.degrees_of_freedom}, level);
-  if (ea.error_of_mean && eb.error_of_mean) {
-    report.image = welch_test({*ea.mean_of_image, *ea.error_of_mean, ea.degrees_of_freedom},
-                              {*eb.mean_of_image, *eb.error_of_mean, eb.degrees_of_freedom}, level)
-                       .image;
-    report.differs = report.image.differs || report.blocks.differs || report.pixels.differs;
-  }
-  return report;
+EstimatedImage estimated(const PictureEstimate& picture) {
+  const ErrorBars& bars = *picture.bars;
+  return {picture.color, bars.standard_error, bars.degrees_of_freedom, bars.error_of_mean, bars.pixels_share_samples};
 }
+
+// Whether an integrator of this name lets pixels of one pass learn from each other.
+bool shares_samples(std::string_view integrator) { return integrator.starts_with("restir-"); }
 
 }  // namespace
 
@@ -93,11 +93,11 @@ Result<PictureEstimate> read_estimate(const PictureFiles& files) {
   // One pass has no spread: its standard error is infinite and tells nothing.
   if (!files.standard_error && passes && *passes < 2) return estimate;
   const double unknown = files.degrees_of_freedom.value_or(std::numeric_limits<double>::infinity());
-  ErrorBars bars{std::move(*errors), passes && !files.standard_error ? *passes - 1 : unknown, std::nullopt,
-                 std::nullopt};
-  bars.mean_of_image = pixel_of_header(*image, "montelux:mean");
-  bars.error_of_mean = pixel_of_header(*image, "montelux:meanStandardError");
-  if (!bars.mean_of_image) bars.error_of_mean.reset();
+  ErrorBars bars{std::move(*errors), passes && !files.standard_error ? *passes - 1 : unknown, std::nullopt, false};
+  if (!files.standard_error) {
+    bars.error_of_mean = rgb_of_header(*image, "montelux:meanStandardError");
+    bars.pixels_share_samples = shares_samples(text(*image, "montelux:integrator"));
+  }
   estimate.bars = std::move(bars);
   return estimate;
 }
@@ -112,7 +112,7 @@ Result<PictureDifference> compare_pictures(const PictureEstimate& a, const Pictu
   difference.measures = measure_error(a.color, b.color);
   difference.hdr_flip = !(a.display && b.display);
   difference.flip = difference.hdr_flip ? hdr_flip(a.color, b.color) : ldr_flip(a.color, b.color);
-  if (a.bars && b.bars) difference.welch = test(a, b, level);
+  if (a.bars && b.bars) difference.welch = welch_test(estimated(a), estimated(b), level);
   return difference;
 }
 

@@ -15,9 +15,10 @@ namespace montelux {
 
 // The error bars of a picture: one standard deviation of the mean at every pixel.
 struct ErrorBars {
-  PixelBuffer standard_error;                               // R, G, B
-  double degrees_of_freedom;                                // infinite where nobody tells
-  std::optional<PixelBuffer> mean_of_image, error_of_mean;  // one pixel each: the whole image over its passes
+  PixelBuffer standard_error;                          // R, G, B
+  double degrees_of_freedom;                           // infinite where nobody tells
+  std::optional<std::array<double, 3>> error_of_mean;  // of the whole image, over its passes
+  bool pixels_share_samples = false;                   // as the header's integrator says
 };
 
 // A picture as an estimate.
@@ -48,9 +49,7 @@ struct PictureDifference {
   bool differs() const { return welch ? welch->differs : !equal; }
 };
 
-// a is the test, b the reference. The level is family-wise. Where both files tell the mean of the whole image and its
-// error over the passes, the test of the image mean takes these, which hold whatever the correlation of pixels.
-// Fails where the sizes are not equal.
+// a is the test, b the reference. The level is family-wise. Fails where the sizes are not equal.
 Result<PictureDifference> compare_pictures(const PictureEstimate& a, const PictureEstimate& b, double level);
 
 // Maps of the difference: "relative" (squared, over b^2 + 0.01), "squared", "absolute", "flip".

@@ -54,7 +54,7 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
     reference.degrees_of_freedom = picture->bars->degrees_of_freedom;
     if (const auto& error = picture->bars->error_of_mean) {
       reference.variance_of_image.emplace();
-      for (std::size_t c = 0; c < 3; ++c) (*reference.variance_of_image)[c] = std::pow(double(error->values[c]), 2);
+      for (std::size_t c = 0; c < 3; ++c) (*reference.variance_of_image)[c] = std::pow((*error)[c], 2);
     }
   }
   return reference;

@@ -1,6 +1,8 @@
-// Do two estimates of an image differ by more than their own errors? Welch's t-test at three scales.
+// Do two estimates of an image differ by more than their own errors? Welch's t-test at several scales.
 #pragma once
+#include <array>
 #include <cstddef>
+#include <optional>
 
 #include "image/pixel_buffer.h"
 
@@ -13,18 +15,24 @@ struct EstimatedImage {
   const PixelBuffer& mean;
   const PixelBuffer& standard_error;
   double degrees_of_freedom;
+  // The standard error of the mean of the whole image, red, green and blue, where the passes give it.
+  std::optional<std::array<double, 3>> error_of_mean = {};
+  // Pixels of one pass share samples, so that their errors may be correlated.
+  bool pixels_share_samples = false;
 };
 
-// The outcome at one scale: the most significant of all its tests, at the pixel where its block begins.
+// The outcome at one scale: the most significant of all its tests, at the pixel where its region begins.
 struct WelchScale {
   std::size_t tests = 0;
   double smallest_p = 1.0;
-  // Of that test: how many standard errors the two are apart (signed: first minus second), and the smallest difference
-  // that the test would have found at this family-wise level.
+  // Of that test: how many standard errors the two are apart (signed: first minus second), and the difference that it
+  // finds at this family-wise level with probability one half.
   double t = 0.0;
   double difference = 0.0;
   double detectable = 0.0;
+  double detectable_median = 0.0;  // the same over all tests of the scale
   int x = 0, y = 0, channel = 0;
+  int side = 0;  // of the region, in pixels; 0: the whole image
   // smallest_p is below level / (3 tests).
   bool differs = false;
 };
@@ -37,9 +45,20 @@ struct WelchReport {
   bool differs = false;
 };
 
-// Two-sided tests (Welch 1947) of the mean of the image, of blocks of 8x8 pixels and of single pixels, for each of the
-// three colour channels. Pixels are taken as independent of each other within a pass. The level is shared out equally
-// over the three scales and over the tests within each (Bonferroni). A value that is not finite counts as a difference.
+// Two-sided tests (Welch 1947) of the mean of the image, of blocks of 8x8, 16x16, 32x32, ... pixels and of single
+// pixels, for each of the three colour channels. The level is shared out equally over the three scales and over the
+// tests within each (Bonferroni). A value that is not finite counts as a difference.
+//
+// Errors that are estimated from passes, and skewed pixel values, make three corrections necessary; errors that are
+// known (infinite degrees of freedom) are taken as they are.
+// 1. Variances are raised to what is known from elsewhere, see raised_variance().
+// 2. To the variance of the darker image comes grain x |difference|, its grain being the sum of all variances over the
+//    sum of all means: the variance of rare samples of equal size whose mean is the difference, none of which was met.
+//    (Bernstein's inequality has this form.)
+// 3. Where pixels share samples, block tests are divided by what their squares exceed those of a normal variable by, in
+//    the median or at 90 %, whichever is more, but at most by 3; and by what the passes' image means show, if more.
+// Pixels are otherwise taken as independent of each other within a pass. The image mean takes the greater of the
+// variance of the sum of its pixels and of its spread over the passes.
 WelchReport welch_test(const EstimatedImage& a, const EstimatedImage& b, double level);
 
 }  // namespace montelux
