@@ -2,7 +2,7 @@
 // Opens a report in headless Chromium and holds it to what a reader expects: no error on the console, plots that are
 // drawn, a read-out under the pointer, zoom, pictures that zoom together, and colours of its own in the dark. Exit status:
 // 0 all good, 1 not, 77 no Chromium here.
-import { cutOff, drawnColors, examineReport, examineSlider, excessWidth, misplacedLinks, paperPages, pixels } from "./browser.mjs";
+import { cutOff, drawnColors, examineReport, examineSlider, excessWidth, misplacedLinks, paperPages, pixels, restlessLinks } from "./browser.mjs";
 
 await examineReport(process.argv[2], process.argv[3], async ({ page, expect, shot, ground }) => {
   await shot("top-light");
@@ -109,6 +109,12 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   }
   const astray = await misplacedLinks(page);
   expect(astray.length === 0, `its links land where they say, too ${astray.slice(0, 5).join("; ")}`);
+
+  for (const width of [320, 390, 640, 1280]) {
+    await page.setViewportSize({ width, height: 800 });
+    const restless = await restlessLinks(page);
+    expect(restless.length === 0, `the mark of the report being read moves nothing at ${width} pixels ${restless.slice(0, 5).join("; ")}`);
+  }
 
   // On A4 between margins of 16 mm: 673 x 1001 CSS pixels.
   await page.setViewportSize({ width: 673, height: 1001 });
