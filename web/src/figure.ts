@@ -3,6 +3,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { element } from "./dom";
 import { join, type Joined } from "./join";
+import { placeNames } from "./names";
 import { paletteIndex } from "./palette";
 import { readout } from "./readout";
 import type { Axis, Curve, FigureSection } from "./report";
@@ -31,24 +32,41 @@ function ranges(figure: FigureSection): { x: Range; y: Range } {
   };
 }
 
+const tickFont = "12px system-ui, sans-serif";
+const labelSize = 24; // of an axis
+const valuesWidth = 56; // beside the plot
+const padding: [number, number, number, number] = [10, 14, 0, 0];
+
 function axisOptions(axis: Axis, side: number): uPlot.Axis {
+  let labels: string[] = [];
+  let angle = 0;
+  let size = side === 2 ? 34 : valuesWidth;
   const ticks = (low: number, high: number) =>
     axis.names ? namedTicks(axis.names, low, high) : axis.log ? logTicks(low, high) : linearTicks(low, high);
-  let labels: string[] = [];
+  const place = (u: uPlot, values: number[], low: number, high: number): void => {
+    const left = labelSize + valuesWidth;
+    const space = (u.width - left - padding[1]) / (high - low);
+    const placed = placeNames(labels, space, left + ((values[0] ?? low) - low) * space, tickFont);
+    labels = placed.labels;
+    angle = placed.angle;
+    size = placed.height + 19;
+  };
   return {
     side,
     scale: side === 2 ? "x" : "y",
     label: axis.label,
-    labelSize: 24,
-    size: side === 2 ? 34 : 56,
+    labelSize,
+    size: () => size,
+    rotate: () => angle,
     labelFont: "13px system-ui, sans-serif",
-    font: "12px system-ui, sans-serif",
+    font: tickFont,
     stroke: () => color("--faint"),
     grid: { stroke: () => color("--grid"), width: 1 },
     ticks: { show: false },
-    splits: (_u, _axis, low, high) => {
+    splits: (u, _axis, low, high) => {
       const made = ticks(low, high);
       labels = made.labels;
+      if (axis.names) place(u, made.values, low, high);
       return made.values;
     },
     filter: (_u, splits) => splits,
@@ -176,7 +194,7 @@ function plotOptions(figure: FigureSection, joined: Joined, size: Size): uPlot.O
     width: size.width,
     height: size.height,
     pxAlign: false,
-    padding: [10, 14, 0, 0],
+    padding,
     legend: { show: false },
     scales: {
       x: { time: false, distr: figure.x.log ? 3 : 1, range: () => full.x },
@@ -215,7 +233,7 @@ function legend(figure: FigureSection, plot: () => uPlot | undefined): HTMLEleme
 }
 
 export function figureView(figure: FigureSection): HTMLElement {
-  const host = element("div", { class: figure.square ? "plot square" : "plot" });
+  const host = element("div", { class: figure.square ? "plot square" : figure.x.names ? "plot named" : "plot" });
   const joined = join(figure.curves, figure.x.log);
   let plot: uPlot | undefined;
   const hint = element("span", { class: "hint" }, "Drag to zoom, double-click to reset.");

@@ -20,14 +20,24 @@ export function fitFormula(made: HTMLElement): void {
   made.classList.toggle("scrolls", made.scrollWidth > made.clientWidth + 1);
 }
 
+// Text that may wrap between the parts of the long words in it: after the colon, the comma and the equals sign of
+// "path:mis=balance,roulette=efficiency". Short values stay with their keys.
+function wrappable(text: string): Node[] {
+  const breaks = /(?<=[\p{L}\d][:,_/])(?=[\p{L}\d])|(?<=[\p{L}\d]=)(?=[\p{L}\d.-]{4})/u;
+  return text.split(/(\s+)/).flatMap((word) =>
+    word.length < 12 || !/\p{L}/u.test(word) ? [document.createTextNode(word)]
+      : word.split(breaks).flatMap((part, i) => [...(i > 0 ? [element("wbr")] : []), document.createTextNode(part)]));
+}
+
 // Text with formulas in dollars and code in backticks.
 export function rich(text: string): DocumentFragment {
   const made = document.createDocumentFragment();
   for (const part of text.split(/(\$[^$]+\$|`[^`]+`)/)) {
     if (part.startsWith("$") && part.length > 2) made.append(formula(part.slice(1, -1), false));
     else if (part.startsWith("`") && part.length > 2) made.append(element("code", {}, part.slice(1, -1)));
-    else if (part) made.append(part);
+    else if (part) made.append(...wrappable(part));
   }
+  made.normalize();
   return made;
 }
 

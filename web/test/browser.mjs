@@ -144,6 +144,61 @@ export const cutOff = (page, selector) =>
       .map((e) => e.textContent.slice(0, 40));
   }, selector);
 
+// Names of methods that break within one of their parts ("mis=bal-ance") instead of between two, among these elements.
+export const brokenNames = (page, selector) =>
+  page.locator(selector).evaluateAll((all) =>
+    all.filter((element) => {
+      const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+      for (let node = walker.nextNode(); node; node = walker.nextNode())
+        for (const { 0: part, index } of node.data.matchAll(/[\p{L}\d]+/gu)) {
+          const range = document.createRange();
+          range.setStart(node, index);
+          range.setEnd(node, index + part.length);
+          if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) return true;
+        }
+      return false;
+    }).map((element) => element.textContent.slice(0, 40)));
+
+// From the next load of the page on, what is written on canvases is kept, so that drawnTexts() knows it.
+export const keepTexts = (page) =>
+  page.addInitScript(() => {
+    const kept = new WeakMap();
+    window.textsOf = (canvas) => kept.get(canvas) ?? [];
+    const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+      kept.delete(this.canvas);
+      return clearRect.apply(this, box);
+    };
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+      const { actualBoundingBoxLeft: left, actualBoundingBoxRight: right, actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } =
+        this.measureText(text);
+      const turn = this.getTransform();
+      const corners = [[-left, -up], [right, -up], [right, down], [-left, down]].map(([dx, dy]) => {
+        const at = turn.transformPoint(new DOMPoint(x + dx, y + dy));
+        return [at.x, at.y];
+      });
+      if (text.trim()) kept.set(this.canvas, [...window.textsOf(this.canvas), { text, corners }]);
+      return fillText.call(this, text, x, y);
+    };
+  });
+
+// Pairs of texts on a canvas that cover each other, and texts that reach beyond its edge.
+export const crowdedTexts = (canvas) =>
+  canvas.evaluate((element) => {
+    const texts = window.textsOf(element);
+    if (texts.length === 0) return ["no text at all"];
+    // Two rectangles are apart where a side of one of them divides them.
+    const apart = (a, b) => [a, b].some(({ corners: c }) => [[0, 1], [1, 2]].some(([i, j]) => {
+      const [nx, ny] = [c[j][0] - c[i][0], c[j][1] - c[i][1]];
+      const along = ({ corners }) => corners.map(([x, y]) => nx * x + ny * y);
+      const [p, q] = [along(a), along(b)];
+      return Math.max(...p) <= Math.min(...q) || Math.max(...q) <= Math.min(...p);
+    }));
+    const crowded = texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => !apart(a, b)).map((b) => `${a.text} on ${b.text}`));
+    const outside = texts.filter(({ corners }) => corners.some(([x, y]) => x < 0 || y < 0 || x > element.width || y > element.height));
+    return [...crowded, ...outside.map(({ text }) => `${text} beyond the edge`)];
+  });
+
 // Links of the contents whose targets do not come to the top of the window, unless the page ends before. Each is followed on
 // a page that was just opened: the way leads past figures that have not been drawn yet.
 export async function misplacedLinks(page) {

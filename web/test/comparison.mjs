@@ -1,7 +1,9 @@
 // usage: node comparison.mjs REPORT.html [SCREENSHOT_FOLDER]
 // Opens the report of a comparison in headless Chromium: pictures that are drawn, values under the pointer, the ways to
 // hold pictures against each other, and where the variance comes from. Exit status: 0 all good, 1 not, 77 no Chromium here.
-import { cutOff, drawnColors, examineReport, examineSlider, excessWidth, pixels } from "./browser.mjs";
+import {
+  brokenNames, crowdedTexts, cutOff, drawnColors, examineReport, examineSlider, excessWidth, keepTexts, pixels,
+} from "./browser.mjs";
 
 await examineReport(process.argv[2], process.argv[3], async ({ page, expect, shot, ground }) => {
   await page.waitForSelector(".comparison canvas");
@@ -105,8 +107,25 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   expect(wide <= 0, `a telephone need not scroll sideways (${wide} pixels too wide)`);
   const lost = await cutOff(page, "td, th, .facts dd, article p, button, select, math");
   expect(lost.length === 0, `and nothing is cut off there ${lost.slice(0, 3).join("; ")}`);
+  const broken = await brokenNames(page, ".facts dt, .picture .caption, th:first-child, td:first-child, article > p, .legend button");
+  expect(broken.length === 0, `names wrap between their parts ${broken.slice(0, 3).join("; ")}`);
   await shot("comparison-narrow", { fullPage: true });
   await viewer.locator(".switcher button", { hasText: "Slider" }).click();
   await stage.scrollIntoViewIfNeeded();
   await shot("comparison-narrow-slider");
+
+  await keepTexts(page);
+  for (const width of [320, 390, 640, 1280]) {
+    await page.setViewportSize({ width, height: 800 });
+    await page.reload();
+    for (const family of ["bounces", "techniques"]) {
+      const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance by ${family}` }) });
+      await chart.scrollIntoViewIfNeeded();
+      await chart.locator(".plot canvas").waitFor({ timeout: 10000 });
+      await page.waitForTimeout(200);
+      const crowded = await crowdedTexts(chart.locator(".plot canvas"));
+      expect(crowded.length === 0, `no name of ${family} covers another at ${width} pixels ${crowded.slice(0, 3).join("; ")}`);
+      if (width === 390) await shot(`comparison-narrow-${family}`);
+    }
+  }
 });
