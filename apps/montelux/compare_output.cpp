@@ -8,6 +8,7 @@
 #include "api/json_text.h"
 #include "api/render.h"
 #include "progress.h"
+#include "shortcomings.h"
 
 namespace montelux::cli {
 
@@ -59,7 +60,7 @@ Json to_json(const lab::Attribution& attribution) {
   return json;
 }
 
-Json to_json(const MethodResult& m) {
+Json to_json(const MethodResult& m, const MethodShortcomings& lacks, const std::vector<std::string>& left_out) {
   Json json;
   json["label"] = m.contestant.label;
   json["name"] = m.contestant.shown_name();
@@ -90,6 +91,7 @@ Json to_json(const MethodResult& m) {
     curve.push_back({{"samples", p.samples}, {"mse", to_json(p.mse)}, {"seconds", to_json(p.seconds)}});
   json["convergence"] = curve;
   json["attribution"] = m.attribution ? to_json(*m.attribution) : Json();
+  add_to(json, {lacks.missing, lacks.replaced, left_out});
   return json;
 }
 
@@ -137,11 +139,14 @@ std::string coverage_text(const Measured& m) {
                       : fmt::format("own 95 % intervals hold {:.1f} %", 100 * m.mean);
 }
 
-void print_method(const Contest& contest, const MethodResult& m) {
+void print_method(const Contest& contest, std::size_t i) {
   const lab::ContestResult& r = contest.result;
+  const MethodResult& m = r.methods[i];
   const ContestOptions& options = contest.saved.options;
   const auto title = lab::title_of(r.measure);
   fmt::print("{}\n", m.contestant.shown_name());
+  // What the reading of the scene left out is no matter of a method: it is among the conditions.
+  print_text(Shortcomings{contest.shortcomings[i].missing, contest.shortcomings[i].replaced, {}}, 9, "   ");
   if (m.repeats.empty()) {
     fmt::print("   no repeat was done\n");
     return;
@@ -164,7 +169,7 @@ void print_method(const Contest& contest, const MethodResult& m) {
 void print_contest_text(const std::string& scene, const Contest& contest) {
   for (const auto& [name, value] : conditions_of(contest, scene)) fmt::print("{}: {}\n", name, value);
   fmt::print("took: {}, {} were predicted\n\n", time_text(contest.seconds), time_text(contest.forecast.total()));
-  for (const MethodResult& m : contest.result.methods) print_method(contest, m);
+  for (std::size_t i = 0; i < contest.result.methods.size(); ++i) print_method(contest, i);
   fmt::print("\n");
   for (const lab::PairVerdict& v : contest.result.verdicts)
     fmt::print("{}\n", sentence_of(contest, v, contest.saved.options.confidence));
@@ -192,7 +197,8 @@ void print_contest_json(const std::string& scene, const Contest& contest) {
   json["predicted_seconds"] = number(contest.forecast.total());
   json["seconds"] = contest.seconds;
   json["methods"] = Json::array();
-  for (const MethodResult& m : r.methods) json["methods"].push_back(to_json(m));
+  for (std::size_t i = 0; i < r.methods.size(); ++i)
+    json["methods"].push_back(to_json(r.methods[i], contest.shortcomings[i], contest.left_out));
   json["verdicts"] = Json::array();
   for (const lab::PairVerdict& v : r.verdicts) json["verdicts"].push_back(to_json(v, contest));
   fmt::print("{}\n", json_text(std::move(json), 2));

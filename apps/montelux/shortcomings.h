@@ -1,5 +1,7 @@
 // What a picture lacks of what its scene file names, as results state it.
 #pragma once
+#include <string_view>
+
 #include "api/scene.h"
 
 namespace montelux::cli {
@@ -11,8 +13,9 @@ struct Shortcomings {
   const std::vector<std::string>& left_out;
 };
 
-// A line for each on standard output, where there are any; the words before them are `width` wide.
-void print_text(const Shortcomings& s, int width);
+// A line for each on standard output, where there are any; the words before them are `width` wide and stand behind
+// `indent`.
+void print_text(const Shortcomings& s, int width, std::string_view indent = "");
 
 // "missing_light": [...], "replaced": [{"family": "integrator", "name": "sppm", "by": "path"}, ...], "left_out": [...].
 template <class Json>

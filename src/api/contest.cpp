@@ -54,15 +54,21 @@ std::string refusal_of(const lab::ContestResult& result) {
 }
 
 // What the reader must know of the methods: one note for all that are alike.
-std::vector<std::string> notes_of_methods(const std::vector<lab::Contestant>& contestants, bool attribution) {
-  std::map<std::string, std::vector<std::string>> by_bias;
+std::vector<std::string> notes_of_methods(const Field& field, bool attribution) {
+  std::map<std::string, std::vector<std::string>> by_bias, by_light;
   std::vector<std::string> unlayered, notes;
-  for (const lab::Contestant& c : contestants) {
+  for (std::size_t i = 0; i < field.contestants.size(); ++i) {
+    const lab::Contestant& c = field.contestants[i];
     if (!c.biases.empty()) by_bias[fmt::format("{}", fmt::join(c.biases, ", "))].push_back(c.shown_name());
+    for (const std::string& light : field.shortcomings[i].missing) by_light[light].push_back(c.shown_name());
     if (attribution && !c.layers) unlayered.push_back(c.shown_name());
   }
   for (const auto& [bias, names] : by_bias)
     notes.push_back(fmt::format("{} {} biased: {}", listed(names), names.size() > 1 ? "are" : "is", bias));
+  for (const auto& [light, names] : by_light)
+    notes.push_back(fmt::format("{} cannot find {}: it is missing from {}, and from a reference that is made {}",
+                                listed(names), light, names.size() > 1 ? "their pictures" : "its pictures",
+                                names.size() > 1 ? "by one of them" : "by it"));
   if (!unlayered.empty())
     notes.push_back(fmt::format("the variance of {} is not attributed, since {} not split light into layers",
                                 listed(unlayered), unlayered.size() > 1 ? "they do" : "it does"));
@@ -70,13 +76,14 @@ std::vector<std::string> notes_of_methods(const std::vector<lab::Contestant>& co
 }
 
 // What is to be said once all rounds are done.
-void conclude(Contest& contest, const std::vector<lab::Contestant>& contestants, const lab::ContestSettings& settings,
-              bool interrupted) {
-  contest.result = lab::result_of(contestants, contest.saved.state, settings);
+void conclude(const LoadedScene::Parts& parts, const Field& field, const lab::ContestSettings& settings,
+              bool interrupted, Contest& contest) {
+  contest.result = lab::result_of(field.contestants, contest.saved.state, settings);
   contest.result.interrupted = interrupted;
   contest.notes = contest.saved.notes;
+  contest.shortcomings = field.shortcomings, contest.left_out = parts.info.left_out;
   contest.refusal = refusal_of(contest.result);
-  const auto notes = notes_of_methods(contestants, contest.saved.options.attribution);
+  const auto notes = notes_of_methods(field, contest.saved.options.attribution);
   contest.notes.insert(contest.notes.end(), notes.begin(), notes.end());
 }
 
@@ -221,7 +228,7 @@ Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& 
     return Failure{"interrupted before there was a reference to compare with"};
   const bool whole =
       lab::run_rounds(field->contestants, *settings, settings->repeats, meter.watch(), contest.saved.state);
-  conclude(contest, field->contestants, *settings, !whole);
+  conclude(scene.parts(), *field, *settings, !whole, contest);
   contest.seconds = meter.elapsed();
   return contest;
 }
@@ -250,7 +257,7 @@ Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, c
   meter.expect(contest.forecast.repeats);
   if (observer.forecast) observer.forecast(contest.forecast);
   const bool whole = lab::run_rounds(field->contestants, *settings, rounds, meter.watch(), contest.saved.state);
-  conclude(contest, field->contestants, *settings, !whole);
+  conclude(scene.parts(), *field, *settings, !whole, contest);
   contest.seconds = meter.elapsed();
   return contest;
 }

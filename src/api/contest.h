@@ -67,12 +67,20 @@ struct ContestObserver {
   std::function<void(const ContestProgress&)> progress;  // several times a second
 };
 
+// What the pictures of one method lack of what the scene's file names.
+struct MethodShortcomings {
+  std::vector<std::string> missing;   // sorts of light of the scene that it cannot find
+  std::vector<Replacement> replaced;  // of what the file names and the method does not choose itself
+};
+
 // Everything that was found. `refusal` says why the verdicts do not count, where the reference is not good enough.
 struct Contest {
   lab::ContestResult result;
   std::string refusal;
   std::vector<std::string> notes;
-  SavedContest saved;  // but for the scene, how it was loaded, and its fingerprint
+  std::vector<MethodShortcomings> shortcomings;  // of each method
+  std::vector<std::string> left_out;             // of the scene by a lenient reading, so from every picture
+  SavedContest saved;                            // but for the scene, how it was loaded, and its fingerprint
   ContestForecast forecast;
   double seconds = 0;  // that all of it took, by the machine's clock
 };

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "api/render.h"
+#include "api/shortcomings.h"
 
 namespace montelux {
 
@@ -145,11 +146,10 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
   if (!methods) return methods.failure();
   Field field;
   for (const MethodText& method : *methods) {
-    auto chosen = choose_integrator(
-        method.integrator,
-        {parts.picture.max_depth, parts.picture.max_component, parts.picture.width, parts.picture.height}, parts.scene,
-        *parts.accel);
+    auto chosen = choose_integrator(method.integrator, integrator_defaults(parts.picture), parts.scene, *parts.accel);
     if (!chosen) return Failure{method.text + ": " + chosen.error()};
+    note_light(*chosen, parts);
+    field.shortcomings.push_back({chosen->missing, replaced_in(parts.info, true, method.sampler.has_value())});
     const PointSetKind sampler = method.sampler.value_or(parts.picture.sampler);
     note_sampler(*chosen, sampler);
     field.integrators.push_back(*std::move(chosen));

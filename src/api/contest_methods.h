@@ -26,6 +26,7 @@ Result<std::vector<MethodText>> read_methods(const ContestOptions& options);
 struct Field {
   std::vector<ChosenIntegrator> integrators;
   std::vector<lab::Contestant> contestants;
+  std::vector<MethodShortcomings> shortcomings;
 };
 Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& options);
 

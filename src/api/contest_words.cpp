@@ -198,6 +198,7 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& co
   rows.emplace_back("intervals", fmt::format("{:g} %", 100 * o.confidence));
   rows.emplace_back("reference", fmt::format("{}; its own variance is {:.2g} of the smallest error", r.reference.origin,
                                              r.reference_share[r.measure]));
+  for (const std::string& omission : contest.left_out) rows.emplace_back("left out", omission);
   rows.emplace_back("seed", fmt::format("{}", o.seed));
   if (o.processor_time) rows.emplace_back("clock", "time of all threads on processors");
   rows.emplace_back("version", "Montelux " + version());
@@ -205,6 +206,18 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& co
     if (const auto* text = std::get_if<std::string>(&date->value)) rows.emplace_back("date", *text);
   return rows;
 }
+
+namespace {
+
+// "missing: light of point lights ...; replaced: sampler zsobol by blue-noise"; empty where pictures lack nothing.
+std::string text_of(const MethodShortcomings& shortcomings) {
+  std::vector<std::string> parts;
+  for (const std::string& light : shortcomings.missing) parts.push_back("missing: " + light);
+  for (const Replacement& r : shortcomings.replaced) parts.push_back("replaced: " + to_text(r));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace
 
 Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
                      double confidence, const std::vector<std::string>& commands) {
@@ -216,6 +229,8 @@ Status write_contest(const std::filesystem::path& file, const Contest& contest, 
   const double mean = lab::mean_value(contest.result.reference.mean);
   for (const lab::MethodResult& m : contest.result.methods)
     words.agreement.push_back(m.repeats.empty() ? "no repeat was done" : sentence_of(m.agreement, mean));
+  for (const MethodShortcomings& shortcomings : contest.shortcomings)
+    words.shortcomings.push_back(text_of(shortcomings));
   if (!contest.refusal.empty()) words.notes.push_back(contest.refusal);
   if (contest.result.interrupted)
     words.notes.push_back("it was interrupted: the figures are of the repeats that were done");

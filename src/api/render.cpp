@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/parts.h"
+#include "api/shortcomings.h"
 #include "integrator/catalogue.h"
 #include "integrator/direct/settings.h"
 #include "integrator/missing_light.h"
@@ -58,17 +59,6 @@ Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
   return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
 }
 
-IntegratorDefaults integrator_defaults(const PictureSettings& picture) {
-  return {picture.max_depth, picture.max_component, picture.width, picture.height};
-}
-
-// Notes what of the scene's light the picture will not show.
-void note_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const LoadedScene::Parts& parts) {
-  if (chosen.search != LightSearch::none && parts.scene.lights.count() == 0)
-    chosen.notes.push_back("the scene has no light: the picture is black");
-  note_missing_light(chosen, defaults, parts.scene, *parts.accel);
-}
-
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
   const PictureSettings& picture = parts.picture;
   Plan plan;
@@ -84,15 +74,11 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
   const Stopwatch since_choice;
-  const IntegratorDefaults defaults = integrator_defaults(picture);
-  auto chosen = choose_integrator(*choice, defaults, parts.scene, *parts.accel);
+  auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
-  note_light(plan.chosen, defaults, parts);
-  plan.replaced = parts.info.replaced;
-  std::erase_if(plan.replaced, [&](const Replacement& r) {
-    return (r.family == "integrator" && (options.integrator || preset)) || (r.family == "sampler" && options.sampler);
-  });
+  note_light(plan.chosen, parts);
+  plan.replaced = replaced_in(parts.info, options.integrator || preset, options.sampler.has_value());
   plan.preparation = since_choice.seconds();
   plan.motion = options.layers && options.layers->motion;
   if (options.layers && options.layers->of_light()) {

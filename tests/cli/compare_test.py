@@ -11,6 +11,7 @@ import threading
 import unittest
 
 import program
+from light_test import GLASS, POINT, ROOM
 from program import ROOT, SCENE, ProgramTest
 
 SMALL = ["--resolution", "16x12", "--seed", "3"]
@@ -253,6 +254,42 @@ class Compare(ProgramTest):
         self.assertIn("path (a) and path (b) are the same method with the same settings: there is nothing to decide", text)
         # The default, typed.
         self.assertIn("path (a) and path:mis=power gave the same pictures, to the bit", text)
+
+    def test_what_pictures_lack_is_named_for_each_method(self):
+        ball = GLASS + '\nShape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'
+        scene = self.folder / "room.pbrt"
+        scene.write_text(ROOM.format(head='Integrator "sppm"\nSampler "zsobol"', world=POINT, ball=ball))
+        common = ["compare", scene, *SMALL, "--lenient", "--no-cache", "--spp", 4, "--repeats", 2, "-a", "path", "-b",
+                  "path:mis=balance,sampler=sobol"]
+        light = "light of point lights by way of smooth surfaces (dielectric)"
+        replaced = {"family": "sampler", "name": "zsobol", "by": "blue-noise"}
+        result = self.run_program(*common, "--json", "--save", "run.json")
+        resumed = self.run_program("compare", "--resume", "run.json", "--repeats", 1, "--json")
+        for told in json.loads(result.stdout)["methods"], json.loads(resumed.stdout)["methods"]:
+            self.assertEqual([m["missing_light"] for m in told], [[light], [light]])
+            # What a method chooses itself is not replaced.
+            self.assertEqual([m["replaced"] for m in told], [[replaced], []])
+            for method in told:
+                self.assertEqual(len(method["left_out"]), 1)
+                self.assertIn("nonsense", method["left_out"][0])
+        self.assertIn(f"path and path:mis=balance,sampler=sobol cannot find {light}", result.stderr)
+        result = self.run_program(*common, "--quiet", "-o", "report.html")
+        self.assertRegex(result.stdout, r"(?m)^left out: .*nonsense")
+        first, second = re.split(r"(?m)^path:mis=balance,sampler=sobol$", result.stdout)
+        self.assertIn(f"\n   missing  {light}\n   replaced sampler zsobol by blue-noise\n", first)
+        self.assertIn(f"\n   missing  {light}\n", second)
+        self.assertNotIn("   replaced", second)
+        page = (self.folder / "report.html").read_text()
+        for words in (f"path: missing: {light}; replaced: sampler zsobol by blue-noise.",
+                      f"path:mis=balance,sampler=sobol: missing: {light}.", '"left out"'):
+            self.assertIn(words, page)
+
+    def test_methods_that_find_all_light_lack_nothing(self):
+        result = self.compare("-a", "path:sampler=sobol", "-b", "naive:sampler=sobol", "--json")
+        for method in json.loads(result.stdout)["methods"]:
+            for key in "missing_light", "replaced", "left_out":
+                self.assertEqual(method[key], [])
+        self.assertNotIn("cannot find", result.stderr)
 
     def test_settings_of_all_methods(self):
         found = json.loads(self.compare("-a", "path", "-b", "naive", "-c", "path:maxdepth=1", "--set", "maxdepth=2",

@@ -277,6 +277,9 @@ ReportSet report_of(const ContestResult& result, const ContestWords& words) {
   for (const std::string& sentence : words.sentences) report.sections.push_back(Text{sentence + "."});
   for (std::size_t i = 0; i < words.agreement.size(); ++i)
     report.sections.push_back(Text{name_of(result.methods[i]) + ": " + words.agreement[i] + "."});
+  for (std::size_t i = 0; i < words.shortcomings.size(); ++i)
+    if (!words.shortcomings[i].empty())
+      report.sections.push_back(Text{name_of(result.methods[i]) + ": " + words.shortcomings[i] + "."});
   for (const std::string& note : words.notes) report.sections.push_back(Text{"Note: " + note + "."});
   report.sections.push_back(table_of_ratios(result));
   report.sections.push_back(table_of_methods(result));

@@ -9,10 +9,11 @@ namespace montelux::lab {
 struct ContestWords {
   std::string scene;
   std::vector<std::pair<std::string, std::string>> conditions;
-  std::vector<std::string> sentences;  // one a verdict
-  std::vector<std::string> agreement;  // one a method: is its mean the reference's?
-  std::vector<std::string> notes;      // what the reader must know
-  std::vector<std::string> commands;   // that make it again
+  std::vector<std::string> sentences;     // one a verdict
+  std::vector<std::string> agreement;     // one a method: is its mean the reference's?
+  std::vector<std::string> shortcomings;  // one a method: what its pictures lack of the scene; empty: nothing
+  std::vector<std::string> notes;         // what the reader must know
+  std::vector<std::string> commands;      // that make it again
 };
 
 ReportSet report_of(const ContestResult& result, const ContestWords& words);

@@ -1,0 +1,23 @@
+#include "api/shortcomings.h"
+
+namespace montelux {
+
+IntegratorDefaults integrator_defaults(const PictureSettings& picture) {
+  return {picture.max_depth, picture.max_component, picture.width, picture.height};
+}
+
+void note_light(ChosenIntegrator& chosen, const LoadedScene::Parts& parts) {
+  if (chosen.search != LightSearch::none && parts.scene.lights.count() == 0)
+    chosen.notes.push_back("the scene has no light: the picture is black");
+  note_missing_light(chosen, integrator_defaults(parts.picture), parts.scene, *parts.accel);
+}
+
+std::vector<Replacement> replaced_in(const SceneInfo& scene, bool chooses_integrator, bool chooses_sampler) {
+  std::vector<Replacement> replaced = scene.replaced;
+  std::erase_if(replaced, [&](const Replacement& r) {
+    return (r.family == "integrator" && chooses_integrator) || (r.family == "sampler" && chooses_sampler);
+  });
+  return replaced;
+}
+
+}  // namespace montelux
