@@ -107,7 +107,7 @@ void print_text(const DiffArguments& arguments, const PictureDifference& d) {
   if (d.equal)
     fmt::print("equal\n");
   else if (!d.welch)
-    fmt::print("different (no error bars of both pictures: noise is not told from error)\n");
+    fmt::print("different (no error bars of both pictures: noise cannot be separated from error)\n");
   else
     fmt::print("{}\n", d.welch->differs ? "different: more than the noise explains"
                                         : "indistinguishable: the noise explains the difference");

@@ -212,7 +212,7 @@ void add_statement_options(CLI::App& verb, IntegralOptions& integral) {
              append_to(s.densities));
   verb.add_flag("--normalize-pdf", s.normalize_densities, "divide densities by their measured integrals");
   verb.add_flag("--allow-missed", s.allow_missed,
-                "go on where a density is 0 and the integrand is not: biased, and said so");
+                "continue where a density is 0 and the integrand is not: biased, and reported as such");
   add_option(verb, {"--control", "EXPR", "control variate for the method control"}, text_into(s.control));
   add_option(verb, {"--control-integral", "VALUE", "its integral over the domain; an expression without variables"},
              text_into(s.control_integral));
@@ -285,7 +285,7 @@ void add_integrate(CLI::App& app, Action& chosen) {
   add_budget_options(verb, *arguments);
   add_option(verb, {"--save", "FILE", "keep the running estimate, to be resumed or merged"},
              text_into(arguments->save));
-  add_option(verb, {"--resume", "FILE", "go on with a saved estimate"}, text_into(arguments->resume));
+  add_option(verb, {"--resume", "FILE", "continue a saved estimate"}, text_into(arguments->resume));
   add_output_options(verb, arguments->output);
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_integrate(*arguments); }; });

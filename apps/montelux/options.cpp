@@ -207,15 +207,14 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
   add_option(verb,
              {"--shutter", "OPEN:CLOSE",
               "when the shutter is open, in the scene's unit of time (glTF: seconds), instead of as the file says; "
-              "with --frames in frame 0, and where they part the scene's whole time, before it is parted; the "
-              "brightness stays"},
+              "with --frames, that of frame 0; with --frames A:B/N, that of all frames together; the brightness stays"},
              into(options.shutter, parse_shutter));
   add_option(verb,
              {"--environment", "FILE[:rotation=DEG,scale=S]",
               "panorama around the scene instead of its own: equirectangular with +y on top, or square and equal-area"},
              into(options.environment, parse_environment));
   verb.add_flag("--verbose", options.verbose, "list each warning and note of the scene, not one for all of a kind");
-  verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and go on");
+  verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and continue");
 }
 
 void add_display_options(CLI::App& verb, DisplayRequest& display) {

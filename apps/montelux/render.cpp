@@ -329,9 +329,10 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
     const Result<Rendering> rendering =
         sequence->render({*one->render.seed, *one->render.shutter, before, frame == last}, observer);
     if (rendering->result.forgotten > 0 && !all.quiet && frame == first)
-      warn(fmt::format("chains keep histories of {} in all, and no more: {} of {} begin the next frame afresh",
-                       count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
-                       rendering->result.film.image().passes));
+      warn(fmt::format(
+          "chains keep histories of {} in all, and no more: {} of {} start the next frame without a history",
+          count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
+          rendering->result.film.image().passes));
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
     // A frame may be over before anybody asks for signals.
@@ -433,7 +434,7 @@ void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
 
 // How many samples, and which.
 void add_sampling_options(CLI::App& verb, RenderOptions& render) {
-  add_option(verb, {"--spp", "N", "samples a pixel; default: what the scene asks for"},
+  add_option(verb, {"--spp", "N", "samples a pixel; default: as the scene states"},
              into(render.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 24); }));
   add_option(verb,
              {"--time", "TIME",
@@ -443,7 +444,7 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
   add_option(verb,
              {"--interactive-budget", "TIME",
               "a picture within that time (33ms): as many whole passes of a sample as fit, of restir-di frames of one "
-              "chain, which goes on over --frames; one at least"},
+              "chain, which continues over --frames; at least one"},
              into(render.budget, parse_time));
   verb.get_option("--interactive-budget")->excludes("--spp")->excludes("--time");
   add_option(

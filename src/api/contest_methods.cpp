@@ -159,6 +159,7 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
     contestant.integrator = field.integrators.back().any();
     contestant.sampler = sampler;
     contestant.biases = field.integrators.back().biases;
+    contestant.missing = field.integrators.back().missing;
     const PixelIntegrator* pixels = contestant.integrator.pixel();
     if (options.attribution && pixels && pixels->has_layers()) contestant.layers = attribution_layers(parts.scene);
     field.contestants.push_back(std::move(contestant));
@@ -166,21 +167,39 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
   return field;
 }
 
-Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants) {
-  std::vector<std::size_t> unbiased, of_shared;
-  std::set<std::string> shared = biases_of(contestants.front());
+namespace {
+
+using Faults = std::set<std::string>;
+
+// The methods without a fault; where there are none, those that have no fault but what all share. A fixed sampler would
+// not state the reference's error.
+template <class FaultsOf>
+std::vector<std::size_t> without_faults(const std::vector<lab::Contestant>& contestants, FaultsOf faults_of) {
+  Faults shared = faults_of(contestants.front());
   for (const lab::Contestant& c : contestants) {
-    const std::set<std::string> own = biases_of(c);
-    std::erase_if(shared, [&](const std::string& bias) { return !own.contains(bias); });
+    const Faults own = faults_of(c);
+    std::erase_if(shared, [&](const std::string& fault) { return !own.contains(fault); });
   }
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const std::set<std::string> own = biases_of(contestants[i]);
-    if (is_fixed(contestants[i].sampler)) continue;  // nothing would state the reference's error
-    if (own.empty()) unbiased.push_back(i);
-    if (own == shared) of_shared.push_back(i);
-  }
-  if (!unbiased.empty()) return unbiased;
-  if (!of_shared.empty()) return of_shared;
+  const auto with = [&](const Faults& wanted) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < contestants.size(); ++i)
+      if (!is_fixed(contestants[i].sampler) && faults_of(contestants[i]) == wanted) found.push_back(i);
+    return found;
+  };
+  const std::vector<std::size_t> faultless = with({});
+  return faultless.empty() ? with(shared) : faultless;
+}
+
+}  // namespace
+
+Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants) {
+  const auto biases_and_missing = [](const lab::Contestant& c) {
+    Faults faults = biases_of(c);
+    faults.insert(c.missing.begin(), c.missing.end());
+    return faults;
+  };
+  if (const auto serve = without_faults(contestants, biases_and_missing); !serve.empty()) return serve;
+  if (const auto serve = without_faults(contestants, biases_of); !serve.empty()) return serve;
   return Failure{fmt::format(
       "every method is biased, and not all in one way: {}; none of them can make a reference that is fair to all: name "
       "one by --reference, or add a method without bias (path:maxdepth=none)",

@@ -30,7 +30,8 @@ struct Field {
 };
 Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& options);
 
-// Who may make the reference: the unbiased methods; where there are none, those that have no bias but what all share.
+// Who may make the reference: the methods that are unbiased and find all light; where there are none, those that lack
+// nothing but what all lack; where there are none of these either, the same by biases alone.
 Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants);
 
 }  // namespace montelux

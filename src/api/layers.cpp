@@ -48,7 +48,7 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     if (more) rest = rest.substr(comma + 1);
   }
   if (!request.of_light() && (request.errors || !request.motion))
-    return Failure{"errors are those of layers: bounces, light-groups, or both must be asked for, too"};
+    return Failure{"errors are those of layers: bounces, light-groups, or both are needed as well"};
   return request;
 }
 

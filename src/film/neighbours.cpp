@@ -77,7 +77,9 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
   float* __restrict variances = sums.variance.data(), * __restrict emissions = sums.emission.data();
   std::array<float*, spectrum_size> light;
   for (std::size_t c = 0; c < spectrum_size; ++c) light[c] = sums.light[c].data();
+#ifndef __clang__  // which sees by itself that no iteration depends on another
 #pragma GCC ivdep
+#endif
   for (int x = x0; x < x1; ++x) {
     float albedos = 0, normals = 0;
     for (std::size_t c = 0; c < spectrum_size; ++c) {

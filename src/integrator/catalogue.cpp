@@ -37,8 +37,8 @@ void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth) {
   if (!max_depth) return;
   chosen.biases.push_back(fmt::format("maxdepth={}", *max_depth));
   chosen.notes.push_back(
-      fmt::format("paths end after {} scattering events, as asked: the picture is biased by what longer paths would "
-                  "bring (--set maxdepth=none lifts it)",
+      fmt::format("paths end after {} scattering events (maxdepth): the picture is biased by what longer paths would "
+                  "contribute (--set maxdepth=none lifts it)",
                   *max_depth));
 }
 
@@ -276,7 +276,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   if (scene.pixel_centres) {
     result->biases.push_back("disablepixeljitter");
     result->notes.push_back(
-        "all camera rays go through the centres of pixels, as the scene's disablepixeljitter asks: the picture is "
+        "all camera rays go through the centres of pixels, as the scene's disablepixeljitter states: the picture is "
         "biased, without the pixel filter, depth of field and motion blur");
   }
   result->search = row->search, result->content = row->content;

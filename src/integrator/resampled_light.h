@@ -1,5 +1,5 @@
-// One out of many candidates on lights, in proportion to what each would bring if nothing were in the way: a shadow ray
-// for that one alone (Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination").
+// One out of many candidates on lights, in proportion to what each would contribute if nothing were in the way: a
+// shadow ray for that one alone (Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination").
 #pragma once
 #include "light/light_set.h"
 #include "mc/resampling.h"

@@ -22,7 +22,7 @@ List film_parameters(List more = {}) {
       {"cropwindow", {number}, "x0 x1 y0 y1 of the part to render, in [0, 1]; default all", 0, 1, {}, true},
       {"pixelbounds", {integer}, "x0 x1 y0 y1 of the part to render, in pixels; default all", 0, 65536, {}, true},
       later({"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, most}),
-      {"filename", {string}, "picture to write where no other one is asked for; default: the name of the scene"},
+      {"filename", {string}, "picture to write unless -o names another; default: the name of the scene"},
       later({"savefp16", {boolean}, "write half floats; default true"}),
       {"iso", {number}, "sensitivity: scales the picture with the exposure time; default 100", 1e-6, most},
       later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, most}),

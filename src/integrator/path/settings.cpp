@@ -60,7 +60,12 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
 }
 
 std::vector<ParameterSpec> common_parameters() {
-  return {{"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
+  return {{"maxdepth",
+           {integer},
+           "maximum number of bounces; default: as the scene states, else none",
+           0,
+           2147483647,
+           {"none"}},
           {"roulette", {string}, "throughput, proportional, efficiency, fixed:PROBABILITY or off; default throughput"},
           {"roulette-depth", {integer}, "scattering events before roulette; default 2", 0, 1 << 20},
           {"lanes", {string}, "paths side by side; default native", 0, 0, {"one", "native"}}};
@@ -76,7 +81,7 @@ EntitySpec path_spec() {
                    {"light-selection",
                     {string},
                     "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one out of so many of bvh, by what "
-                    "each would bring); default: as the scene says"}}};
+                    "each would contribute); default: as the scene says"}}};
   for (ParameterSpec& more : common_parameters()) spec.parameters.push_back(std::move(more));
   return spec;
 }

@@ -64,7 +64,7 @@ Result<ElementMesh> ElementMesh::cut(const Scene& scene, float edge) {
     else
       mesh.add_shape(row, edge);
     if (mesh.size_ > most_elements)
-      return Failure{fmt::format("elements of {:.3g} would be more than {}: ask for larger ones", edge, most_elements)};
+      return Failure{fmt::format("elements of {:.3g} would be more than {}: choose larger ones", edge, most_elements)};
   }
   return mesh;
 }

@@ -73,7 +73,12 @@ std::vector<ParameterSpec> common_parameters(bool paths) {
       {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
       {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
       {"warm-up", {integer}, "frames before those, which are not shown; default 0; with temporal=on", 0, 1024},
-      {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}},
+      {"maxdepth",
+       {integer},
+       "maximum number of bounces; default: as the scene states, else none",
+       0,
+       2147483647,
+       {"none"}},
       {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
 }
 

@@ -166,7 +166,12 @@ EntitySpec tracepath_spec() {
           "the recursive TracePath of COS 526, made right: emitted or reflected light; a light, and elsewhere",
           {{"p-emit", {number}, "probability of taking emitted light where there is both; default 0.9", 0.001, 0.999},
            {"roulette-depth", {integer}, "scattering events before roulette; default 1", 0, 64},
-           {"maxdepth", {integer}, "most bounces; default: as the scene asks, else none", 0, 2147483647, {"none"}}}};
+           {"maxdepth",
+            {integer},
+            "maximum number of bounces; default: as the scene states, else none",
+            0,
+            2147483647,
+            {"none"}}}};
 }
 
 TracePathSettings tracepath_settings(const ParameterList& list) {

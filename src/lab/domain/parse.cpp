@@ -64,7 +64,7 @@ class Reader {
     for (const TextPart& part : parts) {
       if (factors_.size() + mistakes_.size() >= most_dimensions)
         return complain(trimmed(part), factors_.size() < most_dimensions
-                                           ? "there are too many mistakes to go on"
+                                           ? "there are too many mistakes to continue"
                                            : fmt::format("the domain has more than {} dimensions", most_dimensions));
       read_side(trimmed(part));
     }
@@ -79,7 +79,7 @@ class Reader {
     const TextPart name = trimmed(halves[0]);
     if (!valid_variable(name.text))
       return complain(name,
-                      fmt::format("\"{}\" cannot be a variable: names start with a letter, go on with letters and "
+                      fmt::format("\"{}\" cannot be a variable: names start with a letter, followed by letters and "
                                   "digits, and are no function or constant",
                                   name.text));
     const std::vector<TextPart> bounds = split(halves[1], ':');

@@ -85,6 +85,18 @@ TEST(Reference, is_made_by_methods_whose_biases_are_shared) {
   EXPECT_EQ(*who_may_serve(contestants({{"a", "b"}, {"b", "a"}})), (Places{0, 1}));
 }
 
+TEST(Reference, is_made_by_methods_that_find_the_light_that_others_miss) {
+  std::vector<lab::Contestant> three = contestants({{}, {}, {"maxdepth=5"}});
+  three[0].missing = {"light of point lights"};
+  EXPECT_EQ(*who_may_serve(three), Places{1});
+  // Light that all miss rules nobody out.
+  three[1].missing = three[2].missing = three[0].missing;
+  EXPECT_EQ(*who_may_serve(three), (Places{0, 1}));
+  // Where each misses another light the comparison is made all the same, and notes say what its reference lacks.
+  three[1].missing = {"light of the sun"};
+  EXPECT_EQ(*who_may_serve(three), (Places{0, 1}));
+}
+
 TEST(Reference, is_refused_with_the_methods_of_each_bias) {
   const auto served = who_may_serve(contestants({{"maxdepth=5"}, {"maxdepth=5"}, {"maxdepth=5"}, {"elementsize=0.1"}}));
   ASSERT_FALSE(served);
