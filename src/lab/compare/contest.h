@@ -24,9 +24,10 @@ struct Contestant {
   AnyIntegrator integrator;
   PointSetKind sampler = PointSetKind::blue_noise;
   std::vector<std::string> biases;
-  std::optional<LayerPlan> layers{};  // that its variance is attributed to; none: the integrator has no layers
-  std::string name{};                 // what people call it, unique in the contest; empty: the text
-  std::string settings{};             // all that it was asked for, in one order: equal for methods that are the same
+  std::optional<LayerPlan> layers{};   // that its variance is attributed to; none: the integrator has no layers
+  std::string name{};                  // what people call it, unique in the contest; empty: the text
+  std::vector<std::string> missing{};  // light of the scene that it cannot find
+  std::string settings{};              // all that it was asked for, in one order: equal for methods that are the same
 
   const std::string& shown_name() const { return name.empty() ? text : name; }
 };
