@@ -16,8 +16,23 @@ Accel::Accel(Accel&&) noexcept = default;
 std::size_t Accel::memory() const { return std::size_t(kernel_->bytes.load()); }
 std::string Accel::kernel_version() { return RTC_VERSION_STRING; }
 
+namespace {
+
+// Rays that the kernel can take, which meet nothing else: it ends the program where a coordinate is too large or no
+// number.
 template <class F>
-Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
+MONTELUX_INLINE Mask<F> is_valid(const Ray<F>& ray, float bound) {
+  const auto within = [&](const Vec3<F>& v) {
+    return (abs(v.x) <= F(bound)) & (abs(v.y) <= F(bound)) & (abs(v.z) <= F(bound));
+  };
+  return within(ray.o) & within(ray.d) & (ray.t_max == ray.t_max);
+}
+
+}  // namespace
+
+template <class F>
+Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> wanted, Coherence coherence) const {
+  const Mask<F> on = wanted & is_valid(ray, kernel_->max_ray);
   constexpr int n = lanes_of<F>;
   using U = Uint<F>;
   alignas(64) RTCRayHitNt<n> r;
@@ -44,7 +59,8 @@ Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence)
 }
 
 template <class F>
-Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> on) const {
+Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> wanted) const {
+  const Mask<F> on = wanted & is_valid(ray, kernel_->max_ray);
   constexpr int n = lanes_of<F>;
   alignas(64) RTCRayNt<n> r;
   alignas(64) int valid[n];

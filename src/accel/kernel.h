@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "accel/callbacks.h"
+#include "geometry/ray_reach.h"
 
 namespace montelux {
 
@@ -27,6 +28,7 @@ inline bool count_memory(void* counter, ssize_t bytes, bool) {
 
 struct Accel::Kernel {
   const GeometryStore& store;
+  float max_ray = max_ray_coordinate;  // of the coordinates of origins and directions
   OpacityTest is_opaque;
   std::atomic<std::int64_t> bytes{0};
   DeviceHandle device;
@@ -41,6 +43,7 @@ struct Accel::Kernel {
     rtcSetDeviceMemoryMonitorFunction(device.get(), count_memory, &bytes);
     for (const ObjectRange& object : store.objects) objects.push_back(build(object, {}));
     world = build({0, store.world_rows}, store.instances);
+    for (const PlacedObject& placed : store.instances) max_ray = std::min(max_ray, ray_reach(placed.object_to_world));
     if (RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
       throw std::runtime_error(fmt::format("the ray-tracing kernel failed to build the scene (error {})", int(error)));
   }

@@ -2,9 +2,10 @@
 // (little end first) in base 64.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -38,7 +39,7 @@ std::vector<T> unpacked(const Json& json, std::size_t expected) {
   const auto bytes = lab::bytes_of_base64(json.get_ref<const std::string&>());
   if (!bytes || bytes->size() != 8 * expected) throw std::invalid_argument("an array in it is damaged");
   std::vector<double> wide(expected);
-  std::memcpy(wide.data(), bytes->data(), bytes->size());
+  std::copy(bytes->begin(), bytes->end(), reinterpret_cast<char*>(wide.data()));
   std::vector<T> values;
   values.reserve(expected);
   for (double x : wide) values.push_back(T(x));
@@ -73,6 +74,9 @@ Json options_json(const ContestOptions& o) {
   if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
   return json;
 }
+// Of a picture, in pixels.
+int side_from(const Json& j) { return whole_from(j, 0, 1 << 16); }
+
 ContestOptions options_from(const Json& j) {
   ContestOptions o;
   o.methods = j.at("methods").get<std::vector<std::string>>();
@@ -83,12 +87,15 @@ ContestOptions options_from(const Json& j) {
     if (!measure) throw std::invalid_argument("its settings are damaged");
     o.measure = *measure;
   }
-  o.seconds = optional_at<double>(j, "seconds"), o.samples = optional_at<int>(j, "samples");
-  o.repeats = j.at("repeats"), o.confidence = j.at("confidence"), o.seed = j.at("seed");
+  o.seconds = optional_at<double>(j, "seconds");
+  if (const Json& samples = j.at("samples"); !samples.is_null()) o.samples = whole_from(samples, 1, 1 << 20);
+  o.repeats = whole_from(j.at("repeats"), 1, 1 << 20), o.confidence = j.at("confidence");
+  o.seed = whole_from<std::uint32_t>(j.at("seed"), 0, std::numeric_limits<std::uint32_t>::max());
   o.warm_frames = j.at("warm_frames"), o.processor_time = j.at("processor_time");
   o.slopes = j.at("slopes"), o.attribution = j.at("attribution");
-  if (const Json& c = j.at("crop"); !c.is_null()) o.crop = PixelBounds{c.at(0), c.at(1), c.at(2), c.at(3)};
-  if (o.repeats < 1 || o.methods.empty()) throw std::invalid_argument("its settings are damaged");
+  if (const Json& c = j.at("crop"); !c.is_null())
+    o.crop = PixelBounds{side_from(c.at(0)), side_from(c.at(1)), side_from(c.at(2)), side_from(c.at(3))};
+  if (o.methods.empty()) throw std::invalid_argument("its settings are damaged");
   return o;
 }
 
@@ -105,12 +112,12 @@ Json reference_json(const lab::Reference& r) {
 }
 lab::Reference reference_from(const Json& j) {
   lab::Reference r;
-  const int width = j.at("width"), height = j.at("height");
-  if (width < 1 || height < 1 || width > 1 << 16 || height > 1 << 16)
-    throw std::invalid_argument("the size of its picture is damaged");
-  r.mean = r.variance = make_pixel_buffer(width, height, {"R", "G", "B"});
-  r.mean.values = unpacked<float>(j.at("mean"), r.mean.values.size());
-  r.variance.values = unpacked<float>(j.at("variance"), r.mean.values.size());
+  const int width = side_from(j.at("width")), height = side_from(j.at("height"));
+  const std::size_t values = 3 * std::size_t(width) * std::size_t(height);
+  std::vector<float> mean = unpacked<float>(j.at("mean"), values), variance = unpacked<float>(j.at("variance"), values);
+  if (values == 0) throw std::invalid_argument("its picture has no pixels");
+  const std::vector<std::string> channels{"R", "G", "B"};
+  r.mean = {width, height, channels, std::move(mean)}, r.variance = {width, height, channels, std::move(variance)};
   if (const Json& known = j.at("variance_of_image"); !known.is_null()) {
     const std::vector<double> v = unpacked<double>(known, 3);
     r.variance_of_image = {v[0], v[1], v[2]};
@@ -160,18 +167,18 @@ Json method_json(const lab::MethodState& m) {
   return json;
 }
 
-lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
+std::uint32_t count_from(double x) {
+  if (!(x >= 0 && x <= std::numeric_limits<std::uint32_t>::max()))
+    throw std::invalid_argument("a count in it is damaged");
+  return std::uint32_t(x);
+}
+
+lab::MethodState method_from(const Json& j, std::size_t pixel_count, int max_passes) {
   lab::MethodState m;
   // No more than any comparison plans: what runs on from the file is bounded.
-  const auto count = [&](const char* name, std::int64_t high) {
-    const Json& value = j.at(name);
-    if (!value.is_number_integer() || value < 0 || value > high)
-      throw std::invalid_argument(fmt::format("{} in it is {}, not a whole number up to {}", name, value.dump(), high));
-    return value.get<std::int64_t>();
-  };
-  m.plan = {int(count("samples_per_pass", 1 << 20)), int(count("planned_passes", 1 << 20))};
-  m.passes = decltype(m.passes)(count("passes", 1 << 30));
-  m.non_finite = decltype(m.non_finite)(count("non_finite", std::int64_t(1) << 62));
+  m.plan = {whole_from(j.at("samples_per_pass"), 1, 1 << 20), whole_from(j.at("planned_passes"), 0, max_passes)};
+  m.passes = whole_from<decltype(m.passes)>(j.at("passes"), 0, 1 << 30);
+  m.non_finite = whole_from<decltype(m.non_finite)>(j.at("non_finite"), 0, std::int64_t(1) << 62);
   for (const Json& one : j.at("repeats")) {
     m.repeats.push_back(repeat_from(one.at("figures")));
     m.luminance.push_back(unpacked<float>(one.at("luminance"), pixel_count));
@@ -180,14 +187,14 @@ lab::MethodState method_from(const Json& j, std::size_t pixel_count) {
     if (one.contains("attribution"))
       m.attribution.push_back({number_from(one.at("attribution").at(0)), unpacked(one.at("attribution").at(1))});
   }
-  if (m.plan.samples_per_pass < 1 || (!m.attribution.empty() && m.attribution.size() != m.repeats.size()))
+  if (!m.attribution.empty() && m.attribution.size() != m.repeats.size())
     throw std::invalid_argument("its repeats are damaged");
   if (!m.repeats.empty()) {
     const std::vector<double> pixels = unpacked<double>(j.at("pixels"), 8 * pixel_count);
     for (std::size_t p = 0; p < pixel_count; ++p) {
       PixelEstimate& e = m.pixels.emplace_back();
       std::copy_n(&pixels[8 * p], 3, e.mean), std::copy_n(&pixels[8 * p + 3], 3, e.m2);
-      e.passes = std::uint32_t(pixels[8 * p + 6]), e.non_finite = std::uint32_t(pixels[8 * p + 7]);
+      e.passes = count_from(pixels[8 * p + 6]), e.non_finite = count_from(pixels[8 * p + 7]);
     }
   }
   for (const Json& layer : j.at("pixel_shares")) m.pixel_shares.push_back(unpacked<double>(layer, pixel_count));
@@ -211,7 +218,8 @@ SavedContest saved_from(const Json& j) {
     saved.scene = *bytes;
   }
   saved.load.lenient = j.at("lenient");
-  if (const Json& size = j.at("resolution"); !size.is_null()) saved.load.resolution = {{size.at(0), size.at(1)}};
+  if (const Json& size = j.at("resolution"); !size.is_null())
+    saved.load.resolution = {{side_from(size.at(0)), side_from(size.at(1))}};
   if (const Json& name = j.at("camera"); !name.is_null()) saved.load.camera = name.get<std::string>();
   if (const Json& name = j.at("animation"); !name.is_null()) saved.load.animation = name.get<std::string>();
   if (const Json& times = j.at("shutter"); !times.is_null()) saved.load.shutter = {times.at(0), times.at(1)};
@@ -221,8 +229,10 @@ SavedContest saved_from(const Json& j) {
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
   saved.state.reference = reference_from(j.at("reference"));
+  // A pass has a sample at least; where time ends a comparison passes have another bound.
+  const int max_passes = saved.options.samples.value_or(1 << 20);
   for (const Json& m : j.at("methods"))
-    saved.state.methods.push_back(method_from(m, saved.state.reference.mean.pixel_count()));
+    saved.state.methods.push_back(method_from(m, saved.state.reference.mean.pixel_count(), max_passes));
   if (saved.state.methods.size() != saved.options.methods.size())
     throw std::invalid_argument("what it has gathered does not match its methods");
   return saved;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -47,7 +48,10 @@ Json budget_json(const lab::Budget& b) {
 }
 lab::Budget budget_from(const Json& j) {
   lab::Budget b;
-  b.samples = optional_at<std::uint64_t>(j, "samples"), b.seconds = optional_at<double>(j, "seconds");
+  constexpr std::uint64_t max_samples = std::uint64_t(1) << 62;
+  if (const Json& samples = j.at("samples"); !samples.is_null())
+    b.samples = whole_from<std::uint64_t>(samples, 0, max_samples);
+  b.seconds = optional_at<double>(j, "seconds");
   b.target_error = optional_at<double>(j, "target_error"), b.target_is_relative = j.at("target_is_relative");
   b.confidence = j.at("confidence");
   return b;
@@ -58,7 +62,7 @@ SavedIntegral saved_from(const Json& j) {
   saved.options.statement = statement_from(j.at("statement"));
   saved.options.methods = j.at("methods").get<std::vector<std::string>>();
   saved.options.budget = budget_from(j.at("budget"));
-  saved.options.seed = j.at("seed");
+  saved.options.seed = whole_from<std::uint64_t>(j.at("seed"), 0, std::numeric_limits<std::uint64_t>::max());
   for (const Json& run : j.at("runs")) {
     saved.methods.push_back(run.at("method"));
     saved.states.push_back(lab::state_from_json(run.at("state").dump()));

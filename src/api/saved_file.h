@@ -1,13 +1,17 @@
 // What saved work of every kind has in common: JSON that bears the name and the version of its format. Inside the
 // facade only. `Json` is the JSON library's value in all of it.
 #pragma once
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/checksum.h"
 #include "image/output_file.h"
@@ -108,6 +112,19 @@ Status save_json(const std::filesystem::path& file, Json json) {
   make_utf8(json);
   json["checksum"] = checksum_of(json);
   return write_file(file, json.dump(1) + '\n');
+}
+
+// A whole number in these bounds. Throws std::invalid_argument where a file has something else in its place: a
+// library's conversion of 1e300 to an integer is undefined.
+template <class T, class Json>
+T whole_from(const Json& value, T low, T high) {
+  const bool good = value.is_number_unsigned()
+                        ? std::in_range<T>(value.template get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<T>(value.template get<std::int64_t>());
+  if (!good || value.template get<T>() < low || value.template get<T>() > high)
+    throw std::invalid_argument(
+        fmt::format("it has {} where a whole number from {} to {} should be", value.dump(), low, high));
+  return value.template get<T>();
 }
 
 // Absence is null in the file.

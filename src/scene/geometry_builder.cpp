@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/ray_reach.h"
 #include "geometry/tessellate.h"
 #include "math/affine.h"
 
@@ -128,6 +129,13 @@ void GeometryBuilder::add_object(const ObjectDesc& object) {
 }
 
 void GeometryBuilder::add_instance(const InstanceDesc& instance) {
+  // Rays that the world has.
+  constexpr float usual_coordinate = 1e9f;
+  if (!(ray_reach(instance.object_to_world) >= usual_coordinate)) {
+    diagnostics_.warning(instance.where, "an object that is scaled down so far, or stands so far away, cannot be seen",
+                         "it is left out");
+    return;
+  }
   const ObjectParts& parts = objects_[std::size_t(instance.object)];
   const Transform& start = instance.object_to_world;
   const Motion motion(start, instance.object_to_world_later);
@@ -243,8 +251,9 @@ void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const G
   if (!split.patches.quads.empty()) add_patches(split.patches, world.flip_normal, row, emission);
 }
 
-void GeometryBuilder::add_triangles(const Mesh& world, bool flip, GeometryRow row,
+void GeometryBuilder::add_triangles(const Mesh& world, bool flip, const GeometryRow& like,
                                     const std::optional<Emission>& emission) {
+  GeometryRow row = like;
   const auto vertex_base = std::uint32_t(store_.positions.size());
   const auto count = std::uint32_t(world.triangles.size() / 3);
   row.kind = GeometryKind::triangles;
@@ -299,13 +308,15 @@ void GeometryBuilder::add_later_poses(const Mesh& world, GeometryRow& row) {
   }
 }
 
-void GeometryBuilder::add_patches(const Mesh& world, bool flip, GeometryRow row,
+void GeometryBuilder::add_patches(const Mesh& world, bool flip, const GeometryRow& like,
                                   const std::optional<Emission>& emission) {
+  GeometryRow row = like;
   for (std::size_t quad = 0; quad < world.quads.size() / 4; ++quad)
     add_single(patch_of(world, quad, flip), row, emission);
 }
 
-void GeometryBuilder::add_single(Shape shape, GeometryRow row, const std::optional<Emission>& emission) {
+void GeometryBuilder::add_single(Shape shape, const GeometryRow& like, const std::optional<Emission>& emission) {
+  GeometryRow row = like;
   row.kind = GeometryKind::shape;
   row.first = std::uint32_t(store_.shapes.size());
   row.count = 1;
@@ -317,7 +328,8 @@ void GeometryBuilder::add_single(Shape shape, GeometryRow row, const std::option
   store_.rows.push_back(row);
 }
 
-void GeometryBuilder::add_curves(const ShapeDesc& shape, GeometryRow row) {
+void GeometryBuilder::add_curves(const ShapeDesc& shape, const GeometryRow& like) {
+  GeometryRow row = like;
   Result<CurveSet> made = make_curves(curve_of(shape));
   if (!made) {
     diagnostics_.error(shape.entity.where, made.error());

@@ -59,11 +59,11 @@ class GeometryBuilder {
   void place_moving(std::uint32_t object, const Placing& placing);
   void add_mesh(const Mesh& mesh, const ShapeDesc& shape, const GeometryRow& row,
                 const std::optional<Emission>& emission);
-  void add_triangles(const Mesh& world, bool flip, GeometryRow row, const std::optional<Emission>& emission);
+  void add_triangles(const Mesh& world, bool flip, const GeometryRow& like, const std::optional<Emission>& emission);
   void add_later_poses(const Mesh& world, GeometryRow& row);
-  void add_patches(const Mesh& world, bool flip, GeometryRow row, const std::optional<Emission>& emission);
-  void add_single(Shape shape, GeometryRow row, const std::optional<Emission>& emission);
-  void add_curves(const ShapeDesc& shape, GeometryRow row);
+  void add_patches(const Mesh& world, bool flip, const GeometryRow& like, const std::optional<Emission>& emission);
+  void add_single(Shape shape, const GeometryRow& like, const std::optional<Emission>& emission);
+  void add_curves(const ShapeDesc& shape, const GeometryRow& like);
   void grow(const Bounds3& box) {
     (in_object_ ? object_bounds_.back() : bounds_) = join(in_object_ ? object_bounds_.back() : bounds_, box);
   }

@@ -164,5 +164,47 @@ class Completion(ProgramTest):
             self.assertEqual(set(result.stdout.split()), expected, words)
 
 
+
+class Extremes(ProgramTest):
+    """Numbers that no ray-tracing kernel takes: one message at most, and a picture."""
+
+    SCENE = """LookAt {eye} 0 -5 0 0 0 0 1 0
+Camera "perspective"
+WorldBegin
+LightSource "infinite"
+Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+ObjectBegin "pair"
+Shape "sphere"
+Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ 0 0 0  1 0 0  0 1 0 ]
+ObjectEnd
+Shape "sphere"
+{place}
+"""
+
+    def mean(self, eye="0", place=""):
+        (self.folder / "a.pbrt").write_text(self.SCENE.format(eye=eye, place=place))
+        result = self.run_program("render", "a.pbrt", "--resolution", "16x16", "--spp", "4", "--json", "-o", "a.pfm")
+        return json.loads(result.stdout)["mean"][0], result.stderr
+
+    def test_a_camera_beyond_all_space_sees_the_sky(self):
+        mean, _ = self.mean(eye="9223372036854775808")
+        self.assertGreater(mean, 0.999)
+
+    def test_an_object_that_no_ray_can_see_is_left_out_with_a_warning(self):
+        alone, _ = self.mean()
+        self.assertLess(alone, 0.99)
+        for place in "Scale 1e-30 1 1", "Scale 1e-18 1e-18 1e-18", "Scale 1 1 1e-10", "Translate 1e30 0 0":
+            mean, errors = self.mean(place=f'AttributeBegin {place} ObjectInstance "pair" AttributeEnd')
+            self.assertEqual(mean, alone, place)
+            self.assertIn("a.pbrt:11:", errors)
+            self.assertIn("cannot be seen", errors)
+
+    def test_objects_far_off_and_huge_hide_nothing_else(self):
+        alone, _ = self.mean()
+        for place in "Translate 1e17 0 0", "Translate 0 0 1e17 Scale 1e12 1e12 1e12":
+            mean, _ = self.mean(place=f'AttributeBegin {place} ObjectInstance "pair" AttributeEnd')
+            self.assertEqual(mean, alone, place)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "api/contest.h"
+#include "api/saved_file.h"
 #include "lab/compare/contest.h"
 #include "noise.h"
 #include "statistics.h"
@@ -208,6 +210,49 @@ TEST(Contest, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stoppe
   const Result<SavedContest> changed = load_contest(file);
   ASSERT_FALSE(changed);
   EXPECT_NE(changed.error().find("has changed"), std::string::npos) << changed.error();
+  std::filesystem::remove(file), std::filesystem::remove(scene);
+}
+
+// Their checksums are right: only the bounds of what they say are left to refuse them.
+TEST(Contest, refuses_files_that_nobody_would_have_saved) {
+  using Json = nlohmann::ordered_json;
+  const LayeredNoise noise;
+  const auto both = contestants(noise);
+  SavedContest saved;
+  saved.state = begin_contest(both, exact_one(), settings(2));
+  ASSERT_TRUE(run_rounds(both, settings(2), 2, {}, saved.state));
+  saved.options.methods = {"path", "naive"}, saved.options.samples = 64;
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto file = folder / "montelux-crafted-contest.json", scene = folder / "montelux-crafted-contest.pbrt";
+  std::ofstream(scene) << "WorldBegin\n";
+  saved.scene = scene, saved.fingerprint = scene_fingerprint(scene);
+  ASSERT_TRUE(save_contest(file, saved));
+  Json whole;
+  std::ifstream(file) >> whole;
+  whole.erase("checksum");
+  ASSERT_TRUE(save_json(file, whole));
+  const Result<SavedContest> again = load_contest(file);
+  ASSERT_TRUE(again) << again.error();
+  for (const auto& [place, value] : std::vector<std::pair<std::string, Json>>{
+           {"/options/repeats", 2147483647},
+           {"/options/repeats", 1e39},
+           {"/options/samples", 1 << 21},
+           {"/options/seed", -1},
+           {"/options/seed", 4294967296},
+           {"/methods/0/planned_passes", 2147483647},
+           {"/methods/0/planned_passes", 65},  // of 64 samples in all
+           {"/methods/1/samples_per_pass", 0},
+           {"/methods/1/passes", 1e300},
+           {"/methods/1/non_finite", -1},
+           {"/reference/width", 65536},
+           {"/reference/width", 1e300},
+           {"/resolution", Json{100000, 100}},
+       }) {
+    Json crafted = whole;
+    crafted[Json::json_pointer(place)] = value;
+    ASSERT_TRUE(save_json(file, crafted));
+    EXPECT_FALSE(load_contest(file)) << place << ' ' << value;
+  }
   std::filesystem::remove(file), std::filesystem::remove(scene);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <type_traits>
 
 #include "geometry_samples.h"
@@ -240,6 +241,38 @@ TYPED_TEST(AccelFor, a_hit_names_its_row_primitive_and_instance) {
     EXPECT_EQ(answers[i].hit.instance, cases[i].instance) << i;
   }
   EXPECT_FALSE(answers.back().found || answers.back().occluded);
+}
+
+// The kernel would end the program.
+TYPED_TEST(AccelFor, rays_that_the_kernel_cannot_take_meet_nothing) {
+  constexpr float infinite = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
+  StoreBuilder alone, builder;
+  alone.triangle_at(0), alone.end_of_world();
+  const Accel world(alone.store, opaque);
+  builder.triangle_at(0), builder.end_of_world();
+  const std::uint32_t triangle = builder.triangle_at(0);
+  builder.store.objects = {{triangle, 1}};
+  builder.store.instances = {{0, scale(1e-9f, 1e-9f, 1e-9f)}};
+  const Accel with_small_object(builder.store, opaque);
+
+  std::vector<Ray<float>> rays{down(0.2f, 0.2f)};
+  for (const float bad : {1e19f, infinite, -infinite, none}) {
+    rays.push_back(down(0.2f, 0.2f, bad)), rays.push_back(down(bad, 0.2f));
+    rays.push_back({{0.2f, 0.2f, 10}, {0, bad, -1}, ray_infinity});
+  }
+  rays.push_back({{0.2f, 0.2f, 10}, {0, 0, -1}, none});
+  rays.push_back(down(0.2f, 0.2f));
+  for (const Accel* accel : {&world, &with_small_object}) {
+    const std::vector<Answer> answers = ask<TypeParam>(*accel, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool good = i == 0 || i + 1 == rays.size();
+      EXPECT_EQ(answers[i].found, good) << i;
+      EXPECT_EQ(answers[i].occluded, good) << i;
+    }
+  }
+  // In the small object's space the origin is beyond what the kernel takes.
+  const std::vector<Answer> far = ask<TypeParam>(with_small_object, {down(0.2f, 0.2f, 1e10f)});
+  EXPECT_FALSE(far[0].found);
 }
 
 // A crowd of copies of a tent and a ball, once as instances and once as rows of the world, and bundles of rays that

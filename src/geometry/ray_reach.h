@@ -1,0 +1,25 @@
+// How far away and how large things may be for the ray-tracing kernel, which works in single precision.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "math/transform.h"
+
+namespace montelux {
+
+// Coordinates of origins and directions of rays up to here are valid, in the world and in the spaces of placed objects.
+inline constexpr float max_ray_coordinate = 1e18f;
+
+// Up to here rays of the world are valid in the space of an object that is placed so, too; below 0 where none is.
+inline float ray_reach(const Transform& object_to_world) {
+  const std::array<float, 12>& rows = object_to_world.inverse_rows();
+  float reach = max_ray_coordinate;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const float scale = std::abs(rows[4 * r]) + std::abs(rows[4 * r + 1]) + std::abs(rows[4 * r + 2]);
+    const float own = (max_ray_coordinate - std::abs(rows[4 * r + 3])) / std::max(scale, 1.0f);
+    reach = own <= reach ? own : std::isnan(own) ? -1.0f : reach;
+  }
+  return reach;
+}
+
+}  // namespace montelux
