@@ -31,15 +31,15 @@ MONTELUX_INLINE Mask<F> is_valid(const Ray<F>& ray, float bound) {
 }  // namespace
 
 template <class F>
-Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> wanted, Coherence coherence) const {
+Accel::Trace<F> Accel::trace(const Ray<F>& ray, Mask<F> wanted, RayUse use) const {
   const Mask<F> on = wanted & is_valid(ray, kernel_->max_ray);
   constexpr int n = lanes_of<F>;
   using U = Uint<F>;
   alignas(64) RTCRayHitNt<n> r;
   alignas(64) int valid[n];
-  put_ray_hit<F>(r, ray);
+  put_ray_hit<F>(r, ray, use);
   store_lanes(valid, valid_lanes<F>(on));
-  Arguments arguments(coherence);
+  Arguments arguments(use);
   if (n > 1 || any(on)) kernel_intersect<n>(valid, kernel_->world.get(), &r, arguments);
 
   U id = load_lanes<U>(r.hit.geomID), instance = load_lanes<U>(r.hit.instID[0]);
@@ -64,17 +64,17 @@ Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> wanted) const {
   constexpr int n = lanes_of<F>;
   alignas(64) RTCRayNt<n> r;
   alignas(64) int valid[n];
-  put_ray<F>(r, ray);
+  put_ray<F>(r, ray, RayUse::shadow);
   store_lanes(valid, valid_lanes<F>(on));
   // Embree 3.13 does not come back from packets of shadow rays that are called coherent, where there are instances.
-  Arguments arguments(Coherence::none);
+  Arguments arguments(RayUse::shadow);
   if (n > 1 || any(on)) kernel_occluded<n>(valid, kernel_->world.get(), &r, arguments);
   return on & (load_lanes<F>(r.tfar) < F(0.0f));
 }
 
-template Accel::Trace<float> Accel::trace(const Ray<float>&, bool, Coherence) const;
+template Accel::Trace<float> Accel::trace(const Ray<float>&, bool, RayUse) const;
 template bool Accel::occluded(const Ray<float>&, bool) const;
-template Accel::Trace<NativeFloats> Accel::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Accel::Trace<NativeFloats> Accel::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, RayUse) const;
 template Mask<NativeFloats> Accel::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
 
 }  // namespace montelux

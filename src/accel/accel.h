@@ -8,9 +8,6 @@
 
 namespace montelux {
 
-// Whether the lanes' rays run side by side, as camera rays do. It is a hint for speed alone.
-enum class Coherence { none, coherent };
-
 // True where the surface is there for a ray, at (geometry row, primitive, u, v). Asked where the row has an alpha mask,
 // and by shadow rays where it is open to some of them. The ray is in the space of the hit's instance. Of shapes that
 // are no meshes, `primitive` is the number of surfaces of the shape that the ray has passed.
@@ -28,9 +25,10 @@ class Accel {
     Mask<F> found;
     Hit<F> hit;  // valid numbers in every lane, meaningful where found
   };
-  // The nearest surface in (0, t_max) for lanes that are on.
+  // The nearest surface in (0, t_max) for lanes that are on. Rays of the camera run side by side, which makes them fast,
+  // and pass by the backs of one-sided surfaces.
   template <class F>
-  Trace<F> trace(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
+  Trace<F> trace(const Ray<F>& ray, Mask<F> on, RayUse use = RayUse::path) const;
   // Whether anything lies in (0, t_max): yes only in lanes that are on.
   template <class F>
   Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;

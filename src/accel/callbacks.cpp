@@ -36,15 +36,20 @@ std::uint32_t instance_number(const GeometryContext& context, std::uint32_t kern
   return kernel_number == RTC_INVALID_GEOMETRY_ID ? 0 : kernel_number - context.store->world_rows + 1;
 }
 
+bool is_of_camera(RTCRayN* rays, unsigned n, unsigned i) {
+  return RTCRayN_id(rays, n, i) == std::uint32_t(RayUse::camera);
+}
+
 // The kernel's filter: rejects the hits where the surface is not there.
 template <RayUse use>
 void reject_open(const RTCFilterFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
-  const bool one_sided = (row.flags & GeometryRow::one_sided) != 0, asks = is_asked_of(row, use);
+  const bool one_sided = use == RayUse::path && (row.flags & GeometryRow::one_sided) != 0;
+  const bool asks = is_asked_of(row, use);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0) continue;
-    if (one_sided && meets_back(row, a->ray, a->hit, a->N, i)) a->valid[i] = 0;
+    if (one_sided && is_of_camera(a->ray, a->N, i) && meets_back(row, a->ray, a->hit, a->N, i)) a->valid[i] = 0;
     if (!asks || a->valid[i] == 0) continue;
     Hit<float> hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
                    RTCHitN_v(a->hit, a->N, i),      context.row,
@@ -193,8 +198,7 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
   const bool one_sided = (row.flags & GeometryRow::one_sided) != 0;
   if (one_sided || is_asked_of(row, RayUse::path))
     rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);
-  if (one_sided || is_asked_of(row, RayUse::shadow))
-    rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
+  if (is_asked_of(row, RayUse::shadow)) rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
   if (row.flags & GeometryRow::invisible_to_shadow_rays) rtcSetGeometryOccludedFilterFunction(geometry, reject_all);
   return geometry;
 }

@@ -21,23 +21,24 @@ F load_lanes(const void* from) {
   return x;
 }
 
+// The kernel hands the rays' numbers on to the filters: they say what the rays are for.
 template <class F>
-void put_ray(RTCRayNt<lanes_of<F>>& to, const Ray<F>& ray) {
+void put_ray(RTCRayNt<lanes_of<F>>& to, const Ray<F>& ray, RayUse use) {
   using U = Uint<F>;
   store_lanes(to.org_x, ray.o.x), store_lanes(to.org_y, ray.o.y), store_lanes(to.org_z, ray.o.z);
   store_lanes(to.dir_x, ray.d.x), store_lanes(to.dir_y, ray.d.y), store_lanes(to.dir_z, ray.d.z);
   store_lanes(to.tnear, F(0.0f)), store_lanes(to.tfar, ray.t_max), store_lanes(to.time, ray.time);
-  store_lanes(to.mask, U(~0u)), store_lanes(to.id, U(0u)), store_lanes(to.flags, U(0u));
+  store_lanes(to.mask, U(~0u)), store_lanes(to.id, U(std::uint32_t(use))), store_lanes(to.flags, U(0u));
 }
 
 #if RTC_VERSION_MAJOR >= 4
 struct Arguments {
   RTCIntersectArguments intersect;
   RTCOccludedArguments occluded;
-  explicit Arguments(Coherence coherence) {
+  explicit Arguments(RayUse use) {
     rtcInitIntersectArguments(&intersect);
     rtcInitOccludedArguments(&occluded);
-    if (coherence == Coherence::coherent) intersect.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    if (use == RayUse::camera) intersect.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   }
 };
 template <int N>
@@ -57,9 +58,9 @@ inline void kernel_occluded(const int* valid, RTCScene s, RTCRayNt<N>* r, Argume
 #else
 struct Arguments {
   RTCIntersectContext context;
-  explicit Arguments(Coherence coherence) {
+  explicit Arguments(RayUse use) {
     rtcInitIntersectContext(&context);
-    if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (use == RayUse::camera) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
 };
 template <int N>
@@ -86,8 +87,8 @@ Uint<F> valid_lanes(Mask<F> on) {
 
 // A packet for the nearest hit, before the kernel fills in the rest.
 template <class F>
-void put_ray_hit(RTCRayHitNt<lanes_of<F>>& to, const Ray<F>& ray) {
-  put_ray<F>(to.ray, ray);
+void put_ray_hit(RTCRayHitNt<lanes_of<F>>& to, const Ray<F>& ray, RayUse use) {
+  put_ray<F>(to.ray, ray, use);
   store_lanes(to.hit.geomID, Uint<F>(missed)), store_lanes(to.hit.primID, Uint<F>(0u));
   store_lanes(to.hit.instID[0], Uint<F>(missed));
   store_lanes(to.hit.u, F(0.0f)), store_lanes(to.hit.v, F(0.0f));

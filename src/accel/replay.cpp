@@ -15,8 +15,7 @@ template <int N>
 struct alignas(64) Recorded {
   RTCRayHitNt<N> packet;
   alignas(64) int valid[N];
-  bool shadow;
-  Coherence coherence;
+  RayUse use;
 };
 
 template <int N>
@@ -26,8 +25,8 @@ double replay_all(RTCScene scene, const std::vector<Recorded<N>>& calls) {
   std::vector<Recorded<N>> work(calls);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &before);
   for (Recorded<N>& call : work) {
-    Arguments arguments(call.coherence);
-    if (call.shadow)
+    Arguments arguments(call.use);
+    if (call.use == RayUse::shadow)
       kernel_occluded<N>(call.valid, scene, &call.packet.ray, arguments);
     else
       kernel_intersect<N>(call.valid, scene, &call.packet, arguments);
@@ -44,11 +43,11 @@ struct RayRecorder::Packets {
   std::size_t rays = 0;
 
   template <class F>
-  void add(const Ray<F>& ray, Mask<F> on, bool shadow, Coherence coherence) {
+  void add(const Ray<F>& ray, Mask<F> on, RayUse use) {
     Recorded<lanes_of<F>> call{};
-    put_ray_hit<F>(call.packet, ray);
+    put_ray_hit<F>(call.packet, ray, use);
     store_lanes(call.valid, valid_lanes<F>(on));
-    call.shadow = shadow, call.coherence = coherence;
+    call.use = use;
     rays += std::size_t(count(on));
     if constexpr (lanes_of<F> == 1)
       single.push_back(call);
@@ -61,14 +60,14 @@ RayRecorder::RayRecorder(const Accel& accel) : accel_(accel), packets_(std::make
 RayRecorder::~RayRecorder() = default;
 
 template <class F>
-Accel::Trace<F> RayRecorder::trace(const Ray<F>& ray, Mask<F> on, Coherence coherence) const {
-  if (any(on)) packets_->add<F>(ray, on, false, coherence);
-  return accel_.trace<F>(ray, on, coherence);
+Accel::Trace<F> RayRecorder::trace(const Ray<F>& ray, Mask<F> on, RayUse use) const {
+  if (any(on)) packets_->add<F>(ray, on, use);
+  return accel_.trace<F>(ray, on, use);
 }
 
 template <class F>
 Mask<F> RayRecorder::occluded(const Ray<F>& ray, Mask<F> on) const {
-  if (any(on)) packets_->add<F>(ray, on, true, Coherence::none);
+  if (any(on)) packets_->add<F>(ray, on, RayUse::shadow);
   return accel_.occluded<F>(ray, on);
 }
 
@@ -77,9 +76,9 @@ RayRecorder::Replay RayRecorder::replay() const {
   return {packets_->rays, replay_all<1>(scene, packets_->single) + replay_all<native_lanes>(scene, packets_->packs)};
 }
 
-template Accel::Trace<float> RayRecorder::trace(const Ray<float>&, bool, Coherence) const;
+template Accel::Trace<float> RayRecorder::trace(const Ray<float>&, bool, RayUse) const;
 template bool RayRecorder::occluded(const Ray<float>&, bool) const;
-template Accel::Trace<NativeFloats> RayRecorder::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, Coherence) const;
+template Accel::Trace<NativeFloats> RayRecorder::trace(const Ray<NativeFloats>&, Mask<NativeFloats>, RayUse) const;
 template Mask<NativeFloats> RayRecorder::occluded(const Ray<NativeFloats>&, Mask<NativeFloats>) const;
 
 }  // namespace montelux

@@ -14,7 +14,7 @@ class RayRecorder {
   ~RayRecorder();
 
   template <class F>
-  Accel::Trace<F> trace(const Ray<F>& ray, Mask<F> on, Coherence coherence = Coherence::none) const;
+  Accel::Trace<F> trace(const Ray<F>& ray, Mask<F> on, RayUse use = RayUse::path) const;
   template <class F>
   Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;
 

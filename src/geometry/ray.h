@@ -13,8 +13,9 @@ struct Ray {
   F time = F(0.0f);
 };
 
-// What a ray is traced for: the path itself, or whether a light is seen. Some surfaces are there for one of them alone.
-enum class RayUse { path, shadow };
+// What a ray is traced for: what the camera sees, where a path goes on, or whether a light is seen. Some surfaces are
+// not there for all of them.
+enum class RayUse { camera, path, shadow };
 
 // A distance that ends beyond every scene.
 inline constexpr float ray_infinity = 1e30f;

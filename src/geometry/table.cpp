@@ -38,7 +38,7 @@ std::vector<EntitySpec> meshes() {
                          "of TransformTimes (Montelux alone)"),
                    {"onesided",
                     {ParameterType::boolean},
-                    "not there for rays that meet its back, as in glTF; default false (Montelux alone)"},
+                    "the camera does not see its back, as in glTF; default false (Montelux alone)"},
                    array("N1", normal, "the normals at the same moments (Montelux alone)"),
                    face_indices})},
       {"plymesh", "triangles and quadrilaterals of a PLY file",

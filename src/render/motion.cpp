@@ -22,7 +22,7 @@ Projection<F> earlier_places(const Scene& scene, const Accel& accel, const Motio
                              const Vec2<F>& raster, Mask<F> on) {
   const F now = middle(request.now), before = middle(request.before);
   const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f), F(0.5f)}, now).ray;
-  const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), ray.time}, on, Coherence::coherent);
+  const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), ray.time}, on, RayUse::camera);
   const Mask<F> meets = on & found;
   const VertexOrigin<F> origin{{ray.o, ray.d, hit.t, ray.time}, hit, meets};
   Projection<F> place = earlier_place<F>(scene, origin, before, meets).place;

@@ -33,7 +33,7 @@ struct alignas(64) GeometryRow {
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
                                  turns_to_ray = 16, open_to_some_shadow_rays = 32;
-  static constexpr std::uint32_t one_sided = 64;  // of triangles: not there for rays that meet their backs
+  static constexpr std::uint32_t one_sided = 64;  // of triangles: the camera does not see their backs
 };
 static_assert(sizeof(GeometryRow) == 64);
 

@@ -128,7 +128,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
                 U(samples) +
             U(sample);
         auto [found, hit] =
-            rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, Coherence::coherent);
+            rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
         for_each_lane(found, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });

@@ -70,8 +70,8 @@ std::vector<Answer> ask(const Accel& accel, const std::vector<Ray<float>>& rays)
       ++next;
     }
     Mask<F> on = bits != Uint<F>(0u);
-    const Coherence coherence = next % 2 == 0 ? Coherence::coherent : Coherence::none;
-    Accel::Trace<F> trace = accel.trace<F>(pack, on, coherence);
+    const RayUse use = next % 2 == 0 ? RayUse::camera : RayUse::path;
+    Accel::Trace<F> trace = accel.trace<F>(pack, on, use);
     Mask<F> occluded = accel.occluded<F>(pack, on);
     for (int k = 0; k < lanes_of<F>; ++k) {
       Hit<float> hit{lane(trace.hit.t, k),        lane(trace.hit.u, k),         lane(trace.hit.v, k),
