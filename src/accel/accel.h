@@ -25,8 +25,8 @@ class Accel {
     Mask<F> found;
     Hit<F> hit;  // valid numbers in every lane, meaningful where found
   };
-  // The nearest surface in (0, t_max) for lanes that are on. Rays of the camera run side by side, which makes them fast,
-  // and pass by the backs of one-sided surfaces.
+  // The nearest surface in (0, t_max) for lanes that are on. Rays of the camera run side by side, which makes them
+  // fast, and pass by the backs of one-sided surfaces.
   template <class F>
   Trace<F> trace(const Ray<F>& ray, Mask<F> on, RayUse use = RayUse::path) const;
   // Whether anything lies in (0, t_max): yes only in lanes that are on.

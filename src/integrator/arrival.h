@@ -16,6 +16,7 @@ inline constexpr float most_survival = 0.97f;
 template <class F>
 struct Departure {
   Vec3<F> p, n;  // n: unit normal of the side that scatters; zero: both sides, or no surface
+  Media<F> media{gray(F(0.0f)), gray(F(0.0f))};  // into which the ray leaves
 };
 
 // A surface that scatters, at the end of a ray. Results hold where `found`.
@@ -30,8 +31,17 @@ struct Arrival {
   SurfaceScattering<F> bsdf;
   Vec3<F> wo;  // local
   BsdfContext<F> context;
+  Media<F> media;    // in which the ray came last
+  Spectrum<F> left;  // at the origin, of what the surface sends there
 
+  // For choosing lights: the media are those of no direction.
   Departure<F> departure() const { return {x.point.p, bsdf.light_normal}; }
+  Departure<F> departure_toward(const Vec3<F>& wi) const { return {x.point.p, bsdf.light_normal, media_toward(wi)}; }
+  Media<F> media_toward(const Vec3<F>& wi) const {
+    return MediaAt<F>(media, {bsdf.kind, bsdf.slots, x.point.ng, bsdf.frame}, d).toward(wi);
+  }
+  // What is left of light that comes along wi from that far.
+  Spectrum<F> left_of_light(const Vec3<F>& wi, F far) const { return media_toward(wi).left(far); }
   // From the surface toward wi.
   Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const { return {origin_toward(wi), wi, t_max, time}; }
   // To the point that far toward the unit wi.
@@ -65,7 +75,8 @@ Spectrum<F> sky_light(const Scene& scene, const Departure<F>& from, const Vec3<F
   Spectrum<F> sum = gray(F(0.0f));
   for (int i = 0; i < scene.lights.infinite_count() && any(on); ++i) {
     const LightHit<F> sky = scene.lights.template escaped<F>(i, from.p, from.n, d, on);
-    const Spectrum<F> light = select(on, sky.radiance * weight(sky.density.value), gray(F(0.0f)));
+    const Spectrum<F> light =
+        select(on, from.media.left(F(ray_infinity)) * sky.radiance * weight(sky.density.value), gray(F(0.0f)));
     sum += light;
     witness(on, light, Uint<F>(std::uint32_t(scene.lights.infinite_light(i))), Technique::environment);
   }
@@ -80,6 +91,7 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
   using U = Uint<F>;
   Arrival<F> a{};
   a.d = ray.d, a.time = ray.time, a.light = gray(F(0.0f));
+  a.media = from.media, a.left = gray(F(1.0f));
   Vec3<F> o = ray.o;
   U crossings = U(0u);
   const auto meet_surface = [&](Mask<F> on) {
@@ -93,11 +105,15 @@ Arrival<F> arrive(const Scene& scene, const Rays& rays, const Departure<F>& from
     if (const Mask<F> emits = open & (a.x.light != U(0u)); any(emits)) {
       const LightHit<F> light = scene.lights.template hit<F>(select(emits, a.x.light - U(1u), U(0u)), from.p, from.n,
                                                              a.x.point.p, a.x.point.ng, a.x.point.uv, ray.d, emits);
-      const Spectrum<F> met = select(emits, light.radiance * weight(light.density.value), gray(F(0.0f)));
+      const Spectrum<F> left = a.left * a.media.left(a.x.distance);
+      const Spectrum<F> met = select(emits, left * light.radiance * weight(light.density.value), gray(F(0.0f)));
       a.light += met;
       witness(emits, met, U(a.x.light - U(1u)), Technique::bsdf_sampling);
     }
     const Mask<F> passes = open & a.bsdf.is_interface;
+    const Boundary<F> boundary(a.bsdf.kind, a.bsdf.slots, a.x.point.ng, a.bsdf.frame);
+    a.media = select_media<F>(open, boundary.before(a.media, ray.d), a.media);
+    a.left = select(open, a.left * a.media.left(a.x.distance), a.left);
     if (!any(passes)) break;
     crossed = true;
     o = select(passes, a.origin_toward(ray.d), o);

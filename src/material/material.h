@@ -72,12 +72,18 @@ struct BsdfLanes {
   Mask<F> on;                 // the lanes to serve; results are zero and invalid in the others
 };
 
-// Tells what absorbs how far the ray came that arrives at the surface.
+// Whether the surface bounds a body of glass, and what that absorbs, a unit of length.
 template <class F>
-MONTELUX_INLINE void set_way(Uint<F> kind, F distance, BsdfSlots<F>& slots) {
+MONTELUX_INLINE Mask<F> bounds_body(Uint<F> kind) {
+  return (kind == Uint<F>(std::uint32_t(BsdfKind::dielectric))) |
+         (kind == Uint<F>(std::uint32_t(BsdfKind::tinted_dielectric)));
+}
+template <class F>
+MONTELUX_INLINE Spectrum<F> absorption_within(Uint<F> kind, const BsdfSlots<F>& slots) {
   const Mask<F> absorbs = kind == Uint<F>(std::uint32_t(BsdfKind::tinted_dielectric));
-  F& way = slots.v[TintedDielectricSlots::way];
-  if (any(absorbs)) way = select(absorbs, distance, way);
+  const Spectrum<F> nothing = gray(F(0.0f));
+  if (!any(absorbs)) return nothing;
+  return select(absorbs, BsdfRows<F>{&slots}.spectrum(TintedDielectricSlots::absorption), nothing);
 }
 
 // The questions of one vertex: how much comes from wi_light, where `light_wanted`, and where does the path go on?

@@ -4,15 +4,13 @@
 
 namespace montelux {
 
-// The first as those of Dielectric. `way`: the distance, in scene units, from which wo comes; set at each vertex.
+// The first as those of Dielectric. `absorption`, a unit of length, is that of the body within: paths take account of
+// it on their ways, not the surface.
 struct TintedDielectricSlots {
-  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = 6, way = 9;
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = 6;
 };
 
-// A Dielectric whose transmission is multiplied by `tint` (KHR_materials_transmission), and that absorbs on the way to
-// it where that lies within, by Beer and Lambert's law (KHR_materials_volume): a path that arrives at the inside of the
-// surface has come through the body. A path that goes from the surface to something else within, or a shadow ray to a
-// light within, is not absorbed on that part of its way.
+// A Dielectric whose transmission is multiplied by `tint` (KHR_materials_transmission).
 template <class F>
 class TintedDielectric {
  public:
@@ -20,10 +18,7 @@ class TintedDielectric {
   static constexpr bool has_reflection = true, has_transmission = true;
 
   MONTELUX_INLINE explicit TintedDielectric(const BsdfRows<F>& rows)
-      : glass_(rows), tint_(rows.spectrum(TintedDielectricSlots::tint)) {
-    const F way = rows.number(TintedDielectricSlots::way);
-    within_ = per_component([way](F a) { return exp(-a * way); }, rows.spectrum(TintedDielectricSlots::absorption));
-  }
+      : glass_(rows), tint_(rows.spectrum(TintedDielectricSlots::tint)) {}
 
   MONTELUX_INLINE Mask<F> is_delta() const { return glass_.is_delta(); }
   MONTELUX_INLINE F eta() const { return glass_.eta(); }
@@ -40,12 +35,11 @@ class TintedDielectric {
 
  private:
   MONTELUX_INLINE Spectrum<F> color(Vec3<F> wo, Vec3<F> wi) const {
-    const Spectrum<F> white = gray(F(1.0f));
-    return select(wo.z < F(0.0f), within_, white) * select(same_side(wo, wi), white, tint_);
+    return select(same_side(wo, wi), gray(F(1.0f)), tint_);
   }
 
   Dielectric<F> glass_;
-  Spectrum<F> tint_, within_;
+  Spectrum<F> tint_;
 };
 
 }  // namespace montelux

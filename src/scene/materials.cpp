@@ -29,7 +29,7 @@ std::uint32_t slots_of(BsdfKind kind) {
     case BsdfKind::coated_metallic_roughness:
       return CoatedMetallicRoughnessSlots::side + 1;
     case BsdfKind::tinted_dielectric:
-      return TintedDielectricSlots::way + 1;
+      return TintedDielectricSlots::absorption + spectrum;
     case BsdfKind::coated_conductor:
       break;
   }
@@ -126,7 +126,6 @@ SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3
       material, on & ((trait & U(std::uint32_t(needs_look_up))) != U(0u)),
       [&](std::uint32_t number, Mask<F> same) { look_up<F>(materials_[number], at.point, points, same, s); });
 
-  set_way<F>(s.kind, at.distance, s.slots);
   s.is_delta = is_delta<F>(s.lanes(on));
   const Mask<F> both_sides = on & (gather(two_sided_.data(), s.kind) != U(0u));
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};

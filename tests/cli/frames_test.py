@@ -166,7 +166,7 @@ class Frames(ProgramTest):
         self.assertEqual([t["mean"] for t in told], [t["mean"] for t in again])
         off = self.told("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
         late = self.told("--frames", "2:2/3", *way, "-o", "late.#.pfm")
-        self.assertEqual([t["history_bytes"] for t in told], [16 * 16 * 4 * 296] * 2 + [0])  # nothing follows the last
+        self.assertEqual([t["history_bytes"] for t in told], [16 * 16 * 4 * 320] * 2 + [0])  # nothing follows the last
         self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
         # The first frame has no history; what begins later has none either.
         same = [(self.folder / f"on.{n}.pfm").read_bytes() == (self.folder / f"off.{n}.pfm").read_bytes()

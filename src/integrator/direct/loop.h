@@ -21,7 +21,7 @@ struct DirectLight {
   const Branches<F>& numbers;
   RayCounts& counts;
   Tally& tally;
-  F share;  // of one shadow ray's estimate in the pixel
+  Spectrum<F> share;  // of one shadow ray's estimate in the pixel
 
   // One shadow ray's estimate of the light that the vertex sends on.
   Spectrum<F> estimate(std::uint32_t ray, M on) const {
@@ -87,7 +87,8 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(light.wi, asks);
     F weight = F(1.0f) / light.density.value;
     if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density.value, value.density.value));
-    const Spectrum<F> brought = unblocked(light.wi, light.distance, value.f_cos * light.radiance * weight, asks);
+    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
+    const Spectrum<F> brought = unblocked(light.wi, light.distance, value.f_cos * arrives * weight, asks);
     record_sample(u_choice, brought, asks);
     return brought;
   }
@@ -99,8 +100,8 @@ struct DirectLight {
     const LightSample<F> light =
         draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), LightMeasure::solid_angle, on);
     const M asks = on & light.valid & light.delta;
-    const Spectrum<F> brought =
-        unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * light.radiance, asks);
+    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
+    const Spectrum<F> brought = unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * arrives, asks);
     record_sample(u_choice, brought, asks);
     return brought;
   }
@@ -109,7 +110,7 @@ struct DirectLight {
   template <class Weight>
   Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
                        Weight weight) const {
-    return trace_to_arrival<F>(scene, rays, at.departure(), at.ray_toward(wi), on,
+    return trace_to_arrival<F>(scene, rays, at.departure_toward(wi), at.ray_toward(wi), on,
                                numbers.stream(ray, path_dimension::per_vertex), counts, weight,
                                [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
                                    [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
@@ -157,7 +158,9 @@ struct DirectLight {
     const ResampledLight<F> chosen = resample_light<F>(
         settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
-        [&](const LightSample<F>& light, M asks) { return scattered(light.wi, asks).f_cos * light.radiance; });
+        [&](const LightSample<F>& light, M asks) {
+          return scattered(light.wi, asks).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
+        });
     const Spectrum<F> brought = unblocked(chosen.wi, chosen.distance, chosen.value, on);
     record_sample(chosen.u_choice, brought, on & (max_component(brought) > F(0.0f)));
     return brought;
@@ -187,11 +190,11 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     const std::uint32_t points = settings.fixed ? 1u : n;
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), points, settings.pattern);
     const DirectLight<F, Rays, Tally> direct{scene,   rays,   settings, at,
-                                             numbers, counts, tally,    path.weight * (1.0f / float(n))};
+                                             numbers, counts, tally,    at.left * (path.weight * (1.0f / float(n)))};
     Spectrum<F> sum = gray(F(0.0f));
     for (std::uint32_t ray = 0; ray < n && any(at.found); ++ray)
       sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
-    const Spectrum<F> reflected = select(at.found, sum * (1.0f / float(n)), gray(F(0.0f)));
+    const Spectrum<F> reflected = select(at.found, at.left * sum * (1.0f / float(n)), gray(F(0.0f)));
     const Spectrum<F> radiance = (at.light + reflected) * path.weight;
     for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
     if constexpr (Tally::records)

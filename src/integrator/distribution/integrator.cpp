@@ -67,7 +67,8 @@ struct Tree {
     const float weight =
         light.delta ? 1.0f
                     : power_weight(float(n.points) * light.density.value, float(n.directions) * value.density.value);
-    const Rgb direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
+    const Rgb arrives = light.radiance * at.left_of_light(light.wi, light.distance);
+    const Rgb direct = value.f_cos * arrives * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     ++counts.shadow;
     const Ray<F> ray = at.shadow_ray_to(light.wi, light.distance);
@@ -99,8 +100,8 @@ struct Tree {
     const Vec3f wi = at.bsdf.frame.to_world(next.wi);
     count_ray(depth + 1);
     const Arrival<F> there = trace_to_arrival<F>(
-        scene, accel, at.departure(), at.ray_toward(wi), true, numbers.stream(i, path_dimension::own).fork(vertex),
-        counts,
+        scene, accel, at.departure_toward(wi), at.ray_toward(wi), true,
+        numbers.stream(i, path_dimension::own).fork(vertex), counts,
         [&](float by_light) {
           return next.delta || n.points == 0
                      ? 1.0f
@@ -113,8 +114,9 @@ struct Tree {
         });
     Rgb light = there.light;
     if (there.found)
-      light += reflected(there, depth + 1, vertex,
-                         {way.throughput * weight * gray(float(n.directions)), way.share * weight});
+      light += there.left * reflected(there, depth + 1, vertex,
+                                      {way.throughput * weight * there.left * gray(float(n.directions)),
+                                       way.share * weight * there.left});
     return weight * light;
   }
 
@@ -139,7 +141,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
     Rgb radiance = at.light;
     if (at.found) {
       Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};
-      radiance += tree.reflected(at, 0, 0, {gray(1.0f), gray(path.weight)});
+      radiance += at.left * tree.reflected(at, 0, 0, {gray(1.0f), at.left * path.weight});
       const Vec2f u = sampler.get2(first + path_dimension::direction);
       const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo,
                                            Vec3f{sampler.get1(first + path_dimension::lobe), u.x, u.y}, at.context);

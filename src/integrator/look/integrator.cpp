@@ -47,7 +47,8 @@ struct View {
     const F cos = dot(light.wi, normal());
     const M asks = at.found & light.valid & (cos > F(0.0f));
     const M lit = asks & !blocked(at.shadow_ray_to(light.wi, light.distance), asks);
-    return select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
+    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
+    return select(lit, arrives * (cos / light.density.value), gray(F(0.0f)));
   }
 
   Spectrum<F> albedo(std::uint32_t sample) const {

@@ -127,8 +127,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +
             U(sample);
-        auto [found, hit] =
-            rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
+        auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
         for_each_lane(found, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });

@@ -71,6 +71,7 @@ struct LitVertex {
   Vec3<F> wo;
   const BsdfContext<F>& context;
   Mask<F> on;
+  const MediaAt<F>& media;
 };
 
 // Next-event estimation by resampling. The density of what resampling chooses has no closed form, so the share that
@@ -87,7 +88,7 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
             evaluate<F>(at.bsdf.lanes(asks), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
         const F share =
             select(light.delta, F(1.0f), weight_of_light_sample(settings, light.density.value, value.density.value));
-        return value.f_cos * light.radiance * share;
+        return value.f_cos * light.radiance * at.media.toward(light.wi).left(light.distance) * share;
       });
 }
 
@@ -131,7 +132,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       LightHit<F> light = lights.template hit<F>(select(emits, x.light - U(1u), U(0u)), path.p, path.n, x.point.p,
                                                  x.point.ng, x.point.uv, path.d, emits);
       F weight = weight_of_light_hit(settings, path.density, light.density.value);
-      gather_light(path, emits, path.throughput * light.radiance * weight, tally, [&] {
+      const Spectrum<F> left = path.media.left(x.distance);
+      gather_light(path, emits, path.throughput * left * light.radiance * weight, tally, [&] {
         return LightOrigin<F>{path.depth, x.light - U(1u), Technique::bsdf_sampling};
       });
     }
@@ -147,6 +149,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         x, path.d, on & (may_scatter | M(scene.materials.has_interfaces())), context.random);
     const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
+    const MediaAt<F> media(path.media, {bsdf.kind, bsdf.slots, x.point.ng, bsdf.frame}, path.d);
+    path.throughput = select(on, path.throughput * media.along_wo().left(x.distance), path.throughput);
 
     // A direction toward a light, and one by the BSDF.
     const M wants_light = scatters & !bsdf.is_delta;
@@ -170,10 +174,11 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
                weight_of_light_sample(settings, light.density.value, scattered.toward_light.density.value));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
+    direct *= media.toward(light.wi).left(light.distance);
     M shadow = asks & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
       const ResampledLight<F> chosen =
-          resampled_light<F>(lights, settings, {x.point.p, bsdf, wo, context, wants_light});
+          resampled_light<F>(lights, settings, {x.point.p, bsdf, wo, context, wants_light, media});
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
       light_choice = chosen.u_choice;
       shadow = wants_light & (max_component(direct) > F(0.0f));
@@ -206,6 +211,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     goes_on = goes_on & survival.survives;
     path.throughput = select(goes_on, path.throughput * survival.weight, path.throughput);
     Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
+    path.media = select_media<F>(goes_on, media.toward(wi), select_media<F>(passes, media.along_wo(), path.media));
     path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
     path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
 
@@ -220,7 +226,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     for (int i = 0; i < lights.infinite_count() && any(left); ++i) {
       LightHit<F> sky = lights.template escaped<F>(i, path.p, path.n, path.d, left);
       F weight = weight_of_light_hit(settings, path.density, sky.density.value);
-      gather_light(path, left, path.throughput * sky.radiance * weight, tally, [&] {
+      const Spectrum<F> far = path.media.left(F(ray_infinity));
+      gather_light(path, left, path.throughput * far * sky.radiance * weight, tally, [&] {
         return LightOrigin<F>{path.depth, U(std::uint32_t(lights.infinite_light(i))), Technique::environment};
       });
     }

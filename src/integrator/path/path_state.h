@@ -2,7 +2,7 @@
 #pragma once
 #include <cstring>
 
-#include "color/spectrum.h"
+#include "integrator/media.h"
 #include "scene/geometry_store.h"
 
 namespace montelux {
@@ -13,6 +13,7 @@ struct PathState {
   Hit<F> hit;              // the vertex at hand
   Spectrum<F> throughput;  // product of the weights so far
   Spectrum<F> radiance;    // gathered so far
+  Media<F> media;          // along d
   Vec3<F> p, n;            // the previous vertex and its normal, as the lights' densities take them
   F density;            // of the direction d at the previous vertex, solid angle; 0: no other technique could draw it
   F weight;             // of the camera and the filter (which may be negative), for the result
@@ -78,6 +79,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   put_one(path.hit.instance, start.hit.instance);
   path.throughput = select(fresh, gray(F(1.0f)), path.throughput);
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
+  path.media = select_media<F>(fresh, Media<F>{gray(F(0.0f)), gray(F(0.0f))}, path.media);
   put(path.p, start.o), put(path.n, zero);
   put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
   put_one(path.time, start.time);

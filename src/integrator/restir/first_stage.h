@@ -82,7 +82,7 @@ class FirstStage {
     if (const M emits = on & (x.light != U(0u)); any(emits)) {
       const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
                                                                       x.point.uv, path.d, emits);
-      path.radiance += select(emits, path.throughput * light, gray(F(0.0f)));
+      path.radiance += select(emits, path.throughput * path.media.left(x.distance) * light, gray(F(0.0f)));
     }
     const M may_scatter = path.depth < max_depth_;
     const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
@@ -94,6 +94,9 @@ class FirstStage {
     const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
     const M rough = scatters & !bsdf.is_delta;
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
+    const MediaAt<F> media(path.media, {bsdf.kind, bsdf.slots, x.point.ng, bsdf.frame}, path.d);
+    path.throughput = select(on, path.throughput * media.along_wo().left(x.distance), path.throughput);
+    path.media = select_media<F>(on, media.along_wo(), path.media);
     const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
     const BsdfSample<F> next = leave(bsdf, wo, sampler, dimension, context, path_numbers, scatters);
@@ -124,6 +127,7 @@ class FirstStage {
     path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
     const M offers = rough & goes_on & !next.delta & M(shared_.settings.bsdf_candidate);
     const Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
+    path.media = select_media<F>(goes_on, media.toward(wi), path.media);
     path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
     path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
     path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
@@ -142,8 +146,10 @@ class FirstStage {
         paths_.begin(vertex, event_at(vertex, next, walks), path_numbers, path, found, walks);
     const M left = (moves & !found) & (passes | (lives & !rough) | (counts_next & !M(reuses_paths())));
     if (any(left))
-      path.radiance +=
-          select(left, path.throughput * scene.lights.template escaped_radiance<F>(path.d, left), gray(F(0.0f)));
+      path.radiance += select(
+          left,
+          path.throughput * path.media.left(F(ray_infinity)) * scene.lights.template escaped_radiance<F>(path.d, left),
+          gray(F(0.0f)));
     const M continues = rough & lives & found & (counts_next | (path.depth < max_depth_));
     if (any(continues) && !reuses_paths()) hand_over(path, continues, counts_next);
 
@@ -187,7 +193,8 @@ class FirstStage {
             path.time,
             x.object,
             path.depth,
-            U(1u)};
+            U(1u),
+            path.media};
   }
 
   // The rest of a path takes its light from the next vertex on, in a state of its own.

@@ -100,10 +100,11 @@ class PathCandidates {
     const RandomStream<F> random = led_here.surface().fork(w.crossings);
     const SurfaceScattering<F> bsdf = shared_.scene.materials.template scattering<F>(x, w.d, on, random);
     const M passes = on & bsdf.is_interface;
+    const ReuseVertex<F> vertex = vertex_behind(w.from, x, bsdf, w.d, random);
+    absorb(vertex.media.left(x.distance), on);
     if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
 
     const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
-    const ReuseVertex<F> vertex = vertex_behind(w.from, x, bsdf, w.d, random);
     const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.pixels);
     if (const M lit = scatters & !bsdf.is_delta; any(lit)) ask_for_light(vertex, leg, lit);
     const M goes_on = scatter(vertex, leg, scatters);
@@ -116,6 +117,13 @@ class PathCandidates {
     const auto [found, hit] = shared_.rays.template trace<F>({w.o, w.d, F(ray_infinity), w.from.time}, moves);
     w.hit = hit, w.found = select(found, U(1u), U(0u));
     return left | (on & !moves);
+  }
+
+  // What is left of the light of the way that has led here.
+  void absorb(const Spectrum<F>& left, M on) {
+    PathWalk<F>& w = walk_;
+    w.weight = select(on, w.weight * left, w.weight), w.leaving = select(on, w.leaving * left, w.leaving);
+    w.tail = select(on, w.tail * left, w.tail);
   }
 
   // ---- ends of the path
@@ -132,6 +140,7 @@ class PathCandidates {
   void meet_sky(M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
     if (!any(on)) return;
+    absorb(w.from.media_toward(w.d).left(F(ray_infinity)), on);
     // What a delta meets is found again as a whole. Choice 0 is that of next-event estimation where the event was.
     if (const M smooth = on & (w.density == F(0.0f)); any(smooth)) {
       const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};

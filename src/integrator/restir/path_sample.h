@@ -27,12 +27,13 @@ struct JoinedSurface {
   Frame<F> frame;
   RandomStream<F> random;
 
-  // `distance`: from which wo comes.
-  BsdfValue<F> scattered(const Vec3<F>& wo, F distance, const Vec3<F>& wi, Mask<F> on) const {
-    BsdfSlots<F> here = slots;
-    set_way<F>(kind, distance, here);
+  BsdfValue<F> scattered(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
     const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
-    return evaluate<F>(BsdfLanes<F>{kind, &here, on}, frame.to_local(wo), frame.to_local(wi), context);
+    return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, frame.to_local(wo), frame.to_local(wi), context);
+  }
+  // What is left of the light that it sends to a vertex that far, which looks along the unit d.
+  Spectrum<F> left(const ReuseVertex<F>& vertex, const Vec3<F>& d, F far) const {
+    return Boundary<F>(kind, slots, ng, frame).before(vertex.media_toward(d), d).left(far);
   }
 };
 

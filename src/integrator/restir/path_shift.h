@@ -68,7 +68,8 @@ class PathReplay {
 
     const Ray<F> ray{offset_origin(vertex_.p, vertex_.p_error, vertex_.ng, taken.wi), taken.wi, F(ray_infinity),
                      vertex_.time};
-    const Arrival<F> at = trace_to_arrival<F>(shared_.scene, shared_.rays, {vertex_.p, vertex_.light_normal}, ray,
+    const Arrival<F> at = trace_to_arrival<F>(shared_.scene, shared_.rays,
+                                              {vertex_.p, vertex_.light_normal, vertex_.media_toward(taken.wi)}, ray,
                                               stays, numbers.surface(), counts_, [](F) { return F(0.0f); });
     Spectrum<F> light = gray(F(0.0f));
     if (const M ends = stays & last; any(ends)) {
@@ -78,9 +79,11 @@ class PathReplay {
                                                              at.x.point.uv, taken.wi, emits),
                      gray(F(0.0f)));
       light = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), light);
-      light = select(ends, weight_ * light, gray(F(0.0f)));
+      const Spectrum<F> far = vertex_.media_toward(taken.wi).left(F(ray_infinity));
+      light = select(ends, weight_ * select(left, far, at.left) * light, gray(F(0.0f)));
     }
     const M moved = stays & !last & at.found;
+    weight_ = select(moved, weight_ * at.left, weight_);
     const F pixels = pixels_;
     const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
@@ -101,11 +104,12 @@ class PathReplay {
     const Vec3<F> wi = way / select(good, distance, F(1.0f));
     const BsdfValue<F> here = vertex_.scattered(wi, good);
     good = good & (here.density.value > F(0.0f)) & !may_join(here.density.value);
-    const BsdfValue<F> there = at.scattered(-wi, distance, sample_.wi, good);
+    const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
     const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density.value, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density.value);
     const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));
-    const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * sample_.light * geometry;
+    const Spectrum<F> left = at.left(vertex_, wi, distance);
+    const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * left * sample_.light * geometry;
     good = good & (average(light) > F(0.0f));
     return select(is_open<F>(shared_.rays, vertex_, wi, distance, good, counts_), light, gray(F(0.0f)));
   }

@@ -26,11 +26,16 @@ struct ReuseVertex {
   Uint<F> object;          // number of the object, as SurfaceHit has it
   Uint<F> events;          // scattering events of the path before it
   Uint<F> exists;          // 1, or 0: the path ended before
+  Media<F> media;          // in which the path came
 
   // f |cos| toward a direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const {
     const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
     return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
+  }
+  // In which it goes on.
+  Media<F> media_toward(const Vec3<F>& wi) const {
+    return MediaAt<F>(media, {kind, slots, ng, frame}, -frame.to_world(wo)).toward(wi);
   }
 };
 
@@ -43,6 +48,7 @@ ReuseVertex<F> vertex_behind(const ReuseVertex<F>& from, const SurfaceHit<F>& x,
   v.p = x.point.p, v.p_error = x.point.p_error, v.ng = x.point.ng, v.wo = bsdf.frame.to_local(-d);
   v.slots = bsdf.slots, v.kind = bsdf.kind, v.frame = bsdf.frame, v.light_normal = bsdf.light_normal;
   v.random = random;
+  v.media = Boundary<F>(v.kind, v.slots, v.ng, v.frame).before(from.media_toward(d), d);
   return v;
 }
 
@@ -78,12 +84,13 @@ Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, cons
   const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);
   const Mask<F> asks = on & view.valid & !edge_on;
   const BsdfValue<F> scattered = vertex.scattered(view.wi, asks);
-  const Spectrum<F> value = select(asks, scattered.f_cos * view.radiance * view.geometry, gray(F(0.0f)));
+  const Spectrum<F> arriving = view.radiance * vertex.media_toward(view.wi).left(view.distance);
+  const Spectrum<F> value = select(asks, scattered.f_cos * arriving * view.geometry, gray(F(0.0f)));
   const Mask<F> met = asks & (point.sort != Uint<F>(light_point::delta));
   return {view.wi,       view.distance,
           value,         usable_weight(average(value)),
           view.geometry, select(met, scattered.density.value, F(0.0f)),
-          scattered,     view.radiance};
+          scattered,     arriving};
 }
 
 template <class F>

@@ -26,7 +26,8 @@ struct Recursion {
     const bool emits = max_component(at.light) > 0;
     const float p_emit = !at.found ? 1.0f : emits ? settings.p_emit : 0.0f;
     if (random.next() < p_emit) return at.light * (1.0f / p_emit);
-    return reflected(at, random, depth, throughput * gray(1.0f / (1.0f - p_emit))) * (1.0f / (1.0f - p_emit));
+    const Rgb arrives = at.left * (1.0f / (1.0f - p_emit));
+    return arrives * reflected(at, random, depth, throughput * arrives);
   }
 
  private:
@@ -98,7 +99,7 @@ struct Recursion {
       weight *= gray(survival.weight);
     }
     const RandomStream<float> branch = own_stream(random);
-    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure(), at.ray_toward(wi), true,
+    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure_toward(wi), at.ray_toward(wi), true,
                                                          branch.fork(1u), counts, [](float) { return 1.0f; });
     return weight * radiance(there, branch.fork(2u), depth + 1, throughput * weight);
   }
@@ -114,7 +115,8 @@ struct Recursion {
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     ++counts.shadow;
     const Ray<float> ray = at.shadow_ray_to(light.wi, light.distance);
-    return accel.occluded<float>(ray, true) ? gray(0.0f) : value.f_cos * light.radiance;
+    return accel.occluded<float>(ray, true) ? gray(0.0f)
+                                            : value.f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
   }
 
   SeenPolygon seen_from(const Arrival<float>& at, LightId light) const {

@@ -35,6 +35,15 @@ double p_value(double mean, double standard_error, double truth) {
   return distance == 0 ? 1 : 2 * student_t_cdf(-distance / standard_error, passes - 1);
 }
 
+// Welch's, of one mean and a multiple of another.
+double p_value_of_difference(const Mean& a, const Mean& b, std::size_t component, double factor) {
+  const auto variance = [&](const Mean& m) {
+    return m.standard_error[component] * m.standard_error[component] * passes;
+  };
+  return welch_test({a.mean[component], variance(a), passes}, {factor * b.mean[component], variance(b), passes})
+      .p_value;
+}
+
 // What a slab of glass, one unit thick, sends back of light that comes from everywhere, and lets through; seen at the
 // angle with this cosine.
 struct Slab {
@@ -51,10 +60,11 @@ struct Slab {
   }
 };
 
+std::string rgb(const std::array<double, 3>& c) {
+  return "[ " + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) + " ]";
+}
+
 std::string slab_scene(const Slab& slab, double cosine, const std::string& roughness = "") {
-  const auto rgb = [](const std::array<double, 3>& c) {
-    return "[ " + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) + " ]";
-  };
   const double sine = std::sqrt(1 - cosine * cosine);
   return R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
 PixelFilter "box"
@@ -108,16 +118,150 @@ TEST(AbsorbingSlab, with_rough_faces_looks_the_same_to_every_integrator) {
   for (const std::string& way : ways) {
     const Mean m = measure(scene, way, 64, seed++);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto differs_from = [&](double factor) {
-        const double variance = m.standard_error[c] * m.standard_error[c] * passes;
-        return welch_test({m.mean[c], variance, passes},
-                          {factor * path.mean[c], path.standard_error[c] * path.standard_error[c] * passes, passes})
-                   .p_value < level;
-      };
-      EXPECT_FALSE(differs_from(1)) << way << ", component " << c << ": " << m.mean[c] << " +- " << m.standard_error[c]
-                                    << ", path: " << path.mean[c] << " +- " << path.standard_error[c];
-      EXPECT_TRUE(differs_from(1.1)) << way << ", component " << c;
+      EXPECT_GT(p_value_of_difference(m, path, c, 1), level)
+          << way << ", component " << c << ": " << m.mean[c] << " +- " << m.standard_error[c]
+          << ", path: " << path.mean[c] << " +- " << path.standard_error[c];
+      EXPECT_LT(p_value_of_difference(m, path, c, 1.1), level) << way << ", component " << c;
     }
+  }
+}
+
+// A body of glass one unit high that stands on a diffuse floor, seen from above: what is not glass is within.
+struct Pond {
+  double eta = 1, albedo = 0.8;
+  std::array<double, 3> absorption{0.2, 0.5, 0.9};
+
+  // Of a sky of radiance 1, by the number of paths between floor and surface (cf. Kubelka and Munk 1931): the floor's
+  // irradiance over pi is in / (1 - albedo back).
+  double of_sky(std::size_t component) const {
+    const double a = absorption[component], r = reflected(1), out = (1 - r) / (eta * eta) * std::exp(-a) * albedo;
+    return r + out * entering(a) / (1 - albedo * returning(a));
+  }
+  double reflected(double cosine) const {  // at the surface, of light from above
+    const double inside = std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
+    const double parallel = (eta * cosine - inside) / (eta * cosine + inside);
+    const double perpendicular = (cosine - eta * inside) / (cosine + eta * inside);
+    return (parallel * parallel + perpendicular * perpendicular) / 2;
+  }
+
+ private:
+  // Means over the hemisphere, by the cosine, of what f gives at a cosine.
+  template <class Function>
+  static double mean(Function f) {
+    constexpr int n = 200000;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += f(std::sqrt((i + 0.5) / n));
+    return sum / n;
+  }
+  double entering(double a) const {
+    return mean([&](double cosine) {
+      return (1 - reflected(cosine)) * std::exp(-a / std::sqrt(1 - (1 - cosine * cosine) / (eta * eta)));
+    });
+  }
+  double returning(double a) const {
+    return mean([&](double inside) {
+      const double sine2 = (1 - inside * inside) * eta * eta;
+      return std::exp(-2 * a / inside) * (sine2 >= 1 ? 1 : reflected(std::sqrt(1 - sine2)));
+    });
+  }
+};
+
+std::string pond_scene(const Pond& pond, const std::string& glass = "", const std::string& more = "",
+                       const std::string& light = R"(LightSource "infinite" "rgb L" [ 1 1 1 ])") {
+  return R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+PixelFilter "box"
+LookAt 0 4 0  0 0 0  0 0 1
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+WorldBegin
+)" + light +
+         "\nMaterial \"diffuse\" \"rgb reflectance\" " + rgb({pond.albedo, pond.albedo, pond.albedo}) + R"(
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -500 0 -500   -500 0 500   500 0 500   500 0 -500 ]
+)" + more +
+         "Material \"tinteddielectric\" \"float eta\" " + std::to_string(pond.eta) + " \"rgb absorption\" " +
+         rgb(pond.absorption) + " " + glass + R"(
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -500 1 -500   -500 1 500   500 1 500   500 1 -500 ]
+)";
+}
+
+// The mean of the scene is `truth` of each component, and not a tenth more.
+template <class Truth>
+void expect_colours(const std::string& scene, const std::string& way, int samples, Truth truth) {
+  const Mean m = measure(TestScene(scene), way, samples, 1);
+  const double level = sidak_level(family_level, 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_GT(p_value(m.mean[c], m.standard_error[c], truth(c)), level)
+        << way << ", component " << c << ": " << m.mean[c] << " +- " << m.standard_error[c] << " where " << truth(c)
+        << " is right";
+    EXPECT_LT(p_value(m.mean[c], m.standard_error[c], 1.1 * truth(c)), level) << way << ", component " << c;
+  }
+}
+
+TEST(AbsorbingPond, hides_its_floor_by_beer_and_lambert) {
+  for (const double eta : {1.0, 1.5}) {
+    Pond pond;
+    pond.eta = eta;
+    for (const char* way : {"path", "naive", "tracepath", "distribution", "restir-gi", "restir-pt"})
+      expect_colours(pond_scene(pond), way, 128, [&](std::size_t c) { return pond.of_sky(c); });
+  }
+  // Without refraction the mean is twice the exponential integral of third order.
+  const Pond plain;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double a = plain.absorption[c], e3 = (std::exp(-a) * (1 - a) - a * a * std::expint(-a)) / 2;
+    EXPECT_NEAR(plain.of_sky(c), 0.8 * std::exp(-a) * 2 * e3, 1e-5);
+  }
+}
+
+// A lamp within, to which shadow rays go.
+TEST(AbsorbingPond, absorbs_the_light_of_a_lamp_within) {
+  const Pond pond;
+  const std::string lamp = R"(LightSource "point" "rgb I" [ 2 2 2 ] "point3 from" [ 0.75 0.6 0 ])";
+  const double squared = 0.75 * 0.75 + 0.6 * 0.6, far = std::sqrt(squared);
+  for (const char* way : {"path", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"})
+    expect_colours(pond_scene(pond, "", "", lamp), way, 64, [&](std::size_t c) {
+      return pond.albedo / 3.14159265358979 * 2 * 0.6 / far / squared * std::exp(-pond.absorption[c] * (1 + far));
+    });
+}
+
+// Clear ice in the pond, and a dark body in that.
+TEST(AbsorbingPond, has_other_bodies_within) {
+  const Pond pond;
+  const auto layer = [](double from, double to) {
+    const auto sheet = [](double y, bool up) {
+      const std::string h = " " + std::to_string(y) + " ";
+      return std::string("Shape \"trianglemesh\" \"integer indices\" ") +
+             (up ? "[ 0 1 2  0 2 3 ]" : "[ 0 2 1  0 3 2 ]") + " \"point3 P\" [ -500" + h + "-500  -500" + h +
+             "500  500" + h + "500  500" + h + "-500 ]\n";
+    };
+    return sheet(from, false) + sheet(to, true);
+  };
+  const std::string ice = "Material \"dielectric\" \"float eta\" 1\n" + layer(0.3, 0.7);
+  Pond thinner = pond;
+  for (double& a : thinner.absorption) a *= 0.6;
+  for (const char* way : {"path", "distribution", "restir-pt"})
+    expect_colours(pond_scene(pond, "", ice), way, 128, [&](std::size_t c) { return thinner.of_sky(c); });
+}
+
+// Rough glass and a rough floor, to which paths are joined.
+TEST(AbsorbingPond, under_rough_glass_looks_the_same_to_every_integrator) {
+  Pond pond;
+  pond.eta = 1.5;
+  const TestScene scene(pond_scene(pond, "\"float roughness\" 0.5"));
+  const Mean path = measure(scene, "path", 256, 1);
+  const std::vector<std::string> ways{"naive",
+                                      "tracepath",
+                                      "distribution",
+                                      "restir-pt:radius=2,neighbours=3,footprint=0.1",
+                                      "restir-pt:radius=2,neighbours=3,footprint=10",
+                                      "restir-gi:radius=2,neighbours=3",
+                                      "restir-pt:shift=replay,neighbours=1,radius=2"};
+  const double level = sidak_level(family_level, 3 * double(ways.size()));
+  std::uint32_t seed = 2;
+  for (const std::string& way : ways) {
+    const Mean m = measure(scene, way, 192, seed++);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(p_value_of_difference(m, path, c, 1), level) << way << " " << c;
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(p_value_of_difference(m, path, c, 1.1), level) << way << " " << c;
   }
 }
 

@@ -47,20 +47,23 @@ TEST(GltfMaterial, shows_its_back_if_it_is_double_sided_or_glass) {
 
 // The triangle (0, 0), (2, 0), (0, 3) of a scene, met by rays of all sorts from each side.
 struct Seen {
-  bool front, back;        // by the camera
+  bool front, back;               // by the camera
   bool stops_paths, stops_light;  // from both sides
 };
 Seen seen(ReadResult read) {
   const TestScene scene(std::move(read));
   const Ray<float> toward{{0.5f, 0.5f, 1}, {0, 0, -1}, 100.0f, 0.0f},
       from_behind{{0.5f, 0.5f, -1}, {0, 0, 1}, 100.0f, 0.0f};
-  const auto found = [&](const Ray<float>& ray, RayUse use) { return scene.accel().trace<float>(ray, true, use).found; };
+  const auto found = [&](const Ray<float>& ray, RayUse use) {
+    return scene.accel().trace<float>(ray, true, use).found;
+  };
   const auto stops = [&](const Ray<float>& ray) { return scene.accel().occluded<float>(ray, true); };
   return {found(toward, RayUse::camera), found(from_behind, RayUse::camera),
           found(toward, RayUse::path) && found(from_behind, RayUse::path), stops(toward) && stops(from_behind)};
 }
 
-// glTF 2.0, 3.9.6: only what faces the viewer is rendered. Light is stopped all the same, or a leaf would cast no shadow.
+// glTF 2.0, 3.9.6: only what faces the viewer is rendered. Light is stopped all the same, or a leaf would cast no
+// shadow.
 TEST(GltfFace, hides_its_back_from_the_camera_alone) {
   // Its winding is counter-clockwise as +z sees it.
   const Seen single = seen(with_material(""));
