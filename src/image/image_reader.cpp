@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <system_error>
 
 #include "image/image_codec.h"
 #include "image/image_file.h"
+#include "image/png_check.h"
 
 namespace montelux {
 namespace {
@@ -43,6 +46,15 @@ std::optional<std::string> name_by_content(const std::string& bytes) {
   return std::nullopt;
 }
 
+// Of a file, where it begins as PNG files do.
+Status check_png_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(8, '\0');
+  if (!file.read(bytes.data(), 8) || !bytes.starts_with("\x89PNG")) return Done{};
+  bytes.append(std::istreambuf_iterator<char>(file), {});
+  return check_png(bytes);
+}
+
 // Either a file, or bytes in memory.
 Result<Image> read_open(const std::filesystem::path& path, const std::string* bytes,
                         std::optional<ColorEncoding> encoding) {
@@ -59,6 +71,7 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
     if (!std::filesystem::is_regular_file(status)) return Failure{"it is not a regular file"};
   }
 
+  if (const Status whole = bytes ? check_png(*bytes) : check_png_file(path); !whole) return whole.failure();
   const Result<const ImageCodec*> codec = image_codec();
   if (!codec) return codec.failure();
   Result<StoredImage> read = (*codec)->read(*name, bytes);

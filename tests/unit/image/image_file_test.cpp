@@ -249,5 +249,23 @@ TEST(Display, one_stop_of_exposure_doubles_the_light) {
   EXPECT_EQ(brighter.values, (std::vector<std::uint8_t>{124, 170, 255}));
 }
 
+// The library of PNG files has words of its own for damage, which would come besides our message.
+TEST_F(ImageFile, damaged_png_is_refused_in_one_message) {
+  ASSERT_TRUE(write_image(folder / "whole.png", to_display(ramp({"R", "G", "B"}))));
+  const std::string whole = bytes(folder / "whole.png");
+  ASSERT_TRUE(read_image(folder / "whole.png"));
+  ASSERT_TRUE(read_image("whole", whole));
+  for (std::size_t at = 8; at < whole.size(); ++at) {
+    std::string damaged = whole, cut = whole.substr(0, at);
+    damaged[at] = char(damaged[at] ^ 0x55);
+    std::ofstream(folder / "damaged.png", std::ios::binary) << damaged;
+    testing::internal::CaptureStderr();
+    const Result<Image> a = read_image(folder / "damaged.png"), b = read_image("cut", cut);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at;
+    ASSERT_TRUE(!a && !b) << at;
+    EXPECT_EQ(a.error().find('\n'), std::string::npos) << a.error();
+  }
+}
+
 }  // namespace
 }  // namespace montelux
