@@ -200,6 +200,7 @@ void coat_and_grain(RowBuilder& b, const Entity& entity) {
   const float angle = entity.parameters.number("anisotropyrotation", 0) * (pi / 180);
   b.put(Slots::turn_cos, std::cos(angle)), b.put(Slots::turn_sin, std::sin(angle));
   b.put(Slots::side, entity.parameters.boolean("grainmirrored", false) ? -1.0f : 1.0f);
+  b.put(Slots::coat_normal + 2, 1);
 }
 
 const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
@@ -236,9 +237,11 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
          b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray(0.25f), scale);
        }},
       {"thindielectric", BsdfKind::thin_dielectric,
-       [](RowBuilder& b, const Entity&) {
+       [](RowBuilder& b, const Entity& entity) {
          b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f));
          b.spectrum(ThinDielectricSlots::tint, "tint", gray(1.0f));
+         const bool remaps = entity.parameters.boolean("remaproughness", true);
+         b.number(ThinDielectricSlots::alpha, "roughness", 0, remaps ? RowEncoding::roughness : RowEncoding::plain);
        }},
       {"phong", BsdfKind::phong,
        [](RowBuilder& b, const Entity&) {
@@ -284,6 +287,10 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
     b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray(0.5f));
   if (const auto& scale = entity.parameters.array<float>("normalscale"); scale.size() == 2)
     b.material().normal_scale = {scale[0], scale[1]};
+  if (entity.parameters.find("coatnormaltexture"))
+    b.material().coat_normal_texture = inputs.textures.spectrum(entity, "coatnormaltexture", gray(0.5f));
+  if (const auto& scale = entity.parameters.array<float>("coatnormalscale"); scale.size() == 2)
+    b.material().coat_normal_scale = {scale[0], scale[1]};
   return std::move(b).take();
 }
 
@@ -331,6 +338,12 @@ BsdfRow material_row(const Material& material, const TextureSet& textures, const
   return row;
 }
 
+// What an image holds as a colour, its x and y scaled.
+template <class F>
+static Vec3<F> normal_of(const Spectrum<F>& c, const Vec2f& scale) {
+  return {scale.x * (2.0f * c.c[0] - 1.0f), scale.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};
+}
+
 template <class F>
 Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
                       Mask<F> on) {
@@ -342,8 +355,13 @@ Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, cons
     c = material.normal_map->bilinear(st, Wrap::repeat);
   else
     c = material.normal_map->bilinear(st, Wrap::repeat, on);
-  const Vec2f s = material.normal_scale;
-  return {s.x * (2.0f * c.c[0] - 1.0f), s.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};
+  return normal_of(c, material.normal_scale);
+}
+
+template <class F>
+Vec3<F> mapped_coat_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
+                           Mask<F> on) {
+  return normal_of(textures.spectrum(*material.coat_normal_texture, points, on), material.coat_normal_scale);
 }
 
 template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<float>&, bool, BsdfSlots<float>&);
@@ -352,5 +370,8 @@ template void look_up_slots(const Material&, const TextureSet&, const TexturePoi
 template Vec3f mapped_normal(const Material&, const TextureSet&, const TexturePoints<float>&, bool);
 template Vec3<NativeFloats> mapped_normal(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&,
                                           Mask<NativeFloats>);
+template Vec3f mapped_coat_normal(const Material&, const TextureSet&, const TexturePoints<float>&, bool);
+template Vec3<NativeFloats> mapped_coat_normal(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&,
+                                               Mask<NativeFloats>);
 
 }  // namespace montelux

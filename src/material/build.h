@@ -42,14 +42,17 @@ struct Material {
   std::vector<RowBinding> bindings;
   std::optional<Mixture> mixture;
   std::shared_ptr<const TexelImage> normal_map;
-  std::optional<SpectrumTextureId> normal_texture;  // instead of the image
-  Vec2f normal_scale{1, 1};                         // factors of x and y of the mapped normal
+  std::optional<SpectrumTextureId> normal_texture;       // instead of the image
+  Vec2f normal_scale{1, 1};                              // factors of x and y of the mapped normal
+  std::optional<SpectrumTextureId> coat_normal_texture;  // of the coat; without, it has the surface's own normals
+  Vec2f coat_normal_scale{1, 1};
   bool is_interface = false;
 
   bool has_normal_map() const { return normal_map || normal_texture; }
+  bool has_any_normal_map() const { return has_normal_map() || coat_normal_texture; }
 
   // Nothing has to be looked up at a point.
-  bool is_plain() const { return bindings.empty() && !mixture && !has_normal_map() && !is_interface; }
+  bool is_plain() const { return bindings.empty() && !mixture && !has_any_normal_map() && !is_interface; }
 };
 
 // What the builder asks the scene for.
@@ -76,5 +79,9 @@ BsdfRow material_row(const Material& material, const TextureSet& textures, const
 // The normal of the map at the points in the tangent frame, not unit. Only where there is a map.
 template <class F>
 Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on);
+// The same of the coat, where it has a map of its own.
+template <class F>
+Vec3<F> mapped_coat_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
+                           Mask<F> on);
 
 }  // namespace montelux

@@ -6,16 +6,17 @@ namespace montelux {
 
 // The first as those of MetallicRoughness. (grain_x, grain_y): the direction of the grain in the tangent plane, of any
 // length above zero, turned by the angle whose cosine and sine are `turn_cos` and `turn_sin`; `side` is -1 where the
-// plane lies as in a mirror, else 1.
+// plane lies as in a mirror, else 1. `coat_normal`: of the coat, unit, in the frame of the base; its z is not negative.
 struct CoatedMetallicRoughnessSlots {
   static constexpr int anisotropy = 10, grain_x = 11, grain_y = 12, turn_cos = 13, turn_sin = 14, coat = 15,
-                       coat_roughness = 16, side = 17;
+                       coat_roughness = 16, side = 17, coat_normal = 18;
 };
 
 // f = (1 - c F(cos o)) (1 - c F(cos i)) f_base + c D V F(wo.h): the share c of a coat of GGX facets of index 1.5, with
 // alpha the square of its roughness and Schlick's F from 0.04. KHR_materials_clearcoat has the first factor alone,
-// which is not reciprocal: light passes the coat on its way in and on its way out. The base's facets have alpha along
-// the grain of mix(alpha, 1, anisotropy^2) and alpha across it (KHR_materials_anisotropy).
+// which is not reciprocal: light passes the coat on its way in and on its way out. The coat has a normal of its own, to
+// which its angles and its cosine are, so that it reflects to where the base is dark, too. The base's facets have alpha
+// along the grain of mix(alpha, 1, anisotropy^2) and alpha across it (KHR_materials_anisotropy).
 template <class F>
 class CoatedMetallicRoughness {
  public:
@@ -24,7 +25,9 @@ class CoatedMetallicRoughness {
 
   MONTELUX_INLINE explicit CoatedMetallicRoughness(const BsdfRows<F>& rows)
       : coat_(rows.number(S::coat)),
-        facets_(square(rows.number(S::coat_roughness)), square(rows.number(S::coat_roughness))) {
+        facets_(square(rows.number(S::coat_roughness)), square(rows.number(S::coat_roughness))),
+        coat_frame_(Frame<F>::from_normal(
+            {rows.number(S::coat_normal), rows.number(S::coat_normal + 1), rows.number(S::coat_normal + 2)})) {
     const F roughness = rows.number(MetallicRoughnessSlots::roughness), alpha = roughness * roughness;
     const F strength = rows.number(S::anisotropy);
     const F x = rows.number(S::grain_x), y = rows.number(S::grain_y), c = rows.number(S::turn_cos),
@@ -40,31 +43,35 @@ class CoatedMetallicRoughness {
 
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
     const BsdfValue<F> below = base_.evaluate(along_grain(wo), along_grain(wi), context);
-    const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)};
-    const Mask<F> same = same_side(wo, wi);
-    const Vec3<F> m = face_forward(normalize(select(same, wo + wi, up)), up);
-    const F o_m = abs_dot(wo, m), p = coat_share(wo);
-    const F seen = select(facets_.is_smooth() | !same, F(0.0f), facets_.seen(wo, m) * 0.25f / max(o_m, F(1e-10f)));
-    const F coat = coat_ * fresnel(o_m) * seen * facets_.unshadowed(wo, wi);
-    return {below.f_cos * (passed(wo) * passed(wi)) + gray(coat), {p * seen + (F(1.0f) - p) * below.density.value}};
+    const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)}, o = coat_frame_.to_local(wo), i = coat_frame_.to_local(wi);
+    const Mask<F> same = same_side(o, i);
+    const Vec3<F> m = face_forward(normalize(select(same, o + i, up)), up);
+    const F o_m = abs_dot(o, m), p = coat_share(o);
+    const F seen = select(facets_.is_smooth() | !same, F(0.0f), facets_.seen(o, m) * 0.25f / max(o_m, F(1e-10f)));
+    const F coat = coat_ * fresnel(o_m) * seen * facets_.unshadowed(o, i);
+    return {below.f_cos * (passed(o) * passed(i)) + gray(coat), {p * seen + (F(1.0f) - p) * below.density.value}};
   }
 
   MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
-    const F p = coat_share(wo);
+    const Vec3<F> o = coat_frame_.to_local(wo);
+    const F p = coat_share(o);
     const Mask<F> from_coat = u < p, from_base = !from_coat, smooth = facets_.is_smooth(), mirrors = from_coat & smooth;
     // The part of u that is left is uniform again.
     const F rest = clamp((u - p) / max(F(1.0f) - p, F(1e-10f)), F(0.0f), F(one_minus_epsilon));
     BsdfSample<F> below = base_.sample(along_grain(wo), rest, u2, context);
     Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
-    if (!all(smooth)) m = select(smooth, m, facets_.sample(wo, u2));
-    const Vec3<F> wi = select(from_coat, reflect(wo, m), off_grain(below.wi));
+    if (!all(smooth)) m = select(smooth, m, facets_.sample(o, u2));
+    const Vec3<F> mirrored = reflect(o, m);
+    const Vec3<F> wi = select(from_coat, coat_frame_.to_world(mirrored), off_grain(below.wi));
     const Mask<F> delta = mirrors | (from_base & below.delta);
     const BsdfValue<F> value = evaluate(wo, wi, context);
-    const Spectrum<F> mirrored = gray(coat_ * fresnel(abs(wo.z)) / max(p, F(1e-10f)));
-    const Spectrum<F> through = below.weight * (passed(wo) * passed(wi) / max(F(1.0f) - p, F(1e-10f)));
+    const Spectrum<F> from_mirror = gray(coat_ * fresnel(abs(o.z)) / max(p, F(1e-10f)));
+    const Spectrum<F> through =
+        below.weight * (passed(o) * passed(coat_frame_.to_local(wi)) / max(F(1.0f) - p, F(1e-10f)));
     const Spectrum<F> weight =
-        select(mirrors, mirrored, select(delta, through, value.f_cos / max(value.density.value, F(1e-30f))));
-    const Mask<F> valid = same_side(wo, wi) & (from_coat | below.valid) & (delta | (value.density.value > F(0.0f)));
+        select(mirrors, from_mirror, select(delta, through, value.f_cos / max(value.density.value, F(1e-30f))));
+    const Mask<F> kept = (from_coat & same_side(o, mirrored)) | (from_base & below.valid & same_side(wo, wi));
+    const Mask<F> valid = kept & (delta | (value.density.value > F(0.0f)));
     return {wi, weight, value.density, F(1.0f), valid, delta};
   }
 
@@ -88,6 +95,7 @@ class CoatedMetallicRoughness {
 
   F coat_, cos_, sin_;
   GgxFacets<F> facets_;
+  Frame<F> coat_frame_;
   MetallicRoughness<F> base_;
 };
 

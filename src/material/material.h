@@ -72,6 +72,15 @@ struct BsdfLanes {
   Mask<F> on;                 // the lanes to serve; results are zero and invalid in the others
 };
 
+// Whether a coat looks in another direction than what is under it.
+template <class F>
+MONTELUX_INLINE Mask<F> has_bent_coat(Uint<F> kind, const BsdfSlots<F>& slots) {
+  const Mask<F> coated = kind == Uint<F>(std::uint32_t(BsdfKind::coated_metallic_roughness));
+  if (!any(coated)) return coated;
+  using Slots = CoatedMetallicRoughnessSlots;
+  return coated & (slots.v[Slots::coat] > F(0.0f)) & (slots.v[Slots::coat_normal + 2] < F(1.0f));
+}
+
 // Whether the surface bounds a body of glass, and what that absorbs, a unit of length.
 template <class F>
 MONTELUX_INLINE Mask<F> bounds_body(Uint<F> kind) {

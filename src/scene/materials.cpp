@@ -19,7 +19,7 @@ std::uint32_t slots_of(BsdfKind kind) {
     case BsdfKind::coated_diffuse:
       return CoatedDiffuseSlots::internal + 1;
     case BsdfKind::thin_dielectric:
-      return ThinDielectricSlots::tint + spectrum;
+      return ThinDielectricSlots::alpha + 1;
     case BsdfKind::diffuse_transmission:
       return DiffuseTransmissionSlots::transmittance + spectrum;
     case BsdfKind::phong:
@@ -27,7 +27,7 @@ std::uint32_t slots_of(BsdfKind kind) {
     case BsdfKind::metallic_roughness:
       return MetallicRoughnessSlots::reflected + 1;
     case BsdfKind::coated_metallic_roughness:
-      return CoatedMetallicRoughnessSlots::side + 1;
+      return CoatedMetallicRoughnessSlots::coat_normal + 3;
     case BsdfKind::tinted_dielectric:
       return TintedDielectricSlots::absorption + spectrum;
     case BsdfKind::coated_conductor:
@@ -64,8 +64,9 @@ MaterialSet::MaterialSet(std::vector<Material> materials, const TextureSet* text
     : materials_(std::move(materials)), textures_(textures) {
   for (const Material& m : materials_) {
     kinds_.push_back(std::uint32_t(m.kind));
-    traits_.push_back((m.bindings.empty() && !m.has_normal_map() ? 0u : needs_look_up) | (m.mixture ? is_mixture : 0u) |
-                      (m.is_interface ? is_interface : 0u) | slots_of(m.kind) << slots_shift);
+    traits_.push_back((m.bindings.empty() && !m.has_any_normal_map() ? 0u : needs_look_up) |
+                      (m.mixture ? is_mixture : 0u) | (m.is_interface ? is_interface : 0u) |
+                      slots_of(m.kind) << slots_shift);
     rows_.push_back(m.row);
     has_mixtures_ = has_mixtures_ || m.mixture, has_interfaces_ = has_interfaces_ || m.is_interface;
   }
@@ -100,10 +101,19 @@ template <class F>
 void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, const TexturePoints<F>& points,
                           Mask<F> on, SurfaceScattering<F>& s) const {
   look_up_slots<F>(material, *textures_, points, on, s.slots);
-  if (!material.has_normal_map()) return;
-  const Frame<F> turned = with_normal<F>(s.frame, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
-  s.frame = {select<F>(on, turned.s, s.frame.s), select<F>(on, turned.t, s.frame.t),
-             select<F>(on, turned.n, s.frame.n)};
+  if (!material.has_any_normal_map()) return;
+  const Frame<F> plain = s.frame;
+  if (material.has_normal_map()) {
+    const Frame<F> turned = with_normal<F>(plain, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
+    s.frame = {select<F>(on, turned.s, plain.s), select<F>(on, turned.t, plain.t), select<F>(on, turned.n, plain.n)};
+  }
+  if (material.kind != BsdfKind::coated_metallic_roughness) return;
+  const Frame<F> coat = material.coat_normal_texture
+                            ? with_normal<F>(plain, at.dpdu, mapped_coat_normal<F>(material, *textures_, points, on))
+                            : plain;
+  const Vec3<F> n = s.frame.to_local(coat.n);
+  F* slots = s.slots.v + CoatedMetallicRoughnessSlots::coat_normal;
+  slots[0] = select(on, n.x, slots[0]), slots[1] = select(on, n.y, slots[1]), slots[2] = select(on, n.z, slots[2]);
 }
 
 template <class F>
@@ -127,7 +137,8 @@ SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3
       [&](std::uint32_t number, Mask<F> same) { look_up<F>(materials_[number], at.point, points, same, s); });
 
   s.is_delta = is_delta<F>(s.lanes(on));
-  const Mask<F> both_sides = on & (gather(two_sided_.data(), s.kind) != U(0u));
+  // A bent coat reflects to where its base does not look.
+  const Mask<F> both_sides = on & ((gather(two_sided_.data(), s.kind) != U(0u)) | has_bent_coat<F>(s.kind, s.slots));
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
   s.light_normal = select<F>(both_sides, zero, face_forward(s.frame.n, -d));
   return s;

@@ -32,7 +32,7 @@ bool is_smooth(const Material& material) {
       return are_smooth(MetallicRoughnessSlots::roughness, MetallicRoughnessSlots::roughness, 2) ||
              are_smooth(CoatedMetallicRoughnessSlots::coat_roughness, CoatedMetallicRoughnessSlots::coat_roughness, 2);
     case BsdfKind::thin_dielectric:
-      return true;
+      return are_smooth(ThinDielectricSlots::alpha, ThinDielectricSlots::alpha, 1);
     case BsdfKind::diffuse:
     case BsdfKind::diffuse_transmission:
     case BsdfKind::phong:
@@ -44,7 +44,7 @@ bool is_smooth(const Material& material) {
 bool is_partly_smooth(const Material& material) {
   if (!is_smooth(material)) return false;
   if (material.kind == BsdfKind::conductor || material.kind == BsdfKind::dielectric ||
-      material.kind == BsdfKind::tinted_dielectric)
+      material.kind == BsdfKind::tinted_dielectric || material.kind == BsdfKind::thin_dielectric)
     return false;
   return !material.bindings.empty() || !is_delta<float>({std::uint32_t(material.kind), &material.row, true});
 }

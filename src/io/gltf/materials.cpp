@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "io/gltf/parameters.h"
 
@@ -104,8 +105,7 @@ void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
   e.type = "coatedmetallicroughness";
   put_channel(e, "clearcoat", amount, "r");
   put_channel(e, "clearcoatroughness", roughness, "g");
-  if (coat["clearcoatNormalTexture"])
-    coat["clearcoatNormalTexture"].warning("the normals of a clear coat are not read: the coat lies as the base does");
+  if (!is_black(amount.value)) put_normal_map(e, coat["clearcoatNormalTexture"], coat_normals);
   if (is_black(strength.value)) return;
   put_channel(e, "anisotropy", strength, "b");
   put_number(e, "anisotropyrotation", grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
@@ -129,15 +129,32 @@ void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
   if (!is_black(absorption)) put_rgb(glass, "absorption", absorption);
 }
 
-bool MaterialReader::put_normal_map(Entity& e, const Element& material) {
-  const Element info = material["normalTexture"];
+void MaterialReader::put_normal_map(Entity& e, const Element& info, const NormalParameters& names) {
   const auto use = textures_.use(info);
-  if (!use) return false;
-  note_uv_set(use, material);
-  put_texture(e, "normaltexture", textures_.spectrum(*use, gray(1.0f), TexelMeaning::data));
+  if (!use) return;
+  note_uv_set(use, info);
+  put_texture(e, names.texture, textures_.spectrum(*use, gray(1.0f), TexelMeaning::data));
   const double scale = info["scale"].number().value_or(1);
-  if (scale != 1) put_numbers(e, "normalscale", {float(scale), float(scale)});
-  return true;
+  if (scale != 1) put_numbers(e, names.scale, {float(scale), float(scale)});
+}
+
+// Where texture coordinates lie as in a mirror; nothing where it is all the same.
+std::optional<Entity> MaterialReader::mirrored(const Entity& e) {
+  const bool has_grain = e.parameters.find("anisotropyrotation") != nullptr;
+  Entity turned{e.type, {}, e.where};
+  for (const Parameter& p : e.parameters.all())
+    if (p.name != base_normals.scale && p.name != coat_normals.scale) turned.parameters.add(p);
+  bool has_map = false;
+  for (const NormalParameters& names : {base_normals, coat_normals}) {
+    if (!e.parameters.find(names.texture)) continue;
+    has_map = true;
+    const auto& stated = e.parameters.array<float>(names.scale);
+    const float scale = stated.empty() ? 1 : stated[0];
+    put_numbers(turned, names.scale, {scale, -scale});
+  }
+  if (!has_map && !has_grain) return std::nullopt;
+  if (has_grain) put_boolean(turned, "grainmirrored", true);
+  return turned;
 }
 
 MaterialDescId MaterialReader::add(Entity e, const std::string& name) {
@@ -161,26 +178,23 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   const float eta = base.parameters.number("eta", 1.5f);
   Entity glass{is_solid ? "tinteddielectric" : "thindielectric", {}, material.where()};
   put_number(glass, "eta", double(eta));
-  std::string lost;
-  const auto lose = [&](bool is_lost, const char* what) {
-    if (is_lost) (lost += lost.empty() ? "" : ", ") += what;
-  };
-  if (is_solid) {
+  // The facets' alpha is the square.
+  const auto roughness_map = textures_.use(model["metallicRoughnessTexture"]);
+  if (roughness_map && roughness > 0)
+    put_texture(glass, "roughness", textures_.squared(textures_.number(*roughness_map, "g", roughness)));
+  else
     put_number(glass, "roughness", roughness * roughness);
-    put_boolean(glass, "remaproughness", false);
-    lose(bool(model["metallicRoughnessTexture"]), "the texture of its roughness");
-    put_absorption(glass, volume);
-  } else {
-    lose(roughness > 0.05, "its roughness");
-  }
+  put_boolean(glass, "remaproughness", false);
+  if (is_solid) put_absorption(glass, volume);
   const Factor tint = base_color(material);
   if (tint.texture || tint.value[0] < 1 || tint.value[1] < 1 || tint.value[2] < 1)
     put_spectrum(glass, "tint", tint, TexelMeaning::color);
-  lose(base.type == "coatedmetallicroughness", "its clear coat and its grain");
-  // Once, however many materials lose the same.
-  if (!lost.empty() && lost_.insert(lost).second)
-    transmission.warning("glass that transmits is shown without " + lost + ", here and in all materials like this one");
-  if (const Parameter* map = base.parameters.find("normaltexture")) glass.parameters.add(*map);
+  // Once, however many materials there are.
+  if (base.type == "coatedmetallicroughness" && !std::exchange(has_lost_coat_, true))
+    transmission.warning(
+        "glass that transmits is shown without its clear coat and its grain, here and in all materials like this one");
+  for (const char* part : {base_normals.texture, base_normals.scale})
+    if (const Parameter* map = base.parameters.find(part)) glass.parameters.add(*map);
   const MaterialDescId through = add(std::move(glass), name.empty() ? "glass" : name + " glass");
   if (!amount.texture && amount.value[0] >= 1) return through;
   const MaterialDescId opaque = add(base, name.empty() ? "opaque" : name + " opaque");
@@ -276,17 +290,11 @@ MaterialUse MaterialReader::read(const Element& material) {
     put_channel(e, "metallic", metallic, "b");
     put_channel(e, "roughness", roughness, "g");
   }
-  const bool has_normal_map = put_normal_map(e, material);
+  put_normal_map(e, material["normalTexture"], base_normals);
   MaterialUse use;
   use.id = transmitting(e, material, name);
-  const bool has_grain = e.parameters.find("anisotropyrotation") != nullptr;
-  if ((has_normal_map || has_grain) && !extensions["KHR_materials_transmission"]) {
-    const double scale = material["normalTexture"]["scale"].number().value_or(1);
-    Entity mirrored = e;
-    if (has_normal_map) put_numbers(mirrored, "normalscale", {float(scale), float(-scale)});
-    if (has_grain) put_boolean(mirrored, "grainmirrored", true);
-    use.mirrored = add(std::move(mirrored), name.empty() ? "mirrored" : name + " mirrored");
-  }
+  if (const std::optional<Entity> turned = mirrored(e))
+    use.mirrored = transmitting(*turned, material, name.empty() ? "mirrored" : name + " mirrored");
   use.area_light = emission(material);
   use.repeats_emission = use.area_light && repeats(textures_.use(material["emissiveTexture"]));
   use.alpha = alpha(material);

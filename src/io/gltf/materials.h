@@ -38,7 +38,14 @@ class MaterialReader {
   // Where there are any; then the material is a coated one.
   void put_coat_and_grain(Entity& e, const Element& extensions);
   void put_absorption(Entity& glass, const Element& volume);
-  bool put_normal_map(Entity& e, const Element& material);
+  // How materials call a normal map, and the factors of its x and y.
+  struct NormalParameters {
+    const char *texture, *scale;
+  };
+  static constexpr NormalParameters base_normals{"normaltexture", "normalscale"},
+      coat_normals{"coatnormaltexture", "coatnormalscale"};
+  void put_normal_map(Entity& e, const Element& info, const NormalParameters& names);
+  static std::optional<Entity> mirrored(const Entity& e);
   MaterialDescId add(Entity e, const std::string& name);
   MaterialDescId transmitting(const Entity& base, const Element& material, const std::string& name);
   std::optional<Entity> emission(const Element& material);
@@ -55,7 +62,7 @@ class MaterialReader {
   TextureReader textures_;
   std::map<std::optional<std::size_t>, MaterialUse> uses_;
   std::optional<int> uv_set_;   // of the material at hand
-  std::set<std::string> lost_;  // what has been said to be left out of glass
+  bool has_lost_coat_ = false;  // that of glass, which has been said
 };
 
 }  // namespace montelux::gltf

@@ -123,6 +123,13 @@ std::string TextureReader::number(const TextureUse& use, std::string_view channe
   return add(false, std::move(e));
 }
 
+std::string TextureReader::squared(const std::string& texture) {
+  Entity e{"scale", {}, document_.whole()};
+  put_texture(e, "tex", texture);
+  put_texture(e, "scale", texture);
+  return add(false, std::move(e));
+}
+
 std::string TextureReader::threshold(const std::string& texture, double edge) {
   Entity e{"threshold", {}, document_.whole()};
   put_texture(e, "tex", texture);

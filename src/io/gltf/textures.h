@@ -29,6 +29,8 @@ class TextureReader {
   // The name of a texture of numbers: one channel ("r", "g", "b", "a") of the image times the factor.
   std::string number(const TextureUse& use, std::string_view channel, double factor);
   // The name of a texture that is 1 where the texture of that name is at least `edge`, else 0.
+  // Its square.
+  std::string squared(const std::string& texture);
   std::string threshold(const std::string& texture, double edge);
 
  private:

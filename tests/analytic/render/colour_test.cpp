@@ -285,6 +285,65 @@ Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
   }
 }
 
+// Black paint under a coat, seen at 60 degrees: `maps` says which way base and coat look. The sky is white,
+// or `more` has lamps.
+std::string painted_scene(const std::string& maps,
+                          const std::string& more = R"(LightSource "infinite" "rgb L" [ 1 1 1 ])") {
+  return R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+LookAt 3.4641016 2 0  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+WorldBegin
+)" + more +
+         R"(
+Material "coatedmetallicroughness" "rgb basecolor" [ 0 0 0 ] "float metallic" 0 "float specular" 0 )" +
+         maps + R"(
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point2 uv" [ 0 0  0 1  1 1  1 0 ]
+    "point3 P" [ -5 0 -5   -5 0 5   5 0 5   5 0 -5 ]
+)";
+}
+
+// A smooth coat reflects by its own normal, which is the surface's where it has no map: not by that of the base.
+TEST(ClearCoat, looks_where_its_own_map_says) {
+  const auto schlick = [](double degrees) { return 0.04 + 0.96 * std::pow(1 - std::cos(degrees / 180 * M_PI), 5); };
+  // Tilted by 30 degrees from the normal toward u, which is toward the camera.
+  const std::string tilted = R"(normaltexture" [ 0.75 0.5 0.9330127 ] )";
+  const struct {
+    std::string maps;
+    double degrees;
+  } cases[] = {{"", 60},
+               {"\"rgb " + tilted, 60},
+               {"\"rgb coat" + tilted, 30},
+               {"\"rgb coat" + tilted + "\"rgb " + tilted, 30},
+               {"\"rgb coat" + tilted + "\"float coatnormalscale\" [ 0 0 ]", 60}};
+  for (const auto& c : cases) {
+    const Mean m = measure(TestScene(painted_scene(c.maps)), "path", 64, 1);
+    EXPECT_GT(p_value(m.mean[0], m.standard_error[0], schlick(c.degrees)), sidak_level(family_level, 4)) << c.maps;
+    EXPECT_LT(p_value(m.mean[0], m.standard_error[0], schlick(90 - c.degrees)), sidak_level(family_level, 4)) << c.maps;
+  }
+}
+
+// A rough coat that looks away from its base: light samples and the coat's own directions find the same.
+TEST(ClearCoat, that_is_bent_looks_the_same_to_every_integrator) {
+  const std::string lamps = R"(AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 5 5 5 ]
+Translate -1 2 1
+Shape "sphere" "float radius" 0.7
+Translate 3 -1.2 -1
+Shape "sphere" "float radius" 0.5
+AttributeEnd)";
+  const TestScene scene(painted_scene(R"("float clearcoatroughness" 0.6 "rgb coatnormaltexture" [ 0.1 0.5 0.8 ]
+    "rgb normaltexture" [ 0.9 0.5 0.8 ])",
+                                      lamps));
+  const Mean path = measure(scene, "path", 256, 1);
+  EXPECT_GT(path.mean[0], 0.01);
+  std::uint32_t seed = 2;
+  for (const char* way : {"naive", "path:light-selection=ris:4", "direct", "tracepath", "restir-di:radius=2"}) {
+    const Mean m = measure(scene, way, 256, seed++);
+    EXPECT_GT(p_value_of_difference(m, path, 0, 1), sidak_level(family_level, 5)) << way << " " << m.mean[0];
+    EXPECT_LT(p_value_of_difference(m, path, 0, 1.1), sidak_level(family_level, 5)) << way << " " << m.mean[0];
+  }
+}
+
 }  // namespace
 
 }  // namespace montelux::test

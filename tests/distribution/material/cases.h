@@ -11,8 +11,9 @@ namespace montelux::test {
 struct BsdfCase {
   std::string label;
   BsdfRow row;
-  bool lossless = false;  // all light comes back, in importance mode
-  int panels = 1;         // for the quadrature of the density: more for sharp lobes
+  bool lossless = false;   // all light comes back, in importance mode
+  int panels = 1;          // for the quadrature of the density: more for sharp lobes
+  bool reciprocal = true;  // not where parts have normals of their own: each has the cosine to its own
 };
 
 inline void put(BsdfRow& row, int slot, std::initializer_list<float> values) {
@@ -72,7 +73,8 @@ struct CasesOf<BsdfKind::metallic_roughness> {
 inline BsdfCase coated_metallic_case(std::string label, float metallic, float roughness, float anisotropy, float coat,
                                      float coat_roughness) {
   BsdfCase c = metallic_roughness_case(std::move(label), {0.9f, 0.5f, 0.2f}, metallic, roughness);
-  put(c.row, CoatedMetallicRoughnessSlots::anisotropy, {anisotropy, 0.6f, -0.3f, 0.8f, 0.6f, coat, coat_roughness, -1});
+  put(c.row, CoatedMetallicRoughnessSlots::anisotropy,
+      {anisotropy, 0.6f, -0.3f, 0.8f, 0.6f, coat, coat_roughness, -1, 0, 0, 1});
   return c;
 }
 template <>
@@ -84,7 +86,11 @@ struct CasesOf<BsdfKind::coated_metallic_roughness> {
     put(mirror.row, MetallicRoughnessSlots::base, {1, 1, 1});
     BsdfCase turned = coated_metallic_case("a grain of no direction", 1, 0.5f, 0.7f, 0.2f, 0.7f);
     put(turned.row, CoatedMetallicRoughnessSlots::grain_x, {0, 0});
-    return {coated_metallic_case("paint under a smooth coat", 0, 0.6f, 0, 1, 0),
+    BsdfCase bent = coated_metallic_case("metal with a grain under a coat that looks away", 1, 0.4f, 0.5f, 1, 0.5f);
+    put(bent.row, CoatedMetallicRoughnessSlots::coat_normal, {0.48f, -0.36f, 0.8f});
+    bent.reciprocal = false;
+    return {bent,
+            coated_metallic_case("paint under a smooth coat", 0, 0.6f, 0, 1, 0),
             coated_metallic_case("metal under a rough coat", 1, 0.5f, 0, 0.8f, 0.5f),
             coated_metallic_case("metal with a grain", 1, 0.4f, 0.9f, 0, 0),
             coated_metallic_case("half a metal with a grain under half a coat", 0.5f, 0.5f, 0.5f, 0.5f, 0.4f),
@@ -142,7 +148,10 @@ struct CasesOf<BsdfKind::thin_dielectric> {
     BsdfCase pane{"pane", {}, true}, green{"green pane", {}};
     put(pane.row, ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
     put(green.row, ThinDielectricSlots::eta, {1.5f, 0.2f, 0.8f, 0.4f});
-    return {pane, green};
+    BsdfCase rough{"rough pane", {}}, frosted{"frosted green pane", {}};
+    put(rough.row, ThinDielectricSlots::eta, {1.5f, 1, 1, 1, 0.3f});
+    put(frosted.row, ThinDielectricSlots::eta, {1.33f, 0.2f, 0.8f, 0.4f, 0.7f});
+    return {pane, green, rough, frosted};
   }
 };
 

@@ -126,6 +126,80 @@ TEST(GltfMaterial, has_a_clear_coat_and_a_grain) {
             "metallicroughness");
 }
 
+// Materials with an image.
+ReadResult with_image(const std::string& material, const std::string& node = R"("mesh": 0)") {
+  return with_material(material, node,
+                       R"(, "images": [{"uri": "data:image/png;base64,AAAA"}], "textures": [{"source": 0}])");
+}
+
+// KHR_materials_clearcoat: without a map of its own the coat has no map, even where the base has one.
+TEST(GltfMaterial, has_a_clear_coat_with_normals_of_its_own) {
+  const ReadResult both = with_image(
+      R"("normalTexture": {"index": 0, "scale": 0.25}, "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1,
+         "clearcoatNormalTexture": {"index": 0, "scale": 0.5}}})");
+  const Entity& e = material_of(both);
+  EXPECT_TRUE(e.parameters.texture("normaltexture"));
+  EXPECT_TRUE(e.parameters.texture("coatnormaltexture"));
+  EXPECT_EQ(e.parameters.array<float>("normalscale"), (std::vector<float>{0.25f, 0.25f}));
+  EXPECT_EQ(e.parameters.array<float>("coatnormalscale"), (std::vector<float>{0.5f, 0.5f}));
+  EXPECT_EQ(render(both.diagnostics).find("warning"), std::string::npos) << render(both.diagnostics);
+  const ReadResult base = with_image(R"("normalTexture": {"index": 0}, "extensions": {"KHR_materials_clearcoat":
+         {"clearcoatFactor": 1}})");
+  EXPECT_FALSE(material_of(base).parameters.find("coatnormaltexture"));
+}
+
+// Where a node mirrors, the maps' y and the grain lie the other way round, of glass, too.
+TEST(GltfMaterial, turns_its_maps_round_where_its_node_mirrors) {
+  const std::string mirrored = R"("mesh": 0, "scale": [-1, 1, 1])";
+  const ReadResult coated = with_image(
+      R"("normalTexture": {"index": 0, "scale": 0.25}, "extensions": {"KHR_materials_anisotropy":
+         {"anisotropyStrength": 1}, "KHR_materials_clearcoat": {"clearcoatFactor": 1,
+         "clearcoatNormalTexture": {"index": 0}}})",
+      mirrored);
+  const Entity& e = material_of(coated);
+  EXPECT_EQ(e.parameters.array<float>("normalscale"), (std::vector<float>{0.25f, -0.25f}));
+  EXPECT_EQ(e.parameters.array<float>("coatnormalscale"), (std::vector<float>{1, -1}));
+  EXPECT_TRUE(e.parameters.boolean("grainmirrored", false));
+  const ReadResult glass = with_image(
+      R"("normalTexture": {"index": 0, "scale": 0.25}, "extensions": {"KHR_materials_transmission":
+         {"transmissionFactor": 1}})",
+      mirrored);
+  EXPECT_EQ(material_of(glass).type, "thindielectric");
+  EXPECT_EQ(material_of(glass).parameters.array<float>("normalscale"), (std::vector<float>{0.25f, -0.25f}));
+}
+
+// KHR_materials_transmission: what goes through is as rough as what is reflected, by factor and texture.
+TEST(GltfMaterial, of_glass_is_as_rough_as_stated) {
+  const std::string volume = R"(, "KHR_materials_volume": {"thicknessFactor": 1})";
+  for (const bool is_solid : {false, true}) {
+    const std::string glass = R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1})" +
+                              (is_solid ? volume : std::string()) + "}";
+    const ReadResult plain = with_material(R"("pbrMetallicRoughness": {"roughnessFactor": 0.5}, )" + glass);
+    const Entity& e = material_of(plain);
+    EXPECT_EQ(e.type, is_solid ? "tinteddielectric" : "thindielectric");
+    EXPECT_EQ(e.parameters.number("roughness", 0), 0.25f);
+    EXPECT_FALSE(e.parameters.boolean("remaproughness", true));
+    EXPECT_EQ(render(plain.diagnostics).find("warning"), std::string::npos) << render(plain.diagnostics);
+    const ReadResult mapped = with_image(
+        R"("pbrMetallicRoughness": {"roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}}, )" + glass);
+    const auto name = material_of(mapped).parameters.texture("roughness");
+    ASSERT_TRUE(name) << render(mapped.diagnostics);
+    EXPECT_EQ(render(mapped.diagnostics).find("warning"), std::string::npos) << render(mapped.diagnostics);
+    // The square of the green channel, scaled.
+    const auto texture = [&](const std::string& wanted) -> const Entity& {
+      for (const auto& t : mapped.scene->textures)
+        if (t.name == wanted) return t.entity;
+      throw std::runtime_error("no texture " + wanted);
+    };
+    const Entity& square = texture(*name);
+    EXPECT_EQ(square.type, "scale");
+    EXPECT_EQ(square.parameters.texture("tex"), square.parameters.texture("scale"));
+    const Entity& channel = texture(*square.parameters.texture("tex"));
+    EXPECT_EQ(channel.parameters.string("channel", ""), "g");
+    EXPECT_EQ(channel.parameters.number("scale", 1), 0.5f);
+  }
+}
+
 TEST(GltfExtension, that_is_not_read_is_warned_of) {
   const ReadResult result = with_material(R"("extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}})",
                                           R"("mesh": 0)", R"(, "extensionsUsed": ["KHR_materials_sheen"])");

@@ -39,6 +39,7 @@ const std::map<std::string, std::string, std::less<>>& values() {
       {"encoding", "\"linear\""},
       {"materials", "[ \"a\" \"b\" ]"},
       {"normalscale", "[ 1 1 ]"},
+      {"coatnormalscale", "[ 1 1 ]"},
       {"screenwindow", "[ -1 1 -1 1 ]"},
       {"cropwindow", "[ 0 1 0 1 ]"},
       {"pixelbounds", "[ 0 2 0 2 ]"},
