@@ -1,8 +1,6 @@
 // What saved work of every kind has in common: JSON that bears the name and the version of its format. Inside the
 // facade only. `Json` is the JSON library's value in all of it.
 #pragma once
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -122,8 +120,8 @@ T whole_from(const Json& value, T low, T high) {
                         ? std::in_range<T>(value.template get<std::uint64_t>())
                         : value.is_number_integer() && std::in_range<T>(value.template get<std::int64_t>());
   if (!good || value.template get<T>() < low || value.template get<T>() > high)
-    throw std::invalid_argument(
-        fmt::format("it has {} where a whole number from {} to {} should be", value.dump(), low, high));
+    throw std::invalid_argument("it has " + value.dump() + " where a whole number from " + std::to_string(low) +
+                                " to " + std::to_string(high) + " should be");
   return value.template get<T>();
 }
 
