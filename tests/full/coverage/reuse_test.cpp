@@ -136,12 +136,12 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
     const ErrorBarScene& text;
     const char* way;
   };
-  for (const auto& [text, way] :
+  for (const Case& c :
        {Case{error_bar_scenes()[1], "restir-di:chain=1"}, Case{error_bar_scenes()[2], "restir-di:chain=1"},
         Case{error_bar_scenes()[1], "restir-pt:temporal=on,chain=1"}}) {
     const auto coverage = [&](std::optional<std::pair<int, int>> resolution, int count) {
-      const TestScene scene(text.text, ".", resolution);
-      const ChosenIntegrator chosen = scene.integrator(way);
+      const TestScene scene(c.text.text, ".", resolution);
+      const ChosenIntegrator chosen = scene.integrator(c.way);
       const auto film_of = [&](std::uint32_t seed) {
         ChainMemories memories;
         std::optional<Film> film;
@@ -161,11 +161,11 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
       return measure_coverage_of(film_of, truth_of(scene, {2048, 16}), {1, plan.samples()}, count);
     };
     const Row row{coverage({}, seeds / 4), coverage(std::pair{8, 8}, seeds_of_small_images / 4)};
-    print(text.name, std::string(way) + ", frames as passes", {1, plan.samples()}, row);
+    print(c.text.name, std::string(c.way) + ", frames as passes", {1, plan.samples()}, row);
     const double level = level_of_a_row();
-    EXPECT_LT(row.large.pixels_p_value(low, high), level) << text.name;
-    EXPECT_LT(binomial_p_value(row.held(), row.images(), low, high), level) << text.name;
-    EXPECT_LT(row.large.ratio_p_value(ratio_low, ratio_high), level) << text.name;
+    EXPECT_LT(row.large.pixels_p_value(low, high), level) << c.text.name;
+    EXPECT_LT(binomial_p_value(row.held(), row.images(), low, high), level) << c.text.name;
+    EXPECT_LT(row.large.ratio_p_value(ratio_low, ratio_high), level) << c.text.name;
   }
 }
 
