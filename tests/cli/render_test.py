@@ -102,7 +102,7 @@ class Render(ProgramTest):
         start = time.monotonic()
         told = json.loads(self.render("--time", "500ms", "--json").stdout)
         self.assertGreaterEqual(time.monotonic() - start, 0.4)
-        self.assertLess(told["seconds"], 0.5)
+        self.assertLess(told["seconds"], 0.6)  # units of work that are under way are completed
         self.assertGreater(told["seconds"], 0)
         self.assertFalse(told["interrupted"])
 
