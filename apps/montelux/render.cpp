@@ -67,6 +67,8 @@ Json to_json(const double (&values)[n]) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+Json nulls() { return Json::array({nullptr, nullptr, nullptr}); }
+
 constexpr double confidence = 0.95;
 
 // The interval of each channel of the picture's mean, with its confidence; null where there is no error bar.
@@ -134,7 +136,7 @@ Outcome outcome_of(const Rendering& rendering) {
 
 void print_json(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
   const double seconds = rendering.result.seconds;
-  const bool known = outcome.error.whole();
+  const bool known = rendering.has_pixel_error();
   Json json;
   json["version"] = version();
   json["scene"] = arguments.scene;
@@ -145,8 +147,8 @@ void print_json(const RenderArguments& arguments, const Rendering& rendering, co
     json["frame"] = *arguments.frame;
     json["shutter"] = {arguments.render.shutter->open, arguments.render.shutter->close};
   }
-  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : Json::array({nullptr, nullptr, nullptr});
-  json["standard_error"] = to_json(outcome.image.standard_error);
+  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : nulls();
+  json["standard_error"] = rendering.has_error_bar() ? to_json(outcome.image.standard_error) : nulls();
   json["interval_of_mean"] = interval_to_json(rendering);
   json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
   json["relative_mse"] = known ? number_or_null(outcome.error.relative_mse) : Json();
@@ -198,7 +200,8 @@ void print_mean(const Rendering& rendering) {
 // The error of a pixel; never that of a part of the picture.
 std::string error_line(const Rendering& rendering) {
   const ErrorEstimate& error = rendering.error;
-  if (!error.whole()) return "not known: it takes two independent passes of every pixel";
+  if (rendering.found_no_light) return "not known: no sample found light";
+  if (!rendering.has_pixel_error()) return "not known: it takes two independent passes of every pixel";
   std::string line = fmt::format("{} of a pixel, root of the mean relative square", error_text(error));
   if (error.is_unsure())
     line += fmt::format("; few bright samples decide it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
@@ -265,7 +268,8 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
   const int signal = signals.received();
   const Outcome outcome = outcome_of(*rendering);
   if (rendering->result.interrupted && arguments.frame) {
-    warn(fmt::format("interrupted in frame {}, which is not written; the frames before it are", *arguments.frame));
+    if (!arguments.quiet)
+      warn(fmt::format("interrupted in frame {}, which is not written; the frames before it are", *arguments.frame));
     return 128 + signal;
   }
   if (rendering->result.interrupted && outcome.samples == 0) {
@@ -337,7 +341,7 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
     // A frame may be over before anybody asks for signals.
     if (const int signal = signals.received(); signal != 0 && frame < all.frames->last) {
-      warn(fmt::format("interrupted after frame {}", frame));
+      if (!all.quiet) warn(fmt::format("interrupted after frame {}", frame));
       return {128 + signal, late};
     }
   }
@@ -517,7 +521,7 @@ void add_render(CLI::App& app, Action& chosen) {
       "--half", arguments->half,
       "light, albedo and normals of an .exr as 16-bit floats, which halves the file; errors and places stay 32-bit");
   verb.add_flag("--json", arguments->json, "results as one JSON object (a line for each frame)");
-  verb.add_flag("--quiet", arguments->quiet, "no progress, no notes, no warnings");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });
 }

@@ -131,6 +131,7 @@ struct PicturePlan {
   const RenderSettings& render;
   const ImageEstimate& image;
   const ErrorEstimate& error;
+  bool found_no_light = false;
 };
 
 // For a header, which has no lists.
@@ -169,6 +170,20 @@ void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, Rend
   before += since_start.seconds();
 }
 
+// Whether there are samples and each of them is zero. (A mean of zero of values that are not shows in m2.)
+bool is_black(const Film& film) {
+  const PixelBounds& b = film.bounds();
+  bool sampled = false;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const PixelEstimate& pixel = film.pixel(x, y);
+      sampled |= pixel.passes > 0;
+      for (int c = 0; c < spectrum_size; ++c)
+        if (pixel.mean[c] != 0 || pixel.m2[c] != 0) return false;
+    }
+  return sampled;
+}
+
 std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
                                  const RenderResult& result) {
   std::vector<Attribute> header;
@@ -192,10 +207,14 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   for (const Replacement& r : picture.plan.replaced) replaced.push_back(to_text(r));
   add("replaced", list_or_none(replaced));
   add("leftOut", list_or_none(parts.info.left_out));
-  add("errorBar", image.passes >= 2 ? fmt::format("over {} independent passes", image.passes)
-                                    : std::string("none: it takes two independent passes"));
+  const bool has_error_bar = image.passes >= 2 && !picture.found_no_light;
+  if (has_error_bar)
+    add("errorBar", fmt::format("over {} independent passes", image.passes));
+  else
+    add("errorBar",
+        std::string(picture.found_no_light ? "none: no sample found light" : "none: it takes two independent passes"));
   if (result.film.grid().stride > 1) add("sparse", sparse_text(result.film.grid().stride));
-  if (const ErrorEstimate& error = picture.error; error.whole()) {
+  if (const ErrorEstimate& error = picture.error; error.whole() && !picture.found_no_light) {
     add("estimatedMSE", error.mse);
     add("estimatedRelativeMSE", error.relative_mse);
     add("estimatedRelativeMSELow", error.relative_low);
@@ -204,7 +223,7 @@ std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PictureP
   }
   for (int c = 0; c < spectrum_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
-    if (image.passes >= 2) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
+    if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
   }
   // A file that must be the same in every run carries no times.
   if (auto date = date_attribute())
@@ -235,7 +254,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
     settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
     plan.render.budget->ending = result.ending;
   }
-  std::vector<Attribute> header = header_of(parts, {plan, settings, image, error}, result);
+  const bool found_no_light = plan.chosen.content == Content::light && is_black(result.film);
+  std::vector<Attribute> header = header_of(parts, {plan, settings, image, error, found_no_light}, result);
   return Rendering{std::move(result),
                    std::move(header),
                    plan.chosen.notes,
@@ -249,7 +269,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSett
                    plan.replaced,
                    parts.info.left_out,
                    plan.chosen.content,
-                   parts.info.states_exposure};
+                   parts.info.states_exposure,
+                   found_no_light};
 }
 
 }  // namespace

@@ -49,8 +49,11 @@ struct Rendering {
   std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it
   Content content = Content::light;     // what the colours hold
   bool has_own_exposure = false;        // the scene states one
-  // Whether a standard error is known: it takes two independent passes.
-  bool has_error_bar() const { return image.passes >= 2; }
+  bool found_no_light = false;          // a picture of light, and every sample is zero: nothing tells its error
+  // Whether a standard error of the mean is known: it takes two independent passes, and light.
+  bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
+  // Whether the error of the pixels is: it takes two passes of each, and light.
+  bool has_pixel_error() const { return error.whole() && !found_no_light; }
   // The interval that holds the true mean of a channel of the picture with this probability, by Student's t over the
   // passes; none where there is no error bar.
   std::optional<Interval> interval_of_mean(int channel, double confidence = 0.95) const;

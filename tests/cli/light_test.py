@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from program import ROOT, SCENE, ProgramTest
+from program import ROOT, SCENE, ProgramTest, write_pfm
 
 CLASSES = ROOT / "scenes" / "path-classes"
 ROOM = """Film "rgb" "integer xresolution" [ 32 ] "integer yresolution" [ 24 ]
@@ -41,7 +41,8 @@ class Light(ProgramTest):
         return path
 
     def rendered(self, scene, *options):
-        result = self.run_program("render", scene, "--spp", "2", "--json", "-o", "out.exr", *options)
+        result = self.run_program("render", scene, *([] if "--spp" in options else ["--spp", "2"]), "--json", "-o", "out.exr",
+                                  *options)
         return json.loads(result.stdout), header(self.folder / "out.exr"), result.stderr
 
     def test_a_glass_ball_under_a_point_light_is_named_everywhere(self):
@@ -61,12 +62,18 @@ class Light(ProgramTest):
         lights = {
             "spot": 'LightSource "spot" "point3 from" [ 0 4 0 ] "point3 to" [ 0 1 0 ]',
             "distant": 'LightSource "distant" "point3 from" [ 0 4 0 ] "point3 to" [ 0 0 0 ]',
+            "goniometric": 'AttributeBegin\nTranslate 0 4 0\nLightSource "goniometric"\nAttributeEnd',
+            # Slides are thrown along +z: here down.
+            "projection": 'AttributeBegin\nTranslate 0 4 0\nRotate 90 1 0 0\n'
+                          'LightSource "projection" "string filename" "slide.pfm"\nAttributeEnd',
         }
+        write_pfm(self.folder / "slide.pfm", 4, 4, (1, 1, 1))
         for kind, light in lights.items():
             told, _, _ = self.rendered(self.scene(world=light))
             self.assertEqual(told["missing_light"], [f"light of {kind} lights by way of smooth surfaces (dielectric)"])
         surfaces = {
             "thindielectric": 'Material "thindielectric"',
+            "tinteddielectric": 'Material "tinteddielectric" "rgb tint" [ 0.9 0.5 0.1 ] "rgb absorption" [ 0.1 0.5 1 ]',
             "conductor": 'Material "conductor" "float roughness" [ 0 ]',
             "coateddiffuse": 'Material "coateddiffuse" "float roughness" [ 0 ]',
             "dielectric": 'MakeNamedMaterial "a" "string type" "diffuse"\nMakeNamedMaterial "b" "string type" "dielectric"\n'
@@ -152,6 +159,48 @@ class Light(ProgramTest):
         self.assertEqual(told["mean"], [0, 0, 0])
         for integrator in "ao", "normal", "albedo", "depth":
             self.assertNotIn("no light", self.rendered(scene, "--integrator", integrator)[2])
+
+    ERRORS = ("mse", "relative_mse", "relative_mse_range", "interval_of_mean", "tail_index")
+
+    def header_names(self):
+        return set(re.findall(rb"montelux:\w+", (self.folder / "out.exr").read_bytes()[:20000]))
+
+    def test_where_no_sample_found_light_no_error_is_known(self):
+        # A scene without light, and one whose lamp is behind a wall.
+        hidden = self.scene("hidden.pbrt", world='LightSource "point" "point3 from" [ 0 -4 0 ]', ball=MATT)
+        for scene in self.scene(world="", ball=MATT), hidden:
+            for options in [], ["--integrator", "restir-di"]:
+                told, attributes, _ = self.rendered(scene, "--spp", "8", *options)
+                self.assertEqual(told["mean"], [0, 0, 0])
+                self.assertGreaterEqual(told["passes"], 2)
+                self.assertEqual([told[key] for key in self.ERRORS], [None] * len(self.ERRORS))
+                self.assertEqual(told["standard_error"], [None] * 3)
+                self.assertFalse(told["error_bar"])
+                self.assertEqual(attributes["montelux:errorBar"], "none: no sample found light")
+                self.assertFalse([name for name in self.header_names() if b"estimated" in name or b"StandardError" in name])
+            text = self.run_program("render", scene, "--spp", "8", "-o", "out.exr").stdout
+            self.assertIn("error    not known: no sample found light\n", text)
+            self.assertNotIn("±", text)
+            self.assertNotIn("95 %", text)
+
+    def test_an_error_of_zero_is_known_where_there_is_light_or_no_light_is_asked_for(self):
+        # Nothing but the sky, of one radiance: no noise at all.
+        sky = self.folder / "sky.pbrt"
+        sky.write_text('Film "rgb" "integer xresolution" 8 "integer yresolution" 8\nPixelFilter "box"\nWorldBegin LightSource "infinite"\n')
+        dark = self.folder / "dark.pbrt"
+        dark.write_text('Film "rgb" "integer xresolution" 8 "integer yresolution" 8\nWorldBegin\n')
+        for scene, integrator in ((sky, "path"), (dark, "depth"), (dark, "normal"), (dark, "albedo"), (dark, "ao")):
+            with self.subTest(integrator):
+                told, attributes, _ = self.rendered(scene, "--spp", "8", "--integrator", integrator)
+                self.assertEqual((told["mse"], told["relative_mse"], told["standard_error"]), (0, 0, [0, 0, 0]))
+                self.assertIsNotNone(told["interval_of_mean"])
+                self.assertEqual(attributes["montelux:errorBar"], f"over {told['passes']} independent passes")
+                self.assertIn(b"montelux:estimatedRelativeMSE", self.header_names())
+                self.assertIn(b"montelux:meanStandardErrorR", self.header_names())
+        # A single lit pixel is light.
+        lamp = self.scene(world='AttributeBegin\nTranslate 0 1 -5\nAreaLightSource "diffuse"\nScale 0.02 0.02 0.02\n'
+                          'Shape "sphere"\nAttributeEnd', ball=MATT)
+        self.assertIsNotNone(self.rendered(lamp, "--spp", "8")[0]["relative_mse"])
 
 
 if __name__ == "__main__":
