@@ -290,7 +290,7 @@ void add_compare(CLI::App& app, Action& chosen) {
   verb.add_flag("--no-cache", arguments->no_cache, "neither use nor keep a reference of an earlier comparison");
   verb.add_flag("--json", arguments->json, "results as one JSON object");
   verb.add_flag("--csv", arguments->csv, "every repeat as a line of CSV");
-  verb.add_flag("--quiet", arguments->quiet, "no progress, no warnings");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_compare(*arguments); }; });
 }

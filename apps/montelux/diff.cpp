@@ -25,7 +25,7 @@ struct DiffArguments {
   std::optional<std::string> output;
   std::string metric = "relative";
   double level = 0.01;
-  bool json = false;
+  bool json = false, quiet = false;
 };
 
 constexpr const char* examples = R"(Examples:
@@ -165,6 +165,7 @@ void add_diff(CLI::App& app, Action& chosen) {
   add_option(verb, {"--level", "P", "family-wise level of the tests (default 0.01)"},
              into(arguments->level, [](const std::string& text) { return parse_number(text, 1e-12, 0.5); }));
   verb.add_flag("--json", arguments->json, "results as one JSON object");
+  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings (there are none: results and errors stay)");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_diff(*arguments); }; });
 }
 

@@ -145,7 +145,7 @@ void add_info(CLI::App& app, Action& chosen) {
   verb.footer("Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n");
   add_scene_options(verb, arguments->scene, arguments->load);
   verb.add_flag("--json", arguments->json, "as one JSON object");
-  verb.add_flag("--quiet", arguments->quiet, "no notes, no warnings");
+  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
 }
 

@@ -187,7 +187,7 @@ int run_integrate(IntegrateArguments& arguments) {
 void add_output_options(CLI::App& verb, OutputArguments& output) {
   verb.add_flag("--json", output.json, "results as one JSON object");
   verb.add_flag("--csv", output.csv, "results as a table of comma-separated values")->excludes("--json");
-  verb.add_flag("--quiet", output.quiet, "the values alone: no progress, no warnings, no details");
+  verb.add_flag("--quiet", output.quiet, "no progress, notes or warnings, and of the results the values alone");
   verb.add_flag("--strict", output.strict, "exit status 1 where a warning says that a result is less than it claims");
 }
 

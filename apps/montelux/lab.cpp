@@ -45,21 +45,19 @@ std::string plain(std::string text) {
   return text;
 }
 
+Json to_json(const ExperimentEntry& e) {
+  Json settings = Json::array();
+  for (const ExperimentSetting& s : e.settings)
+    settings.push_back({{"name", s.name}, {"value", s.value}, {"meaning", s.meaning}});
+  return {{"name", e.name},         {"title", e.title}, {"group", e.group},
+          {"question", e.question}, {"fault", e.fault}, {"settings", settings}};
+}
+
 int list_all(bool json) {
   const std::vector<ExperimentEntry> entries = list_experiments();
   if (json) {
     Json array = Json::array();
-    for (const ExperimentEntry& e : entries) {
-      Json settings = Json::array();
-      for (const ExperimentSetting& s : e.settings)
-        settings.push_back({{"name", s.name}, {"value", s.value}, {"meaning", s.meaning}});
-      array.push_back({{"name", e.name},
-                       {"title", e.title},
-                       {"group", e.group},
-                       {"question", e.question},
-                       {"fault", e.fault},
-                       {"settings", settings}});
-    }
+    for (const ExperimentEntry& e : entries) array.push_back(to_json(e));
     fmt::print("{}\n", json_text(std::move(array), 2));
     return done;
   }
@@ -72,13 +70,17 @@ int list_all(bool json) {
   return done;
 }
 
-int list_one(const std::string& name) {
+int list_one(const std::string& name, bool json) {
   const std::vector<ExperimentEntry> entries = list_experiments();
   std::vector<std::string> names;
   for (const ExperimentEntry& e : entries) names.push_back(e.name);
   if (Result<std::string> known = parse_choice(name, names); !known) return complain("lab list: " + known.error());
   for (const ExperimentEntry& e : entries) {
     if (e.name != name) continue;
+    if (json) {
+      fmt::print("{}\n", json_text(to_json(e), 2));
+      return done;
+    }
     fmt::print("{}: {}\n\n{}\n\nSettings (--set NAME=VALUE):\n", e.name, e.title, plain(e.question));
     for (const ExperimentSetting& s : e.settings) fmt::print("  {:14} {} (default {:g})\n", s.name, s.meaning, s.value);
     fmt::print("Planted by --fault: {}\n", e.fault);
@@ -140,7 +142,7 @@ int run_experiments(LabArguments& arguments) {
   Result<LabRun> run = run_lab(arguments.options, arguments.output, progress);
   if (!run) return complain(run.error());
   if (!run->why_not_written.empty()) return complain(run->why_not_written, failed);
-  if (!run->page) warn(run->why_no_page);
+  if (!run->page && !arguments.quiet) warn(run->why_no_page);
   if (arguments.json)
     print_json(*run, arguments.options, arguments.output);
   else
@@ -151,7 +153,7 @@ int run_experiments(LabArguments& arguments) {
 
 int run_lab_verb(LabArguments& arguments) {
   if (arguments.action == "run") return run_experiments(arguments);
-  return arguments.name.empty() ? list_all(arguments.json) : list_one(arguments.name);
+  return arguments.name.empty() ? list_all(arguments.json) : list_one(arguments.name, arguments.json);
 }
 
 }  // namespace
@@ -185,7 +187,7 @@ void add_lab(CLI::App& app, Action& chosen) {
   add_option(verb, {"--threads", "N", "worker threads (default: one a processor)"},
              into(arguments->options.threads, [](const std::string& text) { return parse_whole(text, 1, 1024); }));
   verb.add_flag("--json", arguments->json, "results as JSON");
-  verb.add_flag("-q,--quiet", arguments->quiet, "no progress");
+  verb.add_flag("-q,--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_lab_verb(*arguments); }; });
 }
 

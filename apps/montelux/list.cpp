@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "api/catalogue.h"
+#include "api/json_text.h"
 #include "options.h"
 #include "status.h"
 #include "verbs.h"
@@ -14,8 +16,11 @@ namespace montelux::cli {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct ListArguments {
   std::string topic, name;
+  bool json = false, quiet = false;
 };
 
 void print_lines(const std::vector<std::pair<std::string, std::string>>& lines) {
@@ -39,20 +44,53 @@ void print_entry(const CatalogueEntry& entry) {
   print_lines(lines);
 }
 
+Json to_json(const CatalogueEntry& entry) {
+  Json json{{"name", entry.name}, {"meaning", entry.meaning}, {"later", entry.later}};
+  json["instead"] = entry.instead.empty() || entry.instead == entry.name ? Json() : Json(entry.instead);
+  json["parameters"] = Json::array();
+  for (const CatalogueParameter& p : entry.parameters)
+    json["parameters"].push_back({{"name", p.name}, {"types", p.types}, {"meaning", p.meaning}, {"later", p.later}});
+  return json;
+}
+
+// The entries of a topic, or the one of that name.
+Json list_json(const std::vector<CatalogueEntry>& entries, const std::string& name) {
+  Json list = Json::array();
+  for (const CatalogueEntry& entry : entries) {
+    if (entry.name == name) return to_json(entry);
+    list.push_back(to_json(entry));
+  }
+  return list;
+}
+
+Json topics_json() {
+  Json list = Json::array();
+  for (const auto& [name, meaning] : catalogue_topics()) list.push_back({{"name", name}, {"meaning", meaning}});
+  return list;
+}
+
 int run_list(const ListArguments& arguments) {
   if (arguments.topic.empty()) {
-    print_lines(catalogue_topics());
+    if (arguments.json)
+      fmt::print("{}\n", json_text(topics_json(), 2));
+    else
+      print_lines(catalogue_topics());
     return done;
   }
   const std::vector<CatalogueEntry> entries = catalogue(arguments.topic).value();
   std::vector<std::pair<std::string, std::string>> lines;
   for (const CatalogueEntry& entry : entries) lines.emplace_back(entry.name, with_state(entry));
+  if (!arguments.name.empty())
+    if (Result<std::string> name = parse_choice(arguments.name, names_of(lines)); !name)
+      return complain(fmt::format("list {}: {}", arguments.topic, name.error()));
+  if (arguments.json) {
+    fmt::print("{}\n", json_text(list_json(entries, arguments.name), 2));
+    return done;
+  }
   if (arguments.name.empty()) {
     print_lines(lines);
     return done;
   }
-  if (Result<std::string> name = parse_choice(arguments.name, names_of(lines)); !name)
-    return complain(fmt::format("list {}: {}", arguments.topic, name.error()));
   print_entry(*std::find_if(entries.begin(), entries.end(), [&](auto& e) { return e.name == arguments.name; }));
   return done;
 }
@@ -67,6 +105,8 @@ void add_list(CLI::App& app, Action& chosen) {
   add_option(verb, {"TOPIC", alternatives(topics), "what to list; default: these topics"},
              into(arguments->topic, [topics](const std::string& text) { return parse_choice(text, topics); }));
   verb.add_option("NAME", arguments->name, "one of the topic, with its parameters")->type_name("NAME");
+  verb.add_flag("--json", arguments->json, "as JSON");
+  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings (there are none: results and errors stay)");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_list(*arguments); }; });
 }
 

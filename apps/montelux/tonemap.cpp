@@ -64,7 +64,7 @@ void add_tonemap(CLI::App& app, Action& chosen) {
   verb.add_option("--layer", arguments->layer, "stderr, albedo, N, P, Z, ...; default: the colours")->type_name("NAME");
   add_display_options(verb, arguments->display);
   verb.add_flag("--json", arguments->json, "what was chosen, as one JSON object");
-  verb.add_flag("--quiet", arguments->quiet, "no notes");
+  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_tonemap(*arguments); }; });
 }
 

@@ -1,10 +1,11 @@
 """The command line says what it can do, and what is wrong with what it was given."""
 import json
+import re
 import shutil
 import subprocess
 import unittest
 
-from program import ENVIRONMENT, SCENE, ProgramTest
+from program import ENVIRONMENT, ROOT, SCENE, ProgramTest, write_pfm
 
 VERBS = ["render", "integrate", "merge", "info", "diff", "tonemap", "list", "completion"]
 
@@ -125,6 +126,108 @@ class Options(ProgramTest):
         self.assertIn("roughness", self.run_program("list", "materials", "conductor").stdout)
 
 
+class EveryVerb(ProgramTest):
+    """What holds for all verbs of the program, as docs/command-line.md states it."""
+
+    def verbs(self):
+        text = self.run_program("--help").stdout
+        verbs = re.findall(r"^  (\w+) ", text[text.index("Verbs:"):text.index("Examples:")], re.MULTILINE)
+        self.assertIn("render", verbs)
+        return sorted(verbs)
+
+    def rows(self, head):
+        """The first cells of the table with that head: the verbs that each names."""
+        text = (ROOT / "docs" / "command-line.md").read_text()
+        table = text[text.index(head):].split("\n\n")[0].splitlines()[2:]
+        return [sorted(set(re.findall(r"`(\w+)", line.split("|")[1]))) for line in table]
+
+    def test_the_document_names_every_verb_once(self):
+        self.assertEqual(sorted(self.rows("| verb | does |")), [[verb] for verb in self.verbs()])
+        common = [verb for verb in self.verbs() if verb != "completion"]
+        self.assertEqual(sorted(self.rows("| with | `--json` prints |")), [[verb] for verb in common])
+
+    # The command line of each verb, and of those with notes of several kinds one that has them.
+    COMMANDS = {
+        "render": ["render", "dark.pbrt", "--resolution", "32x24", "--spp", "2", "-o", "a.png"],
+        "info": ["info", "flat.pbrt"],
+        "compare": ["compare", SCENE, "--resolution", "32x24", "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2",
+                    "--no-cache", "--no-slopes", "--no-attribution"],
+        "integrate": ["integrate", "x^-0.9", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--save", "c.json"],
+        "merge": ["merge", "a.json", "b.json"],
+        "diff": ["diff", "one.pfm", "two.pfm"],
+        "tonemap": ["tonemap", "one.pfm", "-o", "b.png", "--range", "auto"],
+        "list": ["list", "materials"],
+        "lab": ["lab", "run", "roulette", "-o", "out"],
+    }
+    SILENT = {"diff", "list"}  # that have no notes
+    BRIEF = {"integrate", "merge"}  # whose results are shorter, too
+    STATUS = {"diff": 1}  # the pictures differ
+
+    def prepare(self):
+        (self.folder / "dark.pbrt").write_text('WorldBegin Shape "sphere"\n')
+        (self.folder / "flat.pbrt").write_text(
+            'WorldBegin LightSource "infinite" Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] '
+            '"integer indices" [ 0 1 2  0 1 1 ]\n')
+        write_pfm(self.folder / "one.pfm", 4, 4, (1, 2, 3))
+        write_pfm(self.folder / "two.pfm", 4, 4, (1, 2, 4))
+        for seed, name in enumerate(("a.json", "b.json")):
+            self.run_program("integrate", "x^-0.9", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--seed",
+                             seed, "--save", name, "--quiet")
+
+    def test_quiet_leaves_out_notes_and_json_is_json(self):
+        self.assertEqual(sorted([*self.COMMANDS, "completion"]), self.verbs())
+        self.prepare()
+        for verb, command in self.COMMANDS.items():
+            with self.subTest(verb):
+                status = self.STATUS.get(verb, 0)
+                loud, quiet, loud_json, quiet_json = (
+                    self.run_program(*command, *options, status=status)
+                    for options in ([], ["--quiet"], ["--json"], ["--json", "--quiet"]))
+                for result in quiet, quiet_json:
+                    self.assertEqual(result.stderr, "")
+                for result in loud, loud_json:
+                    self.assertEqual(result.stderr == "", verb in self.SILENT, result.stderr)
+                # Results stay, but for times and speeds; all that compare finds depends on times.
+                figures = re.compile(r"^time .*$|[\d.e+-]+( m?s\b)?| +", re.MULTILINE)
+                shown, left = (figures.sub("", result.stdout) for result in (loud, quiet))
+                if verb in self.BRIEF:
+                    self.assertEqual(quiet.stdout, loud.stdout.splitlines(keepends=True)[0])
+                elif verb == "compare":
+                    self.assertEqual(left.splitlines()[0], shown.splitlines()[0])
+                else:
+                    self.assertEqual(left, shown)
+                one, other = json.loads(loud_json.stdout), json.loads(quiet_json.stdout)
+                self.assertEqual(type(one), type(other))
+                if isinstance(one, dict):
+                    self.assertEqual(one.keys(), other.keys())
+
+    def test_errors_are_told_in_spite_of_quiet(self):
+        for command in (["render", "none.pbrt"], ["info", "none.pbrt"], ["diff", "none.exr", "none.exr"], ["list", "things"],
+                        ["list", "materials", "things"], ["tonemap", "none.exr", "-o", "a.png"], ["merge", "none.json"],
+                        ["integrate", "x"], ["lab", "list", "things"], ["compare", "none.pbrt", "-a", "path", "-b", "naive"]):
+            with self.subTest(command=command):
+                self.assertNotEqual(self.run_program(*command, "--quiet", status=2).stderr, "")
+
+    def test_completion_prints_a_script_and_nothing_else(self):
+        for option in "--json", "--quiet":
+            self.assertIn("unknown option", self.run_program("completion", "bash", option, status=2).stderr)
+
+    def test_lists_as_json_say_what_the_text_says(self):
+        topics = json.loads(self.run_program("list", "--json").stdout)
+        self.assertEqual([f"{t['name']} {t['meaning']}" for t in topics],
+                         [" ".join(line.split()) for line in self.run_program("list").stdout.splitlines()])
+        for command in ["list", "materials"], ["lab", "list"]:
+            entries = json.loads(self.run_program(*command, "--json").stdout)
+            text = self.run_program(*command).stdout
+            for entry in entries:
+                self.assertIn(entry["name"], text)
+                self.assertEqual(json.loads(self.run_program(*command, entry["name"], "--json").stdout), entry)
+        one = json.loads(self.run_program("list", "materials", "conductor", "--json").stdout)
+        self.assertIn("roughness", [p["name"] for p in one["parameters"]])
+        hair = json.loads(self.run_program("list", "materials", "hair", "--json").stdout)
+        self.assertEqual((hair["instead"], hair["later"]), ("diffuse", True))
+
+
 class Completion(ProgramTest):
     def script(self, shell):
         return self.run_program("completion", shell).stdout
@@ -155,7 +258,8 @@ class Completion(ProgramTest):
                                 (["tonemap", "ro"], {"room.exr"}), (["render", "-o", "roo"], {"room.exr"}),
                                 (["completion", ""], {"bash", "zsh", "fish"}), (["integrate", "--tar"], {"--target", "--target-error"}),
                                 (["integrate", "--method", "v"], {"vegas"}), (["merge", "ro"], {"room.exr"}),
-                                (["render", "--camera", ""], set())]:
+                                (["render", "--camera", ""], set()), (["list", "--js"], {"--json"}),
+                                (["diff", "--q"], {"--quiet"}), (["list", "--q"], {"--quiet"})]:
             line = " ".join(f"'{word}'" for word in ["montelux", *words])
             code = (f"source ./completion; COMP_WORDS=({line}); COMP_CWORD={len(words)}; _montelux; "
                     "printf '%s\\n' \"${COMPREPLY[@]}\"")
