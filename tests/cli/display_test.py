@@ -114,6 +114,20 @@ class Display(ProgramTest):
                                            "--colormap", "magma", "--json").stdout)
         self.assertEqual(told["display"], {"content": "distance", "exposure": None, "range": [1, 20],
                                            "colormap": "magma", "automatic": False})
+        # Stated, auto is what data have by default; light is then shown by its range, and not by an exposure.
+        for layer in "Z", "stderr", "P":
+            shown = {}
+            for options in (), ("--range", "auto"):
+                result = self.run_program("tonemap", "out.exr", "-o", "auto.png", "--layer", layer, *options, "--json")
+                shown[options] = (json.loads(result.stdout)["display"], self.colors("auto.png"), result.stderr)
+            self.assertEqual(shown[()], shown["--range", "auto"], layer)
+            self.assertTrue(shown[()][0]["automatic"])
+        display = json.loads(self.run_program("tonemap", "out.exr", "-o", "auto.png", "--range", "auto", "--json").stdout)["display"]
+        self.assertEqual((display["content"], display["exposure"], display["automatic"]), ("light", None, True))
+        values = [max(color) for color in self.colors("auto.png")]
+        self.assertEqual((min(values), max(values)), (0, 255))
+        self.run_program("tonemap", "out.exr", "-o", "stated.png", "--range", "{}:{}".format(*display["range"]))
+        self.assertEqual(self.colors("stated.png"), self.colors("auto.png"))
         for wrong, reason in (("--range", "5:1"), "LOW:HIGH"), (("--colormap", "viridi"), "viridis"), (
                 ("--exposure", "bright"), "takes auto"):
             result = self.run_program("tonemap", "out.exr", "-o", "a.png", *wrong, status=2)

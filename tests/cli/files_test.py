@@ -79,6 +79,23 @@ class FullDisk(FilesTest):
             with self.subTest(kind=kind):
                 self.assert_old_file_stays(f"a.{kind}", "render", SCENE, *SMALL, "--spp", "1", "-o", f"a.{kind}")
 
+    def test_a_file_that_fails_does_not_keep_the_others_from_being_written(self):
+        # Only the .pfm files are larger than the limit.
+        self.run_program("render", SCENE, *SMALL, "--spp", "1", "-o", "whole.png", "-o", "whole.jpg")
+        for name in "a.pfm", "b.png", "c.pfm", "d.jpg":
+            (self.folder / name).write_text("old")
+        before = self.names()
+        result = self.run_with("render", SCENE, *SMALL, "--spp", "1", *(f"-o{n}" for n in ("a.pfm", "b.png", "c.pfm", "d.jpg")),
+                               status=FAILED, preexec_fn=limit_of_size(30000))
+        lines = result.stderr.decode().splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        for line, name in zip(lines, ("a.pfm", "c.pfm")):
+            self.assertIn(f"'{name}': File too large", line)
+            self.assertEqual((self.folder / name).read_text(), "old")
+        for name, whole in ("b.png", "whole.png"), ("d.jpg", "whole.jpg"):
+            self.assertEqual((self.folder / name).read_bytes(), (self.folder / whole).read_bytes())
+        self.assertEqual(self.names(), before)
+
     def test_the_files_of_other_verbs_are_checked(self):
         one, other = self.picture(), self.picture("other.pfm")
         self.assert_old_file_stays("a.png", "tonemap", one, "-o", "a.png")

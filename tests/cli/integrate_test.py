@@ -300,6 +300,20 @@ class Doubts(IntegrateTest):
         self.assertEqual(run.stdout.splitlines()[0], "3.000000000000000(3)")
         self.assertEqual(run.stderr, "")
 
+    def test_text_and_json_state_the_same_error_of_a_constant(self):
+        for method in "uniform", "stratified", "vegas", "qmc", "auto":
+            with self.subTest(method):
+                options = ["3", "--over", "x=0:1", "--samples", "1e5", "--method", method]
+                value, error = re.fullmatch(r"([\d.]+)\((\d+)\)", self.integrate(*options, "--quiet").stdout.strip()).groups()
+                unit = 10.0 ** -len(value.split(".")[1])
+                told = self.result(*options)
+                self.assertEqual(float(value), told["mean"])
+                # Both are that of rounding: not below it, and to the digits that are shown the same.
+                self.assertGreater(told["standard_error"], 0)
+                self.assertEqual(round(told["standard_error"] / unit), int(error))
+                table = self.integrate(*options, "--csv").stdout
+                self.assertEqual(float(next(csv.DictReader(io.StringIO(table)))["standard_error"]), told["standard_error"])
+
     def test_a_negative_value_before_the_two_dashes_is_what_is_complained_of(self):
         text = self.assert_refused(["--over", "x=0:1", "--samples", "-1", "--", "x"], "--samples: takes")
         self.assertNotIn('"--"', text)

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pty
+import re
 import signal
 import time
 import unittest
@@ -85,6 +86,48 @@ class Render(ProgramTest):
         scene = self.write_scene('Option "integer seed" 7')
         self.assertEqual(json.loads(self.render("--spp", "1", "--json", scene=scene).stdout)["seed"], 7)
         self.assertEqual(json.loads(self.render("--spp", "1", "--json", "--seed", "9", scene=scene).stdout)["seed"], 9)
+
+    # A lamp whose edge goes through a column of 8: between the centre and the border of its pixels.
+    EDGE = """Film "rgb" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ]
+        {head}
+        {motion}
+        Camera "orthographic" "float shutterclose" 1 {camera}
+        WorldBegin
+        Translate 0 0 4
+        AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] "bool twosided" true
+        Shape "bilinearmesh" "point3 P" [ -9 -9 0   {edge} -9 0   -9 9 0   {edge} 9 0 ]
+        """
+
+    def test_without_jitter_a_pixel_is_what_its_centre_sees(self):
+        moving = "ActiveTransform EndTime Translate 0.4 0 0 ActiveTransform All"
+        cases = {
+            # name: (camera, its motion, x of the edge, whether the centres at x = -0.125 are lit)
+            "lit": ("", "", -0.1, True),
+            "dark": ("", "", -0.15, False),
+            "out of focus": ('"float lensradius" 0.5 "float focaldistance" 1', "", -0.1, True),
+            # In the middle of the time the edge is at x = -0.1.
+            "moving": ("", moving, -0.3, True),
+        }
+        for name, (camera, motion, edge, lit) in cases.items():
+            for jitter in True, False:
+                with self.subTest(name, jitter=jitter):
+                    head = "" if jitter else 'Option "bool disablepixeljitter" true'
+                    scene = self.folder / "edge.pbrt"
+                    scene.write_text(self.EDGE.format(head=head, camera=camera, motion=motion, edge=edge))
+                    result = self.run_program("render", scene, "--spp", "64", "--sampler", "independent", "--json", "-o",
+                                              "edge.pfm")
+                    told = json.loads(result.stdout)
+                    row = list(read_pfm(self.folder / "edge.pfm")[2][4][::3])
+                    if jitter:
+                        self.assertGreater(told["standard_error"][0], 0)
+                        self.assertTrue(0 < row[3] < 1, row)
+                        self.assertEqual(told["biased_options"], "none")
+                        self.assertNotIn("disablepixeljitter", result.stderr)
+                    else:
+                        self.assertEqual(told["standard_error"], [0, 0, 0])
+                        self.assertEqual(row, [1, 1, 1, float(lit), 0, 0, 0, 0])
+                        self.assertEqual(told["biased_options"], "disablepixeljitter")
+                        self.assertIn("as the scene's disablepixeljitter states: the picture is biased", result.stderr)
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_render(self):
         (self.folder / "good.png").write_text("old")
@@ -214,6 +257,48 @@ class Signals(ProgramTest):
 
     def test_sigint_writes_what_is_done_and_returns_130(self):
         self.assertEqual(self.interrupted_by(signal.SIGINT), 130)
+
+    def interrupted_after(self, share, *options):
+        """Renders two passes, is interrupted when that share of them is done, and returns what was said."""
+        terminal, inside = pty.openpty()
+        process = self.start("render", SCENE, "--resolution", "900x700", "--spp", "2", "--sampler", "independent",
+                             "--threads", "1", "-o", "early.exr", *options, stderr=inside)
+        self.addCleanup(process.kill)
+        os.close(inside)
+        said = b""
+        try:
+            while part := os.read(terminal, 4096):
+                said += part
+                done = re.findall(rb"(\d+) %", said)
+                if done and int(done[-1]) >= 100 * share:
+                    process.send_signal(signal.SIGINT)
+                    share = 2
+        except OSError:  # how a terminal ends whose other side is closed
+            pass
+        os.close(terminal)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, said)
+        return output
+
+    def header_has(self, name):
+        return b"montelux:" + name in (self.folder / "early.exr").read_bytes()[:20000]
+
+    def test_the_error_is_not_known_before_every_pixel_has_two_passes(self):
+        told = json.loads(self.interrupted_after(0.6, "--json"))
+        # The second pass is cut: some pixels have two samples, others one.
+        self.assertTrue(900 * 700 < told["samples"] < 2 * 900 * 700, told["samples"])
+        self.assertEqual(told["passes"], 1)
+        for key in "mse", "relative_mse", "relative_mse_range", "tail_index", "interval_of_mean":
+            self.assertIsNone(told[key], key)
+        self.assertEqual(told["standard_error"], [None, None, None])
+        self.assertEqual((told["unsure_error"], told["error_bar"]), (False, False))
+        for name in b"estimatedMSE", b"estimatedRelativeMSE", b"unsureError", b"meanStandardError":
+            self.assertFalse(self.header_has(name), name)
+        self.assertTrue(self.header_has(b"errorBar"))
+        text = self.interrupted_after(0.6)
+        self.assertIn("error    not known: it takes two independent passes of every pixel\n", text)
+        self.assertNotIn("±", text)
+        self.assertFalse(self.header_has(b"estimatedRelativeMSE"))
 
     def test_a_signal_does_not_wait_for_a_costly_material(self):
         scene = self.folder / "slow.pbrt"

@@ -193,6 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
     things, Mistakes,
     testing::Values(
         head("large_film", "Film \"rgb\" \"integer xresolution\" 70000", 12, "at most 65536"),
+        head("largest_integer", "Film \"rgb\" \"integer xresolution\" 2147483647", 12, "found 2147483647"),
         head("huge_film", "Film \"rgb\" \"integer xresolution\" 60000 \"integer yresolution\" 60000", 12, "too large"),
         head("no_pixels", "Film \"rgb\" \"integer xresolution\" 0", 12, "at least 1"),
         head("empty_crop", "Film \"rgb\" \"float cropwindow\" [ 0.5 0.5 0 1 ]", 12, "is empty"),
