@@ -69,8 +69,9 @@ class Light(ProgramTest):
         }
         write_pfm(self.folder / "slide.pfm", 4, 4, (1, 1, 1))
         for kind, light in lights.items():
-            told, _, _ = self.rendered(self.scene(world=light))
-            self.assertEqual(told["missing_light"], [f"light of {kind} lights by way of smooth surfaces (dielectric)"])
+            with self.subTest(light=kind):
+                told, _, _ = self.rendered(self.scene(world=light))
+                self.assertEqual(told["missing_light"], [f"light of {kind} lights by way of smooth surfaces (dielectric)"])
         surfaces = {
             "thindielectric": 'Material "thindielectric"',
             "tinteddielectric": 'Material "tinteddielectric" "rgb tint" [ 0.9 0.5 0.1 ] "rgb absorption" [ 0.1 0.5 1 ]',
@@ -80,8 +81,9 @@ class Light(ProgramTest):
                           'Material "mix" "string materials" [ "a" "b" ] "float amount" [ 0.5 ]',
         }
         for kind, ball in surfaces.items():
-            told, _, _ = self.rendered(self.scene(ball=ball))
-            self.assertEqual(told["missing_light"], [f"light of point lights by way of smooth surfaces ({kind})"])
+            with self.subTest(surface=kind):
+                told, _, _ = self.rendered(self.scene(ball=ball))
+                self.assertEqual(told["missing_light"], [f"light of point lights by way of smooth surfaces ({kind})"])
 
     def test_no_alarm_where_everything_is_found(self):
         area = ('AttributeBegin\nTranslate 0 4 0\nAreaLightSource "diffuse"\nShape "sphere" "float radius" [ 0.1 ]\n'
