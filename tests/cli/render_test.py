@@ -229,7 +229,7 @@ class Render(ProgramTest):
         for options, reason in (
             (["--layers", "bounce"], 'no layers "bounce"; valid: bounces'),
             (["--layers", "bounces:x"], "whole number from 0 to 64"),
-            (["--layers", "errors"], "must be asked for"),
+            (["--layers", "errors"], "are needed as well"),
             (["--layers", "bounces", "-o", "room.png"], "need an .exr file"),
             (["--layers", "bounces", "--integrator", "tracepath"], "the integrator tracepath has no layers"),
             (["--layers", "bounces", "--set", "maxcomponent=2"], "maxcomponent=none"),
