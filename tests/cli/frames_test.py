@@ -118,7 +118,7 @@ class Frames(ProgramTest):
 
     def test_an_interrupt_keeps_the_frames_that_are_finished(self):
         self.write_scene()
-        program = self.start("render", "slide.pbrt", "--frames", "0:99999", "--spp", "16384", "--quiet", "-o", "a.#.pfm")
+        program = self.start("render", "slide.pbrt", "--frames", "0:99999", "--spp", "16384", "--no-progress", "-o", "a.#.pfm")
         deadline = time.monotonic() + 60
         while not (self.folder / "a.1.pfm").exists() and time.monotonic() < deadline:
             time.sleep(0.01)
@@ -143,8 +143,9 @@ class Frames(ProgramTest):
             while not (self.folder / "b.1.pfm").exists() and time.monotonic() < deadline:
                 time.sleep(0.01)
             program.send_signal(signal.SIGINT)
-            program.communicate(timeout=60)
+            _, error = program.communicate(timeout=60)
             self.assertEqual(program.returncode, 130)
+            self.assertEqual(error, "")
             for picture in self.folder.glob("b.*.pfm"):
                 picture.unlink()
 
