@@ -30,13 +30,16 @@ template <class F>
 class Boundary {
  public:
   MONTELUX_INLINE Boundary(Uint<F> kind, const BsdfSlots<F>& slots, const Vec3<F>& ng, const Frame<F>& frame)
-      : bounds_(bounds_body<F>(kind)),
-        outward_(face_forward(ng, frame.n)),
-        within_(absorption_within<F>(kind, slots)) {}
+      : bounds_(bounds_body<F>(kind)), is_any_(any(bounds_)) {
+    if (!is_any_) return;
+    outward_ = face_forward(ng, frame.n);
+    within_ = absorption_within<F>(kind, slots);
+  }
 
   // In which a path is that comes along d. What comes from within a body has been in it, even if nobody saw it enter:
   // the camera may stand in water.
   MONTELUX_INLINE Media<F> before(const Media<F>& media, const Vec3<F>& d) const {
+    if (!is_any_) return media;
     const Mask<F> unseen = bounds_ & (dot(outward_, d) > F(0.0f)) & !is_black(within_) & !equal(within_, media.here) &
                            !equal(within_, media.around);
     if (!any(unseen)) return media;
@@ -44,6 +47,7 @@ class Boundary {
   }
   // In which it goes on toward wi.
   MONTELUX_INLINE Media<F> behind(const Media<F>& media, const Vec3<F>& d, const Vec3<F>& wi) const {
+    if (!is_any_) return media;
     const Mask<F> comes_in = bounds_ & (dot(outward_, d) <= F(0.0f)), goes_in = dot(outward_, wi) < F(0.0f);
     const Mask<F> enters = comes_in & goes_in, leaves = bounds_ & !comes_in & !goes_in;
     const Mask<F> absorbs = !is_black(within_ + media.here + media.around);
@@ -65,6 +69,7 @@ class Boundary {
   }
 
   Mask<F> bounds_;
+  bool is_any_;  // most packs meet no boundary, and the rest is not set then
   Vec3<F> outward_;
   Spectrum<F> within_;
 };
