@@ -240,12 +240,14 @@ bool has_display_file(const RenderArguments& arguments) {
 // Writes every file, also when one of them fails.
 int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   int status = done;
-  for (const std::string& file : arguments.files)
-    if (Status written = write_rendering(file, rendering, display_of(arguments, rendering).transform, arguments.half);
-        !written) {
+  for (const std::string& file : arguments.files) {
+    const DisplayTransform display =
+        is_display_file(file) ? display_of(arguments, rendering).transform : DisplayTransform{};
+    if (Status written = write_rendering(file, rendering, display, arguments.half); !written) {
       complain(written.error());
       status = failed;
     }
+  }
   return status;
 }
 

@@ -155,16 +155,17 @@ Rendering noise(const PixelBounds& bounds) {
   return rendering;
 }
 
-// Of a picture of noise; 0 where it cannot be encoded.
-double seconds_to_finish_strip(int width, int height, const FilesToWrite& files) {
+// Of a picture of noise; its encoding takes no time where it is not possible.
+FinishTime finish_strip(int width, int height, const FilesToWrite& files) {
   Rendering strip = noise({0, 0, width, height});
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
+  const double error = since_start.seconds();
   for (const std::filesystem::path& file : files.paths) {
     const DisplayTransform display = is_display_file(file) ? choose_display(strip, {}).transform : DisplayTransform{};
-    if (!encode_rendering(file, strip, display, files.half)) return 0;
+    if (!encode_rendering(file, strip, display, files.half)) return {error, 0};
   }
-  return since_start.seconds();
+  return {error, since_start.seconds() - error};
 }
 
 }  // namespace
@@ -179,13 +180,15 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
   return bytes ? write_file(file, *bytes) : Status(bytes.failure());
 }
 
-double seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files) {
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files) {
   // Without what happens once: libraries are loaded, memory is mapped.
-  (void)seconds_to_finish_strip(bounds.width(), 1, files);
+  (void)finish_strip(bounds.width(), 1, files);
   // As many rows as an .exr packs together, or some such.
   constexpr int rows_together = 32;
   const int rows = std::min((bounds.height() / (32 * rows_together) + 1) * rows_together, bounds.height());
-  return seconds_to_finish_strip(bounds.width(), rows, files) * bounds.height() / rows;
+  const FinishTime strip = finish_strip(bounds.width(), rows, files);
+  const double strips = double(bounds.height()) / rows;
+  return {strips * strip.error, strips * strip.encoding};
 }
 
 }  // namespace montelux

@@ -153,11 +153,12 @@ void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, Rend
   const double all = *settings.seconds;
   const Stopwatch since_start;
   const auto left = [&](double end) { return std::max(end - before - since_start.seconds(), min_share * all); };
-  const double finish = seconds_to_finish(settings.bounds, files), end = all - finish;
-  if (left(end) == min_share * all)
+  const FinishTime finish = seconds_to_finish(settings.bounds, files);
+  const double end = all - finish.error - finish.encoding;
+  if (left(all - finish.encoding) == min_share * all)
     observer.announce(
         fmt::format("to prepare and to write the picture takes about {:.2g} s of its own, in addition to the time",
-                    before + finish));
+                    before + finish.encoding));
   const TimedPlan timed = plan_for_time(integrator, settings, left(end), observer);
   settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
   if (timed.stride > 1)
@@ -166,7 +167,8 @@ void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, Rend
   else if (integrator.coupled() && timed.sample_seconds > left(end))
     observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the picture is one frame",
                                   timed.sample_seconds));
-  settings.seconds = left(end);
+  // The error of a sparse picture is not estimated.
+  settings.seconds = left(timed.stride > 1 ? all - finish.encoding : end);
   before += since_start.seconds();
 }
 

@@ -103,9 +103,13 @@ ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& r
 Status write_rendering(const std::filesystem::path& file, const Rendering& rendering, const DisplayTransform& display,
                        bool half = false);
 
-// How many seconds of one thread it takes to estimate the error of a picture of this size and to encode it for these
-// files. Measured on a strip of noise, which takes some percent of that time itself.
-double seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files);
+// What a picture of this size takes once its last sample is there, in seconds of one thread.
+struct FinishTime {
+  double error = 0;     // to estimate its error
+  double encoding = 0;  // for its files
+};
+// Measured on a strip of noise, which takes some percent of that time itself.
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files);
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

@@ -193,6 +193,7 @@ ImageEstimate Film::image() const {
 }
 
 ErrorEstimate Film::error() const {
+  if (grid_.stride > 1) return {};
   if (std::none_of(pixels_.begin(), pixels_.end(), [](const PixelEstimate& p) { return p.passes > 1; })) return {};
   FilmPlanes planes(bounds());
   planes.copy(*this, bounds());

@@ -91,7 +91,7 @@ class Film {
   bool is_sampled(int x, int y) const {
     return grid_.pixel_x(grid_.cell_x(x)) == x && grid_.pixel_y(grid_.cell_y(y)) == y;
   }
-  // Estimated mean squared errors of the picture.
+  // Estimated mean squared errors of the picture; of a part of it, as with a stride, none.
   ErrorEstimate error() const;
   // Of them the squared error alone, which takes far less time.
   double mse() const;

@@ -185,9 +185,8 @@ class Job {
     return p;
   }
 
-  // Of a sparse picture there is none.
   ErrorEstimate error() {
-    if (settings_.stride > 1) return {};
+    if (settings_.stride > 1) return {};  // as the film has it
     FilmPlanes planes(settings_.bounds);
     for (TileState& tile : tiles_) {
       std::scoped_lock lock(tile.mutex);

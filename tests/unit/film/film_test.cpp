@@ -245,4 +245,19 @@ TEST(Film, a_sparse_film_repeats_the_pixels_that_are_sampled) {
   EXPECT_DOUBLE_EQ(film.image().mean[0], 2.5);
 }
 
+// A figure of a part of the picture would pass for one of the whole.
+TEST(Film, of_a_sparse_picture_states_no_error) {
+  for (const int stride : {1, 2}) {
+    Film film({0, 0, 8, 8}, {}, stride);
+    const PixelBounds cells = film.grid().cells();
+    std::vector<PixelSample> samples(std::size_t(cells.area()));
+    for (int pass = 0; pass < 4; ++pass) {
+      for (PixelSample& s : samples) s.radiance = gray(float(1 + pass));
+      film.add_pass(cells, pass, 1, samples);
+    }
+    EXPECT_EQ(film.error().whole(), stride == 1);
+    EXPECT_GT(film.mse(), 0);
+  }
+}
+
 }  // namespace montelux
