@@ -145,7 +145,7 @@ class Render(ProgramTest):
         start = time.monotonic()
         told = json.loads(self.render("--time", "500ms", "--json").stdout)
         self.assertGreaterEqual(time.monotonic() - start, 0.4)
-        self.assertLess(told["seconds"], 0.6)  # units of work that are under way are completed
+        self.assertLess(told["seconds"], 2)  # units that are under way are completed, on a busy machine late
         self.assertGreater(told["seconds"], 0)
         self.assertFalse(told["interrupted"])
 
