@@ -18,8 +18,8 @@ std::string Accel::kernel_version() { return RTC_VERSION_STRING; }
 
 namespace {
 
-// Rays that the kernel can take, which meet nothing else: it ends the program where a coordinate is too large or no
-// number.
+// Whether the kernel accepts the ray; it ends the program on coordinates that are too large or not a number. Rays that
+// it does not accept meet nothing.
 template <class F>
 MONTELUX_INLINE Mask<F> is_valid(const Ray<F>& ray, float bound) {
   const auto within = [&](const Vec3<F>& v) {

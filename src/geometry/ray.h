@@ -13,8 +13,8 @@ struct Ray {
   F time = F(0.0f);
 };
 
-// What a ray is traced for: what the camera sees, where a path goes on, or whether a light is seen. Some surfaces are
-// not there for all of them.
+// What a ray is traced for: what the camera sees, how a path continues, or whether a light is visible. Some surfaces
+// are not there for all of them.
 enum class RayUse { camera, path, shadow };
 
 // A distance that ends beyond every scene.

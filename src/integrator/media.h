@@ -36,8 +36,8 @@ class Boundary {
     within_ = absorption_within<F>(kind, slots);
   }
 
-  // In which a path is that comes along d. What comes from within a body has been in it, even if nobody saw it enter:
-  // the camera may stand in water.
+  // The media around a path that arrives along d. A path that arrives from within a body was in it, even where no
+  // boundary was crossed: the camera may stand in water.
   MONTELUX_INLINE Media<F> before(const Media<F>& media, const Vec3<F>& d) const {
     if (!is_any_) return media;
     const Mask<F> unseen = bounds_ & (dot(outward_, d) > F(0.0f)) & !is_black(within_) & !equal(within_, media.here) &
@@ -45,7 +45,7 @@ class Boundary {
     if (!any(unseen)) return media;
     return select_media<F>(unseen, {within_, media.here}, media);
   }
-  // In which it goes on toward wi.
+  // The media around a path that continues along wi.
   MONTELUX_INLINE Media<F> behind(const Media<F>& media, const Vec3<F>& d, const Vec3<F>& wi) const {
     if (!is_any_) return media;
     const Mask<F> comes_in = bounds_ & (dot(outward_, d) <= F(0.0f)), goes_in = dot(outward_, wi) < F(0.0f);

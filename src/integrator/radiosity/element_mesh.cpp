@@ -64,7 +64,8 @@ Result<ElementMesh> ElementMesh::cut(const Scene& scene, float edge) {
     else
       mesh.add_shape(row, edge);
     if (mesh.size_ > most_elements)
-      return Failure{fmt::format("elements of {:.3g} would be more than {}: choose larger ones", edge, most_elements)};
+      return Failure{
+          fmt::format("elements of edge {:.3g} exceed the maximum of {}: choose a larger edge", edge, most_elements)};
   }
   return mesh;
 }

@@ -26,14 +26,14 @@ struct ReuseVertex {
   Uint<F> object;          // number of the object, as SurfaceHit has it
   Uint<F> events;          // scattering events of the path before it
   Uint<F> exists;          // 1, or 0: the path ended before
-  Media<F> media;          // in which the path came
+  Media<F> media;          // around the path that arrived here
 
   // f |cos| toward a direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const {
     const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
     return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
   }
-  // In which it goes on.
+  // The media around the path that continues along wi (world space).
   Media<F> media_toward(const Vec3<F>& wi) const {
     return MediaAt<F>(media, {kind, slots, ng, frame}, -frame.to_world(wo)).toward(wi);
   }
