@@ -123,8 +123,9 @@ ContestObserver observer_of(const CompareArguments& arguments, const StopSignals
       fmt::print(stderr, "{}\n", forecast_text(forecast, repeats, methods));
     };
   observer.progress = [&line](const ContestProgress& p) {
-    line.show(p.fraction, p.elapsed,
-              [&p] { return fmt::format("{}  left {}  {}", time_text(p.elapsed), time_text(p.remaining), p.what); });
+    line.show(
+        p.fraction, p.elapsed,
+        [&p] { return fmt::format("{}  left {}  {}", time_text(p.elapsed), time_text(p.remaining), p.what); }, p.what);
   };
   return observer;
 }

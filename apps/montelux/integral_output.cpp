@@ -80,6 +80,8 @@ void print_one(const IntegralRun& run) {
   if (const auto& o = r.outside_map)
     fmt::print("outside map  {} by uniform points, {} by those of the map\n",
                lab::value_with_error(o->by_uniform, o->uniform_error), lab::value_with_error(o->by_map, o->map_error));
+  if (r.map_worth)
+    fmt::print("map          a sample is worth {:.3g} of one that follows the integrand\n", *r.map_worth);
   fmt::print("ended        {}\n", stop_text(r));
 }
 
@@ -130,6 +132,8 @@ std::string_view name_of(lab::IntegralWarning::Kind kind) {
       return "nothing-found";
     case outside_map:
       return "outside-map";
+    case map_fit:
+      return "map-fit";
     case disagreement:
       return "disagreement";
     case control_integral:
@@ -169,6 +173,7 @@ Json to_json(const IntegralRun& run) {
                            {"by_map", o->by_map},
                            {"by_map_error", o->map_error},
                            {"missed", o->missed}};
+  json["map_worth"] = or_null(r.map_worth);
   json["acceptance"] = or_null(r.acceptance), json["coefficient"] = or_null(r.coefficient);
   json["asked"] = run.method, json["method"] = lab::to_text(r.method), json["reason"] = r.why;
   json["stopped_because"] = lab::name_of(r.stopped_because), json["target_reached"] = r.target_reached;

@@ -29,8 +29,11 @@ std::string numbers(const Progress& p, double elapsed, std::optional<double> lef
 
 StatusLine::StatusLine(bool visible) : visible_(visible), in_place_(terminal_on_stderr()), next_(in_place_ ? 0 : 1) {}
 
-void StatusLine::show(double fraction, double elapsed, const std::function<std::string()>& text) {
-  if (!visible_ || elapsed < next_) return;
+void StatusLine::show(double fraction, double elapsed, const std::function<std::string()>& text,
+                      std::string_view phase) {
+  const bool begins = in_place_ && phase != phase_;
+  if (!visible_ || (elapsed < next_ && !begins)) return;
+  phase_ = phase;
   next_ = elapsed + (in_place_ ? 0.1 : 10);
   const std::string numbers = text();
   const int percent = int(100 * fraction);

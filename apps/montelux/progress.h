@@ -13,14 +13,15 @@ namespace montelux::cli {
 class StatusLine {
  public:
   explicit StatusLine(bool visible);
-  // Draws the line where it is due; `text` is made only then.
-  void show(double fraction, double elapsed, const std::function<std::string()>& text);
+  // Draws the line where it is due, and at once where another phase begins; `text` is made only then.
+  void show(double fraction, double elapsed, const std::function<std::string()>& text, std::string_view phase = {});
   // Takes the line away: the results say the same for good.
   void finish();
 
  private:
   bool visible_, in_place_;
   double next_ = 0;  // seconds at which the next line is due
+  std::string phase_;
 };
 
 // The progress of a render as a status line; and it passes on the request of a signal to stop.

@@ -48,11 +48,11 @@ double color_at(const Rendering& rendering, int x, int y, int channel) {
   return film.pixel(px, py).mean[channel];
 }
 
-// Of every layer of light its mean, and where it is known its standard error.
-void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& grid,
+// Appends the mean of each layer of light, and its standard error where it is known, for the rows from `first` on.
+void append_light(PixelBuffer& image, int first, const LayerFilm& film, const PixelGrid& grid,
                   const std::vector<std::string>& names) {
   const auto cell_x = [&](int x) { return grid.cell_x(grid.bounds.x0 + x); };
-  const auto cell_y = [&](int y) { return grid.cell_y(grid.bounds.y0 + y); };
+  const auto cell_y = [&](int y) { return grid.cell_y(grid.bounds.y0 + first + y); };
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
   const auto append = [&](const std::string& name, auto value) {
     for (int y = 0; y < image.height; ++y)
@@ -69,9 +69,9 @@ void append_light(PixelBuffer& image, const LayerFilm& film, const PixelGrid& gr
 }
 
 // What an eye sees or a compositor weighs; a standard error or a place would lose what it is for.
-std::vector<std::string> half_channels(const PixelBuffer& image) {
+std::vector<std::string> half_channels(const std::vector<std::string>& channels) {
   std::vector<std::string> names;
-  for (const std::string& channel : image.channels) {
+  for (const std::string& channel : channels) {
     const std::size_t dot = channel.rfind('.');
     const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
     const bool of_picture = layer.empty() && std::string_view("RGBA").find(channel) != std::string_view::npos;
@@ -84,21 +84,31 @@ std::vector<std::string> half_channels(const PixelBuffer& image) {
 
 }  // namespace
 
-PixelBuffer layers_of(const Rendering& rendering) {
+namespace {
+
+PixelBuffer rows_of(const PixelBuffer& image, int first, int count) {
+  const auto row = std::ptrdiff_t(image.width) * image.channel_count();
+  const auto begin = image.values.begin() + first * row;
+  return {image.width, count, image.channels, {begin, begin + count * row}};
+}
+
+// The rows [first, first + count) of all layers.
+PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
   const Film& film = rendering.result.film;
   const PixelBounds& bounds = film.bounds();
-  PixelBuffer image = make_pixel_buffer(bounds.width(), bounds.height(), channel_names());
-  for (int y = 0; y < image.height; ++y)
+  PixelBuffer image = make_pixel_buffer(bounds.width(), count, channel_names());
+  for (int y = 0; y < count; ++y)
     for (int x = 0; x < image.width; ++x) {
-      const PixelEstimate& pixel = film.pixel(bounds.x0 + x, bounds.y0 + y);
-      const PixelFeatures& feature = film.features(bounds.x0 + x, bounds.y0 + y);
+      const int px = bounds.x0 + x, py = bounds.y0 + first + y;
+      const PixelEstimate& pixel = film.pixel(px, py);
+      const PixelFeatures& feature = film.features(px, py);
       auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
       for (int c = 0; c < spectrum_size; ++c) {
-        set(Channel::r + c, color_at(rendering, x, y, c));
+        set(Channel::r + c, color_at(rendering, x, first + y, c));
         set(Channel::stderr_r + c, std::sqrt(pixel.variance_of_mean(c)));
       }
       set(Channel::a, feature.samples > 0 ? feature.hits / feature.samples : 0);
-      set(Channel::samples, film.samples(bounds.x0 + x, bounds.y0 + y));
+      set(Channel::samples, film.samples(px, py));
       set(Channel::id, feature.object);
       if (feature.hits == 0) continue;
       for (int c = 0; c < 3; ++c) {
@@ -108,9 +118,15 @@ PixelBuffer layers_of(const Rendering& rendering) {
       }
       set(Channel::z, feature.depth / feature.hits);
     }
-  if (rendering.motion) append_layer(image, "motion", *rendering.motion);
-  if (rendering.layers) append_light(image, *film.layers(), film.grid(), layer_names(*rendering.layers));
+  if (rendering.motion) append_layer(image, "motion", rows_of(*rendering.motion, first, count));
+  if (rendering.layers) append_light(image, first, *film.layers(), film.grid(), layer_names(*rendering.layers));
   return image;
+}
+
+}  // namespace
+
+PixelBuffer layers_of(const Rendering& rendering) {
+  return layers_of_rows(rendering, 0, rendering.result.film.bounds().height());
 }
 
 namespace {
@@ -129,10 +145,12 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
                                      const DisplayTransform& display, bool half) {
   const std::string extension = extension_of(file);
   if (extension == ".exr") {
-    const PixelBuffer layers = layers_of(rendering);
+    const PixelBounds& bounds = rendering.result.film.bounds();
+    const auto rows = [&rendering](int first, int count) { return layers_of_rows(rendering, first, count); };
+    const ImageRows image{bounds.width(), bounds.height(), rows(0, 1).channels, rows};
     ExrOptions options{rendering.header, {}};
-    if (half) options.half_channels = half_channels(layers);
-    return encode_image(file, layers, options);
+    if (half) options.half_channels = half_channels(image.channels);
+    return encode_exr(file, image, options);
   }
   const PixelBuffer color = colors_of(rendering);
   if (extension == ".hdr" || extension == ".pfm") return encode_image(file, color);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -55,6 +56,17 @@ struct ExrOptions {
 // and .pfm with the colour alone. The same arguments give the same bytes. Never throws; failures name the path.
 Result<std::string> encode_image(const std::filesystem::path& path, const PixelBuffer& image,
                                  const ExrOptions& options = {});
+
+// A picture that is made some rows at a time, so that all of its channels are never in memory together.
+struct ImageRows {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::function<PixelBuffer(int first, int count)> rows;  // those rows, counted from the top
+};
+
+// The bytes of an .exr, equal to those of the same picture in one buffer. Never throws; failures name the path.
+Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRows& image,
+                               const ExrOptions& options = {});
 
 // Writes them as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options = {});

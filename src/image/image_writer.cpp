@@ -67,37 +67,65 @@ std::vector<half> to_half(const PixelBuffer& image, int channel) {
   return plane;
 }
 
-Result<std::string> encode_exr(const PixelBuffer& image, const ExrOptions& options) {
-  Imf::Header header(image.width, image.height);
+bool is_half(const std::string& channel, const ExrOptions& options) {
+  return std::find(options.half_channels.begin(), options.half_channels.end(), channel) != options.half_channels.end();
+}
+
+Imf::Header exr_header(int width, int height, const std::vector<std::string>& channels, const ExrOptions& options) {
+  Imf::Header header(width, height);
   // On noise this is twice as fast as deflate, and the files are a little smaller.
   header.compression() = Imf::PIZ_COMPRESSION;
   for (const Attribute& attribute : options.attributes) insert(header, attribute);
+  for (const std::string& name : channels)
+    header.channels().insert(name, Imf::Channel(is_half(name, options) ? Imf::HALF : Imf::FLOAT));
+  return header;
+}
 
+// Writes the rows of a picture that follow those that the file has.
+void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOptions& options) {
+  // The library counts rows from the top of the picture.
+  const std::ptrdiff_t above = file.currentScanLine();
+  const auto base = [above](auto* first, std::size_t row) {
+    return reinterpret_cast<char*>(first) - above * std::ptrdiff_t(row);
+  };
   Imf::FrameBuffer frame;
   std::vector<std::vector<half>> planes;
-  planes.reserve(image.channels.size());
-  std::size_t stride = sizeof(float) * image.channels.size();
-  for (int c = 0; c < image.channel_count(); ++c) {
-    const std::string& name = image.channels[std::size_t(c)];
-    const std::vector<std::string>& halves = options.half_channels;
-    if (std::find(halves.begin(), halves.end(), name) != halves.end()) {
-      header.channels().insert(name, Imf::Channel(Imf::HALF));
-      std::vector<half>& plane = planes.emplace_back(to_half(image, c));
-      frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(plane.data()), sizeof(half),
-                                    sizeof(half) * std::size_t(image.width)));
+  planes.reserve(rows.channels.size());
+  const std::size_t stride = sizeof(float) * rows.channels.size();
+  for (int c = 0; c < rows.channel_count(); ++c) {
+    const std::string& name = rows.channels[std::size_t(c)];
+    if (is_half(name, options)) {
+      std::vector<half>& plane = planes.emplace_back(to_half(rows, c));
+      const std::size_t row = sizeof(half) * std::size_t(rows.width);
+      frame.insert(name, Imf::Slice(Imf::HALF, base(plane.data(), row), sizeof(half), row));
     } else {
-      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
       // The library takes a pointer to mutable data but only reads it when writing a file.
-      char* data = reinterpret_cast<char*>(const_cast<float*>(image.values.data() + c));
-      frame.insert(name, Imf::Slice(Imf::FLOAT, data, stride, stride * std::size_t(image.width)));
+      const std::size_t row = stride * std::size_t(rows.width);
+      char* data = base(const_cast<float*>(rows.values.data() + c), row);
+      frame.insert(name, Imf::Slice(Imf::FLOAT, data, stride, row));
     }
   }
+  file.setFrameBuffer(frame);
+  file.writePixels(rows.height);
+}
+
+Result<std::string> encode_rows(const ImageRows& image, int rows_together, const ExrOptions& options) {
+  if (image.width <= 0 || image.height <= 0 || image.channels.empty()) return Failure{"the image is empty"};
   MemoryStream stream;
   {
-    Imf::OutputFile output(stream, header);
-    output.setFrameBuffer(frame);
-    output.writePixels(image.height);
+    Imf::OutputFile file(stream, exr_header(image.width, image.height, image.channels, options));
+    for (int y = 0; y < image.height; y += rows_together)
+      append_rows(file, image.rows(y, std::min(rows_together, image.height - y)), options);
   }  // the table of lines is written at its end
+  return stream.take();
+}
+
+Result<std::string> encode_exr(const PixelBuffer& image, const ExrOptions& options) {
+  MemoryStream stream;
+  {
+    Imf::OutputFile file(stream, exr_header(image.width, image.height, image.channels, options));
+    append_rows(file, image, options);
+  }
   return stream.take();
 }
 
@@ -181,6 +209,11 @@ Status write_bytes(const std::filesystem::path& path, const Result<std::string>&
 Result<std::string> encode_image(const std::filesystem::path& path, const PixelBuffer& image,
                                  const ExrOptions& options) {
   return encode_for(path, [&] { return encode(image, lower_extension(path), options); });
+}
+
+Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRows& image, const ExrOptions& options) {
+  constexpr int rows_together = 32;  // as many as the compression takes at once
+  return encode_for(path, [&] { return encode_rows(image, rows_together, options); });
 }
 
 Result<std::string> encode_image(const std::filesystem::path& path, const DisplayImage& image) {

@@ -144,6 +144,13 @@ std::vector<IntegralWarning> warnings_of(const IntegralResult& r) {
          fmt::format("uniform points find {:.3g} +- {:.1g} of the integral outside of the adaptive map, which finds "
                      "{:.3g} there: the value includes it, other parts may be missed",
                      o->by_uniform, o->uniform_error, o->by_map));
+  if (r.map_worth && *r.map_worth < doubtful_map_worth)
+    warn(map_fit,
+         fmt::format(
+             "the adaptive map fits the integrand badly: a sample is worth {:.2g} of one that follows it. The map "
+             "adapts each axis alone, which separate peaks and slanted ridges defeat; a peak that no sample met "
+             "is missing",
+             *r.map_worth));
   if (contradicts_control(r.state))
     warn(control_integral, "the samples of the control variate contradict its stated integral: the result is biased");
   if (r.passes < 5) warn(few_passes, fmt::format("{} passes are few for an error bar", r.passes));

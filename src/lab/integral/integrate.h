@@ -80,6 +80,7 @@ struct IntegralWarning {
     may_not_exist,
     nothing_found,
     outside_map,
+    map_fit,
     disagreement,
     control_integral,
     missed_region,
@@ -108,6 +109,9 @@ struct OutsideMap {
   bool missed = false;  // the uniform points find more, at the level outside_map_level: the value then counts theirs
 };
 inline constexpr double outside_map_level = 1e-3;
+// Below this worth of a sample an adaptive map is doubted. Single peaks, corners and edges leave 0.6 and more; k equal
+// peaks on the diagonal of d dimensions leave k^(1-d), since a product of maps has peaks at all k^d crossings.
+inline constexpr double doubtful_map_worth = 0.25;
 
 // Two estimates of one integral that differ by more than their errors explain.
 struct Disagreement {
@@ -130,10 +134,13 @@ struct IntegralResult {
   TailDiagnosis tail;
   bool found_nothing = false;             // every term is 0: there is no error and no interval
   std::optional<OutsideMap> outside_map;  // of methods that adapt
-  std::optional<double> acceptance;       // of rejection or of the Markov chain
-  std::optional<double> coefficient;      // of the control variate, the mean over passes
-  Method method;                          // the one that did the work: never automatic
-  std::string why;                        // what `auto` measured and why it chose the method; else empty
+  // What a sample through the adaptive map is worth, in samples of a density that follows the magnitude of the
+  // integrand: (mean |term|)^2 / mean term^2, in 0..1 (Kong 1992). None without a map.
+  std::optional<double> map_worth;
+  std::optional<double> acceptance;   // of rejection or of the Markov chain
+  std::optional<double> coefficient;  // of the control variate, the mean over passes
+  Method method;                      // the one that did the work: never automatic
+  std::string why;                    // what `auto` measured and why it chose the method; else empty
   StopReason stopped_because = StopReason::samples;
   bool target_reached = false;
   std::vector<IntegralWarning> warnings;

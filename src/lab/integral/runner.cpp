@@ -75,6 +75,7 @@ void Runner::enter(std::uint32_t pass, const TermSums& own) {
   record->control_squares += own.control_squares;
   record->control_products += own.control_products;
   record->outside.merge(own.outside);
+  record->magnitude += own.magnitude;
   state_.evaluations += own.evaluations, state_.non_finite += own.non_finite;
   state_.proposed += own.proposed, state_.accepted += own.accepted;
   state_.largest.merge(own.largest);

@@ -22,7 +22,7 @@ double outside_share(double density) {
 }
 
 // Adds terms and their magnitudes; those that are not finite count as 0.
-void add_outside(std::span<const double> terms, double& sum, double& magnitude) {
+void add_terms(std::span<const double> terms, double& sum, double& magnitude) {
   std::array<double, 8> sums{}, magnitudes{};  // side by side, for the vector units
   std::size_t i = 0;
   for (; i + 8 <= terms.size(); i += 8)
@@ -133,7 +133,7 @@ class Sampled final : public Technique {
       const std::span<double> values = std::span(batch.values).first(n);
       integrand_.evaluate({batch.coordinates(n), integrand_.dimension, n}, values);
       for (std::size_t i = 0; i < n; ++i) values[i] *= double(points_per_uniform) * outside_share(density[i]);
-      add_outside(values, sums.outside.uniform, sums.outside.uniform_magnitude);
+      add_terms(values, sums.outside.uniform, sums.outside.uniform_magnitude);
       done += n;
     }
     sums.evaluations += all;
@@ -154,7 +154,9 @@ class Sampled final : public Technique {
         values[i] *= batch.jacobian[i];
         outside[i] = values[i] * outside_share(1 / batch.jacobian[i]);
       }
-      add_outside(outside, sums.outside.map, sums.outside.map_magnitude);
+      add_terms(outside, sums.outside.map, sums.outside.map_magnitude);
+      double sum = 0;
+      add_terms(values, sum, sums.magnitude);
     }
     sums.evaluations += n;
     if (method_.kind == MethodKind::control) add_control(batch, points, values, sums);

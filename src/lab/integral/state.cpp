@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 
 Json to_value(const PassRecord& p) {
   return {p.seed,
@@ -28,7 +28,8 @@ Json to_value(const PassRecord& p) {
           p.outside.uniform,
           p.outside.map,
           p.outside.uniform_magnitude,
-          p.outside.map_magnitude};
+          p.outside.map_magnitude,
+          p.magnitude};
 }
 
 // A whole number in [low, high], or a number in that range: what is in a file is not what was written into one.
@@ -48,7 +49,7 @@ double number(const Json& j, const char* what, double low = -std::numeric_limits
 constexpr std::uint64_t max_count = std::uint64_t(1) << 62;
 
 PassRecord pass_from(const Json& j) {
-  if (!j.is_array() || j.size() != 13) throw std::invalid_argument("the state of an integral: a pass has 13 fields");
+  if (!j.is_array() || j.size() != 14) throw std::invalid_argument("the state of an integral: a pass has 14 fields");
   PassRecord p;
   p.seed = whole(j[0], "the seed of a pass", 0, max_count);
   p.index = std::uint32_t(whole(j[1], "the number of a pass", 0, max_passes - 1));
@@ -60,6 +61,7 @@ PassRecord pass_from(const Json& j) {
   p.control_products = number(j[8], "the control products of a pass");
   p.outside = {number(j[9], "an outside sum"), number(j[10], "an outside sum"), number(j[11], "an outside sum", 0),
                number(j[12], "an outside sum", 0)};
+  p.magnitude = number(j[13], "the magnitude of a pass", 0);
   return p;
 }
 
@@ -103,7 +105,7 @@ std::string to_json(const IntegralState& s) {
       {"accepted", s.accepted},
       {"pass_fields",
        {"seed", "index", "samples", "sum", "m2", "own_variance", "control_sum", "control_squares", "control_products",
-        "outside_uniform", "outside_map", "outside_uniform_magnitude", "outside_map_magnitude"}},
+        "outside_uniform", "outside_map", "outside_uniform_magnitude", "outside_map_magnitude", "magnitude"}},
       {"passes", passes},
       {"largest_terms", s.largest.sorted()},
       {"probe",

@@ -37,6 +37,7 @@ struct PassRecord {
   // Of the control variate less its integral, of its square, and of its product with the term.
   double control_sum = 0, control_squares = 0, control_products = 0;
   OutsideSums outside{};
+  double magnitude = 0;  // sum of the absolute values of the terms; 0 where the method has no map
   double mean() const { return samples == 0 ? 0 : sum / double(samples); }
 };
 

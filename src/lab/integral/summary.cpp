@@ -120,6 +120,10 @@ IntegralResult result_of(const IntegralState& state, double confidence) {
   }
   r.tail = diagnose_tail(state, inside + among, mean, samples);
   r.outside_map = outside_map_of(state);
+  double magnitude = 0;
+  for (const PassRecord& p : state.passes) magnitude += p.magnitude;
+  const double squares = inside + among + samples * mean * mean;
+  if (r.outside_map && squares > 0) r.map_worth = std::min(1.0, magnitude * magnitude / (samples * squares));
   r.method = state.method;
   r.state = state;
   r.warnings = warnings_of(r);

@@ -87,6 +87,7 @@ void TermSums::merge(const TermSums& other) {
   control_sum += other.control_sum, control_squares += other.control_squares;
   control_products += other.control_products;
   outside.merge(other.outside);
+  magnitude += other.magnitude;
   largest.merge(other.largest);
 }
 

@@ -13,6 +13,7 @@ struct TermSums {
   double sum = 0, m2 = 0, own_variance = 0;  // as in PassRecord
   double control_sum = 0, control_squares = 0, control_products = 0;
   OutsideSums outside{};  // as in PassRecord
+  double magnitude = 0;   // as in PassRecord
   LargestTerms largest;
 
   explicit TermSums(std::size_t largest_kept = LargestTerms::of_part) : largest(largest_kept) {}

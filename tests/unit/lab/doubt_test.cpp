@@ -30,6 +30,30 @@ TEST(Doubt, two_peaks_far_apart_are_both_found_or_the_doubt_is_said) {
   }
 }
 
+// Of two equal peaks on the diagonal a product of maps finds one crossing in 2^(d-1); a map of bins does no better.
+TEST(Doubt, a_map_that_cannot_follow_the_integrand_is_doubted) {
+  const auto run = [](const Integrand& f) {
+    return integrate({.integrand = f}, method_named("qmc:adapt=true"), {.samples = 1u << 18}, {.seed = 3});
+  };
+  for (std::size_t dimension : {4, 5}) {
+    const IntegralResult r = run(two_gaussians(0.05, dimension).integrand);
+    const double best = std::pow(0.5, double(dimension) - 1);
+    EXPECT_LE(*r.map_worth, best);
+    EXPECT_GE(*r.map_worth, 0.6 * best);
+    EXPECT_TRUE(warns(r, map_fit));
+    const IntegralResult read_again = result_of(state_from_json(to_json(r.state)));
+    EXPECT_EQ(*read_again.map_worth, *r.map_worth);
+  }
+  const auto one_peak = [](const double* x) { return gaussian(x, 3, 0.4, 0.05); };
+  // Values of both signs: it is their magnitude that the map follows.
+  const auto signed_peak = [&](const double* x) { return x[0] < 0.41 ? -one_peak(x) : one_peak(x); };
+  for (const Integrand& f : {Integrand{3, pointwise(one_peak)}, Integrand{3, pointwise(signed_peak)}}) {
+    const IntegralResult r = run(f);
+    EXPECT_GT(*r.map_worth, 0.6);
+    EXPECT_FALSE(warns(r, map_fit));
+  }
+}
+
 // A run of eight passes whose uniform points and whose map find these masses outside of the map.
 IntegralState run_with_outside(double uniform, double spread, double map) {
   IntegralState state;
