@@ -180,7 +180,7 @@ def main():
     parser.add_argument("-o", "--output", dest="folder", type=pathlib.Path, default=pathlib.Path("reuse_gain.out"))
     parser.add_argument("--montelux", default=ROOT / "build" / "release" / "montelux", help="the program")
     parser.add_argument("--ajar", type=pathlib.Path, help="veach-ajar.pbrt, which is not among the bundled scenes")
-    parser.add_argument("--references", action="store_true", help="only make the references, which no time hangs on")
+    parser.add_argument("--references", action="store_true", help="only make the references, which are not timed")
     parser.add_argument("--table", action="store_true", help="only print the table of what is there")
     parser.add_argument("--again", action="store_true", help="measure again what is there")
     parser.add_argument("--repeats", type=int, help="of each comparison, each as long as it would be else")

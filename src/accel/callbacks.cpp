@@ -139,7 +139,7 @@ void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
 
 RTCGeometry make_triangles(RTCDevice device, const GeometryStore& store, const GeometryRow& row) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // The poses of a mesh that changes its form lie behind each other: buffers that begin ever later.
+  // The poses of a deforming mesh are consecutive in memory; each buffer begins at the offset of its pose.
   if (row.poses > 1) rtcSetGeometryTimeStepCount(geometry, row.poses);
   const std::size_t behind_first = std::size_t(row.poses - 1) * row.pose_vertices;
   for (std::uint32_t pose = 0; pose < row.poses; ++pose)

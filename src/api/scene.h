@@ -29,8 +29,8 @@ struct LoadOptions {
   int threads = 0;                                // for building; 0: all of the machine
   // Of a file that may hold several: by name or number; default: the first.
   std::optional<std::string> camera{}, animation{};
-  // When the shutter is open, in the scene's unit of time, instead of as the file says; of a sequence as
-  // frame_shutter() takes that of the file. The brightness of the picture does not hang on it.
+  // The shutter interval in the scene's unit of time; overrides that of the file. frame_shutter() applies it to a
+  // sequence as it applies that of the file. The brightness of the image does not depend on it.
   std::optional<ShutterTimes> shutter{};
   std::optional<EnvironmentOptions> environment{};
   std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed

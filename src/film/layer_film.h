@@ -62,7 +62,7 @@ class LayerFilm {
   PixelBounds bounds_;
   int count_;
   std::vector<Counts> counts_;        // by pixel
-  std::vector<ExactRgb> sums_;        // by pixel, all light and the layers behind each other
+  std::vector<ExactRgb> sums_;        // by pixel: all light, then the layers
   std::vector<LayerSpread> spreads_;  // likewise
 };
 

@@ -53,13 +53,13 @@ struct RayCounts {
 class PixelIntegrator {
  public:
   virtual ~PixelIntegrator() = default;
-  // Fills `out`: pixels of the tile in row-major order, the samples of one pixel behind each other.
+  // Fills `out`: pixels of the tile in row-major order, the samples of one pixel consecutive.
   virtual RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const = 0;
 
   // Whether trace_layers() is there.
   virtual bool has_layers() const { return false; }
-  // The same, and adds what the samples bring to sums: at each pixel of the tile plan.count() + 1 of them behind each
-  // other, all light and then the layers. Samples that are not finite are not in the sums.
+  // The same, and adds the contributions of the samples to sums: for each pixel of the tile, plan.count() + 1
+  // consecutive sums, all light and then the layers. Samples that are not finite are excluded from the sums.
   virtual RayCounts trace_layers(const TilePass&, const LayerPlan&, std::span<PixelSample>, std::span<ExactRgb>) const {
     throw std::logic_error("this integrator has no layers");
   }

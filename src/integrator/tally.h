@@ -24,8 +24,8 @@ struct NoTally {
 };
 inline constexpr NoTally no_tally;
 
-// The contributions of the samples of a tile, layer by layer, without rounding. The sums of a pixel stand behind each
-// other: that of all contributions, then those of the layers. Lane by lane a sample's contributions are gathered until
+// The contributions of the samples of a tile, layer by layer, without rounding. The sums of a pixel are consecutive:
+// first that of all contributions, then those of the layers. Lane by lane a sample's contributions are gathered until
 // it is known to be finite.
 class LayerTally {
  public:

@@ -68,7 +68,7 @@ float projected_luminance(const LightImage& image, float fov) {
   return float(4 * double(width * height) * sum / double(image.texels.size()));
 }
 
-// Of the plane whose normal is the image's pole, by midpoints; coarse texels are parted, as the horizon crosses them.
+// Illuminance of the plane whose normal is the image's pole, by midpoints; coarse texels are split at the horizon.
 float illuminance(const LightImage& image) {
   int parts = std::max(1, 512 / image.width), width = parts * image.width, height = parts * image.height;
   double sum = 0;

@@ -78,7 +78,7 @@ struct GoniometricEmitter {
 template <class F>
 struct ProjectionEmitter {
   enum Slot { place = light_slot::shape, cotangent = place + 3, half_width, half_height };
-  static constexpr float hither = 1e-3f;  // least cosine to the axis that gets light
+  static constexpr float near = 1e-3f;  // minimum cosine to the axis at which a point is lit
   Vec3<F> p;
   ImagedLights<F> light;
 
@@ -86,10 +86,10 @@ struct ProjectionEmitter {
       : p(r.vec3(place)), light{images, r} {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F> on) const {
     Vec3<F> own = normalize(light.rows.transform().direction_to_light(w));
-    F scale = light.rows.number(cotangent) / max(own.z, F(hither));
+    F scale = light.rows.number(cotangent) / max(own.z, F(near));
     F u = 0.5f * (own.x * scale / light.rows.number(half_width) + 1.0f);
     F v = 0.5f * (own.y * scale / light.rows.number(half_height) + 1.0f);
-    Mask<F> lit = (own.z >= F(hither)) & (u >= F(0.0f)) & (u <= F(1.0f)) & (v >= F(0.0f)) & (v <= F(1.0f));
+    Mask<F> lit = (own.z >= F(near)) & (u >= F(0.0f)) & (u <= F(1.0f)) & (v >= F(0.0f)) & (v <= F(1.0f));
     return light.times_image(Mask<F>(on & lit), [&](const LightImage& image, int k) {
       return image.nearest({lane(u, k), lane(v, k)});
     });

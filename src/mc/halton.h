@@ -24,8 +24,8 @@ inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] 
   return bases;
 }();
 
-// The digits of the index mirrored at the point, each permuted by a random permutation that hangs on the digits before
-// it (Owen 1995). The digits that tell apart the indices below `count` are worked out; those after them differ from
+// The digits of the index mirrored at the point, each permuted by a random permutation that depends on the digits
+// before it (Owen 1995). The digits that distinguish the indices below `count` are computed; later ones differ from
 // point to point anyway and are random.
 inline double scrambled_radical_inverse_double(std::uint32_t index, std::uint32_t base, std::uint32_t count,
                                                std::uint32_t key) {

@@ -140,7 +140,7 @@ constexpr std::array<std::uint32_t, 24> digit_permutations = [] {
   return table;
 }();
 
-// Permutes the digits of the place on the Z curve in base 4, each by a permutation that hangs on the digits above it;
+// Permutes the digits of the place on the Z curve in base 4, each by a permutation that depends on the higher digits;
 // an odd lowest bit is flipped alike (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion").
 template <class F>
 Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {

@@ -46,7 +46,7 @@ inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
     {"uniform-grid", PointSetKind::uniform_grid,
      "the centres of the strata; a single point is the centre of the square"},
 }};
-// Beyond these it has numbers at random, the same everywhere: roulette that is asked with one half for ever never ends.
+// Higher dimensions are random numbers, the same everywhere: roulette with a constant 1/2 would never end a path.
 inline constexpr std::uint32_t grid_dimensions = 256;
 
 std::string_view name_of(PointSetKind kind);

@@ -33,12 +33,12 @@ void find_images(const Domains& domains, std::size_t from, const T& value, std::
       images[k] = k == from ? domains.own(int(from), value, on[k]) : domains.image(int(from), int(k), value, on[k]);
 }
 
-// One reservoir for each domain out of those of all, in their place; all get the confidence of all. Domains of
-// confidence 0 are not there. `stream` gives numbers from its start on.
+// Replaces the reservoirs of all domains, in place, by one for each domain that is chosen from all of them and has the
+// total confidence. Domains of confidence 0 are ignored. `stream` gives numbers from its start.
 //
-// As the maps compose, the share of a sample by the balance heuristic over all domains is the same in whichever domain
-// it is asked for: c_i p_i / sum over k of c_k p_k(image in k) |Jacobian|. each(k, image, w, on) is told, for every
-// domain and every sample, the weight with which h(image) enters the estimate of the integral of h over domain k (the
+// As the maps compose, the share of a sample by the balance heuristic over all domains is the same in every domain
+// that uses it: c_i p_i / sum over k of c_k p_k(image in k) |Jacobian|. each(k, image, w, on) receives, for every
+// domain and every sample, the weight of h(image) in the estimate of the integral of h over domain k (the
 // mean over the choice, Rao and Blackwell).
 template <class T, class F, class Domains, class Each>
 void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, const RandomStream<F>& stream, Mask<F> on,

@@ -1,4 +1,4 @@
-// What the two kinds of render share: the tiles that threads take, and what an observer is told.
+// What the two kinds of render share: the tiles that threads take, and what an observer receives.
 #pragma once
 #include <algorithm>
 #include <chrono>

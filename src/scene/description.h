@@ -67,7 +67,7 @@ struct SceneDesc {
   Transform world_to_camera;
   std::vector<Transform> world_to_camera_later;     // where the camera moves, as that of a shape
   double transforms_start = 0, transforms_end = 1;  // the time from the first transform to the last
-  // When the shutter is open, in the same unit, for pictures whose brightness does not hang on that; none: as the
+  // When the shutter is open, in the same unit, for images whose brightness does not depend on it; none: as the
   // camera's shutteropen and shutterclose say.
   std::optional<std::pair<double, double>> shutter;
   std::optional<double> frame_rate;  // pictures a unit of time, where nothing else is asked for

@@ -6,7 +6,7 @@ namespace montelux {
 
 namespace {
 
-// For half-there surfaces: numbers that belong to this ray and surface, so that a ray asked twice is told the same.
+// For partially transparent surfaces: numbers that depend on ray and surface, so that a repeated query agrees.
 RandomStream<float> numbers_of(const Hit<float>& hit, const Ray<float>& ray) {
   return {mix_bits(float_bits(ray.o.x) ^ mix_bits(float_bits(ray.d.x) ^ hit.geometry)),
           mix_bits(float_bits(ray.o.y) ^ mix_bits(float_bits(ray.d.y) ^ float_bits(ray.o.z))) ^

@@ -31,8 +31,8 @@ inline constexpr std::uint32_t direction = 1u << 29;  // of the sampler, beyond 
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
 }  // namespace restir_stream
 
-// What is found is told to `keep`: keep.lights(vertex, origin, reservoir, slot, mask) and, where paths are reused,
-// keep.paths(reservoir, slot, mask). Pixels of which nothing is told have no vertex, or no path.
+// Results go to `keep`: keep.lights(vertex, origin, reservoir, slot, mask) and, where paths are reused,
+// keep.paths(reservoir, slot, mask). Pixels that are not reported have no vertex, or no path.
 template <class F, class Rays, class Keep>
 class FirstStage {
  public:

@@ -1,5 +1,5 @@
-// Which pixels share all that they have found: the picture is parted into square blocks, otherwise in every round, and
-// the pixels of each block into groups at random.
+// Which pixels share all of their samples: each round splits the image into square blocks in a new way, and the
+// pixels of each block into groups at random.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -59,7 +59,7 @@ EarlierPlace<F> earlier_place(const Scene& scene, const VertexOrigin<F>& origin,
 }
 
 // The surface whose history is looked for. The choice sees objects, normals and distances, never what was found there:
-// shares that hang on samples would not add up to one.
+// shares that depend on samples would not add up to one.
 struct SoughtSurface {
   std::uint32_t object;
   Vec3f ng;

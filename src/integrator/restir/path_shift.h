@@ -16,7 +16,7 @@ struct PathScene {
   std::uint32_t max_events;  // of a whole path
 };
 
-// Pixels are told apart at a distance from the camera or the vertex before.
+// Pixels are distinguished at a distance from the camera or the vertex before.
 template <class F>
 F squared_distance_of_pixels(const PathReuse& reuse, const ReuseVertex<F>& first) {
   return first.depth * first.depth * reuse.footprint;

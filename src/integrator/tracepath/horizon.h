@@ -46,7 +46,7 @@ inline bool covers(const SeenPolygon& polygon, Vec3f w) {
     const Vec3f a = polygon.corners[std::size_t(i)], b = polygon.corners[std::size_t((i + 1) % polygon.count)];
     (dot(cross(a, b), w) >= 0 ? left : right)++;
   }
-  // On the same side of every plane through the origin and an edge; the opposite direction is told by a corner.
+  // On the same side of every plane through the origin and an edge; a corner excludes the opposite direction.
   if (left != 0 && right != 0) return false;
   Vec3f sum{0, 0, 0};
   for (int i = 0; i < polygon.count; ++i) sum += normalize(polygon.corners[std::size_t(i)]);

@@ -115,7 +115,7 @@ class PrimitiveReader {
  public:
   PrimitiveReader(Document& document, const TraitsOfMaterial& traits) : document_(document), traits_(traits) {}
 
-  // One primitive, or two where it is parted, or none.
+  // One primitive, two where it is split, or none.
   std::vector<Primitive> read(const Element& element) {
     const std::uint64_t mode = element["mode"].whole(6).value_or(4);
     const Element attributes = element.required("attributes");

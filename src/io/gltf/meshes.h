@@ -24,7 +24,7 @@ struct Primitive {
   std::optional<std::size_t> material;
   std::optional<SkinBinding> skin;
   std::vector<MorphTarget> targets;
-  // The triangles on which the texture coordinates lie as in a mirror, where the primitive was parted by that.
+  // The triangles whose texture coordinates are mirrored, where the primitive was split by that.
   bool is_mirrored = false;
   Element where;
 };

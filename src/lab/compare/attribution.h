@@ -1,7 +1,7 @@
-// Which part of a picture's light its variance comes from. Of the light L of a pass and its layers L_1 + ... + L_n, the
-// share of layer i is Cov(L_i, L) / Var(L): the shares sum to one whatever the covariances between layers, and a layer
-// that takes from the noise of others has a negative one. Components are treated alike, and none's share depends on how
-// the rest is parted (Shorrocks 1982, "Inequality Decomposition by Factor Components").
+// How the variance of an image splits over the layers of its light. For the light L of a pass, L = L_1 + ... + L_n, the
+// share of layer i is Cov(L_i, L) / Var(L): the shares sum to one whatever the covariances between layers; a layer that
+// reduces the noise of others has a negative share. All components are treated alike, and the share of one does not
+// depend on how the remainder is split (Shorrocks 1982, "Inequality Decomposition by Factor Components").
 #pragma once
 #include <string>
 #include <vector>

@@ -64,7 +64,7 @@ Findings run(const Setup& setup) {
               {"estimator", "variance of one", "cost of one", "efficiency", "expected"},
               {}};
   Figure figure{"efficiency",
-                "Efficiency from means of $N$ samples: it does not hang on $N$. Lines: theory.",
+                "Efficiency from means of $N$ samples: it does not depend on $N$. Lines: theory.",
                 {"samples $N$", true, {}, {}},
                 {"efficiency", true, {}, {}},
                 {},

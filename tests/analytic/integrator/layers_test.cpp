@@ -148,7 +148,7 @@ TEST(Layers, are_the_same_bits_for_any_number_of_threads_and_any_merge) {
       }
 }
 
-// The bounces that are told apart, and what each of them should be on average.
+// The bounces that have layers of their own, and the expectation of each.
 struct Series {
   std::string scene;
   std::vector<double> bounces;

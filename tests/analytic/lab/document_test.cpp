@@ -38,7 +38,7 @@ std::string list_of(const std::vector<ExperimentPage>& pages) {
   return text;
 }
 
-// Pictures hold numbers, whose last digits hang on the machine: they must be there, and no more.
+// Images contain numbers whose last digits depend on the machine: only their presence is tested.
 TEST(LabDocument, holds_the_experiments_as_they_are) {
   const std::vector<ExperimentPage> pages = document_experiments();
   const std::string text = read(contents);

@@ -376,7 +376,7 @@ TEST(Reuse, takes_what_is_not_a_usable_confidence_for_none) {
   }
 }
 
-// Whatever the confidences are, as long as they do not hang on what was found: only their ratios count.
+// Whatever the confidences are, as long as they do not depend on the samples: only their ratios count.
 TEST(Reuse, finds_the_integral_by_huge_and_tiny_confidences) {
   constexpr int count = 100000;
   const float scales[][3] = {{1e12f, 1e12f, 1e12f}, {1e-12f, 1e-12f, 1e-12f}, {1, 1e6f, 1e-6f}};

@@ -1,4 +1,4 @@
-// The parting of a picture into groups of pixels.
+// How an image is split into groups of pixels.
 #include "integrator/restir/groups.h"
 
 #include <gtest/gtest.h>

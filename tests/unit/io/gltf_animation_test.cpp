@@ -218,7 +218,7 @@ TEST(GltfAnimation, that_comes_back_within_the_exposure_is_followed) {
   EXPECT_NE(render(turns.diagnostics).find("too fast"), std::string::npos);
   const ReadResult slow = read_window(turning_by_quarters(8), {0, 2, 20, true, 1});
   ASSERT_TRUE(slow.scene) << render(slow.diagnostics);
-  // A jump far ahead is told of at once, and with when it is.
+  // A jump far ahead is reported at once, with its time.
   const std::string jumps = animated({0, 1.7f, 1.75f}, joined({turn(0), turn(0), turn(1)}), "rotation", "STEP");
   const ReadResult ahead = read_text_in({0, 1.75, 60, true, 0.5}, jumps);
   EXPECT_FALSE(ahead.scene);

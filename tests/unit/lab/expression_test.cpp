@@ -1,4 +1,4 @@
-// Expressions: what they evaluate to, and how mistakes in them are told.
+// Expressions: what they evaluate to, and how mistakes in them are reported.
 #include "lab/expression/expression.h"
 
 #include <gtest/gtest.h>

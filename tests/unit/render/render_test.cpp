@@ -274,7 +274,7 @@ Shape "bilinearmesh" "point3 P" [ 0 -2 0  4 -2 0  0 2 0  4 2 0 ]
   }
 }
 
-// Roulette that is asked with the same number for ever would never end a path that it spares once.
+// Roulette with the same random number every time would never end a path that survives once.
 TEST(Render, by_fixed_points_ends_where_paths_have_no_end) {
   const TestScene room(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
 Integrator "path" "integer maxdepth" 1000000000

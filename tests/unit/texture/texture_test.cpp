@@ -188,8 +188,8 @@ TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_pa
 TEST(Dots, are_discs_inside_of_their_cells_and_in_two_of_five_of_them) {
   Bench b;
   NumberTextureId id = b.number_texture(entity("dots"));
-  // Whether a cell has a dot hangs on the noise in its middle, by the gradients at the corners about it: cells at even
-  // places share none.
+  // Whether a cell has a dot depends on the noise at its centre, which follows from the gradients at its corners; cells
+  // at even positions share none.
   int apart_with_dot = 0;
   std::vector<double> areas;
   const int cells = 40, n = 30;
