@@ -7,7 +7,7 @@ namespace montelux {
 
 namespace {
 
-// Camera space seen from the world, in double.
+// The camera space in world coordinates, in double.
 class CameraSpace {
  public:
   explicit CameraSpace(const Transform& world_to_camera) : m_(world_to_camera.inverse_matrix()) {}
@@ -22,7 +22,7 @@ class CameraSpace {
   Matrix4 m_;
 };
 
-// The part of the plane z = 1 (or, orthographic, of z = 0) that the picture shows.
+// The part of the plane z = 1 (orthographic: of z = 0) that the image shows.
 struct ScreenWindow {
   double x_low, x_high, y_low, y_high;
 };
@@ -47,7 +47,7 @@ ScreenWindow screen_window(const Entity& entity, int width, int height, Diagnost
   return {given[0], given[1], given[2], given[3]};
 }
 
-// corner + x dx + y dy for the window scaled by `scale`. `at` maps a place of the window to the world.
+// corner + x dx + y dy for the window scaled by `scale`. `at` maps a point of the window to the world.
 template <class At>
 RasterPlane raster_plane(const ScreenWindow& w, double scale, int width, int height, const CameraSpace& space, At at) {
   return {at(w.x_low * scale, w.y_high * scale), space.direction((w.x_high - w.x_low) * scale / width, 0, 0),

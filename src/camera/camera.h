@@ -1,5 +1,5 @@
-// Cameras: from a place on the picture and a place on the lens to a ray in the world. Camera space is left-handed, with
-// x to the right, y up and the view along +z; raster y runs down.
+// Cameras: from a point on the image and a point on the lens to a ray in the world. Camera space is left-handed, with
+// x to the right, y up and the view along +z; raster y points down.
 #pragma once
 #include <optional>
 #include <variant>
@@ -22,13 +22,13 @@ struct CameraRay {
 
 inline constexpr float camera_ray_end = 1e30f;
 
-// Where a point of the world stands on the picture: the raster of the ray through the centre of the lens that leads to
-// it. The raster may lie outside of the picture.
+// The projection of a world point onto the image: the raster position of the ray through the centre of the lens that
+// passes through the point. The raster position may be outside the image.
 template <class F>
 struct Projection {
   Vec2<F> raster;
-  F distance;    // from where that ray begins, in world space
-  Mask<F> seen;  // false: behind the camera, the other members mean nothing
+  F distance;    // from the origin of that ray, in world space
+  Mask<F> seen;  // false: behind the camera; the other members are meaningless
 };
 
 // A point of world space that depends affinely on the raster: corner + x dx + y dy.
@@ -54,14 +54,14 @@ struct ThinLens {
       Vec2<F> disk = blades == 0 ? sample_disk_concentric(u) : sample_regular_polygon(u, blades);
       Vec3<F> offset = splat<F>(x) * disk.x + splat<F>(y) * disk.y;
       o = o + offset;
-      // d reaches the plane z = 1: all rays of the lens meet on it where it is scaled to the plane in focus.
+      // d reaches the plane z = 1: all rays of the lens meet on that plane scaled to the plane in focus.
       d = d - offset * inverse_distance;
     }
     return {{o, normalize(d), F(camera_ray_end)}, F(1.0f)};
   }
 };
 
-// Coordinates x, y, z of q along three axes, by Cramer's rule.
+// The coordinates x, y, z of q along three axes, by Cramer's rule.
 template <class F>
 MONTELUX_INLINE Vec3<F> along(const Vec3<F>& q, const Vec3<F>& x, const Vec3<F>& y, const Vec3<F>& z) {
   const Vec3<F> xy = cross(x, y);
@@ -81,7 +81,7 @@ struct PerspectiveCamera {
   Projection<F> project(const Vec3<F>& p) const {
     const Vec3<F> x = splat<F>(direction.dx), y = splat<F>(direction.dy), corner = splat<F>(direction.corner);
     const Vec3<F> v = p - splat<F>(origin), normal = cross(x, y);
-    // The point moved toward the eye into the plane z = 1.
+    // The point projected through the camera onto the plane z = 1.
     const F scale = dot(normal, corner) / dot(normal, v);
     const Vec3<F> place = along<F>(v * scale - corner, x, y, normal);
     return {{place.x, place.y}, length(v), scale > F(0.0f)};
@@ -105,7 +105,7 @@ struct OrthographicCamera {
   }
 };
 
-// All directions from a point, y of camera space up.
+// All directions from a point; y of camera space is up.
 struct SphericalCamera {
   // equirectangular: azimuth along x of the raster and polar angle along y; equal_area: octahedral.
   enum class Mapping { equirectangular, equal_area };
@@ -165,7 +165,7 @@ class Camera {
     }
     return made;
   }
-  // Where the point p of the world stands on the picture at that time.
+  // The projection of the world point p onto the image at that time.
   template <class F>
   Projection<F> project(const Vec3<F>& p, F time = F(0.0f)) const {
     const Vec3<F> own = motion_ ? motion_->at(time).preimage(p) : p;
@@ -176,15 +176,15 @@ class Camera {
     }
     return place;
   }
-  // As the camera is in its own space, where it moves.
+  // The camera in its own space, in which it may move through the world.
   const Variant& variant() const { return camera_; }
-  // Pixels after which the picture comes back along x; 0: it does not.
+  // The number of pixels after which the image repeats along x; 0: it does not.
   float turn_in_pixels() const {
     const auto* all = std::get_if<SphericalCamera>(&camera_);
     return all && all->mapping == SphericalCamera::Mapping::equirectangular ? 1.0f / all->to_unit.x : 0.0f;
   }
 
-  // A camera that stands in its own space, which moves through the world.
+  // A camera that is fixed in its own space, which moves through the world.
   Camera moved(const Motion& camera_to_world) && {
     motion_ = camera_to_world;
     return std::move(*this);
@@ -196,10 +196,10 @@ class Camera {
   std::optional<Motion> motion_;
 };
 
-// The camera for a picture of width x height pixels (the whole, not a crop). Parameters: fov (degrees, of the shorter
-// axis, or the height by fovaxis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius,
-// focaldistance, apertureblades, aperturerotation; mapping. Values that make no camera are reported, and the usual ones
-// taken in their place.
+// The camera for an image of width x height pixels (the whole image, not a crop). Parameters: fov (degrees, of the
+// shorter axis, or the height by fovaxis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius,
+// focaldistance, apertureblades, aperturerotation; mapping. Invalid values are reported and replaced by the
+// defaults.
 Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
                     Diagnostics& diagnostics);
 

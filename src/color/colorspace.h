@@ -1,4 +1,4 @@
-// CIE XYZ, and spaces of red, green and blue as their primaries and white define them.
+// CIE XYZ, and RGB colour spaces as defined by their primaries and white.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -17,14 +17,14 @@ struct Chromaticity {
   double x = 0.0, y = 0.0;
 };
 Chromaticity chromaticity(const Xyz& color);
-// The colour of that chromaticity whose Y is one.
+// The colour of the given chromaticity with Y = 1.
 Xyz unit_luminance(const Chromaticity& c);
 
 struct Matrix3 {
   double m[3][3];
 };
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
-// Of a matrix that is not singular.
+// The matrix must not be singular.
 Matrix3 inverse(const Matrix3& a);
 Xyz operator*(const Matrix3& a, const Xyz& v);
 Rgb operator*(const Matrix3& a, const Rgb& v);

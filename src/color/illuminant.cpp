@@ -12,7 +12,7 @@ constexpr double light_speed = 299792458.0;
 constexpr double boltzmann_constant = 1.380649e-23;
 constexpr double wien_constant = 2.897771955e-3;
 
-// The temperature today of a daylight that was named when c2 was 1.4380e-2.
+// Today's temperature of a daylight that was named when c2 was 1.4380e-2.
 double named_temperature(double kelvin) { return kelvin * 1.4388 / 1.4380; }
 
 Chromaticity daylight_chromaticity(double kelvin) {

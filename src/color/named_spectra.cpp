@@ -19,7 +19,7 @@ constexpr std::string_view names[] = {
     "stdillum-F11", "stdillum-F12",   "stdillum-F2",  "stdillum-F3",   "stdillum-F4",   "stdillum-F5",
     "stdillum-F6",  "stdillum-F7",    "stdillum-F8",  "stdillum-F9"};
 
-// Takes the prefix off the text, if it is there.
+// Removes the prefix from the text if it is present.
 bool take_prefix(std::string_view& text, std::string_view prefix) {
   if (text.substr(0, prefix.size()) != prefix) return false;
   text.remove_prefix(prefix.size());
@@ -39,7 +39,7 @@ double sellmeier(const GlassRow& glass, double wavelength) {
 }
 
 std::optional<SampledSpectrum> glass_index(std::string_view name) {
-  // The format leaves the S of the dense flints away.
+  // The format omits the S of the dense flints.
   if (name == "F5") name = "SF5";
   if (name == "F10") name = "SF10";
   if (name == "F11") name = "SF11";

@@ -1,4 +1,4 @@
-// Spectra that scenes call by name, as the pbrt-v4 format has them.
+// Spectra that scenes refer to by name, as defined by the pbrt-v4 format.
 #pragma once
 #include <optional>
 #include <string_view>

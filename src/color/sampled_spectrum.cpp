@@ -17,7 +17,7 @@ void for_each_nanometre(Function f) {
   for (double w = shortest_wavelength; w <= longest_wavelength; w += nanometre) f(w, color_matching(w));
 }
 
-// The response of red, green and blue at a wavelength of light.
+// The response of red, green and blue to light of one wavelength.
 Xyz primaries_response(const Matrix3& from_xyz, const Xyz& matching) { return from_xyz * matching; }
 
 }  // namespace
@@ -118,7 +118,7 @@ ConductorRgb conductor_rgb(const SampledSpectrum& eta, const SampledSpectrum& k)
   for (int i = 0; i < 3; ++i) {
     double r = std::min(double(seen.c[i]), 0.9999), n = double(result.eta.c[i]);
     double square = (r * (n + 1.0) * (n + 1.0) - (n - 1.0) * (n - 1.0)) / (1.0 - r);
-    // An index alone that reflects more than that must come nearer to one.
+    // A real index that reflects more than that must be closer to one.
     if (square < 0.0) result.eta.c[i] = float((1.0 + std::sqrt(r)) / (1.0 - std::sqrt(r)));
     result.k.c[i] = float(std::sqrt(std::max(square, 0.0)));
   }

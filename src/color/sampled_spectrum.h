@@ -1,4 +1,4 @@
-// Quantities that depend on the wavelength, and the colours that they make.
+// Quantities that depend on the wavelength, and the corresponding colours.
 #pragma once
 #include <vector>
 
@@ -11,14 +11,14 @@ inline constexpr double longest_wavelength = 830.0;
 // The integral of the luminous efficiency y over the wavelength in nm (CIE 15:2004, at 1 nm).
 inline constexpr double luminous_integral = 106.856895;
 
-// Piecewise linear in the wavelength (nm). wavelengths ascend strictly; both lists are of one length, at least one.
+// Piecewise linear in the wavelength (nm). wavelengths is strictly increasing; both lists have the same length >= 1.
 struct SampledSpectrum {
   std::vector<double> wavelengths;
   std::vector<double> values;
 
   // Zero outside the samples.
   double at(double wavelength) const;
-  // The value at the end of the samples beyond it; for quantities that do not vanish there.
+  // The value of the nearest sample outside the samples; for quantities that do not vanish there.
   double held_at(double wavelength) const;
 };
 
@@ -42,21 +42,21 @@ Xyz color_matching(double wavelength);
 // The sum over 1 nm of the spectrum times the colour-matching functions, over luminous_integral.
 Xyz to_xyz(const SampledSpectrum& emission);
 
-// Emitted light as linear sRGB: a spectrum of constant one has luminance one. Colours that sRGB cannot show have
-// negative components, which are kept, since light adds up.
+// Emitted light as linear sRGB: the constant spectrum 1 has luminance 1. Colours outside the sRGB gamut have
+// negative components, which are kept because light is additive.
 Rgb to_rgb_emission(const SampledSpectrum& emission);
 // The luminance Y of to_rgb_emission.
 float mean_luminance(const SampledSpectrum& emission);
 // The factor that gives an emission luminance one; zero for a black one.
 double photometric_scale(const SampledSpectrum& emission);
 
-// What a surface of that reflectance (in [0, 1]) looks like under D65, relative to a perfect white, which gives exactly
-// (1, 1, 1). Cut to [0, 1].
+// The colour of a surface with that reflectance (in [0, 1]) under D65, relative to a perfect white, which is exactly
+// (1, 1, 1). Clamped to [0, 1].
 Rgb to_rgb_reflectance(const SampledSpectrum& reflectance);
 
-// Means over the bands of red, green and blue for quantities without an upper bound, such as absorption coefficients
-// or indices of refraction: the positive part of each primary's response under D65 weighs the wavelengths, so that a
-// constant gives itself and no component is negative where the spectrum is not. End values hold beyond the samples.
+// Means over the bands of red, green and blue for quantities without an upper bound, such as absorption coefficients or
+// indices of refraction: the weight of a wavelength is the positive part of the primary's response under D65, so that a
+// constant maps to itself and no component is negative unless the spectrum is. Beyond the samples the end values hold.
 Rgb to_rgb_unbounded(const SampledSpectrum& spectrum);
 
 // Complex index of refraction eta + i k at each primary.
@@ -65,8 +65,8 @@ struct ConductorRgb {
 };
 // Reflectance at normal incidence of a conductor in air (Fresnel).
 double normal_reflectance(double eta, double k);
-// The eta and k whose reflectance at normal incidence is, in each component, that of the spectral reflectance of the
-// metal seen under D65 (to_rgb_reflectance). eta is the mean over the band (to_rgb_unbounded); k is solved for.
+// The eta and k whose reflectance at normal incidence equals, in each component, that of the metal's spectral
+// reflectance under D65 (to_rgb_reflectance). eta is the mean over the band (to_rgb_unbounded); k is solved for.
 ConductorRgb conductor_rgb(const SampledSpectrum& eta, const SampledSpectrum& k);
 
 }  // namespace montelux

@@ -1,11 +1,11 @@
-// What a path carries: a radiance, a reflectance or a weight at each of a few wavelengths or primaries.
+// What a path carries: a radiance, a reflectance or a weight for each of a few wavelengths or primaries.
 #pragma once
 #include "math/functions.h"
 
 namespace montelux {
 
-// Red, green and blue of linear sRGB (Rec. 709 primaries, white D65). Transport code treats the components alike, so
-// hero wavelengths would change this number and the code at both ends: textures, emission and film.
+// Red, green and blue of linear sRGB (Rec. 709 primaries, white D65). Transport code treats all components alike; only
+// textures, emission and film assign a meaning to them.
 inline constexpr int spectrum_size = 3;
 
 template <class F>
@@ -24,7 +24,7 @@ MONTELUX_INLINE Spectrum<F> gray(F x) {
   for (int i = 0; i < spectrum_size; ++i) r.c[i] = x;
   return r;
 }
-// The result of f on each component of the arguments.
+// Applies f to each component of the arguments.
 template <class F, class Function, class... Others>
 MONTELUX_INLINE Spectrum<F> per_component(Function f, const Spectrum<F>& a, const Others&... others) {
   Spectrum<F> r;

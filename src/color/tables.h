@@ -1,4 +1,4 @@
-// The tables of data/ as compiled in. Sources and licences stand in the files; tools/check_data holds the two equal.
+// The compiled tables of data/. The files state sources and licences; tools/check_data verifies that both agree.
 #pragma once
 #include <array>
 #include <span>

@@ -1,4 +1,4 @@
-// Transfer functions between linear values and the values that files and displays hold.
+// Transfer functions between linear values and the encoded values of files and displays.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -11,11 +11,11 @@ namespace montelux {
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-// How stored values stand for linear ones.
+// How stored values encode linear ones.
 struct ColorEncoding {
   enum class Kind { linear, srgb, gamma };
   Kind kind = Kind::linear;
-  // Of gamma only: linear = encoded^exponent.
+  // For gamma only: linear = encoded^exponent.
   float exponent = 1.0f;
 
   friend bool operator==(const ColorEncoding&, const ColorEncoding&) = default;

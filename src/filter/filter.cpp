@@ -4,7 +4,7 @@ namespace montelux {
 
 namespace {
 
-// The radii as stated, or those usual for the filter. Positive.
+// The stated radii, or the default of the filter. Positive.
 Vec2f radii(const ParameterList& parameters, float usual) {
   auto positive = [&](const char* name) {
     float radius = parameters.number(name, usual);

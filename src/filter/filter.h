@@ -1,4 +1,4 @@
-// Pixel reconstruction filters: how a pixel's value weighs what arrives around its centre. Points are drawn in
+// Pixel reconstruction filters: the weight of radiance around the centre of a pixel. Points are sampled in
 // proportion to the filter (Ernst, Stamminger and Greiner 2006), so that every sample belongs to one pixel only.
 #pragma once
 #include <memory>
@@ -56,7 +56,7 @@ struct TriangleFilter {
   }
 };
 
-// The product of a profile along x and one along y, drawn by tables of their magnitude.
+// The product of a profile along x and one along y, sampled by tables of their magnitude.
 template <class Profile>
 class TabulatedFilter {
  public:
@@ -94,7 +94,7 @@ using GaussianFilter = TabulatedFilter<GaussianProfile>;
 using MitchellFilter = TabulatedFilter<MitchellProfile>;
 using SincFilter = TabulatedFilter<SincProfile>;
 
-// One of the filters, chosen by name: box, gaussian, mitchell, sinc, triangle.
+// One of the filters, selected by name: box, gaussian, mitchell, sinc, triangle.
 class Filter {
  public:
   using Variant = std::variant<BoxFilter, GaussianFilter, MitchellFilter, SincFilter, TriangleFilter>;
@@ -106,7 +106,7 @@ class Filter {
   requires(!std::is_same_v<Alternative, Filter> &&
            std::is_constructible_v<Variant, Alternative>) explicit Filter(const Alternative& filter)
       : filter_(filter) {}
-  // From the parameters xradius, yradius; sigma; B, C; tau. An unknown name, which the reader has reported, gives the
+  // From the parameters xradius, yradius; sigma; B, C; tau. An unknown name, which the reader has reported, selects the
   // default filter.
   static Filter build(const Entity& entity);
 

@@ -1,4 +1,4 @@
-// Drawing from a one-dimensional profile by a table of its inverse distribution function.
+// Sampling of a one-dimensional profile by a table of its inverse distribution function.
 #pragma once
 #include <array>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace montelux {
 
-// The map u -> x that is linear between the quantiles of |f| at i / cells. Its density is known exactly whatever the
-// table's resolution, 1 / (cells * width of the cell), so that weights made with it leave no bias.
+// The map u -> x that is linear between the quantiles of |f| at i / cells. Its density is known exactly for every
+// resolution of the table, 1 / (cells * width of the cell), so that weights by it cause no bias.
 class InverseCdf {
  public:
   static constexpr int cells = 1024;
@@ -53,7 +53,7 @@ InverseCdf::InverseCdf(const Profile& profile) {
     integral_ += value * step;
     cdf[i + 1] = cdf[i] + std::abs(value) * step;
   }
-  // Its quantiles; the ends are those of the support, so that no point of it is missed.
+  // Its quantiles; the first and the last are the ends of the support, so that no point of it is missed.
   int i = 0;
   for (int k = 1; k < cells; ++k) {
     double target = cdf[steps] * k / cells;

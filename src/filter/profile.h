@@ -5,7 +5,7 @@
 
 namespace montelux {
 
-// A Gaussian less its value at the radius, so that it ends at zero.
+// A Gaussian minus its value at the radius, so that it ends at zero.
 struct GaussianProfile {
   float radius = 1.5f, sigma = 0.5f;
 
@@ -42,7 +42,7 @@ struct SincProfile {
   template <class F>
   static F sinc(F x) {
     F a = abs(x) * pi;
-    // Near zero the series, whose next term is below the last place.
+    // Near zero the series, whose next term is below rounding.
     F series = F(1.0f) - a * a * (1.0f / 6.0f);
     return select(a < F(0.01f), series, sin_cos(a).sin / max(a, F(0.01f)));
   }

@@ -1,4 +1,4 @@
-// What a scene may say about pixel filters.
+// The pixel filters that a scene may state.
 #pragma once
 #include <span>
 

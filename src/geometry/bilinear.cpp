@@ -22,7 +22,7 @@ Patch in_double(const BilinearPatch& s) {
   return {to_double(s.p[0]), to_double(s.p[1]), to_double(s.p[2]), to_double(s.p[3])};
 }
 
-// The normal, from a little further inside where the patch degenerates to an edge or a point.
+// The normal, from a point slightly further inside if the patch degenerates to an edge or a point.
 Vec3d unit_normal(const Patch& q, double u, double v) {
   Vec3d n = q.normal(u, v);
   double scale = dot(q.du(v), q.du(v)) + dot(q.dv(u), q.dv(u));
@@ -30,7 +30,7 @@ Vec3d unit_normal(const Patch& q, double u, double v) {
   return norm(n) > 0 ? unit(n) : Vec3d{0, 0, 1};
 }
 
-// Area elements at the corners, none far below the largest, so that the density stays bounded.
+// Area elements at the corners, none much smaller than the largest, so that the density stays bounded.
 std::array<double, 4> corner_weights(const Patch& q) {
   std::array<double, 4> w{norm(q.normal(0, 0)), norm(q.normal(1, 0)), norm(q.normal(0, 1)), norm(q.normal(1, 1))};
   double largest = *std::max_element(w.begin(), w.end());
@@ -39,7 +39,7 @@ std::array<double, 4> corner_weights(const Patch& q) {
   return w;
 }
 
-// Draws x in [0, 1] with density proportional to (1-x) a + x b.
+// Samples x in [0, 1] with density proportional to (1-x) a + x b.
 double sample_linear_weight(double u, double a, double b) {
   return std::min(u * (a + b) / (a + std::sqrt(mix(u, a * a, b * b))), 1.0);
 }
@@ -54,7 +54,7 @@ Density<Area> density_at(const Patch& q, double u, double v) {
   return {float(parameter_density(corner_weights(q), u, v) / element)};
 }
 
-// dp/ds along the first texture coordinate; along u where the texture coordinates are degenerate.
+// dp/ds along the first texture coordinate; along u if the texture coordinates are degenerate.
 Vec3d texture_tangent(const BilinearPatch& s, const Patch& q, double u, double v) {
   auto gradient = [&](auto coordinate) {
     std::array<double, 4> c{coordinate(s.uv[0]), coordinate(s.uv[1]), coordinate(s.uv[2]), coordinate(s.uv[3])};
@@ -109,7 +109,7 @@ Bounds3 bounds(const BilinearPatch& s) {
 
 namespace {
 
-// The largest coordinate that goes into an intersection.
+// The largest magnitude of a coordinate in an intersection.
 double magnitude(const Patch& q, const Vec3d& o) {
   auto largest = [](const Vec3d& p) { return std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))); };
   return std::max(std::max(largest(q.p00), largest(q.p10)),
@@ -131,8 +131,8 @@ std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray,
   // A patch that is flat along u has c = 0 up to rounding; then h / c is far outside, and a / h is the hit.
   double u1 = c != 0 ? h / c : -1, u2 = h != 0 ? a / h : -1;
   const double slack = 1e-10;
-  // Hits nearer than the rounding of their own distance are those of a ray that leaves the patch: an origin that lies
-  // exactly in the plane of a flat patch needs this, as no offset moves it out of there.
+  // Hits closer than the rounding of their own distance belong to a ray that leaves the patch: an origin exactly
+  // in the plane of a flat patch requires this, because no offset moves it out of that plane.
   auto leaves = [&](double t) { return t * std::sqrt(dot(d, d)) <= 1e-12 * magnitude(q, o); };
   std::optional<PatchHit> best;
   for (double u : {u1, u2}) {
@@ -158,7 +158,7 @@ SurfacePoint<float> surface_point(const BilinearPatch& s, Vec2f uv) {
   } else if (s.flip_normal) {
     n = -n, ns = n;
   }
-  // Rounding to float, and in double the rounding of the four terms.
+  // Rounding to float and, in double, the rounding of the four terms.
   Vec3d largest{0, 0, 0};
   for (Vec3d c : {q.p00, q.p10, q.p01, q.p11})
     largest = {std::max(largest.x, std::abs(c.x)), std::max(largest.y, std::abs(c.y)),

@@ -28,7 +28,7 @@ std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray,
 SurfacePoint<float> surface_point(const BilinearPatch& s, Vec2f uv);
 SurfacePoint<float> surface_point(const BilinearPatch& s, const Ray<float>& ray, const ShapeHit& hit);
 double area(const BilinearPatch& s);
-// Draws by a bilinear density in the parameters that follows the area element at the corners.
+// Samples a bilinear density in the parameters that follows the area element at the corners.
 ShapeSample sample_area(const BilinearPatch& s, Vec2f u);
 // The density of sample_area at the patch's own parameters.
 Density<Area> area_density(const BilinearPatch& s, Vec2f uv);

@@ -40,7 +40,7 @@ CurveJet evaluate(const Cubic& c, double u) {
   return {mix(u, e, f), dpdu};
 }
 
-// a unit vector along a x b, or any that is orthogonal to b where both are parallel.
+// A unit vector along a x b, or any that is orthogonal to b if both are parallel.
 Vec3d across(Vec3d a, Vec3d b) {
   Vec3d c = cross(unit(a), unit(b));
   if (norm(c) < 1e-9) c = cross(std::abs(b.x) > 0.9 * norm(b) ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, b);
@@ -107,7 +107,7 @@ SurfacePoint<float> curve_point(const CurveSet& curves, std::uint32_t segment, f
   double width = 2 * mix(u, c[0].radius, c[3].radius);
   Vec3d d = to_double(ray.d), p = to_double(ray.o) + d * t;
 
-  // The band's direction across, and its normal on the side that the ray comes from or that the ribbon states.
+  // The direction across the band, and its normal on the side of the ray's origin or as stated for the ribbon.
   Vec3d side, n;
   if (curves.type == CurveType::ribbon) {
     const Vec3f* normal = &curves.normals[curves.first[segment]];

@@ -1,4 +1,4 @@
-// Vectors in double precision, for what is computed per shape and per ray rather than per lane.
+// Vectors in double precision, for computations per shape and per ray rather than per lane.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -29,14 +29,14 @@ inline Vec3d transform_direction(const Matrix4& m, Vec3d d) {
 inline Vec3d transform_point(const Matrix4& m, Vec3d p) {
   return transform_direction(m, p) + Vec3d{m.m[0][3], m.m[1][3], m.m[2][3]};
 }
-// By the inverse transpose, of which `inverse` is the inverse; not normalised.
+// Multiplies by the inverse transpose, given the `inverse`; not normalised.
 inline Vec3d transform_normal(const Matrix4& inverse, Vec3d n) {
   auto column = [&](int j) { return inverse.m[0][j] * n.x + inverse.m[1][j] * n.y + inverse.m[2][j] * n.z; };
   return {column(0), column(1), column(2)};
 }
 
 // The box widened by a few units in the last place and a millionth of its size, so that a box test in single precision
-// loses nothing and flat boxes have a thickness.
+// misses nothing and flat boxes have a thickness.
 inline Bounds3 padded(Vec3d low, Vec3d high) {
   Vec3d size = high - low;
   double margin = 1e-6 * std::max(size.x, std::max(size.y, size.z));

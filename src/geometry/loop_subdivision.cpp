@@ -25,7 +25,7 @@ struct LoopMesh {
   Index to(Index h) const { return triangles[next(h)]; }
 };
 
-// Pairs the half-edges that run against each other, each direction of an edge occurring once.
+// Pairs half-edges of opposite direction; each direction of an edge occurs once.
 std::vector<Index> pair_edges(const std::vector<Index>& triangles) {
   struct Edge {
     Index low, high, half_edge;
@@ -63,7 +63,7 @@ LoopMesh connect(std::vector<Vec3d> positions, std::vector<Index> triangles) {
   return m;
 }
 
-// The neighbours of a vertex in order of rotation, counter-clockwise; at the boundary from one end to the other.
+// The neighbours of a vertex in counter-clockwise order; at the boundary from one end to the other.
 struct Ring {
   std::vector<Vec3d> points;
   bool boundary = false;
@@ -126,7 +126,7 @@ LoopMesh refine(const LoopMesh& m) {
   std::vector<Index> triangles;
   triangles.reserve(4 * m.triangles.size());
   for (Index h = 0; h < m.triangles.size(); h += 3) {
-    // Every child keeps its old corner, if any, at the old corner's place: default texture coordinates depend on it.
+    // Every child keeps its old corner, if any, in the same position: default texture coordinates depend on it.
     Index m0 = middle[h], m1 = middle[h + 1], m2 = middle[h + 2];
     triangles.insert(triangles.end(), {m.from(h), m0, m2, m0, m.from(h + 1), m1, m2, m1, m.from(h + 2), m0, m1, m2});
   }

@@ -1,4 +1,4 @@
-// A triangle mesh (and, beside the triangles, bilinear quadrilaterals) as plain arrays.
+// A triangle mesh (with bilinear quadrilaterals besides the triangles) as plain arrays.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,22 +7,22 @@
 
 namespace montelux {
 
-// Where the vertices of a mesh are, and its normals (as many as the mesh has), at one moment.
+// The vertices of a mesh, and its normals (as many as the mesh has), at one time.
 struct MeshPose {
   std::vector<Vec3f> positions, normals;
 };
 
-// Vertex attributes are per vertex or absent (empty). Indices are in range and 3 (4) a face; the readers see to it.
+// Vertex attributes are per vertex or absent (empty). The readers ensure that indices are in range and 3 (4) per face.
 struct Mesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;   // unit not required; empty: flat shading
   std::vector<Vec3f> tangents;  // empty: from uv
   std::vector<Vec2f> uvs;       // empty: the barycentric default (0,0), (1,0), (1,1)
   std::vector<std::uint32_t> triangles;
-  // A mesh that changes its form: at the moments after the first, evenly spaced up to the end of the transforms' time;
-  // vertices go straight from one to the next.
+  // For a deforming mesh: the poses at the times after the first, evenly spaced up to the end of the transforms' time;
+  // vertices are interpolated linearly between them.
   std::vector<MeshPose> later;
-  std::vector<std::uint32_t> quads;  // four a face, in the order of a bilinear patch: p00, p10, p01, p11
+  std::vector<std::uint32_t> quads;  // four per face, in the order of a bilinear patch: p00, p10, p01, p11
 };
 
 }  // namespace montelux

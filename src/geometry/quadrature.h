@@ -1,4 +1,4 @@
-// Gauss-Legendre quadrature over intervals cut in panels.
+// Gauss-Legendre quadrature over intervals divided into panels.
 #pragma once
 #include <array>
 

@@ -45,9 +45,9 @@ struct Roots {
   double near, far;
 };
 
-// Solutions of |o + t d| = r. The discriminant comes from the point nearest to the centre, which loses nothing for far
-// origins, and the smaller root from the product of both (Haines et al. 2019, "Precision Improvements for Ray/Sphere
-// Intersection").
+// Solutions of |o + t d| = r. The discriminant uses the point nearest to the centre, which avoids cancellation for far
+// origins, and the smaller root follows from the product of both (Haines et al. 2019, "Precision Improvements for
+// Ray/Sphere Intersection").
 std::optional<Roots> solve_round(Vec3d o, Vec3d d, double r) {
   double dd = dot(d, d);
   if (!(dd > 0)) return std::nullopt;
@@ -68,7 +68,7 @@ bool inside(double t, float t_min, float t_max) { return t > t_min && float(t) >
 
 SurfacePoint<float> to_world(const Transform& m, bool flip, const ObjectPoint& q, Vec2f uv) {
   Vec3d p = transform_point(m.matrix(), q.p);
-  // Rounding to float, and in double the rounding of every term of the transform there and back.
+  // Rounding to float and, in double, the rounding of every term of the transform in both directions.
   const auto& rows = m.matrix().m;
   double size = norm(q.p);
   auto error = [&](int i, double x) {
@@ -81,7 +81,7 @@ SurfacePoint<float> to_world(const Transform& m, bool flip, const ObjectPoint& q
           ng,          to_float(transform_direction(m.matrix(), q.dpdu)), uv};
 }
 
-// World area over object area on a surface with object normal n.
+// The ratio of world area to object area on a surface with object normal n.
 double area_stretch(const Transform& m, Vec3d n) {
   const auto& a = m.matrix().m;
   Vec3d r0{a[0][0], a[0][1], a[0][2]}, r1{a[1][0], a[1][1], a[1][2]}, r2{a[2][0], a[2][1], a[2][2]};
@@ -101,7 +101,7 @@ Density<Area> density_on(const Transform& m, Vec3d n, double object_area) {
   return {float(1 / (object_area * area_stretch(m, n)))};
 }
 
-// The rows of the matrix give the reach of a circle of radius r around the z axis from z_low to z_high.
+// The rows of the matrix give the extent of a circle of radius r around the z axis from z_low to z_high.
 Bounds3 round_bounds(const Transform& m, double r, double z_low, double z_high, bool ball) {
   const auto& a = m.matrix().m;
   auto interval = [&](int i) {

@@ -10,7 +10,7 @@
 namespace montelux {
 
 // Around the origin; u is the azimuth over phi_max (degrees), v the polar angle from z_min to z_max.
-// z_min <= z_max within [-radius, radius], 0 < phi_max <= 360: `clamped` sees to it.
+// z_min <= z_max within [-radius, radius], 0 < phi_max <= 360: ensured by `clamped`.
 struct Sphere {
   Transform object_to_world;
   bool reverse_orientation = false;
@@ -31,17 +31,17 @@ struct Cylinder {
   float radius = 1, z_min = -1, z_max = 1, phi_max = 360;
 };
 
-// The same shape with its limits in order and in range, as pbrt clamps them.
+// The same shape with ordered limits in range, clamped as in pbrt.
 Sphere clamped(Sphere s);
 Disk clamped(Disk s);
 Cylinder clamped(Cylinder s);
 
-// A box in world space around the shape, a little wider than it.
+// A box in world space around the shape, slightly larger than the shape.
 Bounds3 bounds(const Sphere& s);
 Bounds3 bounds(const Disk& s);
 Bounds3 bounds(const Cylinder& s);
 
-// A ball in world space that holds the whole sphere, little wider than it if it stays round.
+// A ball in world space that contains the whole sphere, slightly larger if the sphere remains a sphere.
 Ball ball_around(const Sphere& s);
 
 // The nearest hit with t_min < t < ray.t_max of a ray in world space; ray.d need not be unit.
@@ -49,13 +49,13 @@ std::optional<ShapeHit> intersect(const Sphere& s, const Ray<float>& ray, float 
 std::optional<ShapeHit> intersect(const Disk& s, const Ray<float>& ray, float t_min);
 std::optional<ShapeHit> intersect(const Cylinder& s, const Ray<float>& ray, float t_min);
 
-// The point with parameters uv. ng is outward, turned round if reverse_orientation or (exclusively) the transform
+// The point with parameters uv. ng is outward, reversed if reverse_orientation or (exclusively) the transform
 // swaps handedness.
 SurfacePoint<float> surface_point(const Sphere& s, Vec2f uv);
 SurfacePoint<float> surface_point(const Disk& s, Vec2f uv);
 SurfacePoint<float> surface_point(const Cylinder& s, Vec2f uv);
 
-// The point of the shape nearest to ray.o + hit.t ray.d, which keeps its place on huge shapes too, where uv is coarse.
+// The point of the shape closest to ray.o + hit.t ray.d, which is accurate for huge shapes too, where uv is coarse.
 SurfacePoint<float> surface_point(const Sphere& s, const Ray<float>& ray, const ShapeHit& hit);
 SurfacePoint<float> surface_point(const Disk& s, const Ray<float>& ray, const ShapeHit& hit);
 SurfacePoint<float> surface_point(const Cylinder& s, const Ray<float>& ray, const ShapeHit& hit);
@@ -65,7 +65,7 @@ double area(const Sphere& s);
 double area(const Disk& s);
 double area(const Cylinder& s);
 
-// Draws a point uniformly by area in object space, hence uniformly in the world under a similarity. u in [0, 1)^2.
+// Samples a point uniformly by area in object space, hence uniformly in the world under a similarity. u in [0, 1)^2.
 ShapeSample sample_area(const Sphere& s, Vec2f u);
 ShapeSample sample_area(const Disk& s, Vec2f u);
 ShapeSample sample_area(const Cylinder& s, Vec2f u);

@@ -1,4 +1,4 @@
-// How far away and how large things may be for the ray-tracing kernel, which works in single precision.
+// The limits of distance and size for the ray-tracing kernel, which works in single precision.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 namespace montelux {
 
-// Coordinates of origins and directions of rays up to here are valid, in the world and in the spaces of placed objects.
+// Coordinates of origins and directions of rays up to this are valid, in the world and in the spaces of instances.
 inline constexpr float max_ray_coordinate = 1e18f;
 
-// Up to here rays of the world are valid in the space of an object that is placed so, too; below 0 where none is.
+// The limit up to which world rays are also valid in the space of an object with this transform; below 0 if none is.
 inline float ray_reach(const Transform& object_to_world) {
   const std::array<float, 12>& rows = object_to_world.inverse_rows();
   float reach = max_ray_coordinate;

@@ -1,4 +1,4 @@
-// What the functions of a shape return.
+// The results of the functions of a shape.
 #pragma once
 #include "geometry/ray.h"
 #include "mc/density.h"
@@ -11,7 +11,7 @@ struct ShapeHit {
   Vec2f uv;
 };
 
-// A point drawn on a shape, with the density per unit of world area.
+// A point sampled on a shape, with the density per unit of world area.
 struct ShapeSample {
   SurfacePoint<float> point;
   Density<Area> density;

@@ -18,7 +18,7 @@ ParameterSpec later(ParameterSpec spec) {
   return spec;
 }
 
-// Every shape may be cut out by a texture.
+// Every shape may have an alpha texture.
 List with_alpha(List list) {
   list.push_back({"alpha", {number, texture}, "opacity; default 1", 0, 1});
   return list;

@@ -51,7 +51,7 @@ bool is_flat_and_convex(const std::array<Vec3d, 4>& p) {
   return true;
 }
 
-// Sorts the quadrilaterals by a rule that says which of them become triangles.
+// Separates the quadrilaterals by a rule that decides which of them become triangles.
 template <class Rule>
 SplitMesh split_quads(const Mesh& mesh, Rule becomes_triangles) {
   SplitMesh r;

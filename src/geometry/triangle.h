@@ -4,7 +4,7 @@
 
 namespace montelux {
 
-// World-space corners and texture coordinates (where a mesh has none: those of `default_triangle_uv`).
+// World-space corners and texture coordinates (if a mesh has none: those of `default_triangle_uv`).
 template <class F>
 struct TriangleCorners {
   Vec3<F> p0, p1, p2;
@@ -27,7 +27,7 @@ MONTELUX_INLINE Vec3<F> interpolate(Vec3<F> a0, Vec3<F> a1, Vec3<F> a2, F u, F v
 }
 
 // A tangent along the first texture coordinate of the triangle with edges e1 = p1 - p0, e2 = p2 - p0, or any vector
-// orthogonal to the unit normal where the coordinates are degenerate.
+// orthogonal to the unit normal if the coordinates are degenerate.
 template <class F>
 MONTELUX_INLINE Vec3<F> triangle_tangent(const TriangleCorners<F>& c, Vec3<F> e1, Vec3<F> e2, Vec3<F> normal) {
   Vec2<F> d1 = c.uv1 - c.uv0, d2 = c.uv2 - c.uv0;
@@ -40,8 +40,8 @@ MONTELUX_INLINE Vec3<F> triangle_tangent(const TriangleCorners<F>& c, Vec3<F> e1
 }
 
 // The point with barycentric coordinates (1-u-v, u, v). p_error bounds the rounding of the interpolation (Pharr, Jakob
-// and Humphreys 2023, sec. 6.8.5). ng is on the side of the interpolated normals where there are any, else that of
-// (p1 - p0) x (p2 - p0), turned round in lanes of `flip` (reversed orientation, or, exclusively, a transform that swaps
+// and Humphreys 2023, sec. 6.8.5). ng is on the side of the interpolated normals if there are any, else that of
+// (p1 - p0) x (p2 - p0), reversed in lanes of `flip` (reversed orientation, or, exclusively, a transform that swaps
 // handedness).
 template <class F>
 MONTELUX_INLINE SurfacePoint<F> triangle_point(const TriangleCorners<F>& c, const TriangleNormals<F>& normals,
@@ -52,7 +52,7 @@ MONTELUX_INLINE SurfacePoint<F> triangle_point(const TriangleCorners<F>& c, cons
   constexpr float epsilon = 0x1p-24f, gamma7 = 7 * epsilon / (1 - 7 * epsilon);
   s.p_error = (abs(c.p0 * w) + abs(c.p1 * u) + abs(c.p2 * v)) * gamma7;
 
-  // Edges scaled to the order of one, so that the products of tiny or huge triangles neither vanish nor overflow.
+  // Edges scaled to about one, so that the products of tiny or huge triangles neither vanish nor overflow.
   Vec3<F> e1 = c.p1 - c.p0, e2 = c.p2 - c.p0;
   F size = max(max_component(abs(e1)), max_component(abs(e2)));
   F inverse_size = F(1.0f) / max(size, F(1e-30f));

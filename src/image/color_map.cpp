@@ -11,7 +11,7 @@ namespace montelux {
 namespace {
 
 constexpr int anchor_count = 9;
-// At equal steps, as displays encode them.
+// At equal steps, sRGB-encoded.
 constexpr std::array<std::array<std::uint32_t, anchor_count>, 2> anchors{{
     {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21908c, 0x27ad81, 0x5dc863, 0xaadc32, 0xfde725},
     {0x000004, 0x1d1147, 0x51127c, 0x822681, 0xb63679, 0xe65164, 0xfb8861, 0xfec287, 0xfcfdbf},

@@ -19,13 +19,13 @@ float narkowicz(float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.
 
 std::uint8_t to_byte(float linear) { return std::uint8_t(srgb_encode(linear) * 255.0f + 0.5f); }
 
-// The share t of the range, in [0, 1]; not a number gives 0.
+// The position t within the range, in [0, 1]; not a number gives 0.
 float share_of(const ValueRange& range, float value) {
   const float t = (value - range.low) / (range.high - range.low);
   return t > 0 ? std::min(t, 1.0f) : 0.0f;
 }
 
-// The one value of a pixel that a false colour stands for.
+// The value of a pixel that a false colour represents.
 float value_at(const PixelBuffer& image, const std::array<int, 3>& rgb, Content content, int x, int y) {
   if (content == Content::light) return luminance(rgb_at(image, rgb, x, y));
   if (image.channel_count() == 2) return std::hypot(image.at(x, y, 0), image.at(x, y, 1));
@@ -36,7 +36,7 @@ bool is_nothing(Content content, float value) {
   return !std::isfinite(value) || (content == Content::distance && value <= 0);
 }
 
-// The linear colour of a pixel by the content's own rule, where neither light nor a map shows it.
+// The linear colour of a pixel by the rule of its content, for content shown neither as light nor by a map.
 Rgb plain_color(const Rgb& color, const DisplayTransform& transform) {
   switch (transform.content) {
     case Content::number:
@@ -70,7 +70,7 @@ Rgb shown_color(const PixelBuffer& image, const std::array<int, 3>& rgb, const D
   return per_component([&](float c) { return apply_curve(transform.curve, c * scale); }, color);
 }
 
-// All values that are there, as a map sees them, sorted.
+// All valid values, as a map uses them, sorted.
 std::vector<float> sorted_values(const PixelBuffer& image, Content content) {
   const std::array<int, 3> rgb = rgb_channels(image);
   std::vector<float> values;
@@ -83,7 +83,7 @@ std::vector<float> sorted_values(const PixelBuffer& image, Content content) {
   return values;
 }
 
-// Of sorted values.
+// The percentile of sorted values.
 float percentile(const std::vector<float>& values, double share) {
   return values[std::size_t(share * double(values.size() - 1))];
 }

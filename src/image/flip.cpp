@@ -17,7 +17,7 @@ struct Triple {
   double v[3];
 };
 
-// Linear sRGB to XYZ as the paper's own code has it, white of D65.
+// Linear sRGB to XYZ as in the paper's own code, with white D65.
 constexpr double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
                                  {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
                                  {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
@@ -33,7 +33,7 @@ Triple transform(const double (&m)[3][3], const Triple& a) {
   return r;
 }
 
-// The opponent space YCxCz in which the eye's blur is applied.
+// The opponent space YCxCz in which the blur of the eye is applied.
 Triple to_opponent(const Triple& rgb) {
   Triple xyz = transform(to_xyz, rgb);
   double x = xyz.v[0] / white.v[0], y = xyz.v[1] / white.v[1], z = xyz.v[2] / white.v[2];
@@ -71,7 +71,7 @@ struct Plane {
 
 using Kernel = std::vector<double>;
 
-// Correlation with the kernels along x and along y; the border pixels go on beyond the border.
+// Correlation with the kernels along x and along y; border pixels are repeated beyond the border.
 Plane convolve(const Plane& in, const Kernel& along_x, const Kernel& along_y) {
   Plane middle = in, out = in;
   int rx = int(along_x.size()) / 2, ry = int(along_y.size()) / 2;
@@ -99,10 +99,10 @@ struct SensitivityTerm {
   double a, b;
 };
 
-// A channel blurred by its contrast sensitivity: a normalised sum of Gaussians, each of them separable.
+// A channel blurred according to its contrast sensitivity: a normalised sum of separable Gaussians.
 Plane filter_channel(const Plane& in, const std::vector<SensitivityTerm>& terms, double pixels_per_degree) {
   constexpr double square_pi = 9.8696044010893586;
-  // The widest of all channels' Gaussians sets one radius for all.
+  // The widest Gaussian of all channels determines one radius for all.
   int radius = int(std::ceil(3.0 * std::sqrt(0.04 / (2.0 * square_pi)) * pixels_per_degree));
   Plane out{in.width, in.height, std::vector<double>(in.values.size())};
   double total = 0.0;
@@ -123,7 +123,7 @@ Plane filter_channel(const Plane& in, const std::vector<SensitivityTerm>& terms,
   return out;
 }
 
-// Kernels that answer to edges and to points: derivatives of a Gaussian, both signs scaled to sum to one.
+// Kernels that respond to edges and to points: derivatives of a Gaussian, both signs scaled to sum to one.
 struct FeatureKernels {
   Kernel gaussian, edge, point;
 };
@@ -152,14 +152,14 @@ FeatureKernels feature_kernels(double pixels_per_degree) {
   return kernels;
 }
 
-// The strength of a feature at each pixel: the length of its two directional answers.
+// The strength of a feature at each pixel: the length of its two directional responses.
 std::vector<double> feature_strength(const Plane& gray, const Kernel& derivative, const Kernel& gaussian) {
   Plane x = convolve(gray, derivative, gaussian), y = convolve(gray, gaussian, derivative);
   for (std::size_t i = 0; i < x.values.size(); ++i) x.values[i] = std::hypot(x.values[i], y.values[i]);
   return std::move(x.values);
 }
 
-// What the eye gets of one image: blurred Hunt-adjusted colours, and edges and points of the unblurred lightness.
+// What the eye perceives of one image: blurred Hunt-adjusted colours, and edges and points of the unblurred lightness.
 struct Percept {
   std::vector<Triple> colors;
   std::vector<double> edges, points;
@@ -196,7 +196,7 @@ Percept perceive(const PixelBuffer& image, double pixels_per_degree) {
   return percept;
 }
 
-// The colour difference in [0, 1], compressed so that the largest ones differ little.
+// The colour difference in [0, 1], compressed so that large differences are close to each other.
 double color_difference(const Triple& a, const Triple& b) {
   static const double largest = std::pow(hyab(to_hunt_lab({{0, 1, 0}}), to_hunt_lab({{0, 0, 1}})), qc);
   double d = std::pow(hyab(a, b), qc), knee = pc * largest;
@@ -212,7 +212,7 @@ struct ExposureRange {
   int count;
 };
 
-// From the exposure that takes the brightest pixel of the reference to 0.85 on the display to that which takes the
+// From the exposure that maps the brightest pixel of the reference to 0.85 on the display to the one that maps the
 // median pixel there.
 ExposureRange exposures(const PixelBuffer& reference) {
   std::array<int, 3> channels = rgb_channels(reference);
@@ -229,7 +229,7 @@ ExposureRange exposures(const PixelBuffer& reference) {
   if (!(brightest > 0.0)) return {0.0, 0.0, 1};
   median = std::max(median, 1e-4 * brightest);
 
-  // The root of curve(x) = 0.85 for the quotient of quadratics that the curve is, its scale 0.6 included.
+  // The root of curve(x) = 0.85, where the curve is a quotient of quadratics with its scale 0.6 included.
   double t = 0.85, a = 0.36 * (2.51 - t * 2.43), b = 0.6 * (0.03 - t * 0.59), c = -t * 0.14;
   double x = (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
   double start = std::log2(x / brightest), stop = std::log2(x / median);

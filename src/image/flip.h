@@ -1,16 +1,16 @@
-// The perceived difference of two images when one flips between them (FLIP).
+// The perceived difference when flipping between two images (FLIP).
 #pragma once
 #include "image/pixel_buffer.h"
 
 namespace montelux {
 
-// How the images are looked at: by default a 0.7 m wide display of 3840 pixels from 0.7 m away.
+// The viewing conditions: by default a 0.7 m wide display of 3840 pixels at a distance of 0.7 m.
 struct ViewingConditions {
   double pixels_per_degree = 67.0206432765;
 };
 
 struct FlipResult {
-  // Of the map below.
+  // The mean of the map below.
   double mean = 0.0;
   // One channel "flip" in [0, 1].
   PixelBuffer map;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* module_file = "montelux_codec.so";
 
-// Beside the program, as in a folder of a build; where an installation has it; where it was built.
+// Next to the program in a build folder; in an installation; where it was built.
 std::array<std::filesystem::path, 3> module_folders() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();

@@ -14,7 +14,7 @@
 
 namespace montelux {
 
-// How a file holds its samples.
+// How a file stores its samples.
 enum class SampleType { uint8, uint16, half, float32 };
 
 // One typed entry of a file's header.
@@ -25,8 +25,8 @@ struct Attribute {
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
-// An image file in memory. The pixels are linear; encoding says how the colour channels were stored, and stored how
-// wide a sample was (8-bit integers are decoded exactly once, here).
+// An image file in memory. The pixels are linear; encoding states how the colour channels were stored, and stored the
+// width of a sample (8-bit integers are decoded exactly once, here).
 struct Image {
   PixelBuffer pixels;
   SampleType stored = SampleType::float32;

@@ -15,7 +15,7 @@ namespace {
 
 bool is_integer(SampleType type) { return type == SampleType::uint8 || type == SampleType::uint16; }
 
-// Appends the further parts of the file as layers; a part that is named like its channels' prefix is not named twice.
+// Appends the further parts of the file as layers; a part name that equals the prefix of its channels is not repeated.
 void append_parts(const StoredImage& file, PixelBuffer& pixels) {
   for (std::size_t part = 1; part < file.parts.size(); ++part) {
     const bool prefixed = file.parts[part].channels.front().find('.') != std::string::npos;
@@ -32,7 +32,7 @@ void decode_colors(PixelBuffer& pixels, const ColorEncoding& encoding, int alpha
   }
 }
 
-// A name by whose ending the library finds the format of a file that is in memory.
+// A name with an extension by which the library recognises the format of a file in memory.
 std::optional<std::string> name_by_content(const std::string& bytes) {
   using namespace std::string_view_literals;
   constexpr std::array<std::pair<std::string_view, const char*>, 6> beginnings{{{"\x89PNG"sv, "image.png"},
@@ -46,7 +46,7 @@ std::optional<std::string> name_by_content(const std::string& bytes) {
   return std::nullopt;
 }
 
-// Of a file, where it begins as PNG files do.
+// Checks a file that begins like a PNG file.
 Status check_png_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes(8, '\0');
@@ -67,7 +67,7 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
     std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) return Failure{"no such file"};
     if (std::filesystem::is_directory(status)) return Failure{"it is a directory"};
-    // A FIFO may never end, and a device does not.
+    // Reading a FIFO may never end, and reading a device does not.
     if (!std::filesystem::is_regular_file(status)) return Failure{"it is not a regular file"};
   }
 

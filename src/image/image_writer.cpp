@@ -37,7 +37,7 @@ void insert(Imf::Header& header, const Attribute& attribute) {
       attribute.value);
 }
 
-// A file in memory. The codecs write here alone, so that no failure of the disk meets them.
+// A file in memory. Codecs write only here, so that they never see a failure of the disk.
 class MemoryStream final : public Imf::OStream {
  public:
   MemoryStream() : Imf::OStream("memory") {}
@@ -56,7 +56,7 @@ class MemoryStream final : public Imf::OStream {
   std::size_t place_ = 0;
 };
 
-// One plane of halves; finite values beyond the range of a half are held at its end.
+// One plane of halves; finite values beyond the range of a half are clamped.
 std::vector<half> to_half(const PixelBuffer& image, int channel) {
   std::vector<half> plane;
   plane.reserve(image.pixel_count());
@@ -73,7 +73,7 @@ bool is_half(const std::string& channel, const ExrOptions& options) {
 
 Imf::Header exr_header(int width, int height, const std::vector<std::string>& channels, const ExrOptions& options) {
   Imf::Header header(width, height);
-  // On noise this is twice as fast as deflate, and the files are a little smaller.
+  // On noise this is twice as fast as deflate, and the files are slightly smaller.
   header.compression() = Imf::PIZ_COMPRESSION;
   for (const Attribute& attribute : options.attributes) insert(header, attribute);
   for (const std::string& name : channels)
@@ -173,7 +173,7 @@ Result<std::string> encode(const DisplayImage& image, const std::string& extensi
   if (image.width <= 0 || image.height <= 0 || image.values.empty()) return Failure{"the image is empty"};
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!jpeg && extension != ".png") return Failure{"8-bit pictures go to .png or .jpg files"};
-  // Its library ends the process where it cannot write a picture.
+  // The library ends the process if it cannot write an image.
   constexpr int max_jpeg_side = 65500;
   if (jpeg && std::max(image.width, image.height) > max_jpeg_side)
     return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels a side"};
@@ -187,7 +187,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return text;
 }
 
-// Exceptions of codecs become failures, which name the file.
+// Converts exceptions of codecs to failures that name the file.
 Result<std::string> encode_for(const std::filesystem::path& path, const std::function<Result<std::string>()>& encoder) {
   const std::string prefix = "cannot write '" + path.string() + "': ";
   try {

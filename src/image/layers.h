@@ -1,4 +1,4 @@
-// Parts of a picture's light that sum to it: by bounce, by group of lights, by technique.
+// Parts of an image's light that sum to it: by bounce, by light group, by technique.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace montelux {
 
-// By what a path's light was found: emission that the camera sees, a light sample, a scattered ray that met a lamp, a
-// scattered ray that left the scene.
+// How the light of a path was found: emission that the camera sees directly, a light sample, a scattered ray that hit a
+// lamp, a scattered ray that left the scene.
 enum class Technique : std::uint32_t { emission, light_sampling, bsdf_sampling, environment };
 inline constexpr std::array<std::string_view, 4> technique_names{"emission", "light-sampling", "bsdf-sampling",
                                                                  "environment"};
 
-// The families of layers of one render. Each family by itself parts all light: every contribution of a path goes to
-// one layer of each family.
+// The families of layers of one render. Each family is a partition of all light: every contribution of a path belongs
+// to one layer of each family.
 struct LayerPlan {
-  // Bounces 0 (emission seen directly) to this one have a layer each, and one holds the rest.
+  // Bounces 0 (emission seen directly) to this one have one layer each; another layer holds the rest.
   std::optional<int> bounces;
   bool light_groups = false;
   bool techniques = false;
-  // Keep the spread over passes, for standard errors and for what each layer adds to the picture's variance.
+  // Keep the spread over passes, for standard errors and for the share of each layer in the variance of the image.
   bool spread = false;
   std::vector<std::uint32_t> group_of_light;  // by the light's number
   std::vector<std::string> group_names;
@@ -34,18 +34,18 @@ struct LayerPlan {
   int count() const { return bounce_count() + group_count() + (techniques ? int(technique_names.size()) : 0); }
 };
 
-// "bounce0" ... "bounce_rest"; "Combined_key" of the group "key" (as Blender's render passes are called); "technique_"
-// and a name of technique_names. In the layers' order.
+// "bounce0" ... "bounce_rest"; "Combined_key" for the group "key" (Blender's name for the pass); "technique_"
+// and a name of technique_names. In the order of the layers.
 std::vector<std::string> layer_names(const LayerPlan& plan);
 
-// Which layers make up one family, by the name of the family: their numbers from `first`.
+// The layers of one family, by the name of the family: their numbers from `first`.
 struct LayerFamily {
   std::string name;  // "bounces", "light groups", "techniques"
   int first = 0, count = 0;
 };
 std::vector<LayerFamily> layer_families(const LayerPlan& plan);
 
-// Light of one layer, in each channel.
+// The light of one layer, in each channel.
 struct ExactRgb {
   ExactSum c[spectrum_size];
   ExactRgb& operator+=(const ExactRgb& other) {

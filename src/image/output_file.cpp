@@ -45,21 +45,21 @@ Status write_all(int file, std::string_view bytes) {
   return Done{};
 }
 
-// Some file systems cannot do this, and nothing is wrong with them.
+// Some file systems do not support this, which is no error.
 Status put_on_disk(int file) {
   if (fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return Done{};
   return error_text(errno);
 }
 
-// Where the bytes go.
+// The destination of the bytes.
 struct Target {
   fs::path file;                     // with links followed
   std::optional<int> descriptor;     // of this process: /dev/stdout
-  std::optional<struct stat> there;  // what is there already
+  std::optional<struct stat> there;  // what exists already
   bool is_stream() const { return descriptor || (there && !S_ISREG(there->st_mode)); }
 };
 
-// The number of a descriptor by its name in the folder of this process's descriptors, /dev/fd.
+// The number of a descriptor from its name in the folder of this process's descriptors, /dev/fd.
 std::optional<int> descriptor_named(const fs::path& file) {
   std::error_code error;
   const fs::path folder = fs::canonical(file.has_parent_path() ? file.parent_path() : ".", error);
@@ -94,7 +94,7 @@ Result<Target> target_of(const fs::path& path) {
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
 
-// A new file beside another one. It is removed at the end unless it has taken the other one's place.
+// A new file next to another one. It is removed at the end unless it has replaced the other one.
 class Temporary {
  public:
   static Result<Temporary> beside(const fs::path& file) {
@@ -116,8 +116,8 @@ class Temporary {
 
   int descriptor() const { return descriptor_.number(); }
 
-  // Mode, owner and group of a file that this one is to replace. Rights of a group that cannot be kept are not given to
-  // another group.
+  // Copies mode, owner and group of the file that this one is to replace. If the group cannot be kept, its rights are
+  // not given to another group.
   Status resemble(const struct stat& old) {
     struct stat now {};
     if (fstat(descriptor(), &now) != 0) return error_text(errno);
@@ -157,12 +157,12 @@ Status replace(const Target& target, std::string_view bytes) {
     if (Status alike = temporary->resemble(*target.there); !alike) return alike;
   if (Status kept = put_on_disk(temporary->descriptor()); !kept) return kept;
   if (Status renamed = temporary->rename_to(target.file); !renamed) return renamed;
-  // The new name is on the disk, too. A folder that may not be read is written to all the same.
+  // The new name must be on the disk, too. A folder that cannot be read can still be written to.
   const Descriptor folder(open(folder_of(target.file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return folder.number() < 0 ? Status(Done{}) : put_on_disk(folder.number());
 }
 
-// A file that is protected is not replaced, though the folder's rights would do.
+// A protected file is not replaced, even if the rights of the folder allow it.
 Status check_rights(const Target& target) {
   if (!target.there || access(target.file.c_str(), W_OK) == 0) return Done{};
   return error_text(errno);

@@ -11,8 +11,8 @@
 
 namespace montelux {
 
-// Plain data. values[(y * width + x) * channel_count + c]; row 0 is the top of the picture. Channels are named as in
-// OpenEXR: "R", "G", "B", "A" or "Y" for the picture itself, "layer.R" and so on for further layers.
+// Plain data. values[(y * width + x) * channel_count + c]; row 0 is the top of the image. Channels are named as in
+// OpenEXR: "R", "G", "B", "A" or "Y" for the image itself, "layer.R" and so on for further layers.
 struct PixelBuffer {
   int width = 0;
   int height = 0;
@@ -31,16 +31,16 @@ struct PixelBuffer {
 // A buffer of zeros.
 PixelBuffer make_pixel_buffer(int width, int height, std::vector<std::string> channels);
 
-// The place of the channel of that exact name.
+// The index of the channel with exactly that name.
 std::optional<int> find_channel(const PixelBuffer& image, std::string_view name);
 
-// The places of red, green and blue: the channels R, G, B where all are there, the first three of a buffer of three or
-// more, and otherwise three times the first one.
+// The indices of red, green and blue: the channels R, G, B if all exist, the first three of a buffer with three or
+// more, and otherwise three times the first.
 std::array<int, 3> rgb_channels(const PixelBuffer& image);
 Rgb rgb_at(const PixelBuffer& image, const std::array<int, 3>& channels, int x, int y);
 
-// The channels "name.X" as a buffer whose channels are called "X"; the empty name takes the channels without a dot.
-// Nothing where there are none.
+// The channels "name.X" as a buffer whose channels are called "X"; the empty name selects the channels without a dot.
+// Nothing if there are none.
 std::optional<PixelBuffer> layer(const PixelBuffer& image, std::string_view name);
 // Appends the channels of a buffer of the same size as "name.X" (as "X" for the empty name).
 void append_layer(PixelBuffer& image, std::string_view name, const PixelBuffer& added);

@@ -1,4 +1,4 @@
-// What one sample of a pixel is, and which pixels are meant: the words that integrators, film and scheduler share.
+// One sample of a pixel, and sets of pixels: types that integrators, film and scheduler share.
 #pragma once
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// Pixels x0 <= x < x1, y0 <= y < y1 of the full image; row 0 on top.
+// Pixels x0 <= x < x1, y0 <= y < y1 of the full image; row 0 is the top.
 struct PixelBounds {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   int width() const { return x1 - x0; }
@@ -16,8 +16,8 @@ struct PixelBounds {
   bool operator==(const PixelBounds&) const = default;
 };
 
-// The pixels of a picture that are sampled: one in each cell of stride x stride pixels. With a stride of 1 cells are
-// pixels, under the pixels' own coordinates; else cells are counted from 0.
+// The pixels of an image that are sampled: one in each cell of stride x stride pixels. With a stride of 1 cells are
+// pixels and have the pixels' coordinates; otherwise cells are counted from 0.
 struct PixelGrid {
   PixelBounds bounds;
   int stride = 1;
@@ -26,7 +26,7 @@ struct PixelGrid {
     if (stride == 1) return bounds;
     return {0, 0, (bounds.width() + stride - 1) / stride, (bounds.height() + stride - 1) / stride};
   }
-  // The pixel that stands for a cell: the one in its middle, or the last one where the picture cuts the cell off.
+  // The pixel that represents a cell: the middle one, or the last one if the image ends within the cell.
   int pixel_x(int cell) const { return stride == 1 ? cell : middle(bounds.x0, bounds.x1, cell); }
   int pixel_y(int cell) const { return stride == 1 ? cell : middle(bounds.y0, bounds.y1, cell); }
   // The cell of a pixel.
@@ -41,15 +41,15 @@ struct PixelGrid {
   }
 };
 
-// What the first surface of a camera path shows; coverage 0: the path left the scene.
+// The first surface on a camera path; coverage 0: the path left the scene.
 struct Features {
-  Rgb emission{};    // radiance that reaches the camera from an emitter straight away, as part of the sample's
-  Rgb albedo{};      // directional albedo: the weight of one scattered direction, whose mean it is
+  Rgb emission{};    // radiance that reaches the camera directly from an emitter, as part of the sample's
+  Rgb albedo{};      // estimate of the directional albedo: the weight of one scattered direction
   Vec3f normal{};    // shading normal, world space, facing the camera
   Vec3f position{};  // world space
   float depth = 0;   // distance along the ray from the camera's origin
   float coverage = 0;
-  std::uint32_t object = 0;  // number of the object from 1; 0: none
+  std::uint32_t object = 0;  // number of the object, from 1; 0: none
 };
 
 // One sample of a pixel: what an integrator returns.

@@ -1,4 +1,4 @@
-// Whether a PNG file is whole, by its own checksums.
+// Whether a PNG file is undamaged according to its own checksums.
 #pragma once
 #include <string_view>
 
@@ -6,9 +6,9 @@
 
 namespace montelux {
 
-// Says what is wrong with the bytes of a PNG file: chunks that are cut off, or whose checksum (CRC-32, PNG
-// specification, 5.3) is not theirs. The library that decodes such a file writes about it to the standard error output;
-// so it is not given one. Bytes that are no PNG file pass.
+// States what is wrong with the bytes of a PNG file: truncated chunks, or a wrong checksum (CRC-32, PNG
+// specification, 5.3). The library that decodes PNG writes messages about such a file to the standard error output;
+// so it never receives one. Bytes that are not a PNG file pass.
 Status check_png(std::string_view bytes);
 
 }  // namespace montelux

@@ -26,7 +26,7 @@ double finite_sum(const std::vector<double>& values) {
   return sum;
 }
 
-// The sums of values within `radius` along one axis: `count` of them lie `step` apart from `first` on.
+// The sums of values within `radius` along one axis: `count` values with distance `step`, starting at `first`.
 void sum_along(const std::vector<double>& in, std::vector<double>& out, std::array<std::size_t, 3> axis, int radius) {
   const auto [first, step, count] = axis;
   const auto reach = std::size_t(radius);
@@ -38,7 +38,7 @@ void sum_along(const std::vector<double>& in, std::vector<double>& out, std::arr
   }
 }
 
-// The mean over the square of regions within `radius`, as far as it lies in the picture.
+// The mean over the square of regions within `radius`, restricted to the image.
 std::vector<double> mean_around(const std::vector<double>& values, int width, int height, int radius) {
   const auto w = std::size_t(width), h = std::size_t(height);
   std::vector<double> finite(values.size()), rows(values.size()), sums(values.size());

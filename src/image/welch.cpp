@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int block_size = 8;
-// How far around a region variances are looked at, in regions.
+// The radius around a region within which variances are compared, in regions.
 constexpr int pixel_radius = 3, block_radius = 0;
 
 using Images = std::array<const EstimatedImage*, 2>;
@@ -42,7 +42,7 @@ double p_value(double t, double degrees_of_freedom) {
   return 2 * special::student_t_tail(std::fabs(t), degrees_of_freedom);
 }
 
-// The tests of one channel of one size of region.
+// The tests of one channel for one size of region.
 class GridTests {
  public:
   // `grain` of each image; 0 where errors are known.
@@ -75,7 +75,7 @@ class GridTests {
   std::array<std::vector<double>, 2> variance_;
 };
 
-// Gathers the tests of a scale. `factor`: by which standard errors are too small.
+// Collects the tests of a scale. `factor`: the factor by which standard errors are too small.
 class Judge {
  public:
   explicit Judge(WelchScale& scale) : scale_(scale) {}
@@ -84,7 +84,7 @@ class Judge {
     ++scale_.tests;
     if (std::isfinite(test.variance)) errors_.push_back(float(factor * std::sqrt(test.variance) / test.count));
     const double t = test.t() / factor;
-    // No t-distribution has shorter tails than the normal one, so that most tests are settled without a p-value.
+    // No t-distribution has shorter tails than the normal one, so that most tests are decided without a p-value.
     if (scale_.tests > 1 && std::fabs(t) <= beyond_) return;
     const double p = p_value(t, test.degrees_of_freedom);
     if (scale_.tests > 1 && !(p < scale_.smallest_p || (p == scale_.smallest_p && std::fabs(t) > std::fabs(scale_.t))))
@@ -156,7 +156,7 @@ std::array<double, 2> grain_of(const Totals& total, const Images& images) {
   return grain;
 }
 
-// The image mean: of independent pixels by the sum of their variances, which many degrees of freedom have, and never by
+// The image mean: for independent pixels from the sum of their variances, which has many degrees of freedom, and never
 // less than the spread of the passes' own means.
 Test image_test(const Totals& total, const Images& images, std::array<double, 2> grain, std::size_t channel) {
   double variance = 0, spread = 0;
@@ -173,8 +173,8 @@ Test image_test(const Totals& total, const Images& images, std::array<double, 2>
           spread > 0 ? variance * variance / spread : infinity, total.pixels};
 }
 
-// By how much the spread of sums over pixels that share samples exceeds that of independent ones: as the passes' image
-// means have it, and as most blocks have it.
+// The factor by which the spread of sums over pixels that share samples exceeds that of independent ones: according to
+// the image means of the passes, and according to most blocks.
 double correlation_of_passes(const Images& images, std::span<const Totals> totals) {
   double independent = 0, measured = 0;
   for (std::size_t c = 0; c < totals.size(); ++c)
@@ -196,7 +196,7 @@ double correlation_of_blocks(std::span<const GridTests> channels) {
       if (const double t = tests[i].t(); t != 0 && std::isfinite(t)) squares.push_back(t * t);
   if (squares.size() < enough) return 1;
   double factor = 1;
-  // Quantiles of the square of a standard normal variable: of most blocks, and of those that share more than most.
+  // Quantiles of the square of a standard normal variable: for the median block, and for those that share more.
   for (const auto& [share, quantile] : {std::pair{0.5, 0.454936}, {0.9, 2.705543}}) {
     const auto at = squares.begin() + std::ptrdiff_t(share * double(squares.size()));
     std::nth_element(squares.begin(), at, squares.end());
@@ -216,7 +216,7 @@ WelchReport welch_test(const EstimatedImage& a, const EstimatedImage& b, double 
   const int channels = a.mean.channel_count() < 3 ? 1 : 3;
   WelchReport report;
   Judge image(report.image), blocks(report.blocks), pixels(report.pixels);
-  std::vector<RegionGrid> grids;  // of blocks, a channel each
+  std::vector<RegionGrid> grids;  // of blocks, one per channel
   std::vector<Totals> totals;
   std::vector<std::array<double, 2>> grains;
   for (int c = 0; c < channels; ++c) {

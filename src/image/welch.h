@@ -9,15 +9,15 @@
 namespace montelux {
 
 // An estimated image: the means, the standard errors of the means (same size and channel order; zero for a value that
-// is known exactly), and the degrees of freedom of each standard error, which is one less than the number of
-// independent passes. Infinite for errors that are known.
+// is known exactly), and the degrees of freedom of each standard error: the number of independent passes minus one,
+// or infinite if the errors are known.
 struct EstimatedImage {
   const PixelBuffer& mean;
   const PixelBuffer& standard_error;
   double degrees_of_freedom;
-  // The standard error of the mean of the whole image, red, green and blue, where the passes give it.
+  // The standard error of the mean of the whole image, in red, green and blue, if the passes provide it.
   std::optional<std::array<double, 3>> error_of_mean = {};
-  // Pixels of one pass share samples, so that their errors may be correlated.
+  // The pixels of a pass share samples, so that their errors may be correlated.
   bool pixels_share_samples = false;
 };
 
@@ -25,8 +25,8 @@ struct EstimatedImage {
 struct WelchScale {
   std::size_t tests = 0;
   double smallest_p = 1.0;
-  // Of that test: how many standard errors the two are apart (signed: first minus second), and the difference that it
-  // finds at this family-wise level with probability one half.
+  // Of that test: the distance of the two in standard errors (signed: first minus second), and the difference that it
+  // detects at this family-wise level with probability one half.
   double t = 0.0;
   double difference = 0.0;
   double detectable = 0.0;
@@ -41,24 +41,25 @@ struct WelchReport {
   WelchScale image;
   WelchScale blocks;
   WelchScale pixels;
-  // One of the scales differs. Where the two images have equal expectation this happens with probability at most level.
+  // One of the scales differs. If the two images have equal expectations, the probability of this is at most level.
   bool differs = false;
 };
 
 // Two-sided tests (Welch 1947) of the mean of the image, of blocks of 8x8, 16x16, 32x32, ... pixels and of single
-// pixels, for each of the three colour channels. The level is shared out equally over the three scales and over the
+// pixels, for each of the three colour channels. The level is divided equally between the three scales and the
 // tests within each (Bonferroni). A value that is not finite counts as a difference.
 //
-// Errors that are estimated from passes, and skewed pixel values, make three corrections necessary; errors that are
-// known (infinite degrees of freedom) are taken as they are.
+// Errors that are estimated from passes, and skewed pixel values, require three corrections; errors that are
+// known (infinite degrees of freedom) are used unchanged.
 // 1. Variances are raised to what is known from elsewhere, see raised_variance().
-// 2. To the variance of the darker image comes grain x |difference|, its grain being the sum of all variances over the
-//    sum of all means: the variance of rare samples of equal size whose mean is the difference, none of which was met.
-//    (Bernstein's inequality has this form.)
-// 3. Where pixels share samples, block tests are divided by what their squares exceed those of a normal variable by, in
-//    the median or at 90 %, whichever is more, but at most by 3; and by what the passes' image means show, if more.
-// Pixels are otherwise taken as independent of each other within a pass. The image mean takes the greater of the
-// variance of the sum of its pixels and of its spread over the passes.
+// 2. The variance of the darker image is increased by grain x |difference|, where its grain is the sum of all variances
+//    over the sum of all means: the variance of rare samples of equal size whose mean is the difference and none of
+//    which was drawn. (Bernstein's inequality has this form.)
+// 3. If pixels share samples, block tests are divided by the factor by which their squares exceed those of a normal
+//    variable, at the median or at 90 %, whichever is larger, but at most 3; and by the factor that the image means of
+//    the passes show, if that is larger.
+// Pixels are otherwise assumed to be independent of each other within a pass. The image mean uses the larger of the
+// variance of the sum of its pixels and its spread over the passes.
 WelchReport welch_test(const EstimatedImage& a, const EstimatedImage& b, double level);
 
 }  // namespace montelux

@@ -1,5 +1,5 @@
-// What every scattering model offers. Local frame: z is the shading normal; wo and wi are unit and point away from the
-// surface; wo.z may have either sign. A model is a template over F, made from the rows of the points at hand.
+// The interface of every scattering model. Local frame: z is the shading normal; wo and wi are unit and point away from
+// the surface; wo.z may have either sign. A model is a template over F, constructed from the rows of the points.
 #pragma once
 #include <concepts>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace montelux {
 
-// The parameters of a BSDF at one point, already looked up: which slot means what is the model's own affair.
+// The parameters of a BSDF at one point, already looked up; each model defines the meaning of its slots.
 inline constexpr int bsdf_row_size = 24;
 template <class F>
 struct BsdfSlots {
@@ -20,7 +20,7 @@ struct alignas(32) BsdfRow : BsdfSlots<float> {
   BsdfRow() : BsdfSlots<float>{} {}
 };
 
-// The slots of all lanes. A model that holds another gives it the slots from `first` on.
+// The slots of all lanes. A model that contains another passes it the slots from `first` on.
 template <class F>
 struct BsdfRows {
   const BsdfSlots<F>* slots;
@@ -33,14 +33,14 @@ struct BsdfRows {
   }
 };
 
-// Radiance flows from light to eye: refraction scales it by the squared ratio of the indices. Importance does not
-// scale.
+// Radiance flows from the light to the camera: refraction scales it by the squared ratio of the indices. Importance is
+// not scaled.
 enum class TransportMode { radiance, importance };
 
-// What a model may need beside directions: random numbers of its own (for models that walk), independent of all others.
-// The models read the stream by place and never advance it, so that a lane's numbers do not depend on its neighbours:
-// who calls the same operation twice at one vertex forks the stream in between. `on` are the lanes that matter.
-// `densities` tells models whose density is an estimate whether that will do.
+// What a model may need besides directions: random numbers of its own (for models with random walks), independent of
+// all others. Models read the stream by position and never advance it, so that a lane's numbers do not depend on other
+// lanes; a caller that repeats an operation at one vertex forks the stream in between. `on` are the active lanes.
+// `densities` states whether an estimate of the density is sufficient.
 enum class Densities { may_be_estimates, exact };
 template <class F>
 struct BsdfContext {
@@ -54,9 +54,9 @@ struct BsdfContext {
 
 // f(wo, wi) |cos wi| and the density with which sample() draws wi; both zero where the model has only deltas there.
 // A model whose value is itself an estimate (layers) returns an unbiased one, and a density that is independent of it.
-// That density may be an estimate, too, which does for weights that add up to one in the mean, as those of multiple
-// importance sampling, but not for 1 / density, as in resampling: who needs that asks for exact densities, and gets
-// other directions, whose density is known.
+// The density may be an estimate, too. That suffices for weights that sum to one in expectation, as in multiple
+// importance sampling, but not for 1 / density, as in resampling: callers that need it request exact densities, and
+// get other directions, whose density is known.
 template <class F>
 struct BsdfValue {
   Spectrum<F> f_cos;
@@ -67,17 +67,17 @@ template <class F>
 struct BsdfSample {
   Vec3<F> wi;
   Spectrum<F> weight;              // f |cos| / density; for a delta, the weight of the discrete choice
-  Density<SolidAngle, F> density;  // of wi, over all ways to draw it; meaningless for a delta
-  F eta_scale;    // squared relative index of refraction crossed (radiance mode), else 1: roulette divides it out
-  Mask<F> valid;  // no: absorbed
-  Mask<F> delta;  // drawn from a delta distribution
+  Density<SolidAngle, F> density;  // of wi, over all ways to sample it; meaningless for a delta
+  F eta_scale;    // squared relative index of refraction crossed (radiance mode), else 1: roulette divides by it
+  Mask<F> valid;  // false: absorbed
+  Mask<F> delta;  // sampled from a delta distribution
 };
 
-// Models state, beside these two functions:
+// Besides these two functions, models define:
 //   static constexpr std::string_view name;
 //   static constexpr bool has_reflection, has_transmission;
 //   explicit Model(const BsdfRows<F>&);
-//   Mask<F> is_delta(): where the model is made of deltas alone, so that connecting it to a light is useless.
+//   Mask<F> is_delta(): where the model consists only of deltas, so that connecting it to a light is useless.
 template <class Model, class F>
 concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, const BsdfContext<F>& context) {
   requires std::constructible_from < Model, const BsdfRows<F>

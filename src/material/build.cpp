@@ -52,13 +52,13 @@ class RowBuilder {
           std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), scale});
   }
 
-  // A spectrum that is no share of light, stated in place; default 0.
+  // A spectrum that is not a reflectance, stated directly; default 0.
   void coefficients(int slot, std::string_view name) {
     const auto stated = entity_.parameters.spectrum(name);
     put(slot, stated ? inputs_.unbounded(*stated) : gray(0.0f));
   }
 
-  // A factor that may be above one.
+  // A factor that may exceed one.
   void unbounded(int slot, std::string_view name, Rgb otherwise) {
     bind({std::uint8_t(slot), RowEncoding::plain, true,
           std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), 1});
@@ -75,7 +75,7 @@ class RowBuilder {
     }
   }
 
-  // An index of refraction: a number, or a spectrum of which one number is taken.
+  // An index of refraction: a number, or a spectrum that is reduced to one number.
   float index(std::string_view name, float otherwise) const {
     if (auto spectrum = entity_.parameters.spectrum(name)) return inputs_.index(*spectrum);
     return entity_.parameters.number(name, otherwise);
@@ -101,13 +101,13 @@ class RowBuilder {
   }
 
  private:
-  // A texture in place of a spectrum that is not a reflectance.
+  // A texture instead of a spectrum that is not a reflectance.
   void texture_instead(int slot, const std::string& name, float scale) {
     if (!entity_.parameters.texture(name)) return;
     bind({std::uint8_t(slot), RowEncoding::plain, true,
           std::uint32_t(inputs_.textures.spectrum(entity_, name, gray(1.0f))), scale});
   }
-  // Settles a constant, else leaves it to the points.
+  // Sets a constant, or leaves the slot to be looked up at each point.
   void bind(const RowBinding& binding) {
     const TextureSet& set = inputs_.textures.textures();
     if (binding.is_spectrum) {
@@ -138,7 +138,7 @@ void layers(RowBuilder& b, const Entity& entity, const std::string& prefix) {
   b.put(Slots::samples, float(entity.parameters.integer("nsamples", 1)));
 }
 
-// Where coat and layer are the same everywhere and nothing scatters under the coat, its walks can be summed.
+// If coat and layer are constant and nothing scatters under the coat, its walks can be summed in closed form.
 void sum_reflections(Material& material) {
   using Slots = CoatedDiffuseSlots;
   float* v = material.row.v;
@@ -194,7 +194,7 @@ void coat_and_grain(RowBuilder& b, const Entity& entity) {
   b.number(Slots::coat, "clearcoat", 1, RowEncoding::unit);
   b.number(Slots::coat_roughness, "clearcoatroughness", 0, RowEncoding::unit);
   b.number(Slots::anisotropy, "anisotropy", 0, RowEncoding::unit);
-  // As an image holds a direction: 1 and 1/2 are 1 and 0.
+  // Encoded as an image stores a direction: 1 and 1/2 decode to 1 and 0.
   b.number(Slots::grain_x, "grainx", 1, RowEncoding::signed_unit);
   b.number(Slots::grain_y, "grainy", 0.5f, RowEncoding::signed_unit);
   const float angle = entity.parameters.number("anisotropyrotation", 0) * (pi / 180);
@@ -278,7 +278,7 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
   }
   const auto& rows = material_rows();
   auto row = std::find_if(rows.begin(), rows.end(), [&](const MaterialRow& r) { return r.name == entity.type; });
-  if (row == rows.end()) row = rows.begin();  // one that Montelux lacks, which the reader has reported
+  if (row == rows.end()) row = rows.begin();  // unknown to Montelux; the reader has reported it
   b.material().kind = row->kind;
   row->fill(b, entity);
   if (entity.parameters.find("normalmap"))
@@ -296,7 +296,7 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
 
 bool uses_parameters(const Material& material) {
   if (!material.is_plain()) return true;
-  // A grain: roughness that differs along u and v.
+  // A grain: different roughness along u and v.
   const float* v = material.row.v;
   switch (material.kind) {
     case BsdfKind::conductor:
@@ -338,7 +338,7 @@ BsdfRow material_row(const Material& material, const TextureSet& textures, const
   return row;
 }
 
-// What an image holds as a colour, its x and y scaled.
+// The direction that an image stores as a colour, with x and y scaled.
 template <class F>
 static Vec3<F> normal_of(const Spectrum<F>& c, const Vec2f& scale) {
   return {scale.x * (2.0f * c.c[0] - 1.0f), scale.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};

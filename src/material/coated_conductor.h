@@ -11,8 +11,8 @@ struct CoatedConductorSlots : LayeredSlots {
                        conductor_k = base + ConductorSlots::k;
 };
 
-// One reflection off the metal, seen through a plane coat, over a floor of a cosine lobe. Its facets are wider by what
-// a rough coat bends light: a facet of slope a turns it by (1 - 1/eta) a on the way in and on the way out, and one of
+// One reflection by the metal, seen through a plane coat, plus a constant cosine lobe. The facets are widened by the
+// deflection of a rough coat: a facet of slope a deflects by (1 - 1/eta) a on the way in and on the way out, a facet of
 // the metal by twice its slope.
 template <class F>
 class MetalUnderCoat {
@@ -32,7 +32,7 @@ class MetalUnderCoat {
     const Direction o = inside(wo), i = inside(wi);
     const Vec3<F> m = normalize(o.w + i.w);
     const F reflected = facets_.seen(o.w, m) * 0.25f / max(abs_dot(o.w, m), F(1e-10f));
-    // Snell's law squeezes solid angles: d w inside / d w outside.
+    // Snell's law compresses solid angles: d w inside / d w outside.
     const F squeeze = wi.z / max(square(eta_) * i.w.z, F(1e-10f));
     const F metal = select(o.exists & i.exists, reflected * squeeze, F(0.0f));
     return lerp(F(floor_share), metal, cosine_density(wi));
@@ -45,7 +45,7 @@ class MetalUnderCoat {
     Vec3<F> w;
     Mask<F> exists;
   };
-  // The directions above the metal and above the coat that refraction at a plane takes into each other.
+  // The direction above the metal that refraction at a plane maps to the direction above the coat, and vice versa.
   Direction inside(Vec3<F> w) const { return refracted(w, F(1.0f) / eta_); }
   Direction outside(Vec3<F> w) const {
     const Direction d = refracted(w, eta_);

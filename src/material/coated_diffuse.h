@@ -7,11 +7,11 @@ namespace montelux {
 
 struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int reflectance = base + DiffuseSlots::reflectance;
-  // What internal_reflectance() says of the coat; 0: not known, or there are scatterers under the coat.
+  // The result of internal_reflectance() for the coat; 0: unknown, or there are scatterers under the coat.
   static constexpr int internal = reflectance + spectrum_size;
 };
 
-// Lambert's law forgets where light came from.
+// Lambert's law does not depend on where light came from.
 template <class F>
 struct CosineLobe {
   explicit CosineLobe(const BsdfRows<F>&) {}
@@ -19,11 +19,11 @@ struct CosineLobe {
   MONTELUX_INLINE F density(Vec3<F>, Vec3<F> wi) const { return cosine_density(wi); }
 };
 
-// Where the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law forgets
-// where light came from, so after n reflections at the base, between which the coat sends back the part K, there is
-// r (r K)^(n - 1) of what entered, distributed by the cosine. What remains to be drawn is one facet for the way in and
-// one for the way out, each an unbiased estimate of a transmittance. Directions come from the coat's facets or from a
-// cosine lobe, so that the density is exact. Elsewhere it is a random walk.
+// If the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law does not
+// depend on where light came from, so after n reflections at the base, between which the coat returns the fraction K,
+// r (r K)^(n - 1) of the entering light remains, distributed by the cosine. Only one facet for the way in and one for
+// the way out are sampled, each an unbiased estimate of a transmittance. Directions come from the coat's facets or from
+// a cosine lobe, so that the density is exact. Otherwise the model is a random walk.
 template <class F>
 class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
@@ -46,11 +46,11 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
   BsdfValue<F> value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>& context, LayerPurpose purpose) const;
   BsdfValue<F> summed_value(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> summed_sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
-  // The part of light from w that arrives at the base, or the other way, by one facet.
+  // The part of light from w that reaches the base, or vice versa, through one sampled facet.
   F passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const;
-  // Over all numbers of reflections at the base: sum of r^n K^(n - 1), without entry and exit.
+  // Summed over all numbers of reflections at the base: sum of r^n K^(n - 1), without entry and exit.
   Spectrum<F> reflections() const;
-  // The probability with which sample() takes a facet of the coat.
+  // The probability with which sample() uses a facet of the coat.
   F coat_share(Vec3<F> o) const;
 
   Spectrum<F> reflectance_;
@@ -93,7 +93,7 @@ F CoatedDiffuse<F>::passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const {
 
 template <class F>
 Spectrum<F> CoatedDiffuse<F>::reflections() const {
-  // Of max_depth events every other one is at the base, the first among them.
+  // Every other of max_depth events is at the base, starting with the first.
   const F count = floor((max_depth_ + F(1.0f)) * 0.5f);
   return per_component(
       [&](F r) {

@@ -4,19 +4,19 @@
 
 namespace montelux {
 
-// The first as those of MetallicRoughness. (grain_x, grain_y): the direction of the grain in the tangent plane, of any
-// length above zero, turned by the angle whose cosine and sine are `turn_cos` and `turn_sin`; `side` is -1 where the
-// plane lies as in a mirror, else 1. `coat_normal`: of the coat, unit, in the frame of the base; its z is not negative.
+// The first slots are those of MetallicRoughness. (grain_x, grain_y): the direction of the grain in the tangent plane,
+// of any positive length, rotated by the angle with cosine `turn_cos` and sine `turn_sin`; `side` is -1 where the
+// parametrisation is mirrored, else 1. `coat_normal`: of the coat, unit, in the frame of the base; its z is >= 0.
 struct CoatedMetallicRoughnessSlots {
   static constexpr int anisotropy = 10, grain_x = 11, grain_y = 12, turn_cos = 13, turn_sin = 14, coat = 15,
                        coat_roughness = 16, side = 17, coat_normal = 18;
 };
 
 // f = (1 - c F(cos o)) (1 - c F(cos i)) f_base + c D V F(wo.h): the share c of a coat of GGX facets of index 1.5, with
-// alpha the square of its roughness and Schlick's F from 0.04. KHR_materials_clearcoat has the first factor alone,
-// which is not reciprocal: light passes the coat on its way in and on its way out. The coat has a normal of its own, to
-// which its angles and its cosine are, so that it reflects to where the base is dark, too. The base's facets have alpha
-// along the grain of mix(alpha, 1, anisotropy^2) and alpha across it (KHR_materials_anisotropy).
+// alpha the square of its roughness and Schlick's F from 0.04. KHR_materials_clearcoat has only the first factor, which
+// is not reciprocal: light passes the coat on its way in and on its way out. The coat has a normal of its own, to which
+// its angles and its cosine refer, so that it can reflect into directions where the base is dark. The base's facets
+// have alpha mix(alpha, 1, anisotropy^2) along the grain and alpha across it (KHR_materials_anisotropy).
 template <class F>
 class CoatedMetallicRoughness {
  public:
@@ -56,7 +56,7 @@ class CoatedMetallicRoughness {
     const Vec3<F> o = coat_frame_.to_local(wo);
     const F p = coat_share(o);
     const Mask<F> from_coat = u < p, from_base = !from_coat, smooth = facets_.is_smooth(), mirrors = from_coat & smooth;
-    // The part of u that is left is uniform again.
+    // The remainder of u is uniform again.
     const F rest = clamp((u - p) / max(F(1.0f) - p, F(1e-10f)), F(0.0f), F(one_minus_epsilon));
     BsdfSample<F> below = base_.sample(along_grain(wo), rest, u2, context);
     Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
@@ -86,9 +86,9 @@ class CoatedMetallicRoughness {
     const F x = max(F(1.0f) - cos, F(0.0f)), x2 = x * x;
     return F(0.04f) + F(0.96f) * (x2 * x2 * x);
   }
-  // What gets through the coat.
+  // The fraction that passes the coat.
   MONTELUX_INLINE F passed(Vec3<F> w) const { return F(1.0f) - coat_ * fresnel(abs(w.z)); }
-  // Chance of the coat in sampling.
+  // Probability of the coat in sampling.
   MONTELUX_INLINE F coat_share(Vec3<F> wo) const {
     return select(coat_ > F(0.0f), clamp(coat_ * fresnel(abs(wo.z)) * 2.0f, F(0.05f), F(0.5f)), F(0.0f));
   }

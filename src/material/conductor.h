@@ -1,4 +1,4 @@
-// Metals: GGX microfacets of a complex index.
+// Metals: GGX microfacets with a complex index of refraction.
 #pragma once
 #include "material/bsdf.h"
 #include "material/fresnel.h"
@@ -12,7 +12,7 @@ struct ConductorSlots {
 };
 
 // f = D G F / (4 cos cos) (Cook and Torrance 1982, Walter et al. 2007), on both sides; a mirror where both roughnesses
-// are below 1e-3. Draws visible normals (Heitz 2018).
+// below 1e-3. Samples visible normals (Heitz 2018).
 template <class F>
 class Conductor {
  public:

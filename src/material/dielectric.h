@@ -1,4 +1,4 @@
-// Glass: one interface between two dielectrics, smooth or of GGX microfacets.
+// Glass: one interface between two dielectrics, smooth or with GGX microfacets.
 #pragma once
 #include "material/bsdf.h"
 #include "material/fresnel.h"
@@ -11,12 +11,12 @@ struct DielectricSlots {
   static constexpr int alpha_x = 0, alpha_y = 1, eta = 2;
 };
 
-// Which parts of an interface to see. Where one is left out, the other is drawn with certainty.
+// Which lobes of an interface are wanted. If one is excluded, the other is sampled with certainty.
 enum class Lobes { both, reflection, transmission };
 
 // Reflection and refraction by microfacets (Walter et al. 2007, eq. 20 and 21). `eta` is the index below the surface
-// over that above. A plane interface where both roughnesses are below 1e-3, or where the indices match. Draws visible
-// normals, then reflects with the probability of Fresnel's reflectance there.
+// over that above. A plane interface if both roughnesses are below 1e-3, or if the indices match. Samples visible
+// normals, then reflects with the probability of the Fresnel reflectance there.
 template <class F>
 class Dielectric {
  public:
@@ -75,7 +75,7 @@ MONTELUX_INLINE auto Dielectric<F>::evaluate_lobes(Vec3<F> wo, Vec3<F> wi, Trans
   Mask<F> reflects = same_side(wo, wi);
   F relative = select(reflects, F(1.0f), select(wo.z < F(0.0f), F(1.0f) / eta_, eta_));
 
-  // The facet that takes wo to wi; it must face both from the sides where they are.
+  // The facet that maps wo to wi; each of them must be on the side of the facet where it is of the surface.
   Vec3<F> sum = wi * relative + wo, up{F(0.0f), F(0.0f), F(1.0f)};
   Mask<F> on = (wo.z * wi.z != F(0.0f)) & (length_squared(sum) > F(0.0f)) & !smooth_;
   Vec3<F> m = face_forward(normalize(select(on, sum, up)), up);

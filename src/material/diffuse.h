@@ -9,7 +9,7 @@ struct DiffuseSlots {
   static constexpr int reflectance = 0;
 };
 
-// Reflects alike into all directions, on both sides: f = reflectance / pi.
+// Reflects uniformly into all directions, on both sides: f = reflectance / pi.
 template <class F>
 class Diffuse {
  public:

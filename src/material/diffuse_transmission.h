@@ -1,4 +1,4 @@
-// A thin sheet that scatters light alike into all directions of both sides.
+// A thin sheet that scatters light uniformly into all directions of both sides.
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
@@ -43,7 +43,7 @@ class DiffuseTransmission {
 
  private:
   Spectrum<F> reflectance_, transmittance_;
-  F reflect_;  // chance of the side of wo
+  F reflect_;  // probability of the side of wo
   Mask<F> black_;
 };
 

@@ -1,4 +1,4 @@
-// What a coat sends back inside.
+// The internal reflectance of a coat.
 #pragma once
 #include "mc/microfacet.h"
 
@@ -10,7 +10,7 @@ struct CoatParameters {
   float eta, thickness;
 };
 
-// Of light that leaves the base by Lambert's law, the part that arrives at the base again after one reflection at the
+// The fraction of light leaving the base by Lambert's law that returns to the base after one reflection at the
 // coat. By quadrature with 2^16 points, relative error below 1e-4.
 float internal_reflectance(const CoatParameters& coat);
 

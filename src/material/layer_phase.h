@@ -10,7 +10,7 @@ MONTELUX_INLINE F henyey_greenstein(F cosine, F g) {
   F d = max(F(1.0f) + g * g - 2.0f * g * cosine, F(1e-10f));
   return inv_four_pi * (F(1.0f) - g * g) / (d * sqrt(d));
 }
-// A direction of flight by henyey_greenstein() after `forward`.
+// Samples a direction of flight after `forward` by henyey_greenstein().
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_henyey_greenstein(Vec3<F> forward, F g, Vec2<F> u) {
   Mask<F> isotropic = abs(g) < F(1e-3f);

@@ -1,4 +1,4 @@
-// Flight between the two faces of a coated surface: depth alone is followed, not position (Guo, Hasan and Zhao 2018).
+// Flight between the two faces of a coated surface: only depth is tracked, not position (Guo, Hasan and Zhao 2018).
 #pragma once
 #include "color/spectrum.h"
 #include "material/layer_phase.h"
@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// The numbers of one walk, by place: eight for each event, so that no lane's numbers depend on another lane's walk.
+// The numbers of one walk, by position: eight for each event, so that no lane's numbers depend on another lane's walk.
 template <class F>
 struct WalkDraws {
   RandomStream<F> stream;
@@ -19,7 +19,7 @@ struct WalkDraws {
   }
 };
 
-// Where a walk is: in flight toward w from the height z above the base, with the weight beta.
+// The state of a walk: in flight towards w from the height z above the base, with the weight beta.
 template <class F>
 struct LayerWalk {
   Vec3<F> w;
@@ -34,14 +34,14 @@ struct LayerEvent {
   Mask<F> scatters, at_top, at_base;
 };
 
-// The medium between the faces: extinction 1 per unit of length. Where the albedo is zero, it absorbs.
+// The medium between the faces: extinction 1 per unit of length. With albedo zero it only absorbs.
 template <class F>
 struct LayerMedium {
   F thickness, g;
   Spectrum<F> albedo;
 
   MONTELUX_INLINE Mask<F> has_scatterers() const { return max_component(albedo) > F(0.0f); }
-  // What is left of light that crosses `height` along w.
+  // The transmittance over the height `height` along w.
   MONTELUX_INLINE F transmittance(F height, Vec3<F> w) const { return exp(-abs(height) / max(abs(w.z), F(1e-10f))); }
   // Moves to the next event.
   MONTELUX_INLINE LayerEvent<F> fly(LayerWalk<F>& walk, F u) const {
@@ -50,7 +50,7 @@ struct LayerMedium {
     Mask<F> medium = has_scatterers();
     Mask<F> scatters = walk.live & medium & (next > F(0.0f)) & (next < thickness);
     Mask<F> up = walk.w.z > F(0.0f);
-    // Where there are no scatterers, all light that is not absorbed arrives.
+    // Without scatterers, all light that is not absorbed arrives.
     walk.beta = walk.beta * select(walk.live & !medium, transmittance(thickness, walk.w), F(1.0f));
     walk.z = select(scatters, next, select(up, thickness, F(0.0f)));
     Mask<F> arrives = walk.live & !scatters;

@@ -1,4 +1,4 @@
-// A surface under a clear coat with a medium between: a random walk from face to face (Guo, Hasan and Zhao 2018;
+// A surface under a clear coat with a medium in between: a random walk from face to face (Guo, Hasan and Zhao 2018;
 // Pharr, Jakob and Humphreys 2023, sec. 14.3).
 #pragma once
 #include "material/dielectric.h"
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// The slots of every coated model; those of its base follow from `base` on. Indices of a metallic base are relative to
+// The slots of every coated model; those of its base start at `base`. Indices of a metallic base are relative to
 // that of the coat.
 struct LayeredSlots {
   static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, thickness = 3, g = 4, albedo = 5, max_depth = 8, samples = 9,
@@ -15,20 +15,20 @@ struct LayeredSlots {
 };
 
 // Light enters through the coat, is reflected between base and coat and scattered in the medium, and leaves through the
-// coat; both sides of the surface are alike. A walk makes up to max_depth events between entry and exit.
+// coat; both sides of the surface are equal. A walk has up to max_depth events between entry and exit.
 //
 // evaluate() is an unbiased estimate of f |cos| by `samples` walks from wo that are connected to wi. Its density, and
-// that of sample(), is an estimate too, by one and the same function of (wo, wi) and random numbers of its own. It so
-// has the same law in both, and is independent of the value and of the weight: given wi, the expected weights of the
-// two techniques of multiple importance sampling add up to one, which is all that an unbiased combination needs. The
-// estimate's mean follows the walks of one reflection off the base, over a floor of a cosine lobe, and integrates to
-// at most one.
+// that of sample(), is an estimate too, by the same function of (wo, wi) and separate random numbers. So it has the
+// same distribution in both, and is independent of the value and of the weight: given wi, the expected weights of the
+// two techniques of multiple importance sampling sum to one, which suffices for an unbiased combination. The mean of
+// the estimate follows the walks with one reflection at the base, plus a constant cosine lobe, and integrates to at
+// most one.
 //
-// Where densities must be exact, directions come from the coat's facets or from Lobe, which says roughly where light
-// leaves that has been at the base:
+// Where densities must be exact, directions come from the coat's facets or from Lobe, which approximates the directions
+// of light that leaves after reaching the base:
 //   explicit Lobe(const BsdfRows<F>&): the rows of the whole model;
-//   Vec3<F> sample(Vec3<F> wo, F u, Vec2<F> u2): at most a part 1 of the directions; below the surface: none;
-//   F density(Vec3<F> wo, Vec3<F> wi): of these; greater than zero for all wi above.
+//   Vec3<F> sample(Vec3<F> wo, F u, Vec2<F> u2): directions of total probability at most 1; below the surface: none;
+//   F density(Vec3<F> wo, Vec3<F> wi): their density; greater than zero for all wi above.
 template <class F, class Base, class Lobe>
 class Layered {
  public:
@@ -56,13 +56,13 @@ class Layered {
   BsdfSample<F> sample_by_lobes(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
   F density_of_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const;
   F top_share(Vec3<F> wo) const;
-  // Made of deltas, but for what the medium scatters.
+  // Consists only of deltas, except for scattering in the medium.
   Mask<F> is_between_mirrors() const { return coat_.is_delta() & base_.is_delta(); }
 
   using CoatSample = typename Dielectric<F>::LobeSample;
   using CoatValue = typename Dielectric<F>::LobeValue;
 
-  // The last leg of a walk: from the layers through the coat to wi.
+  // The last segment of a walk: from the layers through the coat to wi.
   struct Exit {
     Vec3<F> wi;
     Vec3<F> up;         // a direction of flight in the layers that the coat refracts to wi
@@ -151,8 +151,8 @@ Spectrum<F> Layered<F, Base, Lobe>::connected_walk(Vec3<F> wo, const Exit& exit,
   }
 }
 
-// At the base: what reaches wi by the exit drawn before and, through a rough coat, by the direction that the base
-// draws; both weighted by the power heuristic.
+// At the base: the light that reaches wi by the exit sampled before and, through a rough coat, by the direction that
+// the base samples; both weighted by the power heuristic.
 template <class F, class Base, class Lobe>
 Spectrum<F> Layered<F, Base, Lobe>::meet_base(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws,
                                               Mask<F> on) const {
@@ -192,8 +192,8 @@ Spectrum<F> Layered<F, Base, Lobe>::meet_medium(LayerWalk<F>& walk, const Exit& 
   return sum;
 }
 
-// Where base and coat are both smooth, no event on them can be connected to wi: the walk is followed from where the
-// medium scatters through all reflections, first down or first up, that end in the exit's direction.
+// If base and coat are both smooth, no event on them can be connected to wi: the walk is followed from where the
+// medium scatters through all reflections, first down or first up, that end in the direction of the exit.
 template <class F, class Base, class Lobe>
 Spectrum<F> Layered<F, Base, Lobe>::leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth,
                                                           Mask<F> on) const {
@@ -218,7 +218,7 @@ Spectrum<F> Layered<F, Base, Lobe>::leave_between_mirrors(const LayerWalk<F>& wa
   }
 }
 
-// What a walk that turned to walk.w with `density` sends through the rough coat to wi.
+// What a walk that was scattered to walk.w with `density` contributes through the rough coat to wi.
 template <class F, class Base, class Lobe>
 Spectrum<F> Layered<F, Base, Lobe>::leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density,
                                                     Mask<F> on) const {
@@ -239,8 +239,8 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample(Vec3<F> wo, F u, Vec2<F> u2, const 
   return s;
 }
 
-// The probability with which sample_by_lobes() looks at the coat; where all is smooth, at the walks that meet deltas
-// alone.
+// The probability with which sample_by_lobes() uses the coat or, if everything is smooth, the walks that meet only
+// deltas.
 template <class F, class Base, class Lobe>
 F Layered<F, Base, Lobe>::top_share(Vec3<F> wo) const {
   const Mask<F> mirrors = is_between_mirrors(), delta = is_delta();
@@ -288,7 +288,7 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2
   LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(context.on & entry.valid & !left)};
   Mask<F> delta = coat_.is_delta();
   WalkDraws<F> draws{context.random.fork(Uint<F>(sampling_walk))};
-  // One event more than max_depth, for only the way out through the coat.
+  // One event more than max_depth, only for the way out through the coat.
   for (int depth = 0;; ++depth) {
     walk.live = walk.live & (F(float(depth)) <= max_depth_);
     if (!any(walk.live)) break;
@@ -320,9 +320,9 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2
   return {walk.w, walk.beta, {density}, F(1.0f), left, delta};
 }
 
-// Reflection at the coat, plus one reflection off the base between entry and exit, plus a floor. The middle part is
-// an integral over the direction between base and coat, p(base draws w) p(coat takes w to wi): estimated by w drawn
-// from the base and by w drawn backward from wi, under the balance heuristic; where the coat is smooth, w is known.
+// Reflection at the coat, plus one reflection at the base between entry and exit, plus a constant lobe. The middle part
+// is an integral over the direction between base and coat, p(base samples w) p(coat maps w to wi): estimated by w from
+// the base and by w sampled backward from wi, with the balance heuristic; if the coat is smooth, w is known.
 template <class F, class Base, class Lobe>
 F Layered<F, Base, Lobe>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const {
   constexpr TransportMode mode = TransportMode::importance;
@@ -332,7 +332,7 @@ F Layered<F, Base, Lobe>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDra
   CoatSample exit = coat_.template sample_lobes<Lobes::transmission>(wi, F(0.0f), draws.pair(2), mode);
   F base = base_.evaluate(-entry.wi, -exit.wi, context).density.value;
 
-  // Snell's law squeezes solid angles: d w / d wi = |cos wi| / (eta^2 |cos w|).
+  // Snell's law compresses solid angles: d w / d wi = |cos wi| / (eta^2 |cos w|).
   F squeeze = wi.z / max(square(coat_.eta()) * abs(exit.wi.z), F(1e-10f));
   F middle = base * exit.weight * squeeze;
   Mask<F> rough = !coat_.is_delta();

@@ -1,4 +1,4 @@
-// Small things that the models share: sides of the surface, and directions by the cosine on either.
+// Helpers that the models share: sides of the surface, and cosine-weighted directions on either side.
 #pragma once
 #include "mc/hemisphere.h"
 
@@ -13,7 +13,7 @@ template <class F>
 MONTELUX_INLINE Vec3<F> onto_side(Vec3<F> w, Vec3<F> wo) {
   return {w.x, w.y, copysign(w.z, wo.z)};
 }
-// A direction of the side of wo by the cosine, and its density on its own side.
+// A cosine-weighted direction on the side of wo, and its density on its own side.
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_cosine_side(Vec3<F> wo, Vec2<F> u) {
   return onto_side(sample_cosine_hemisphere(u), wo);

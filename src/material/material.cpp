@@ -13,7 +13,7 @@ BsdfSample<F> no_sample() {
   return {{zero, zero, F(1.0f)}, gray(zero), {zero}, F(1.0f), Mask<F>(false), Mask<F>(false)};
 }
 
-// Takes over the lanes of `mask`.
+// Copies the lanes of `mask`.
 template <class F>
 MONTELUX_INLINE void merge(BsdfValue<F>& all, const BsdfValue<F>& part, Mask<F> mask) {
   all.f_cos = select(mask, part.f_cos, all.f_cos);
@@ -29,7 +29,7 @@ MONTELUX_INLINE void merge(BsdfSample<F>& all, const BsdfSample<F>& part, Mask<F
   all.delta = (part.delta & mask) | (all.delta & !mask);
 }
 
-// One function per model, so that each is compiled by itself.
+// One function per model, so that each is compiled separately.
 template <class Model, class F>
 __attribute__((noinline)) void scatter_model(const BsdfLanes<F>& lanes, const ScatterQuery<F>& query,
                                              BsdfContext<F> context, Scattering<F>& all) {

@@ -64,15 +64,15 @@ MONTELUX_INLINE void for_each_present_model(Uint<F> kind, Mask<F> on, Visitor&& 
   (std::make_index_sequence<bsdf_kind_count>());
 }
 
-// What the points of all lanes are made of.
+// The materials of the points of all lanes.
 template <class F>
 struct BsdfLanes {
   Uint<F> kind;               // a BsdfKind in each lane
-  const BsdfSlots<F>* slots;  // idle lanes may hold anything
-  Mask<F> on;                 // the lanes to serve; results are zero and invalid in the others
+  const BsdfSlots<F>* slots;  // idle lanes may contain anything
+  Mask<F> on;                 // the active lanes; results are zero and invalid in the others
 };
 
-// Whether a coat looks in another direction than what is under it.
+// Whether a coat has another normal than the surface under it.
 template <class F>
 MONTELUX_INLINE Mask<F> has_bent_coat(Uint<F> kind, const BsdfSlots<F>& slots) {
   const Mask<F> coated = kind == Uint<F>(std::uint32_t(BsdfKind::coated_metallic_roughness));
@@ -81,7 +81,7 @@ MONTELUX_INLINE Mask<F> has_bent_coat(Uint<F> kind, const BsdfSlots<F>& slots) {
   return coated & (slots.v[Slots::coat] > F(0.0f)) & (slots.v[Slots::coat_normal + 2] < F(1.0f));
 }
 
-// Whether the surface bounds a body of glass, and what that absorbs, a unit of length.
+// Whether the surface bounds a body of glass, and its absorption per unit of length.
 template <class F>
 MONTELUX_INLINE Mask<F> bounds_body(Uint<F> kind) {
   return (kind == Uint<F>(std::uint32_t(BsdfKind::dielectric))) |
@@ -95,7 +95,7 @@ MONTELUX_INLINE Spectrum<F> absorption_within(Uint<F> kind, const BsdfSlots<F>& 
   return select(absorbs, BsdfRows<F>{&slots}.spectrum(TintedDielectricSlots::absorption), nothing);
 }
 
-// The questions of one vertex: how much comes from wi_light, where `light_wanted`, and where does the path go on?
+// The two queries of one vertex: the value for wi_light, where `light_wanted`, and a sampled direction of the path.
 template <class F>
 struct ScatterQuery {
   Vec3<F> wo, wi_light;
@@ -109,14 +109,14 @@ struct Scattering {
   BsdfSample<F> next;
 };
 
-// All take local directions (see bsdf.h). They never advance context.random: give each vertex a stream of its own.
+// All take local directions (see bsdf.h). They never advance context.random: give each vertex a separate stream.
 template <class F>
 Scattering<F> scatter(const BsdfLanes<F>& lanes, const ScatterQuery<F>& query, const BsdfContext<F>& context);
 template <class F>
 BsdfValue<F> evaluate(const BsdfLanes<F>& lanes, Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context);
 template <class F>
 BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, const BsdfContext<F>& context);
-// Where a connection to a light is useless: the model is made of deltas alone.
+// Where a connection to a light is useless: the model consists only of deltas.
 template <class F>
 Mask<F> is_delta(const BsdfLanes<F>& lanes);
 

@@ -7,7 +7,7 @@
 namespace montelux {
 
 struct MetallicRoughnessSlots {
-  // `reflected`: of a dielectric's light at normal incidence, ((eta - 1) / (eta + 1))^2.
+  // `reflected`: the reflectance of a dielectric at normal incidence, ((eta - 1) / (eta + 1))^2.
   static constexpr int base = 0, metallic = 3, roughness = 4, specular = 5, specular_color = 6, reflected = 9;
 };
 
@@ -15,9 +15,9 @@ struct MetallicRoughnessSlots {
 // height-correlated masking, and Schlick's F = f0 + (f90 - f0) (1 - wo.h)^5, where f0 is that of the dielectric mixed
 // with the base colour by metallic (KHR_materials_specular). On both sides; a mirror where alpha is below 1e-3.
 //
-// F' is the largest component of F at the least of wo.h, cos o and cos i. Appendix B has F itself there, at wo.h, which
-// returns up to 1.9 times the light at grazing angles; so no more comes back than came. Reciprocal either way. What
-// light loses by masking between facets is lost.
+// F' is the largest component of F at the minimum of wo.h, cos o and cos i. Appendix B has F at wo.h instead, which
+// returns up to 1.9 times the light at grazing angles; F' never returns more than arrives. Both are reciprocal. Light
+// that is masked between facets is lost.
 template <class F>
 class MetallicRoughness {
  public:
@@ -79,11 +79,11 @@ class MetallicRoughness {
     const F grazing = x2 * x2 * x;
     return per_component([&](F f) { return f + (f90_ - f) * grazing; }, f0_);
   }
-  // What gets through to the diffuse part.
+  // The fraction that reaches the diffuse part.
   MONTELUX_INLINE F under(F o_m, Vec3<F> wo, Vec3<F> wi) const {
     return max(F(1.0f) - max_component(fresnel(min(o_m, min(abs(wo.z), abs(wi.z))))), F(0.0f));
   }
-  // Chance of the facets in sampling, by the light that either part would return of wo.
+  // Probability of the facets in sampling, from the light that either part would return from wo.
   MONTELUX_INLINE F mirror_share(Vec3<F> wo) const {
     const Spectrum<F> f = fresnel(abs(wo.z));
     const F mirrored = average(f), below = average(diffuse_) * (F(1.0f) - max_component(f));

@@ -1,4 +1,4 @@
-// Phong's lobe, in the form that keeps energy and is reciprocal (Lafortune and Willems 1994).
+// Phong's lobe, in the form that conserves energy and is reciprocal (Lafortune and Willems 1994).
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
@@ -11,7 +11,7 @@ struct PhongSlots {
 };
 
 // f = kd / pi + ks (n + 2) / (2 pi) cos^n alpha, alpha the angle between wi and the mirror direction of wo; on both
-// sides. Needs kd + ks <= 1. What the lobe draws below the surface is absorbed.
+// sides. Requires kd + ks <= 1. Directions that the lobe samples below the surface are absorbed.
 template <class F>
 class Phong {
  public:
@@ -51,7 +51,7 @@ class Phong {
 
   Spectrum<F> kd_, ks_;
   F exponent_;
-  F diffuse_;  // chance of the diffuse part
+  F diffuse_;  // probability of the diffuse part
   Mask<F> black_;
 };
 

@@ -17,7 +17,7 @@ List join(std::initializer_list<List> lists) {
   return all;
 }
 
-// Every material takes these.
+// Every material has these.
 List common() {
   return {{"displacement", number_map, "bump height in scene units; default none", -most, most, {}, false, true},
           {"normalmap", {string}, "file of an image of tangent-space normals; default none"},

@@ -1,4 +1,4 @@
-// What a scene may say about materials.
+// The materials that a scene may state.
 #pragma once
 #include <span>
 

@@ -1,4 +1,4 @@
-// A pane of glass without thickness: the light between its two faces is summed up.
+// A pane of glass without thickness: the light between its two faces is summed in closed form.
 #pragma once
 #include "material/bsdf.h"
 #include "material/fresnel.h"
@@ -11,8 +11,8 @@ struct ThinDielectricSlots {
   static constexpr int eta = 0, tint = 1, alpha = 4;
 };
 
-// Reflects R' = R + T^2 R / (1 - R^2), the sum over all internal reflections (Stokes 1862), passes the rest on,
-// multiplied by the tint. What passes is not bent, but spread as the reflection is, of which it is the mirror image in
+// Reflects R' = R + T^2 R / (1 - R^2), the sum over all internal reflections (Stokes 1862), and transmits the rest,
+// multiplied by the tint. Transmission is not refracted; its lobe is the mirror image of the reflection lobe in
 // the pane (KHR_materials_transmission, with R' of the facet for F): GGX facets of roughness alpha; a mirror and a
 // clear pane where alpha is below 1e-3.
 template <class F>

@@ -1,11 +1,11 @@
-// Coloured glass: an interface that tints what goes through it, around a body that absorbs.
+// Coloured glass: an interface that tints the light that passes it, around a body that absorbs.
 #pragma once
 #include "material/dielectric.h"
 
 namespace montelux {
 
-// The first as those of Dielectric. `absorption`, a unit of length, is that of the body within: paths take account of
-// it on their ways, not the surface.
+// The first slots are those of Dielectric. `absorption`, per unit of length, is that of the body inside: paths apply it
+// along their segments, not the surface.
 struct TintedDielectricSlots {
   static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = 6;
 };

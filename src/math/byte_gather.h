@@ -1,10 +1,10 @@
-// Words gathered from places that are counted in bytes, aligned or not.
+// Gathers of 32-bit words at byte offsets, aligned or not.
 #pragma once
 #include "math/lanes.h"
 
 namespace montelux {
 
-// The four bytes at base + i, the first lowest, in every lane; i below 2^31, in range in idle lanes too.
+// The four bytes at base + i, lowest first, in every lane; i is below 2^31, and in range in idle lanes too.
 template <int N>
 MONTELUX_INLINE Uints<N> gather_bytes(const std::uint8_t* base, Uints<N> i) {
 #if defined(__AVX512F__)

@@ -4,10 +4,10 @@
 
 namespace montelux {
 
-// A whole number of units of 2^-62: every number that is added is cut to that grid, and from there on nothing is
-// rounded. Sums are associative and commutative, and the sum of a partition's parts is the sum of the whole, bit for
-// bit (Kulisch and Miranker 1986, sec. 2, with a range that is finite). Up to 2^24 numbers below `largest` in absolute
-// value fit.
+// A whole number of units of 2^-62: every number that is added is truncated to that grid, and nothing is rounded after
+// that. Sums are associative and commutative, and the sum of the parts of a partition is the sum of the whole, bit for
+// bit (Kulisch and Miranker 1986, sec. 2, with a finite range). The range holds up to 2^24 numbers below `largest` in
+// absolute value.
 class ExactSum {
  public:
   static constexpr float largest = 0x1p40f;

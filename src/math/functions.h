@@ -1,5 +1,5 @@
 // Elementary functions for one lane or many: the same polynomial, hence the same bits, for every F.
-// Each states its largest error, which the unit tests hold against the standard library in double precision.
+// Each states its maximum error, which the unit tests check against the standard library in double precision.
 #pragma once
 #include <numbers>
 
@@ -103,7 +103,7 @@ MONTELUX_INLINE F pow(F x, F y) {
   return select(x <= F(0.0f), select(y == F(0.0f), F(1.0f), F(0.0f)), r);
 }
 
-// x to the power n, for a whole n from 0 to 2^20, by squares; 0^0 is 1. Faster than pow() for n up to some hundreds.
+// x to the power n for integers n from 0 to 2^20, by squaring; 0^0 is 1. Faster than pow() for n up to some hundreds.
 template <class F>
 MONTELUX_INLINE F whole_power(F x, F n) {
   F r = F(1.0f);

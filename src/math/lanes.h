@@ -3,7 +3,7 @@
 //
 //   F        float      Floats<N>     a real number in every lane
 //   Uint<F>  uint32_t   Uints<N>      an index, a counter or bits in every lane
-//   Mask<F>  bool       Bools<N>      a yes or no in every lane
+//   Mask<F>  bool       Bools<N>      a truth value in every lane
 #pragma once
 #include <array>
 #include <bit>
@@ -15,12 +15,12 @@
 #include <immintrin.h>
 #endif
 
-// The intrinsics below are taken in their masked forms: g++ 12 warns of an uninitialised value inside the plain ones.
+// The intrinsics below are used in their masked forms: g++ 12 warns of an uninitialised value inside the plain ones.
 #define MONTELUX_INLINE inline __attribute__((always_inline))
 
 namespace montelux {
 
-// The widest pack that this machine's registers hold.
+// The widest pack that fits a register of this machine.
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 inline constexpr int native_lanes = 16;
 #elif defined(__AVX2__)
@@ -294,7 +294,7 @@ MONTELUX_INLINE Floats<N> round(Floats<N> a) {
 }
 MONTELUX_INLINE float round(float a) { return std::nearbyint(a); }
 
-// min(a, b) is b where either is not a number, as the machine has it; the same for one lane and for many.
+// min(a, b) is b where either is not a number, like the machine instruction; the same for one lane and for many.
 template <int N>
 MONTELUX_INLINE Floats<N> min(Floats<N> a, Floats<N> b) {
   return a.v < b.v ? a.v : b.v;

@@ -41,7 +41,7 @@ Matrix4 orthogonal_part(Matrix4 a) {
   return a;
 }
 
-// The largest component is found first, so that no division is by little (Shepperd 1978).
+// Finds the largest component first, so that it never divides by a small number (Shepperd 1978).
 Quaternion quaternion_of(const Matrix4& r) {
   const auto& m = r.m;
   const double trace = m[0][0] + m[1][1] + m[2][2];
@@ -63,7 +63,7 @@ Quaternion quaternion_of(const Matrix4& r) {
   return scaled(q, 1 / std::sqrt(dot4(q, q)));
 }
 
-// T R S in rows of four.
+// The rows (of four numbers) of T R S.
 template <class F>
 std::array<F, 12> composed(const std::array<F, 3>& t, const std::array<F, 4>& q, const std::array<F, 9>& s) {
   const F x = q[0], y = q[1], z = q[2], w = q[3], two = F(2), one = F(1);
@@ -115,14 +115,14 @@ Motion::Motion(const Transform& start, const Transform& end)
   const Quaternion difference = sum(key1_.rotation, scaled(key0_.rotation, -dot4(key0_.rotation, key1_.rotation)));
   const double sine = std::sqrt(dot4(difference, difference));
   half_angle_ = std::atan2(sine, dot4(key0_.rotation, key1_.rotation));
-  // What is left by rounding is no rotation.
+  // A remainder of the size of rounding errors is no rotation.
   if (sine > 1e-9)
     across_ = scaled(difference, 1 / sine);
   else
     half_angle_ = 0;
 }
 
-// What lanes gather of each part, and where.
+// The components of each part that lanes gather, and their offsets.
 namespace part {
 constexpr std::uint32_t translation = 0, rotation = 6, across = 10, half_angle = 14, stretch = 15, size = 33;
 }
@@ -169,7 +169,7 @@ Transform Motion::at(double t) const {
   Matrix4 m;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 4; ++j) m.m[i][j] = rows[4 * i + j];
-  // A stretch between one that mirrors and one that does not has no inverse somewhere on its way.
+  // Between a stretch that mirrors and one that does not, some interpolated stretch has no inverse.
   return from_matrix(m).value_or(t < 0.5 ? start_ : end_);
 }
 

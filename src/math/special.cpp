@@ -13,7 +13,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double log_sqrt_two_pi = 0.918938533204672741780;
 constexpr int iteration_limit = 200000;
 
-// The part of log Gamma(x) that Stirling's formula leaves over, for x >= 10 (DLMF 5.11.1).
+// The remainder of log Gamma(x) after Stirling's formula, for x >= 10 (DLMF 5.11.1).
 double stirling_remainder(double x) {
   double r = 1.0 / (x * x);
   double s = 1.0 / 156.0;
@@ -56,7 +56,7 @@ double gamma_p_series(double a, double x) {
   return sum * gamma_kernel(a, x);
 }
 
-// A number to put in place of zero in Lentz's evaluation of a continued fraction.
+// A number that replaces zero in Lentz's evaluation of a continued fraction.
 double nonzero(double x) { return std::fabs(x) < 1e-290 ? 1e-290 : x; }
 
 // Q by its continued fraction (DLMF 8.9.2), for x >= a + 1, evaluated by the modified method of Lentz.

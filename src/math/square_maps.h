@@ -30,7 +30,7 @@ MONTELUX_INLINE Vec2<F> square_from_sphere(Vec3<F> w) {
   return {(copysign(fu, w.x) + 1.0f) * 0.5f, (copysign(fv, w.y) + 1.0f) * 0.5f};
 }
 
-// A point a little outside of the square, brought to where the sphere's map continues inside.
+// Moves a point slightly outside the square to where the map of the sphere continues inside.
 template <class F>
 MONTELUX_INLINE Vec2<F> wrap_sphere_square(Vec2<F> uv) {
   auto fold = [](F inside, F& across) {

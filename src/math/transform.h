@@ -19,7 +19,7 @@ double determinant(const Matrix4& a);
 // No value where the matrix is singular or not finite.
 std::optional<Matrix4> inverse(const Matrix4& a);
 
-// A map and its inverse. Points, directions and normals transform each in their own way.
+// A map and its inverse. Points, directions and normals have different transformation rules.
 class Transform {
  public:
   Transform() = default;
@@ -50,7 +50,7 @@ class Transform {
   }
   // With the projective row: divides by w.
   Vec3f project(Vec3f p) const;
-  // The upper 3 x 4 block in row-major order, as the ray-tracing kernel takes an instance.
+  // The upper 3 x 4 block in row-major order, the form in which the ray-tracing kernel takes an instance.
   const std::array<float, 12>& rows() const { return a_; }
   const std::array<float, 12>& inverse_rows() const { return i_; }
 

@@ -1,4 +1,4 @@
-// Vectors of two and three reals. One type serves points, directions and normals; names tell them apart.
+// Vectors of two and three reals. One type serves points, directions and normals; names distinguish them.
 #pragma once
 #include "math/lanes.h"
 

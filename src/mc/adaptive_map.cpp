@@ -9,7 +9,7 @@ namespace {
 constexpr double damping = 0.3, least_share = 0.1, growth = 0.7;
 constexpr std::size_t guide_cells = 256;
 
-// Each sum mixed with its neighbours' (Lepage 2021, equation 19).
+// Averages each sum with its neighbours (Lepage 2021, equation 19).
 std::vector<double> smoothed(std::span<const double> sums) {
   const std::size_t n = sums.size();
   std::vector<double> s(n);
@@ -20,8 +20,8 @@ std::vector<double> smoothed(std::span<const double> sums) {
   return s;
 }
 
-// Raises weights so that the bins to come, as wide as a bin is per weight, grow no faster than by `growth` of the
-// distance: an edge of the integrand is then met by narrow bins on both its sides.
+// Raises weights so that the widths of the new bins, inversely proportional to the weights, grow by no more than
+// `growth` times the distance: an edge of the integrand then has narrow bins on both sides.
 void grade(std::vector<double>& weights, std::span<const double> x) {
   const std::size_t n = weights.size();
   double total = 0;
@@ -94,8 +94,8 @@ void AdaptiveMap::apply(std::span<double> points, std::span<double> jacobian) co
   }
 }
 
-// The bin by the guide, then Newton's steps, which converge for a monotone cubic with such slopes; what is left after
-// them is below 1e-9 of the density.
+// The bin by the guide, then Newton steps, which converge for a monotone cubic with such slopes; the remaining error is
+// below 1e-9 of the density.
 void AdaptiveMap::density(std::span<const double> points, std::span<double> density) const {
   constexpr int steps = 5;
   const std::size_t count = density.size();
@@ -124,8 +124,8 @@ void AdaptiveMap::refine(std::span<const double> sums, std::size_t new_bins) {
   std::vector<double> moved;
   for (std::size_t d = 0; d < dimension_; ++d) {
     const std::span<const double> x = nodes(d);
-    // Where the integrand is a product, the best density of an axis goes with the root of the squared terms. Half that
-    // step, and a floor, keep it from chasing noise and from starving what lies off the axes of a ridge.
+    // For a product integrand, the best density of an axis is proportional to the root of the sum of squared terms.
+    // Half that step, and a floor, prevent fitting noise and losing the regions off the axes of a ridge.
     std::vector<double> weights = smoothed(sums.subspan(d * bins_, bins_));
     double total = 0;
     for (double& w : weights) total += w = std::pow(std::max(0.0, w), damping);

@@ -1,5 +1,5 @@
 // The map of VEGAS: a monotone function of each coordinate that sends uniform points to where the integrand is large
-// (Lepage 1978, 2021), here continuously differentiable, so that a smooth integrand stays smooth enough for
+// (Lepage 1978, 2021). Here it is continuously differentiable, so that a smooth integrand stays smooth enough for
 // quasi-Monte Carlo points.
 #pragma once
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace montelux {
 // harmonic means of the slopes), and the density of x is 1 over the Jacobian.
 class AdaptiveMap {
  public:
-  // The identity, with the axes in `bins` >= 2 parts.
+  // The identity, with each axis divided into `bins` >= 2 parts.
   AdaptiveMap(std::size_t dimension, std::size_t bins);
 
   std::size_t dimension() const { return dimension_; }
@@ -33,8 +33,8 @@ class AdaptiveMap {
   void fit();
   std::size_t dimension_, bins_;
   std::vector<double> nodes_;
-  std::vector<double> coefficients_;  // four a bin, by axis, then power, then bin
-  std::vector<std::uint16_t> guide_;  // of each axis: the bin in which each of its equal cells begins
+  std::vector<double> coefficients_;  // four per bin, by axis, then power, then bin
+  std::vector<std::uint16_t> guide_;  // for each axis: the bin in which each of its equal cells begins
 };
 
 }  // namespace montelux

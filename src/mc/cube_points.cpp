@@ -22,7 +22,7 @@ MONTELUX_INLINE Doubles unit_doubles(Words high, Words low) {
   return coarse * 0x1p-32 + (fine * 0x1p-52 + 0x1p-53);
 }
 
-// Calls numbers(i) -> Doubles for points i, i + 1, ... of a coordinate, packs that reach over the end cut off.
+// Calls numbers(i) -> Doubles for points i, i + 1, ... of a coordinate; truncates the last pack.
 template <class Function>
 MONTELUX_INLINE void fill_coordinate(double* out, std::size_t count, Function numbers) {
   std::size_t i = 0;
@@ -49,7 +49,7 @@ CubeKey CubeKey::fork(std::uint32_t purpose) const {
 
 namespace {
 
-// Uniform numbers of one coordinate at the places first, first + 1, ... of a stream.
+// Uniform numbers of one coordinate at the positions first, first + 1, ... of a stream.
 struct CoordinateStream {
   CubeKey key;
   MONTELUX_INLINE Doubles at(std::uint64_t index) const {
@@ -94,7 +94,7 @@ void fill_sobol(CubeKey key, CubeBlock block) {
       for (; index != 0; index &= index - 1) digits ^= columns[std::size_t(std::countr_zero(index))];
       return digits;
     };
-    // The digits of a pack are those of its first point and, by linearity, those of the lanes.
+    // The digits of a pack are those of its first point combined, by linearity, with those of the lanes.
     Words lane_digits = 0u;
     for (int k = 0; k < native_lanes; ++k) set_lane(lane_digits, k, digits_of(std::uint32_t(k)));
     const bool aligned = block.first % width == 0;

@@ -1,5 +1,5 @@
-// Many points of the unit hypercube at once, coordinate-major, in double precision: what methods of integration draw
-// from. Every number is a pure function of the key, the index of the point and the dimension.
+// Many points of the unit hypercube at once, coordinate-major, in double precision, for the integration methods.
+// Every number is a pure function of the key, the index of the point and the dimension.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace montelux {
 
-// Tells one randomisation from every other.
+// Distinguishes randomisations.
 struct CubeKey {
   std::uint32_t low = 0, high = 0;
-  // A key of its own for each pass of each seed.
+  // A different key for each pass of each seed.
   static CubeKey of(std::uint64_t seed, std::uint32_t pass);
-  // A key of its own for each purpose.
+  // A different key for each purpose.
   CubeKey fork(std::uint32_t purpose) const;
 };
 
-// Where the points go, and which: coordinate d of point first + i is out[d * count + i].
+// The output and the range of points: coordinate d of point first + i is out[d * count + i].
 struct CubeBlock {
   std::size_t dimension = 1;
   std::uint64_t first = 0;
@@ -25,8 +25,8 @@ struct CubeBlock {
   double* out = nullptr;
 };
 
-// All fill with numbers in (0, 1), of 52 random bits where nothing else is said. Blocks of one key may be filled in any
-// order and any parts.
+// All functions fill the block with numbers in (0, 1), of 52 random bits unless stated otherwise. Blocks of one key may
+// be filled in any order and in any parts.
 
 // Independent uniform points.
 void fill_independent(CubeKey key, CubeBlock block);
@@ -47,17 +47,17 @@ void fill_lattice(CubeKey key, CubeBlock block);
 // 1979). The block lies within [0, n); n < 2^31.
 void fill_latin(CubeKey key, std::uint64_t n, CubeBlock block);
 
-// How a grid of at most n boxes cuts the axes: as evenly as can be, the first axes by one more.
+// The number of parts of each axis in a grid of at most n boxes: as equal as possible, the first axes with one more.
 struct GridShape {
-  std::vector<std::uint32_t> parts;  // of each axis
+  std::vector<std::uint32_t> parts;  // by axis
   std::uint64_t boxes = 1;
   static GridShape of(std::size_t dimension, std::uint64_t n);
 };
-// n points, one uniform in each box of the grid; points that the boxes leave over are uniform in the cube.
+// n points, one uniform in each box of the grid; points in excess of the boxes are uniform in the cube.
 void fill_grid(CubeKey key, const GridShape& shape, CubeBlock block);
 
 // Folds each number by the baker's transformation x -> 1 - |2x - 1| (Hickernell 2002): uniform stays uniform, and any
-// smooth function becomes continuous as a periodic one.
+// smooth function becomes continuous as a periodic function.
 void fold(std::span<double> x);
 
 }  // namespace montelux

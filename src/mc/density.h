@@ -1,4 +1,4 @@
-// Probability densities that know their measure. A density converts to another measure only by a named function.
+// Probability densities whose type states their measure. Only a named function converts to another measure.
 #pragma once
 #include "math/functions.h"
 
@@ -11,7 +11,7 @@ struct SolidAngle {};           // per steradian
 struct ProjectedSolidAngle {};  // per steradian weighted by |cos| to the surface normal
 struct Volume {};               // per unit volume, or of a cube
 
-// p(x) with respect to Measure, in every lane. Zero: the point cannot be drawn.
+// p(x) with respect to Measure, in every lane. Zero: the point cannot be sampled.
 template <class Measure, class F = float>
 struct Density {
   F value;
@@ -38,7 +38,7 @@ template <class F>
 MONTELUX_INLINE Density<SolidAngle, F> to_solid_angle(Density<ProjectedSolidAngle, F> p, F cos) {
   return {p.value * abs(cos)};
 }
-// A choice first, then a point by the density.
+// A discrete choice, then a point with the density.
 template <class Measure, class F>
 MONTELUX_INLINE Density<Measure, F> operator*(Mass<F> choice, Density<Measure, F> p) {
   return {choice.value * p.value};

@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// The 32 bits in opposite order.
+// Reverses the 32 bits.
 template <class U>
 MONTELUX_INLINE U reverse_bits(U x) {
   x = ((x >> 1) & U(0x55555555u)) | ((x & U(0x55555555u)) << 1);
@@ -16,8 +16,8 @@ MONTELUX_INLINE U reverse_bits(U x) {
   return (x >> 16) | (x << 16);
 }
 
-// A random bijection in which every bit depends on itself and on lower bits only: on a bit-reversed fraction that is
-// Owen's nested uniform scrambling (Laine and Karras 2011; the multipliers by N. Vegdahl 2021).
+// A random bijection in which every bit depends only on itself and on lower bits: on a bit-reversed fraction this is
+// Owen's nested uniform scrambling (Laine and Karras 2011; multipliers by N. Vegdahl 2021).
 template <class U>
 MONTELUX_INLINE U scramble_upwards(U x, U key) {
   x = x ^ (x * U(0x3d20adeau));
@@ -51,8 +51,8 @@ MONTELUX_INLINE F fraction_of_reversed(Uint<F> x) {
   return unit_float<F>(reverse_bits(x));
 }
 
-// A random permutation of 0..n-1, told by the key, at `index` < n; n >= 1. Walks cycles of a random bijection of the
-// next power of two (Kensler 2013, "Correlated Multi-Jittered Sampling", section 5).
+// A random permutation of 0..n-1, selected by the key, at `index` < n; n >= 1. Walks cycles of a random bijection of
+// the next power of two (Kensler 2013, "Correlated Multi-Jittered Sampling", section 5).
 template <class U>
 MONTELUX_INLINE U permute(U index, std::uint32_t n, U key) {
   const std::uint32_t mask = std::bit_ceil(n) - 1u;

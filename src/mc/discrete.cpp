@@ -44,7 +44,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
     scaled[i] = mass * double(n);
     (scaled[i] < 1 ? poor : rich).push_back(std::uint32_t(i));
   }
-  // Each poor element's bin is topped up by a rich one, which may become poor by it.
+  // Each underfull bin is filled up by an overfull element, which may become underfull itself.
   while (!poor.empty() && !rich.empty()) {
     const std::uint32_t low = poor.back(), high = rich.back();
     poor.pop_back();
@@ -53,7 +53,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
     scaled[high] -= 1 - scaled[low];
     if (scaled[high] < 1) rich.pop_back(), poor.push_back(high);
   }
-  // What rounding leaves over fills its own bin; an element of weight zero never does.
+  // Elements that remain because of rounding fill their own bins; an element of weight zero never does.
   for (std::uint32_t i : rich) share_[i] = 1, alias_[i] = i;
   std::uint32_t heaviest = 0;
   for (std::uint32_t i = 0; i < n; ++i)

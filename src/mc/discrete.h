@@ -1,4 +1,4 @@
-// Choice of one element out of many by weight: by the cumulative sums, or in constant time by a table of aliases.
+// Choice of one of many elements by weight: by cumulative sums, or in constant time by an alias table.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@ template <class F>
 struct DiscreteSample {
   Uint<F> index;
   Mass<F> mass;
-  F remapped;  // what is left of the random number, uniform in [0, 1) again
+  F remapped;  // the remainder of the random number, uniform in [0, 1) again
 };
 
 // The last i in [0, n) with ascending[base + i] <= x, in every lane; ascending[base] <= x. n may differ between lanes
@@ -55,7 +55,7 @@ class DiscreteCdf {
   Mass<F> mass(Uint<F> index) const {
     return {gather(sums_.data() + 1, index) - gather(sums_.data(), index)};
   }
-  // The u that `sample` maps to this element and this remapped rest.
+  // The u that `sample` maps to this element and this remapped number.
   template <class F>
   F invert(Uint<F> index, F remapped) const {
     F low = gather(sums_.data(), index);
@@ -88,8 +88,8 @@ class AliasTable {
   Mass<F> mass(Uint<F> index) const {
     return {gather(mass_.data(), index)};
   }
-  // A u that `sample` maps to this element, whose mass must not be zero: for v in [0, 1) from first to last the numbers
-  // of the element's own bin, then those of the bins that it tops up, each bin's linearly; uniform where v is. An
+  // A u that `sample` maps to this element, whose mass must not be zero: for v from 0 to 1 first the numbers
+  // of the element's own bin, then those of the bins that it fills up, linearly within each bin; uniform if v is. An
   // interval of u that is narrower than 2^-24 may be missed.
   template <class F>
   F invert(Uint<F> index, F v) const {
@@ -99,10 +99,10 @@ class AliasTable {
     const Mask<F> own = bin == index;
     const F share = gather(share_.data(), bin), n = float(size());
     const F low = select(own, F(0.0f), share), high = select(own, share, F(1.0f));
-    // From a share of the element's mass to one of the bin's.
+    // From a share of the element's mass to a share of the bin's.
     const F inside = (v - gather(part_start_.data(), part)) * gather(mass_.data(), index) * n;
     const F u = min((to_float(bin) + min(low + inside, high)) / n, F(one_minus_epsilon));
-    // Rounding at an edge must not lead to the neighbour: a few units in the last place toward the middle.
+    // Rounding at an edge must not lead into the next bin: move a few units in the last place towards the middle.
     const F to_middle = (to_float(bin) + F(0.5f) * (low + high)) / n - u;
     return select(sample(u).index == index, u, u + min(max(to_middle, F(-0x1p-22f)), F(0x1p-22f)));
   }
@@ -111,13 +111,13 @@ class AliasTable {
   void list_parts();
 
   std::vector<float> mass_;
-  std::vector<float> share_;          // of a bin that its own element has
+  std::vector<float> share_;          // the part of each bin that belongs to its own element
   std::vector<std::uint32_t> alias_;  // the element that has the rest of the bin
   // For the inverse: the bins of element i, its own first, are parts first_part_[i] to first_part_[i + 1]; part_start_
-  // is what share of its mass lies in its bins before.
+  // is the share of its mass in the preceding bins.
   std::vector<std::uint32_t> first_part_, part_bin_;
   std::vector<float> part_start_;
-  std::uint32_t most_parts_ = 0;  // of one element
+  std::uint32_t most_parts_ = 0;  // maximum number of parts of one element
 };
 
 }  // namespace montelux

@@ -18,7 +18,7 @@ MONTELUX_INLINE Vec2<F> invert_disk_polar(Vec2<F> p) {
   return {min(p.x * p.x + p.y * p.y, F(one_minus_epsilon)), min(turn, F(one_minus_epsilon))};
 }
 
-// A place by its distance from the centre (which may be negative: on the other side) and its azimuth in turns, from
+// A point by its distance from the centre (negative: on the opposite side) and its azimuth in turns, from
 // 7/8 to 11/8.
 template <class F>
 struct PolarPlace {

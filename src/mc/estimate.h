@@ -1,5 +1,5 @@
-// Integrals as expectations: the primary estimator f(X) / p(X), the secondary estimator that averages it, and how good
-// they are. A distribution is anything with `sample(RandomStream<float>&) const` that returns a Draw.
+// Integrals as expectations: the primary estimator f(X) / p(X), the secondary estimator that averages it, and their
+// quality. A distribution is any type with `sample(RandomStream<float>&) const` that returns a Draw.
 #pragma once
 #include <vector>
 
@@ -24,7 +24,7 @@ struct UniformInterval {
   }
 };
 
-// A distribution from a map of the unit square and the density of its points: any `sample_...` and `..._density` pair.
+// A distribution from a map of the unit square and the density of its points: any pair `sample_...` and `..._density`.
 template <class Map, class DensityFunction>
 struct MappedSquare {
   Map map;                  // Vec2f -> X
@@ -65,8 +65,8 @@ std::vector<double> running_estimates(Function f, const Distribution& distributi
   return means;
 }
 
-// f(const Sampler<float>&) averaged over the points of each pass; the error bar is that of the spread of the passes, so
-// it holds for every point set.
+// f(const Sampler<float>&) averaged over the points of each pass; the error bar comes from the spread of the passes, so
+// it is valid for every point set.
 template <class Function>
 Estimate estimate_over_passes(Function f, PointSet set, std::uint32_t passes) {
   Moments over_passes;
@@ -83,7 +83,7 @@ Estimate estimate_over_passes(Function f, PointSet set, std::uint32_t passes) {
 // samples, so it compares estimators (Hammersley and Handscomb 1964, section 5.1).
 inline double efficiency(const Estimate& e, double cost) { return 1 / (e.standard_error * e.standard_error * cost); }
 
-// How an estimator errs, measured over independent realisations: mse = variance + bias^2.
+// The errors of an estimator, measured over independent realisations: mse = variance + bias^2.
 struct ErrorOfEstimator {
   double bias, bias_standard_error;
   double variance, mse;

@@ -26,7 +26,7 @@ inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] 
 
 // The digits of the index mirrored at the point, each permuted by a random permutation that depends on the digits
 // before it (Owen 1995). The digits that distinguish the indices below `count` are computed; later ones differ from
-// point to point anyway and are random.
+// point to point anyway and are random numbers.
 inline double scrambled_radical_inverse_double(std::uint32_t index, std::uint32_t base, std::uint32_t count,
                                                std::uint32_t key) {
   double value = 0, scale = 1;

@@ -79,7 +79,7 @@ MONTELUX_INLINE Vec3<F> sample_cone(F one_minus_cos, Vec2<F> u) {
   SinCos<F> azimuth = sin_cos_two_pi(u.y);
   return {r * azimuth.cos, r * azimuth.sin, F(1.0f) - below};
 }
-// Inside the cone; outside of it the density is zero, which the caller knows best how to decide.
+// The density inside the cone; outside it is zero, which the caller decides.
 template <class F>
 MONTELUX_INLINE Density<SolidAngle, F> cone_density(F one_minus_cos) {
   return {inv_two_pi / one_minus_cos};

@@ -17,7 +17,7 @@ double kernel_factor(std::uint32_t word, std::size_t j) {
   return 1 + two_pi_squared / double(j) * (x * (x - 1) + 1.0 / 6);
 }
 
-// The errors at all m from the products over the components at the points of the sequence, last factor apart.
+// The errors for all m from the products over the components at the points of the sequence, without the last factor.
 std::vector<double> errors_at(const std::vector<double>& products, std::uint32_t z, std::size_t j,
                               LatticeSearch search) {
   std::vector<double> errors;
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> construct_lattice(const LatticeSearch& search) {
   for (std::size_t j = 1; j <= search.dimensions; ++j) {
     std::vector<std::uint32_t> candidates;
     std::vector<std::vector<double>> errors;
-    // The first components weigh most, and are in every integral: more candidates for them.
+    // The first components have the largest weights and are used by every integral: they get more candidates.
     const std::uint32_t tried = j == 1 ? 1 : search.candidates * (j <= 10 ? 16 : 1);
     for (std::uint32_t c = 0; c < tried; ++c) {
       candidates.push_back(j == 1 ? 1u : stream.bits_at((std::uint32_t(j) << 20) + c) | 1u);

@@ -24,9 +24,9 @@ MONTELUX_INLINE U lattice_word(U index, U z, U shift) {
 // with product weights 1 / j (Kuo 2003): 2^-m sum over points of prod_j (1 + 2 pi^2 / j B_2(x_j)), less 1.
 double lattice_error(std::vector<std::uint32_t> generator, int m);
 
-// Component by component (Sloan and Reztsov 2002): of `candidates` random odd numbers each component is the one whose
-// worst ratio over m = first_m ... last_m, error to that of the best candidate at this m, is least (Cools, Kuo and
-// Nuyens 2006).
+// Component by component (Sloan and Reztsov 2002): each component is the one of `candidates` random odd numbers whose
+// worst ratio over m = first_m ... last_m, of its error to that of the best candidate at this m, is smallest (Cools,
+// Kuo and Nuyens 2006).
 struct LatticeSearch {
   std::size_t dimensions = lattice_dimensions;
   int first_m = 6, last_m = 18;

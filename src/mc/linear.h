@@ -25,7 +25,7 @@ MONTELUX_INLINE F invert_tent(F x) {
 // Density proportional to (1 - x) a + x b; a, b >= 0 and not both zero.
 template <class F>
 MONTELUX_INLINE F sample_linear(F a, F b, F u) {
-  // The root of the quadratic distribution function in the form without cancellation.
+  // The root of the quadratic distribution function in the form that avoids cancellation.
   F root = sqrt(lerp(u, a * a, b * b));
   return min(u * (a + b) / max(a + root, F(1e-30f)), F(one_minus_epsilon));
 }

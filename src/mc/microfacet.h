@@ -1,6 +1,6 @@
-// The GGX (Trowbridge-Reitz) distribution of microscopic normals about +z, anisotropic, and its part that a direction
-// sees. All formulas of Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs"; sampling
-// by Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps".
+// The GGX (Trowbridge-Reitz) distribution of microscopic normals about +z, anisotropic, and its part that is visible
+// from a direction. All formulas from Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based
+// BRDFs"; sampling by Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps".
 #pragma once
 #include "mc/hemisphere.h"
 
@@ -20,7 +20,7 @@ MONTELUX_INLINE F ggx_d(Vec3<F> m, Roughness<F> alpha) {
   return select(m.z > F(0.0f), inv_pi / (alpha.x * alpha.y * k * k), F(0.0f));
 }
 
-// Lambda of Smith's masking for the unit direction w; infinite at the horizon, where it is cut at a large number.
+// Lambda of Smith's masking for the unit direction w; infinite at the horizon, where it is limited to a large number.
 template <class F>
 MONTELUX_INLINE F ggx_lambda(Vec3<F> w, Roughness<F> alpha) {
   F x = alpha.x * w.x, y = alpha.y * w.y;
@@ -28,19 +28,19 @@ MONTELUX_INLINE F ggx_lambda(Vec3<F> w, Roughness<F> alpha) {
   // (sqrt(1 + a2) - 1) / 2 without cancellation for small a2.
   return 0.5f * a2 / (F(1.0f) + sqrt(F(1.0f) + a2));
 }
-// The part of the normals facing w that w sees.
+// The fraction of the normals facing w that is visible from w.
 template <class F>
 MONTELUX_INLINE F ggx_g1(Vec3<F> w, Roughness<F> alpha) {
   return F(1.0f) / (F(1.0f) + ggx_lambda(w, alpha));
 }
-// The part that both wo and wi see, heights correlated (Heitz 2014, eq. 99); both above the surface.
+// The fraction visible from both wo and wi, with correlated heights (Heitz 2014, eq. 99); both above the surface.
 template <class F>
 MONTELUX_INLINE F ggx_g2(Vec3<F> wo, Vec3<F> wi, Roughness<F> alpha) {
   return F(1.0f) / (F(1.0f) + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
 }
 
-// A normal that wo (unit, wo.z > 0) sees: in the space where the surface is a hemisphere, the reflection of wo into a
-// spherical cap is uniform, and the normal lies halfway.
+// A normal that is visible from wo (unit, wo.z > 0): in the space where the surface is a hemisphere, the reflection of
+// wo is uniform on a spherical cap, and the normal lies halfway.
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_visible_normal(Vec3<F> wo, Roughness<F> alpha, Vec2<F> u) {
   Vec3<F> v = normalize(Vec3<F>{alpha.x * wo.x, alpha.y * wo.y, wo.z});
@@ -66,7 +66,7 @@ MONTELUX_INLINE Vec2<F> invert_visible_normal(Vec3<F> wo, Vec3<F> m, Roughness<F
   return {clamp(F(1.0f) - (cap.z + v.z) / (F(1.0f) + v.z), 0.0f, one_minus_epsilon), azimuth_fraction(cap)};
 }
 
-// A normal with density D(m) cos(m) per steradian, whoever sees it (Walter et al. 2007, eq. 35 and 36, stretched).
+// A normal with density D(m) cos(m) per steradian, visible or not (Walter et al. 2007, eq. 35 and 36, stretched).
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_ggx_normal(Roughness<F> alpha, Vec2<F> u) {
   SinCos<F> azimuth = sin_cos_two_pi(u.y);

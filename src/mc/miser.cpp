@@ -13,7 +13,7 @@ struct Box {
   std::vector<double> low, high;
 };
 
-// Evaluates f at uniform points of a box in batches; calls use(points, values) on each, points being of the box.
+// Evaluates f at uniform points of a box in batches; calls use(points, values) on each, with points within the box.
 template <class Use>
 std::uint64_t sample_box(const CubeFunction& f, const Box& box, std::uint64_t samples, CubeKey key, Use use) {
   constexpr std::size_t most = 256;

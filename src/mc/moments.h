@@ -1,12 +1,12 @@
-// Running mean and variance of a random variable's realisations.
+// Running mean and variance of the realisations of a random variable.
 #pragma once
 #include <cmath>
 #include <cstdint>
 
 namespace montelux {
 
-// What is known of an expectation: the standard error is that of the mean. Non-finite realisations are counted and left
-// out; where there are any, the mean is not to be trusted.
+// An estimate of an expectation: the standard error is that of the mean. Non-finite realisations are counted and
+// excluded; if there are any, the mean is not reliable.
 struct Estimate {
   double mean = 0, standard_error = 0;
   std::uint64_t count = 0, non_finite = 0;
@@ -27,7 +27,7 @@ struct Moments {
     mean += before / double(count);
     m2 += before * (x - mean);
   }
-  // As if the other's realisations had been added here.
+  // The same as adding the other's realisations here.
   void merge(const Moments& other) {
     non_finite += other.non_finite;
     if (other.count == 0) return;
@@ -36,7 +36,7 @@ struct Moments {
     m2 += other.m2 + distance * distance * n * k / (n + k);
     count += other.count;
   }
-  // Of one realisation, unbiased; 0 for fewer than two.
+  // The variance of one realisation, unbiased; 0 for fewer than two.
   double variance() const { return count < 2 ? 0.0 : m2 / double(count - 1); }
   double standard_error() const { return count < 2 ? 0.0 : std::sqrt(variance() / double(count)); }
   Estimate estimate() const { return {mean, standard_error(), count, non_finite}; }

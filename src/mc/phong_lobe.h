@@ -7,7 +7,7 @@ namespace montelux {
 
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_phong_lobe(F n, Vec2<F> u) {
-  // 1 - u.x keeps a bright lobe's centre at small u.
+  // 1 - u.x maps small u to the centre of the lobe.
   F cos = pow(F(1.0f) - u.x, F(1.0f) / (n + 1.0f));
   return direction_at(cos, u.y);
 }

@@ -26,7 +26,7 @@ class PiecewiseConstant1 {
   PointSample<F> sample(F u) const {
     DiscreteSample<F> cell = cells_.sample(u);
     const float n = float(size());
-    // The point stays off the next cell by more than the rounding of its position.
+    // The point keeps away from the next cell by more than the rounding of its position.
     F x = (to_float(cell.index) + min(cell.remapped, F(1.0f - n * 0x1p-23f))) / n;
     return {x, {cell.mass.value * n}};
   }
@@ -71,7 +71,7 @@ class PiecewiseConstant2 {
     F py = place(row, (u.y - y.low) / y.width, height_);
     return {{px, py}, {x.width * y.width * (float(width_) * float(height_))}};
   }
-  // Per unit area of the square; zero outside of it.
+  // Density per unit area of the square; zero outside.
   template <class F>
   Density<Area, F> density(Vec2<F> p) const {
     Uint<F> row = cell_of(p.y, height_), column = cell_of(p.x, width_);
@@ -100,7 +100,7 @@ class PiecewiseConstant2 {
     auto low = gather(sums, i);
     return Interval1<decltype(low)>{low, gather(sums + 1, i) - low};
   }
-  // A place in a cell, off the next cell by more than the rounding.
+  // A point in a cell, away from the next cell by more than the rounding.
   template <class F>
   static F place(Uint<F> cell, F rest, std::uint32_t n) {
     return (to_float(cell) + min(rest, F(1.0f - float(n) * 0x1p-23f))) / float(n);

@@ -1,20 +1,20 @@
-// Progressive multi-jittered (0,2)-points (Christensen, Kensler and Kilpatrick 2018), made one by one by their digits.
+// Progressive multi-jittered (0,2)-points (Christensen, Kensler and Kilpatrick 2018), computed one by one from digits.
 #pragma once
 #include "mc/digital.h"
 
 namespace montelux {
 
-// The order of the sequence: a random bijection that keeps 0 and maps 0..2^k-1 onto itself for every k, so that how the
-// new points of a doubling pair with the old ones is drawn afresh for each key.
+// The order of the sequence: a random bijection that keeps 0 and maps 0..2^k-1 onto itself for every k, so that each
+// key has another random pairing of the new points of a doubling with the old ones.
 template <class U>
 MONTELUX_INLINE U pmj02_order(U index, U key) {
   return reverse_bits(U(scramble_upwards(reverse_bits(index), key) ^ scramble_upwards(U(0u), key)));
 }
 
-// The digits, first one lowest, of a coordinate of the point `index` < 2^bits. When the sequence doubles past 2^j
-// points, the new point shares the j digits of the old one that it pairs with, has the other half for the next digit,
-// and draws all that follow (Helmer, Christensen and Kensler 2021, "Stochastic Generation of (t,s) Sample Sequences",
-// section 4): digit j is that of the index, flipped by the bit j that the point of the j lower digits drew.
+// The digits, first one lowest, of a coordinate of the point `index` < 2^bits. When the sequence doubles beyond 2^j
+// points, the new point shares the first j digits of the old one that it is paired with, has the opposite next digit,
+// and random later digits (Helmer, Christensen and Kensler 2021, "Stochastic Generation of (t,s) Sample Sequences",
+// section 4): digit j is that of the index, flipped by the random bit j of the point given by the j lower digits.
 template <class U>
 MONTELUX_INLINE U pmj02_digits(U index, int bits, U key) {
   const auto drawn = [&](U point) { return mix_bits(U(point * U(0x9e3779b9u) + key)); };

@@ -46,7 +46,7 @@ Uint<F> divide(Uint<F> i, F n) {
   return to_uint(floor(to_float(i) / n));
 }
 
-// Which of the n strata the point takes, at random. Points past the first n start the next round of strata.
+// Which of the n strata the point falls into, at random. Points beyond the first n start the next round of strata.
 template <class F>
 Uint<F> stratum(Uint<F> index, std::uint32_t n, Uint<F> key) {
   using U = Uint<F>;
@@ -59,8 +59,8 @@ F stratified1(Uint<F> index, std::uint32_t n, Uint<F> key, F jitter) {
   return min((to_float(stratum<F>(index, n, key)) + jitter) / F(float(n)), F(one_minus_epsilon));
 }
 
-// n cells of equal area for any n: columns as many as the root of n, the first of them with one cell more where n does
-// not divide; a column is as wide as it has cells.
+// n cells of equal area for any n: as many columns as the root of n, the first of them with one cell more where n is
+// not divisible; the width of a column is proportional to its number of cells.
 template <class F>
 Vec2<F> stratified2(Uint<F> index, std::uint32_t n, Uint<F> key, Vec2<F> jitter) {
   using U = Uint<F>;
@@ -80,7 +80,7 @@ Vec2<F> stratified2(Uint<F> index, std::uint32_t n, Uint<F> key, Vec2<F> jitter)
 
 // ---- (0,2)-sequences ------------------------------------------------------------------------------------------------
 
-// The point of the scrambled (0,2)-sequence; the keys of its two coordinates lie at d and d + 1.
+// The point of the scrambled (0,2)-sequence; d and d + 1 select the keys of its two coordinates.
 template <class F>
 Vec2<F> scrambled_02(Uint<F> index, const RandomStream<F>& keys, Uint<F> d) {
   using U = Uint<F>;
@@ -105,8 +105,8 @@ Vec2<F> multi_jittered(Uint<F> index, int bits, const RandomStream<F>& keys, Uin
 
 // ---- lattices -------------------------------------------------------------------------------------------------------
 
-// One lattice for all the dimensions that the generating vector has, beyond them one lattice in the plane for each
-// pair, in an order of its own. `component`: 0 or 1 within the pair.
+// One lattice for all the dimensions of the generating vector; beyond them one planar lattice for each
+// pair, each in a random order. `component`: 0 or 1 within the pair.
 template <class F>
 F shifted_lattice(Uint<F> index, const RandomStream<F>& keys, Uint<F> d, std::uint32_t component) {
   using U = Uint<F>;
@@ -140,8 +140,8 @@ constexpr std::array<std::uint32_t, 24> digit_permutations = [] {
   return table;
 }();
 
-// Permutes the digits of the place on the Z curve in base 4, each by a permutation that depends on the higher digits;
-// an odd lowest bit is flipped alike (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion").
+// Permutes the digits of the position on the Z curve in base 4, each by a permutation that depends on the higher
+// digits; an odd lowest bit is flipped likewise (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion").
 template <class F>
 Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
   using U = Uint<F>;
@@ -165,15 +165,15 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
     : set_(set), shared_(stream_of_site<F>(set, x, y)), index_(index), index_bits_(0) {
   using U = Uint<F>;
   own_ = shared_.fork(U(index + U(0x3c6ef372u)));
-  // A fixed pattern takes its order of strata, and its numbers beyond, from no site and no pass.
+  // A fixed pattern uses the same order of strata, and the same numbers beyond, for all sites and passes.
   if (set.kind == PointSetKind::uniform_grid) {
     shared_ = RandomStream<F>(U(0x452821e6u), U(0x38d01377u));
     own_ = shared_.fork(U(index + U(0x3c6ef372u)));
   }
   if (set.kind == PointSetKind::pmj02) index_bits_ = int(std::bit_width(set.samples_per_pass - 1u));
   if (set.kind != PointSetKind::blue_noise) return;
-  // One sequence for the grid: the bits of the site's place on the Z curve above those of the index. Where 32 bits do
-  // not hold all of them, the grid falls into squares with a randomisation each.
+  // One sequence for the grid: the bits of the site's position on the Z curve above those of the index. If 32 bits are
+  // not enough, the grid is divided into squares with separate randomisations.
   const int sample_bits = int(std::bit_width(set.samples_per_pass - 1u));
   const std::uint32_t side = std::max(set.width, set.height);
   const int fit = std::min(16, (32 - sample_bits) / 2);

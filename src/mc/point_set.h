@@ -1,6 +1,6 @@
-// Point sets: where the numbers in [0, 1) of a pass come from. Every number is a pure function of the seed, the pass,
+// Point sets: the numbers in [0, 1) of a pass. Every number is a pure function of the seed, the pass,
 // the site, the index of the point and the dimension. Passes are independent randomisations of the same construction,
-// so their spread is an honest error bar whatever the correlation inside a pass.
+// so their spread is a valid error bar whatever the correlation within a pass.
 #pragma once
 #include <array>
 #include <optional>
@@ -41,7 +41,7 @@ inline constexpr std::array<NamedPointSet, 8> point_set_names{{
     {"lattice", PointSetKind::lattice, "a rank-1 lattice sequence, shifted at random"},
 }};
 
-// Patterns for comparison alone: the same points in every pass, so they are biased and their spread is no error bar.
+// Patterns for comparison only: the same points in every pass, so they are biased and their spread is no error bar.
 inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
     {"uniform-grid", PointSetKind::uniform_grid,
      "the centres of the strata; a single point is the centre of the square"},
@@ -50,21 +50,21 @@ inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
 inline constexpr std::uint32_t grid_dimensions = 256;
 
 std::string_view name_of(PointSetKind kind);
-// Whether the points are the same in every pass, so that what is estimated by them is biased.
+// Whether the points are the same in every pass, which biases every estimate.
 bool is_fixed(PointSetKind kind);
 std::optional<PointSetKind> point_set_named(std::string_view name);
 
-// The points of one pass over a grid of sites, of a picture or the only site (0, 0) of a single integral.
+// The points of one pass over a grid of sites: the pixels of an image, or the only site (0, 0) of a single integral.
 struct PointSet {
   PointSetKind kind = PointSetKind::padded_sobol;
   std::uint32_t seed = 0;
   std::uint32_t pass = 0;
-  std::uint32_t samples_per_pass = 1;   // points that a site takes in this pass; >= 1
-  std::uint32_t width = 0, height = 0;  // of the grid; 0: unknown. Only blue_noise asks, and only to save time.
+  std::uint32_t samples_per_pass = 1;   // points per site in this pass; >= 1
+  std::uint32_t width = 0, height = 0;  // of the grid; 0: unknown. Used only by blue_noise, to save time.
 };
 
 // The coordinates of one point in every lane. Lanes may differ in site, index (below samples_per_pass) and dimension.
-// A two-dimensional request at d takes up d and d + 1; any dimension number is good, and no two give the same numbers.
+// A two-dimensional request at d uses d and d + 1; every dimension number is valid, and no two give the same numbers.
 template <class F>
 class Sampler {
  public:
@@ -74,15 +74,15 @@ class Sampler {
   F get1(Uint<F> dimension) const;
   // The coordinates d and d + 1, well spread as a pair.
   Vec2<F> get2(Uint<F> dimension) const;
-  // Independent numbers that belong to this point and dimension alone, for walks of unknown length.
+  // Independent numbers for this point and dimension alone, for walks of unknown length.
   RandomStream<F> stream(Uint<F> dimension) const { return own_.fork(dimension); }
 
  private:
   PointSet set_;
-  RandomStream<F> shared_;  // the randomisation that the points of a set share
+  RandomStream<F> shared_;  // the randomisation that all points of a set share
   RandomStream<F> own_;     // of this point alone
   Uint<F> index_;           // the point's number in its set
-  int index_bits_;          // bits of index_ that count (blue_noise, pmj02)
+  int index_bits_;          // bits of index_ that are used (blue_noise, pmj02)
 };
 
 extern template class Sampler<float>;

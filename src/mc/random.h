@@ -21,7 +21,7 @@ MONTELUX_INLINE F unit_float(Uint<F> x) {
   return to_float(Uint<F>(x >> 8)) * 0x1p-24f;
 }
 
-// A stream of independent uniform numbers, told apart from every other stream by a key of 64 bits.
+// A stream of independent uniform numbers, distinguished from every other stream by a key of 64 bits.
 template <class F>
 class RandomStream {
  public:
@@ -29,7 +29,7 @@ class RandomStream {
   RandomStream() = default;
   MONTELUX_INLINE RandomStream(U key_low, U key_high) : low_(key_low), high_(key_high), counter_(0u) {}
 
-  // The number at a place of the stream, in [0, 1).
+  // The number at a position of the stream, in [0, 1).
   MONTELUX_INLINE F at(U place) const { return unit_float<F>(bits_at(place)); }
   MONTELUX_INLINE U bits_at(U place) const { return mix_bits(U(high_ ^ mix_bits(U(low_ + place * U(0x9e3779b9u))))); }
   // The next number, in [0, 1), in every lane.
@@ -43,7 +43,7 @@ class RandomStream {
     F y = next();
     return {x, y};
   }
-  // A stream of its own for each `purpose`.
+  // A separate stream for each `purpose`.
   MONTELUX_INLINE RandomStream fork(U purpose) const {
     return RandomStream(mix_bits(U(low_ ^ purpose * U(0x85ebca6bu))), mix_bits(U(high_ + purpose)));
   }

@@ -4,9 +4,9 @@
 
 namespace montelux {
 
-// Uniform on the polygon of n >= 3 corners on the unit circle, the first at (1, 0). Sectors of the disk go to the
-// triangles between the centre and the sides, each ring to a smaller copy of the rim: the map from the square is
-// continuous and keeps areas up to a constant, so that strata stay strata.
+// Uniform on the polygon of n >= 3 corners on the unit circle, the first at (1, 0). Sectors of the disk map to the
+// triangles between the centre and the sides, each ring to a scaled copy of the boundary: the map from the square is
+// continuous and keeps areas up to a constant, so that strata remain strata.
 template <class F>
 MONTELUX_INLINE Vec2<F> sample_regular_polygon(Vec2<F> u, int n) {
   const PolarPlace<F> place = concentric_place(u);
@@ -19,7 +19,7 @@ MONTELUX_INLINE Vec2<F> sample_regular_polygon(Vec2<F> u, int n) {
   return {r * (from.cos * (F(1.0f) - w) + to.cos * w), r * (from.sin * (F(1.0f) - w) + to.sin * w)};
 }
 
-// A point as the share r of the way to the rim, and where the ray through it meets the rim, in sides.
+// A point as its share r of the distance to the boundary, and where the ray through it meets the boundary, in sides.
 template <class F>
 struct RimPlace {
   F r, along;
@@ -29,7 +29,7 @@ MONTELUX_INLINE RimPlace<F> rim_place(Vec2<F> p, int n) {
   F turns = atan2(p.y, p.x) * inv_two_pi;
   turns = turns - floor(turns);
   const F side = min(floor(turns * float(n)), F(float(n - 1)));
-  // Turned so that the middle of the side lies along x.
+  // Rotated so that the middle of the side lies along x.
   const SinCos<F> middle = sin_cos_two_pi((side + 0.5f) * (1.0f / float(n)));
   const SinCos<F> half = sin_cos_two_pi(F(0.5f / float(n)));
   const F x = p.x * middle.cos + p.y * middle.sin, y = p.y * middle.cos - p.x * middle.sin;
@@ -45,7 +45,7 @@ MONTELUX_INLINE Vec2<F> invert_regular_polygon(Vec2<F> p, int n) {
   return invert_disk_concentric<F>({rim.r * azimuth.cos, rim.r * azimuth.sin});
 }
 
-// Per unit area, inside of the polygon.
+// Density per unit area inside the polygon.
 template <class F>
 MONTELUX_INLINE Density<Area, F> regular_polygon_density(Vec2<F> p, int n) {
   const SinCos<float> sector = sin_cos_two_pi(1.0f / float(n));

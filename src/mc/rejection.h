@@ -21,14 +21,14 @@ struct AcceptanceRate {
     accepted += 1, trials += r.trials;
   }
   double efficiency() const { return accepted / trials; }
-  // Of the efficiency, for accepted proposals until a fixed number of acceptances (delta method).
+  // The standard error of the efficiency when proposals are drawn until a fixed number is accepted (delta method).
   double standard_error() const {
     const double p = efficiency();
     return p * std::sqrt((1 - p) / accepted);
   }
 };
 
-// propose() draws a proposal, accept(proposal) says whether it stays. Ends only when one is accepted.
+// propose() draws a proposal, accept(proposal) accepts or rejects it. Returns only when one is accepted.
 template <class Propose, class Accept>
 auto sample_by_rejection(Propose propose, Accept accept) -> Rejection<decltype(propose())> {
   for (std::uint32_t trials = 1;; ++trials)

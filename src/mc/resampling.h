@@ -1,4 +1,4 @@
-// Resampling: importance resampling (Talbot et al. 2005) and reservoirs, which choose out of a stream in one pass.
+// Resampling: importance resampling (Talbot et al. 2005) and reservoirs, which choose from a stream in one pass.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// N elements out of a stream of unknown length, each kept with the same probability (Vitter 1985, algorithm R).
+// N elements of a stream of unknown length, each kept with the same probability (Vitter 1985, algorithm R).
 template <class T>
 class UniformReservoir {
  public:
@@ -33,18 +33,18 @@ class UniformReservoir {
   std::vector<T> kept_;
 };
 
-// One element out of a stream, element i with probability w_i / sum of w (Chao 1982), in every lane. T is any type with
-// `select(Mask<F>, T, T)`, or any type at all where F is float.
+// One element of a stream, element i with probability w_i / sum of w (Chao 1982), in every lane. T is any type with
+// `select(Mask<F>, T, T)`, or any type at all if F is float.
 template <class T, class F = float>
 struct WeightedReservoir {
   T value{};
   F weight_sum = 0.0f;
-  F count = 0.0f;  // candidates seen, those of weight zero among them
+  F count = 0.0f;  // candidates seen, including those of weight zero
 
-  // Takes one candidate, of weight >= 0, as u in [0, 1) decides. Says where it was taken.
+  // Takes one candidate of weight >= 0 if u in [0, 1) decides so. Returns where it was taken.
   Mask<F> add(const T& candidate, F weight, F u) { return take(candidate, weight, F(1.0f), u); }
 
-  // As if the other's stream had been added here: its choice with the weight of its sum.
+  // The same as adding the other's stream here: adds its choice with the weight of its sum.
   Mask<F> merge(const WeightedReservoir& other, F u) { return take(other.value, other.weight_sum, other.count, u); }
 
  private:
@@ -70,7 +70,7 @@ MONTELUX_INLINE F resampling_weight(F weight_sum, F count, F target) {
 
 struct ResamplingCounts {
   std::uint32_t candidates = 1;  // M, from the source distribution
-  std::uint32_t resampled = 1;   // N, chosen out of them with replacement
+  std::uint32_t resampled = 1;   // N, chosen from them with replacement
 };
 
 // One realisation of the resampled estimator of the integral of f: unbiased for every M, N >= 1 where g > 0 wherever f

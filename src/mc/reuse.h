@@ -1,9 +1,9 @@
-// Reuse of resampled samples between domains: what one domain has found serves the integral over another (Bitterli et
+// Reuse of resampled samples between domains: a sample of one domain serves the integral over another (Bitterli et
 // al. 2020, "Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting"; Lin et al.
 // 2022, "Generalized Resampled Importance Sampling").
 //
 // A reservoir holds one sample y and a weight W with E[h(y) W] = integral of h, for every h that is 0 where the target
-// of its domain is. Whatever combines such reservoirs to another one with the same property is unbiased, whether or not
+// of its domain is. Any combination of such reservoirs that has the same property is unbiased, whether or not
 // they depend on each other: expectations are linear.
 #pragma once
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace montelux {
 
-// `weight` is the unbiased contribution weight W, `target` the domain's own target at `value`. The confidence says how
-// much the sample counts beside others: any number that does not depend on the samples' values. 0: there is no
-// reservoir, and so does one that is no number or above largest_reuse_confidence; a reservoir that is there and found
-// nothing has weight 0 and its confidence.
+// `weight` is the unbiased contribution weight W, `target` the domain's own target at `value`. The confidence is the
+// relative weight of the sample: any number that does not depend on the samples' values. Without a reservoir it is 0,
+// and values that are not a number or above largest_reuse_confidence count as 0. A reservoir that found nothing has
+// weight 0 and its confidence.
 template <class T, class F>
 struct Reservoir {
   T value;
@@ -52,14 +52,14 @@ template <class T, class F>
 struct Shifted {
   T value;     // its image
   F jacobian;  // of the map there: image over preimage
-  F target;    // of the first domain at the image; 0 where there is none
+  F target;    // of the first domain at the image; 0 if there is no image
 };
 
-// What a combination asks of the domains, of which number 0 is the one that the result is for:
-//   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`; may say more
-//   F target_at(int to, const T& value, Mask<F> on)             of domain `to` at the preimage there of a value of
-//                                                               domain 0, times the Jacobian preimage over image
-// where each map is one to one on the samples for which its targets are not 0.
+// What a combination requires of the domains; the result is for domain number 0:
+//   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`; may be derived
+//   F target_at(int to, const T& value, Mask<F> on)             the target of domain `to` at the preimage there of a
+//                                                               value of domain 0, times the Jacobian preimage / image
+// Each map is one to one on the samples for which its targets are not 0.
 template <class D, class T, class F>
 concept ReuseDomains = requires(const D& domains, const T& value, Mask<F> on) {
   { domains.shift(1, value, on) } -> std::convertible_to<Shifted<T, F>>;
@@ -74,7 +74,7 @@ MONTELUX_INLINE F usable_weight(F w) {
   return select((w > F(0.0f)) & (w < F(largest_reuse_weight)), w, F(0.0f));
 }
 
-// Confidences above this count as none: their products with targets would leave the range of a float.
+// Confidences above this count as 0: their products with targets would leave the range of a float.
 inline constexpr float largest_reuse_confidence = 1e12f;
 
 template <class F>
@@ -95,8 +95,8 @@ class ReuseShares {
   F all() const { return all_; }
   F confidence(std::size_t i) const { return usable_confidence(inputs_[i].confidence); }
 
-  // Of domain i > 0 at the image y of its sample, where `own` is its own target there and `first` that of domain 0, in
-  // the measure of domain 0.
+  // The share of domain i > 0 at the image y of its sample. `own` is its own target there and `first` that of domain 0,
+  // in the measure of domain 0.
   F share(std::size_t i, const T& y, F own, F first, Mask<F> on) const {
     const F c = confidence(i);
     switch (weights_) {
@@ -111,7 +111,7 @@ class ReuseShares {
     }
     return balance_weight(F(c * own), confidence(0) * first + others_at(y, i, on));
   }
-  // Of domain 0 at its own sample.
+  // The share of domain 0 at its own sample.
   F share_of_first(Mask<F> on) const {
     const Reservoir<T, F>& own = inputs_[0];
     const F c = confidence(0);
@@ -132,7 +132,7 @@ class ReuseShares {
     }
     return sum / all_;
   }
-  // By what the sum of all weights is divided once y is chosen out of domain `from` (0: of the first itself).
+  // The divisor of the sum of all weights once y from domain `from` is chosen (0: from the first itself).
   F normalisation(const T& y, F target, Uint<F> from, Mask<F> on) const {
     if (weights_ == ReuseWeights::naive) return all_;
     if (weights_ != ReuseWeights::unbiased) return F(1.0f);
@@ -150,7 +150,7 @@ class ReuseShares {
   F target_at(std::size_t i, const T& y, Mask<F> on) const {
     return any(on) ? select(on, domains_.target_at(int(i), y, on), F(0.0f)) : F(0.0f);
   }
-  // Confidence times target, summed over the domains but the first and `left_out`.
+  // Confidence times target, summed over all domains except the first and `left_out`.
   F others_at(const T& y, std::size_t left_out, Mask<F> on) const {
     F sum = 0.0f;
     for (std::size_t j = 1; j < inputs_.size(); ++j) {
@@ -167,21 +167,21 @@ class ReuseShares {
   F others_, all_;
 };
 
-// Whether the shares sum to one for each sample by itself, and not only once a sample is chosen.
+// Whether the shares sum to one for every sample, and not only once a sample is chosen.
 constexpr bool shares_sum_to_one(ReuseWeights weights) {
   return weights == ReuseWeights::pairwise || weights == ReuseWeights::generalised;
 }
 
-// For combine(): what else is to be done with every input, and nothing is.
+// For combine(): the default `each`, which does nothing.
 struct NothingElse {};
 
-// One reservoir for the first domain out of those of all. T as for WeightedReservoir. Lanes that are off come back as
-// the first reservoir.
+// Combines the reservoirs of all domains to one for the first domain. T as for WeightedReservoir. Lanes that are off
+// return the first reservoir.
 //
 // Where shares_sum_to_one, the sum of h(y_i) w_i over all inputs estimates the integral of h over the first domain,
 // with less variance than the one sample that is chosen: its mean over the choice (Rao and Blackwell). For such sums
-// each.own(w, on) gets the weight of the first domain's own sample, and each.other(image, w, on) those of the others,
-// with what domains.shift() gave.
+// each.own(w, on) receives the weight of the first domain's own sample, and each.other(image, w, on) those of the
+// others with the results of domains.shift().
 template <class T, class F, class Domains, class Each = NothingElse>
 Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains,
                         RandomStream<F>& stream, Mask<F> on,

@@ -1,6 +1,6 @@
-// Reuse in a group of domains, each of which learns from all others at once: every sample is tried in every domain, so
-// that n domains need n (n - 1) evaluations for balance weights over all of them, which n neighbourhoods of their own
-// would need n times over.
+// Reuse in a group of domains, each of which uses the samples of all others: every sample is evaluated in every domain,
+// so that n domains need n (n - 1) evaluations for balance weights over all of them; n separate neighbourhoods would
+// need n times as many.
 #pragma once
 #include <memory>
 
@@ -8,15 +8,15 @@
 
 namespace montelux {
 
-// What a group asks of its domains:
+// What a group requires of its domains:
 //   Shifted<T, F> own(int of, const T& value, Mask<F> on)
-//       a sample of domain `of` as it is there; may be of a type that says more;
+//       a sample of domain `of` in that domain; the type may be derived;
 //   and one of these two:
 //   Shifted<T, F> image(int from, int to, const T& value, Mask<F> on)
-//       of a sample of domain `from`, in another one, `to`, of the same type as own();
+//       the image of a sample of domain `from` in another domain `to`, of the same type as own();
 //   void images(int from, const T& value, std::span<const Mask<F>> on, std::span<Image> all)
-//       in all domains at once, its own among them, if that is faster than one by one.
-// The maps must compose: what leads from i to k leads there over j, too, wherever there is an image in j.
+//       the images in all domains at once, its own included, if that is faster than one by one.
+// The maps must compose: the map from i to k equals that by way of j wherever there is an image in j.
 template <class D, class T, class F>
 concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> on) {
   { domains.own(0, value, on) } -> std::convertible_to<Shifted<T, F>>;

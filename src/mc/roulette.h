@@ -1,4 +1,4 @@
-// Russian roulette: a transform of a random variable that is often zero and keeps the expectation.
+// Russian roulette: a transform of a random variable that is often zero and preserves the expectation.
 #pragma once
 #include "mc/density.h"
 

@@ -19,8 +19,8 @@ struct SobolSeed {
 };
 
 // Dimensions 1 and up; dimension 0 is the van der Corput sequence. All primitive polynomials by degree. The numbers of
-// the first seven are those of Joe and Kuo; the others come from a random search of our own for small t-values of the
-// nets of 2^4 to 2^14 points in the projections onto pairs of dimensions, nearby dimensions weighing more.
+// the first seven are those of Joe and Kuo; the others were found by our random search for small t-values of the
+// nets of 2^4 to 2^14 points in the projections onto pairs of dimensions, with larger weights for nearby dimensions.
 // clang-format off
 inline constexpr std::array<SobolSeed, sobol_dimensions - 1> sobol_seeds{{
     {1, 0, {1}}, {2, 1, {1, 3}},

@@ -33,7 +33,7 @@ struct SphericalRectangle {
     return r;
   }
 
-  // Of the part of the rectangle between x0 and x, as two triangles: without cancellation in small ones.
+  // The solid angle of the part between x0 and x, as two triangles: without cancellation in small ones.
   MONTELUX_INLINE F solid_angle_up_to(F x) const {
     Vec3<F> p = normalize(Vec3<F>{x0, y0, z0}), q = normalize(Vec3<F>{x, y0, z0});
     Vec3<F> s = normalize(Vec3<F>{x, y1, z0}), t = normalize(Vec3<F>{x0, y1, z0});

@@ -5,7 +5,7 @@
 namespace montelux {
 
 // The triangle of three unit directions as seen from the centre of the sphere, prepared for sampling. Below about 1e-6
-// steradians single precision no longer tells the corners well apart, and sampling by area is as good.
+// steradians single precision no longer separates the corners well, and sampling by area is as good.
 template <class F>
 struct SphericalTriangle {
   Vec3<F> a, b, c;
@@ -14,7 +14,7 @@ struct SphericalTriangle {
   F tan_half_c;  // of the arc ab
   Vec3<F> to_c;  // unit, orthogonal to a, along the arc ac
 
-  // From the corners relative to the centre, of any length, in any order of turn.
+  // From the corners relative to the centre, of any length, in either orientation.
   static MONTELUX_INLINE SphericalTriangle from_corners(Vec3<F> p, Vec3<F> q, Vec3<F> r) {
     SphericalTriangle t;
     t.a = normalize(p), t.b = normalize(q), t.c = normalize(r);
@@ -35,9 +35,9 @@ struct SphericalTriangle {
   }
 };
 
-// The first coordinate cuts off the triangle a b c' of that part of the solid angle (Arvo 1995), with the corner c'
-// found from tan(E / 2) = xy sin A / (1 + xy cos A), x and y the tangents of half the arcs at a (NIST DLMF 4.42 gives
-// the law of cosines that it follows from): no cancellation in small triangles. The second goes along the arc b c'.
+// The first coordinate cuts off the triangle a b c' with that part of the solid angle (Arvo 1995). The corner c'
+// follows from tan(E / 2) = xy sin A / (1 + xy cos A), with x and y the tangents of half the arcs at a (from the law of
+// cosines, NIST DLMF 4.42): no cancellation in small triangles. The second interpolates along the arc b c'.
 template <class F>
 MONTELUX_INLINE Vec3<F> sample_spherical_triangle(const SphericalTriangle<F>& t, Vec2<F> u) {
   F half = 0.5f * u.x * t.solid_angle;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-// The mean of the logarithms' excess over that of the last term, and the mean of its square.
+// The mean excess of the logarithms over that of the last term, and the mean square of the excess.
 struct LogExcess {
   double mean = 0, square = 0;
 };
@@ -92,8 +92,8 @@ TailFit fit_tail(std::span<const double> largest, std::uint64_t count) {
     if (!(top.back() > 0)) continue;
     const LogExcess e = log_excess(top);
     if (!(e.mean > 0)) return {none};
-    // Of a power law the logarithms are exponential: the mean square is twice the square of the mean, and the ratio has
-    // the standard deviation 2 / sqrt(terms).
+    // For a power law the logarithms are exponential: the mean square is twice the square of the mean, and the ratio
+    // has the standard deviation 2 / sqrt(terms).
     const bool lighter = e.square / (e.mean * e.mean) < 2 - 4 / std::sqrt(double(terms));
     if (!lighter) return {1 / e.mean, terms};
   }

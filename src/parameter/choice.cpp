@@ -10,7 +10,7 @@ namespace montelux {
 
 namespace {
 
-// Cuts at the commas that are not within parentheses.
+// Splits at the commas that are not within parentheses.
 std::vector<std::string> split_at_commas(std::string_view text) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -40,7 +40,7 @@ std::string range_text(const ParameterSpec& spec) {
   return {};
 }
 
-// What a parameter takes, for a message.
+// The accepted values of a parameter, for a message.
 std::string expected(const ParameterSpec& spec) {
   std::vector<std::string> ways;
   for (ParameterType type : spec.types) switch (type) {

@@ -1,4 +1,4 @@
-// What is wrong with a user's input, and where.
+// What is wrong with the user's input, and where.
 #pragma once
 #include <memory>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// A place in a file: line and column count from 1; line 0 means the file as a whole. No file: not from a file.
+// A position in a file: line and column count from 1; line 0 is the file as a whole. No file: not from a file.
 struct SourceLocation {
   std::shared_ptr<const std::string> file;
   int line = 0;
@@ -16,7 +16,7 @@ struct SourceLocation {
 
 enum class Severity { note, warning, error };
 
-// How many diagnostics of one kind are stated in one line.
+// How many diagnostics of one kind are combined into one line.
 struct DiagnosticGroup {
   std::string summary;     // with {n} for their number and {sum} for the sum of their amounts; empty: the message
   std::size_t amount = 1;  // what the message counts
@@ -25,12 +25,12 @@ struct DiagnosticGroup {
 struct Diagnostic {
   Severity severity = Severity::error;
   SourceLocation where;
-  std::string message;      // what was found and what is valid, one sentence, no full stop needed
-  std::string hint;         // the nearest valid name, or what to do; may be empty
+  std::string message;      // what was found and what is valid, one sentence without a final full stop
+  std::string hint;         // the closest valid name, or what to do; may be empty
   DiagnosticGroup group{};  // of warnings and notes
 };
 
-// All that was found in one run. A stage adds to it and goes on as far as it can.
+// All diagnostics of one run. A stage adds its own and continues as far as possible.
 class Diagnostics {
  public:
   void error(const SourceLocation& where, std::string message, std::string hint = {});
@@ -47,13 +47,13 @@ class Diagnostics {
   int errors_ = 0;
 };
 
-// The same, with one line for all warnings, or notes, that share their summary (or without one: message and hint). It
-// stands where the first of them stood. Errors stay as they are.
+// The same, with one line for all warnings, or notes, that have the same summary (or without one: message and hint), at
+// the position of the first. Errors are unchanged.
 Diagnostics grouped(const Diagnostics& diagnostics);
 
-// The candidate nearest to `name` by edit distance; empty where none is near enough to be meant.
+// The candidate closest to `name` by edit distance; empty if none is close enough.
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);
-// " (did you mean "path"?)", or nothing where no name is near.
+// " (did you mean "path"?)", or an empty text if no name is close.
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace montelux

@@ -1,5 +1,5 @@
-// Tables of what may be stated: each family of things (materials, lights, ...) has one, and the parser, the writer, the
-// documentation and the bindings read it.
+// Tables of what may be stated: each family (materials, lights, ...) has one, which the parser, the writer, the
+// documentation and the bindings use.
 #pragma once
 #include <span>
 #include <string_view>
@@ -16,21 +16,21 @@ struct ParameterSpec {
   std::string_view meaning;                 // one line: meaning, unit, default
   double low = -1e30, high = 1e30;          // valid range of numbers and integers, inclusive
   std::vector<std::string_view> choices{};  // valid strings; empty: any
-  bool array = false;                       // more than one value is meant
-  bool later = false;                       // known and not applied yet: a reader warns where it is given
+  bool array = false;                       // takes more than one value
+  bool later = false;                       // known but not applied yet: a reader warns about it
 };
 
-// One name of a family. `later` says that Montelux knows the name and cannot do it yet.
+// One name of a family. `later`: Montelux knows the name but does not support it yet.
 struct EntitySpec {
   std::string_view name;
   std::string_view meaning;  // one line
   std::vector<ParameterSpec> parameters;
   bool later = false;
-  std::string_view instead{};  // the nearest that Montelux has, where a stand-in is sensible (cameras, samplers, ...)
-  bool same = false;           // what serves instead does the same: nobody need be told
+  std::string_view instead{};  // the closest substitute, if there is a sensible one (cameras, samplers, ...)
+  bool same = false;           // the substitute is equivalent: no note is needed
 };
 
-// Null where the table has no such name.
+// Null if the table does not have the name.
 const EntitySpec* find_entity(std::span<const EntitySpec> table, std::string_view name);
 const ParameterSpec* find_parameter(const EntitySpec& entity, std::string_view name);
 std::vector<std::string_view> names_of(std::span<const EntitySpec> table);

@@ -1,4 +1,4 @@
-// Typed parameters as a scene file states them: plain data, writable again.
+// Typed parameters as stated in a scene file: plain data that can be written again.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,17 +14,17 @@
 
 namespace montelux {
 
-// A colour or spectrum as stated; it becomes an Rgb when the scene is prepared, by what it is used for.
+// A colour or spectrum as stated; it becomes an Rgb when the scene is prepared, depending on its use.
 struct RgbValue {
   Rgb rgb;                           // components in `color_space`
   std::string color_space = "srgb";  // srgb, dci-p3, rec2020, aces2065-1
 };
 struct NamedSpectrum {
-  std::string name;  // as "metal-Cu-eta"
+  std::string name;  // for example "metal-Cu-eta"
 };
 struct SampledValue {
-  std::vector<float> wavelengths;  // nm, rising
-  std::vector<float> values;       // one a wavelength
+  std::vector<float> wavelengths;  // nm, increasing
+  std::vector<float> values;       // one per wavelength
 };
 struct Blackbody {
   float kelvin;
@@ -61,25 +61,25 @@ struct Parameter {
   mutable bool used = false;  // whether anything has looked it up, see ParameterList::unused()
 };
 
-// The parameters of one entity, in the order stated; names are unique per (name). A list keeps account of what has been
-// looked up, so that a parameter that nothing uses is reported and never ignored; it is for one thread at a time.
+// The parameters of one entity, in the order stated; names are unique. A list records which parameters have been
+// looked up, so that an unused parameter is reported and never silently ignored; it is for one thread at a time.
 class ParameterList {
  public:
   void add(Parameter parameter) { list_.push_back(std::move(parameter)); }
   const std::vector<Parameter>& all() const { return list_; }
-  // Null where absent. The last of equal names wins. The parameter counts as used, as it does by all that follow.
+  // Null if absent. The last of equal names wins. Like all functions below, it marks the parameter as used.
   const Parameter* find(std::string_view name) const;
 
-  // What nothing has looked up since it was added, or since the last call of forget_uses().
+  // The parameters that have not been looked up since they were added, or since the last call of forget_uses().
   std::vector<const Parameter*> unused() const;
-  // After looks that only checked.
+  // To be called after look-ups that only check.
   void forget_uses() const;
-  // What is accounted for elsewhere: one parameter, or all of an entity that is left out on purpose.
+  // Marks what is handled elsewhere: one parameter, or all of an entity that is omitted on purpose.
   void use(std::string_view name) const { find(name); }
   void use_all() const;
 
-  // The first value of the parameter, or `otherwise` where it is absent or of another type (the parser has reported
-  // that).
+  // The first value of the parameter, or `otherwise` if it is absent or of another type (which the parser has
+  // reported).
   float number(std::string_view name, float otherwise) const;
   int integer(std::string_view name, int otherwise) const;
   bool boolean(std::string_view name, bool otherwise) const;
@@ -88,7 +88,7 @@ class ParameterList {
   std::optional<SpectrumValue> spectrum(std::string_view name) const;
   std::optional<std::string> texture(std::string_view name) const;
 
-  // The whole array; empty where absent.
+  // The whole array; empty if absent.
   template <class T>
   const std::vector<T>& array(std::string_view name) const {
     static const std::vector<T> none;
@@ -101,7 +101,7 @@ class ParameterList {
   std::vector<Parameter> list_;
 };
 
-// A thing of a family ("conductor" of the materials) with its parameters.
+// An entry of a family ("conductor" of the materials) with its parameters.
 struct Entity {
   std::string type;
   ParameterList parameters;

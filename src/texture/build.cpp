@@ -58,7 +58,7 @@ SpectrumTextureId TextureBuilder::constant(Rgb value) {
   return place->second;
 }
 
-// A value that was stated in place; nothing where the parameter holds something else.
+// A value that was stated directly; nothing if the parameter holds something else.
 template <class V>
 std::optional<V> TextureBuilder::value(const Parameter& parameter) const {
   if (const auto* x = std::get_if<std::vector<float>>(&parameter.values); x && !x->empty())
@@ -116,7 +116,7 @@ std::optional<SpectrumTextureId> TextureBuilder::spectrum_if_stated(const Entity
 
 // ---- textures -------------------------------------------------------------------------------------------------------
 
-// A texture that was just added and depends on constants alone becomes a constant itself.
+// Replaces a texture that was just added by a constant if it depends only on constants.
 template <class V>
 TextureId<V> TextureBuilder::folded(TextureId<V> id, bool all_constant) {
   return all_constant ? constant(textures_.value(id, TexturePoint{{0, 0}, {0, 0, 0}, {0, 0, 1}})) : id;
@@ -156,7 +156,7 @@ std::shared_ptr<const TexelImage> TextureBuilder::image(const Entity& entity, st
   return nullptr;
 }
 
-// Nothing where the image cannot be read; that has been reported.
+// Nothing if the image cannot be read, which has been reported.
 std::optional<ImageTexture> TextureBuilder::build_image(const Entity& entity, const Transform& texture_to_world) {
   const ParameterList& p = entity.parameters;
   std::string encoding_name = p.string("encoding", ""), wrap_name = p.string("wrap", "repeat");

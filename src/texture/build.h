@@ -9,37 +9,37 @@
 
 namespace montelux {
 
-// Adds textures to a set, by name, and turns the parameters of other things (materials, shapes) into textures.
-// What cannot be done is reported, and stands as a constant.
+// Adds textures to a set, by name, and converts the parameters of other objects (materials, shapes) to textures.
+// What is not supported is reported and replaced by a constant.
 class TextureBuilder {
  public:
-  // What a stated colour is as linear sRGB.
+  // Converts a stated colour to linear sRGB.
   using ToRgb = std::function<Rgb(const SpectrumValue&)>;
 
-  // folder: what file names of images are relative to. The set and the diagnostics must outlive the builder.
+  // folder: the folder to which image file names are relative. The set and the diagnostics must outlive the builder.
   TextureBuilder(TextureSet& textures, std::string folder, ToRgb to_rgb, Diagnostics& diagnostics);
 
-  // A texture under a name, which textures, parameters and find_... after it may use. Numbers and spectra have names of
-  // their own; a name that is stated again means the new texture from here on.
+  // Adds a texture under a name that later textures, parameters and find_... may use. Numbers and spectra have separate
+  // names; a name that is stated again means the new texture from there on.
   void add(const std::string& name, bool is_spectrum, const Entity& entity, const Transform& texture_to_world);
 
   // The parameter as a texture, whether it was stated as a value or as the name of a texture; the constant `otherwise`
-  // where it is absent.
+  // if it is absent.
   NumberTextureId number(const Entity& entity, std::string_view parameter, float otherwise);
   SpectrumTextureId spectrum(const Entity& entity, std::string_view parameter, Rgb otherwise);
-  // Nothing where the parameter is absent.
+  // Nothing if the parameter is absent.
   std::optional<NumberTextureId> number_if_stated(const Entity& entity, std::string_view parameter);
   std::optional<SpectrumTextureId> spectrum_if_stated(const Entity& entity, std::string_view parameter);
 
   NumberTextureId constant(float value);
   SpectrumTextureId constant(Rgb value);
 
-  // The named texture; nothing where there is none.
+  // The named texture; nothing if there is none.
   std::optional<NumberTextureId> find_number(std::string_view name) const;
   std::optional<SpectrumTextureId> find_spectrum(std::string_view name) const;
 
-  // The image of the file that a string parameter names, relative to the folder; reports where it cannot be read, and
-  // then is null.
+  // The image in the file named by a string parameter, relative to the folder; if it cannot be read, reports that and
+  // returns null.
   std::shared_ptr<const TexelImage> image(const Entity& entity, std::string_view parameter,
                                           std::optional<ColorEncoding> encoding = std::nullopt);
 

@@ -21,7 +21,7 @@ std::uint16_t float_to_half(float x) {
   // The spacing of halves about the magnitude; rounding to a multiple of it is exact in float.
   int exponent = std::max(std::ilogb(std::max(magnitude, 0x1p-24f)), -14);
   auto steps = std::uint32_t(std::nearbyint(std::ldexp(magnitude, 10 - exponent)));
-  // A carry of the significand runs into the exponent as it should.
+  // A carry of the significand correctly increments the exponent.
   return std::uint16_t(sign | (std::uint32_t(exponent + 14) * 1024u + steps));
 }
 

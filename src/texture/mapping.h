@@ -1,4 +1,4 @@
-// How a point of a surface becomes a place (s, t) of a flat texture.
+// Maps from a point of a surface to a position (s, t) of a planar texture.
 #pragma once
 #include <array>
 #include <variant>

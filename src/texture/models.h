@@ -1,5 +1,5 @@
-// The textures themselves: plain data, in which other textures are links. V is float for a texture of numbers and Rgb
-// for one of spectra.
+// The textures themselves: plain data that refers to other textures by links. V is float for a texture of numbers and
+// Rgb for one of spectra.
 #pragma once
 #include <array>
 #include <memory>
@@ -41,17 +41,17 @@ struct MixTexture {
   NumberTextureId amount;
 };
 
-// |cos| of the normal to the direction is the share of `along`.
+// The weight of `along` is |cos| of the angle between the normal and the direction.
 template <class V>
 struct DirectionMixTexture {
   TextureId<V> along, across;
   Vec3f direction;  // unit, in world space
 };
 
-// What lies beyond an edge of an image along one axis, where it is not as the wrap mode has it.
+// What lies beyond an edge of an image along one axis, if it differs from the wrap mode.
 enum class Fold { none, clamp, mirror };
 
-// scale * image, or 1 less that and then not below 0; spectra are never below 0. t runs up the image.
+// scale * image, or 1 minus that and at least 0; spectra are at least 0. t increases upwards in the image.
 struct ImageTexture {
   Mapping mapping;
   std::shared_ptr<const TexelImage> image;
@@ -63,7 +63,7 @@ struct ImageTexture {
   std::optional<Rgb> tint{};     // factor of spectra
   std::array<Fold, 2> folds{};   // along s and t
 
-  // Places on the image whose texels, by the wrap mode, are those beyond its edges.
+  // Maps positions beyond the edges to positions on the image, by `folds`.
   template <class F>
   MONTELUX_INLINE Vec2<F> folded(const Vec2<F>& st) const {
     if (folds[0] == Fold::none && folds[1] == Fold::none) return st;
@@ -71,7 +71,7 @@ struct ImageTexture {
   }
 
  private:
-  // Between the middles of the outermost texels nothing beyond the edge is looked up.
+  // Between the centres of the outermost texels nothing beyond the edge is looked up.
   template <class F>
   static MONTELUX_INLINE F folded(F s, Fold fold, int size) {
     if (fold == Fold::none) return s;
@@ -87,7 +87,7 @@ struct ThresholdTexture {
   float edge = 0.5f;
 };
 
-// Cells of size 1: `even` where their coordinates add up to an even number.
+// Cells of size 1: `even` where the sum of their coordinates is even.
 template <class V>
 struct CheckerboardTexture {
   std::optional<Mapping> flat;  // absent: cubes in texture space
@@ -102,7 +102,7 @@ struct BilerpTexture {
   V v00, v01, v10, v11;
 };
 
-// Discs of radius 0.35 at random places of about two in five of the cells of size 1.
+// Discs of radius 0.35 at random positions in about two of five cells of size 1.
 template <class V>
 struct DotsTexture {
   Mapping mapping;
@@ -120,11 +120,11 @@ struct WrinkledTexture {
   float roughness = 0.5f;
   int octaves = 8;
 };
-// Waves whose height a slower noise governs.
+// Waves whose height is controlled by a noise of lower frequency.
 struct WindyTexture {
   Transform world_to_texture;
 };
-// Veins across y: a sine of y that noise disturbs, through a spline of colours (Ebert et al., "Texturing and
+// Veins across y: a sine of y perturbed by noise, mapped to a spline of colours (Ebert et al., "Texturing and
 // Modeling").
 struct MarbleTexture {
   Transform world_to_texture;

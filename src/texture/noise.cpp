@@ -21,7 +21,7 @@ constexpr std::array<std::uint8_t, 256> permutation{
     181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
     67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
 
-// The twelve edges of a cube; four of them once more, so that there are sixteen.
+// The twelve edges of a cube; four of them are repeated to make sixteen.
 constexpr std::array<Vec3f, 16> gradients{{{1, 1, 0},
                                            {-1, 1, 0},
                                            {1, -1, 0},
@@ -39,7 +39,7 @@ constexpr std::array<Vec3f, 16> gradients{{{1, 1, 0},
                                            {0, 1, -1},
                                            {0, -1, -1}}};
 
-// A coordinate as the number of its cell (modulo 256) and the place in it.
+// A coordinate as its cell number (modulo 256) and the position within the cell.
 struct Cell {
   std::uint32_t index;
   float place;
@@ -52,7 +52,7 @@ Cell cell_of(float x) {
   return {std::uint32_t(std::int32_t(low)) & 255u, t, t * t * t * (t * (t * 6 - 15) + 10)};
 }
 
-// The gradient of a lattice point applied to the way from it.
+// The dot product of the gradient of a lattice point and the offset from that point.
 float pull(std::uint32_t x, std::uint32_t y, std::uint32_t z, Vec3f way) {
   std::uint32_t h = permutation[(permutation[(permutation[x & 255u] + y) & 255u] + z) & 255u];
   return dot(gradients[h & 15u], way);

@@ -1,4 +1,4 @@
-// Textures over the lanes of a pack: one texture, many points. What has no form over lanes is looked up point by point.
+// Textures over the lanes of a pack: one texture, many points. Textures without a lane form are looked up per lane.
 #include "texture/texture_set.h"
 
 namespace montelux {
@@ -26,7 +26,7 @@ Vec2<F> map_points(const Mapping& mapping, const Points& at, Mask<F> on) {
 
 Mask<F> is_even(F whole) { return whole * 0.5f == floor(whole * 0.5f); }
 
-// What V, float or Rgb, is in a pack.
+// The type of V, float or Rgb, for a pack.
 template <class V>
 struct InPack;
 template <>

@@ -1,4 +1,4 @@
-// What a scene may say about textures.
+// The textures that a scene may state.
 #pragma once
 #include <span>
 
@@ -7,7 +7,7 @@
 namespace montelux {
 
 // Every texture by name, with its parameters. A parameter that takes numbers and spectra takes the kind of the texture
-// that states it: numbers in a texture of numbers, spectra in a texture of spectra.
+// that has it: numbers in a texture of numbers, spectra in a texture of spectra.
 std::span<const EntitySpec> texture_table();
 
 }  // namespace montelux

@@ -29,7 +29,7 @@ Selection select_channels(const PixelBuffer& pixels) {
   bool gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
   Selection s{gray ? std::vector<int>{rgb[0]} : std::vector<int>(rgb.begin(), rgb.end()), false};
   if (!alpha || *alpha == rgb[0]) return s;
-  // Alpha counts only where it says something.
+  // Alpha is used only if it is not constant 1.
   for (std::size_t i = std::size_t(*alpha); i < pixels.values.size(); i += pixels.channels.size())
     if (pixels.values[i] != 1.0f) {
       s.alpha = true;
@@ -39,7 +39,7 @@ Selection select_channels(const PixelBuffer& pixels) {
   return s;
 }
 
-// Each selected value through `convert(value, is_alpha)`, interleaved.
+// Applies `convert(value, is_alpha)` to each selected value; interleaved.
 template <class T, class Convert>
 std::vector<T> packed(const PixelBuffer& pixels, const Selection& s, Convert convert) {
   std::vector<T> values;
@@ -62,7 +62,7 @@ int modulo(int a, int n) {
   return r < 0 ? r + n : r;
 }
 
-// The texel that stands for (x, y), at most one image away.
+// The texel that replaces (x, y), which is at most one image away.
 Place wrapped(int x, int y, int width, int height, Wrap wrap) {
   if (x >= 0 && y >= 0 && x < width && y < height) return {x, y, true};
   switch (wrap) {
@@ -81,14 +81,14 @@ Place wrapped(int x, int y, int width, int height, Wrap wrap) {
   return {0, 0, false};
 }
 
-// s in texels, bounded so that it fits an integer whatever s is (not a number included).
+// s in texels, limited so that it fits an integer for every s (including not a number).
 template <class F>
 F in_texels(F s, int size, Wrap wrap) {
   if (wrap == Wrap::repeat) return clamp((s - floor(s)) * float(size), 0.0f, float(size));
   return clamp(s * float(size), -float(size), 2.0f * float(size));
 }
 
-// The two texels between which x lies along one axis, and whether they are inside of the image.
+// The two texels between which x lies along one axis, and whether they are inside the image.
 struct Neighbours {
   Uint<NativeFloats> first, second;
   Mask<NativeFloats> first_inside, second_inside;
@@ -167,7 +167,7 @@ float TexelImage::value(int x, int y, int channel) const {
 
 Rgb TexelImage::texel(int x, int y) const {
   const std::size_t i = (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * std::size_t(channels());
-  const std::size_t next = is_gray() ? 0 : 1;  // from one primary to the next
+  const std::size_t next = is_gray() ? 0 : 1;  // step from one primary to the next
   if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&texels_)) {
     const std::uint8_t* c = codes->data() + i;
     return {{decoded_[c[0]], decoded_[c[next]], decoded_[c[2 * next]]}};

@@ -1,4 +1,4 @@
-// Images as textures and lights look them up: compact in memory, decoded at the look-up.
+// Images as used by textures and lights: compact in memory, decoded when looked up.
 #pragma once
 #include <array>
 #include <filesystem>
@@ -14,17 +14,17 @@
 
 namespace montelux {
 
-// What lies outside of an image. octahedral: the image is an equal-area map of the sphere and goes on across its edges.
+// What lies outside an image. octahedral: the image is an equal-area map of the sphere and continues across its edges.
 enum class Wrap { repeat, black, clamp, octahedral };
 // "repeat", "black", "clamp" or "octahedralsphere".
 std::optional<Wrap> parse_wrap(std::string_view name);
 
-// One colour channel (gray) or three, and perhaps alpha. Row 0 is the top. Places (s, t) run over [0, 1]^2 from the
-// upper left corner of the image; texel (x, y) covers [x, x + 1) / width by [y, y + 1) / height. Values are linear.
-// Immutable, so that threads share it.
+// One colour channel (grey) or three, and possibly alpha. Row 0 is the top. Positions (s, t) range over [0, 1]^2 from
+// the upper left corner of the image; texel (x, y) covers [x, x + 1) / width by [y, y + 1) / height. Values are linear.
+// Immutable, so that threads can share it.
 class TexelImage {
  public:
-  // 8-bit and half-precision values are kept as such. Of integers `encoding` says what they stand for (sRGB without);
+  // 8-bit and half-precision values are stored unchanged. `encoding` states the meaning of integers (default: sRGB);
   // floating-point values are linear. An alpha channel that is 1 throughout is dropped.
   static Result<TexelImage> read(const std::filesystem::path& path, std::optional<ColorEncoding> encoding);
   // The same for a file in memory; messages call it by the name.
@@ -39,29 +39,29 @@ class TexelImage {
   bool has_alpha() const { return has_alpha_; }
   std::size_t bytes() const;
 
-  // The texel (x, y), which must lie in the image.
+  // The texel (x, y), which must be within the image.
   Rgb texel(int x, int y) const;
-  // 1 where there is no alpha.
+  // 1 if there is no alpha.
   float alpha_texel(int x, int y) const;
 
   // The nearest texel, and the interpolation of the four nearest.
   Rgb nearest(Vec2f st, Wrap wrap) const;
   Rgb bilinear(Vec2f st, Wrap wrap) const;
-  // The image as numbers: alpha where it has that, else the mean of the colour channels.
+  // The image as numbers: alpha if there is any, else the mean of the colour channels.
   float nearest_number(Vec2f st, Wrap wrap) const;
   float bilinear_number(Vec2f st, Wrap wrap) const;
   float bilinear_alpha(Vec2f st, Wrap wrap) const;
   // One channel of the image: red, green, blue, or alpha (3).
   float nearest_channel(Vec2f st, Wrap wrap, int channel) const;
   float bilinear_channel(Vec2f st, Wrap wrap, int channel) const;
-  // bilinear() for a pack, to the last bit, with the look-ups of all lanes under way together. Zero in idle lanes.
+  // bilinear() for a pack, bit for bit, with the look-ups of all lanes in flight together. Zero in idle lanes.
   Spectrum<NativeFloats> bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const;
 
-  // The mean of the texels with x in [x0, x1) and y in [y0, y1), a part of the image that is not empty.
+  // The mean of the texels with x in [x0, x1) and y in [y0, y1), which must not be empty.
   Rgb average(int x0, int y0, int x1, int y1) const;
 
  private:
-  // Without texels yet. `channels`: those of colour and that of alpha, if there is one.
+  // Without texels yet. `channels`: the number of colour and alpha channels.
   TexelImage(int width, int height, int channels, bool has_alpha)
       : width_(width), height_(height), color_channels_(channels - int(has_alpha)), has_alpha_(has_alpha) {}
 
@@ -74,12 +74,12 @@ class TexelImage {
   auto nearest_of(Vec2f st, Wrap wrap, Texel texel) const;
   template <class Texel>
   auto bilinear_of(Vec2f st, Wrap wrap, Texel texel) const;
-  // The texels with these numbers, counted along rows. Not of halves.
+  // The texels with these numbers, counted along rows. Not for halves.
   Spectrum<NativeFloats> texels(Uint<NativeFloats> number) const;
 
   int width_, height_, color_channels_;
   bool has_alpha_;
-  // 8-bit codes (and behind the last three bytes of nothing, so that each can be read as a word), bits of halves, or
+  // 8-bit codes (followed by three zero bytes, so that each can be read as a 32-bit word), bits of halves, or
   // floats; interleaved.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> texels_;
   std::array<float, 256> decoded_{};  // of the 8-bit colour codes

@@ -1,4 +1,4 @@
-// Textures: numbers or spectra that vary over a surface. Evaluated a point at a time; the pack loops over its lanes.
+// Textures: numbers or spectra that vary over a surface. Evaluated one point at a time; the pack loops over its lanes.
 #pragma once
 #include "color/spectrum.h"
 #include "math/vec.h"

@@ -16,7 +16,7 @@ bool in_dot(Vec2f st) {
   auto noise = [](float x, float y) { return gradient_noise({x, y, 0.5f}); };
   float s = std::floor(st.x + 0.5f), t = std::floor(st.y + 0.5f);
   if (noise(s + 0.5f, t + 0.5f) <= 0) return false;
-  // The disc stays within its cell.
+  // The disc stays inside its cell.
   float dx = st.x - (s + shift * noise(s + 1.5f, t + 2.8f));
   float dy = st.y - (t + shift * noise(s + 4.5f, t + 9.8f));
   return dx * dx + dy * dy < radius * radius;

@@ -1,4 +1,4 @@
-// All textures of a scene, and their images, each of which is held once.
+// All textures of a scene, and their images, each of which is stored once.
 #pragma once
 #include <map>
 
@@ -19,13 +19,13 @@ class TextureSet {
   NumberTextureId add(NumberTexture texture);
   SpectrumTextureId add(SpectrumTexture texture);
 
-  // The value at a point. Any number of threads may ask; nothing is allocated.
+  // The value at a point. May be called from any number of threads; allocates nothing.
   float number(NumberTextureId id, const TexturePoint& point) const;
   Rgb spectrum(SpectrumTextureId id, const TexturePoint& point) const;
   float value(NumberTextureId id, const TexturePoint& point) const { return number(id, point); }
   Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return spectrum(id, point); }
 
-  // The same at the points of a pack, to the last bit; idle lanes hold anything.
+  // The same at the points of a pack, bit for bit; idle lanes may contain anything.
   NativeFloats number(NumberTextureId id, const TexturePoints<NativeFloats>& points, Mask<NativeFloats> on) const;
   Spectrum<NativeFloats> spectrum(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
                                   Mask<NativeFloats> on) const;
@@ -42,11 +42,11 @@ class TextureSet {
   bool is_constant(NumberTextureId id) const { return constant(id).has_value(); }
   bool is_constant(SpectrumTextureId id) const { return constant(id).has_value(); }
 
-  // The image of a file, read when first asked for with this encoding (see TexelImage::read). Not for several threads
+  // The image of a file, read when first requested with this encoding (see TexelImage::read). Not for several threads
   // at a time.
   Result<std::shared_ptr<const TexelImage>> image(const std::filesystem::path& path,
                                                   std::optional<ColorEncoding> encoding = std::nullopt);
-  // The bytes of an image file, which image() takes for the file of that path.
+  // The bytes of an image file, which image() uses in place of the file with that path.
   void embed(const std::filesystem::path& path, std::shared_ptr<const std::string> bytes);
   // Memory of the images' texels.
   std::size_t image_bytes() const;

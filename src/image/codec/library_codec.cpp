@@ -1,4 +1,4 @@
-// The module of image formats: OpenImageIO, and what it loads.
+// The module of image formats: OpenImageIO and its dependencies.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -54,8 +54,8 @@ std::string size_complaint(const OIIO::ImageSpec& spec) {
   return {};
 }
 
-// How many bytes of samples a byte of a file stands for at the most: deflate gains 1032 (zlib's documentation), run
-// lengths and discrete cosines less; the others have no known bound.
+// The maximum ratio of decoded bytes to file bytes: deflate reaches 1032 (zlib's documentation), run lengths and
+// discrete cosines less; the others have no known bound.
 double max_packing(std::string_view format, std::string_view compression) {
   constexpr double deflate = 1032, unknown = 1 << 18;
   if (format == "openexr") return compression.starts_with("dwa") ? unknown : deflate;
@@ -63,7 +63,7 @@ double max_packing(std::string_view format, std::string_view compression) {
   return std::find(simple.begin(), simple.end(), format) == simple.end() ? unknown : 4 * deflate;
 }
 
-// Whether a file of this size can hold what its header promises. Small pictures are not looked at.
+// Whether a file of this size can contain what its header states. Small images are not checked.
 bool is_plausible(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
   constexpr std::uint64_t small = std::uint64_t(64) << 20;
   const std::uint64_t bytes = spec.image_bytes(true), tile = spec.tile_bytes(true);
@@ -93,7 +93,7 @@ Result<PixelBuffer> read_part(const Source& source, int part) {
   return pixels;
 }
 
-// Adds the further parts whose size is that of the first.
+// Appends the further parts that have the size of the first.
 Status read_further_parts(const Source& source, StoredImage& image) {
   OIIO::ImageInput& input = source.input;
   const int width = image.parts.front().width, height = image.parts.front().height;
@@ -132,7 +132,7 @@ Result<StoredImage> read(const std::string& name, const std::string* bytes) {
   return image;
 }
 
-// By the codec of a name's ending.
+// Selects the codec by the file extension.
 template <class T>
 Result<std::string> encode_samples(const std::string& name, const OIIO::ImageSpec& spec, const T* values) {
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
