@@ -25,12 +25,12 @@ void replace_environment(const Environment& environment, SceneDesc& scene, Diagn
     diagnostics.note(where, "this environment takes the place of the scene's " +
                                 (replaced == 1 ? std::string("own one") : std::to_string(replaced) + " own ones"));
   Entity e{"infinite", {}, where};
-  // Paths of the description start at its folder; an absolute one stays.
+  // Paths of the description are relative to its folder; an absolute one stays.
   put(e, "filename", ParameterType::string,
       std::vector<std::string>{std::filesystem::absolute(environment.file).string()});
   put(e, "mapping", ParameterType::string, std::vector<std::string>{"auto"});
   put(e, "scale", ParameterType::number, std::vector<float>{float(environment.scale)});
-  // The image's pole, its own +z, is +y of the world; its azimuth runs from +x toward +z.
+  // The pole of the image, its own +z, is +y of the world; its azimuth goes from +x towards +z.
   const double angle = environment.rotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
   Matrix4 m;
   m.m = {{{c, -s, 0, 0}, {0, 0, 1, 0}, {s, c, 0, 0}, {0, 0, 0, 1}}};

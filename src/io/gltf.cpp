@@ -8,7 +8,7 @@ namespace montelux {
 
 namespace {
 
-// Names of all cameras and animations, and how long these are by the bounds that their times state.
+// Lists the names of all cameras and animations, with the durations given by the bounds of their times.
 void list_choices(gltf::Document& document, ReadResult& result) {
   const gltf::Element cameras = document.list("cameras"), animations = document.list("animations");
   const gltf::Element accessors = document.list("accessors");

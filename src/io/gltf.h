@@ -1,4 +1,4 @@
-// Scenes in glTF 2.0, as text with files beside it (.gltf) or in one file (.glb).
+// Scenes in glTF 2.0, as text with separate files (.gltf) or in one file (.glb).
 #pragma once
 #include <string>
 
@@ -6,10 +6,10 @@
 
 namespace montelux {
 
-// Reads a file with the buffers that it names; images are only looked for. The world is glTF's own: right-handed, y up,
-// metres; the camera mirrors it into the picture. Photometric units are taken as they are: a candela is an intensity of
-// 1, a lux an irradiance of 1, a nit a radiance of 1. All errors are collected in one run, at most 50, each with the
-// JSON pointer of what is wrong (and line and column in a .gltf).
+// Reads a file with the buffers that it names; for images it only checks that they exist. The world is glTF's own:
+// right-handed, y up, metres; the camera mirrors it into the image. Photometric units are used unchanged: a candela is
+// an intensity of 1, a lux an irradiance of 1, a nit a radiance of 1. One run collects all errors, at most 50, each
+// with the JSON pointer of what is wrong (and line and column in a .gltf).
 ReadResult read_gltf(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace montelux

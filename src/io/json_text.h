@@ -1,4 +1,4 @@
-// JSON as text, whatever bytes the strings in it hold.
+// JSON as text, with strings of arbitrary bytes.
 #pragma once
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// Makes every string and key of a value UTF-8, as as_utf8() does. `Json` is the JSON library's value.
+// Converts every string and key of a value to UTF-8, like as_utf8(). `Json` is the JSON library's value.
 template <class Json>
 void make_utf8(Json& json) {
   if (json.is_string()) {
@@ -25,7 +25,7 @@ void make_utf8(Json& json) {
   }
 }
 
-// The text of a value, indented where `indent` is not negative. Unlike dump() it takes file names that are not UTF-8.
+// The text of a value, indented if `indent` is not negative. Unlike dump() it accepts file names that are not UTF-8.
 template <class Json>
 std::string json_text(Json json, int indent = -1) {
   make_utf8(json);

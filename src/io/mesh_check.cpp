@@ -14,7 +14,7 @@ Vec3d difference(Vec3f a, Vec3f b) {
 }
 double squared(const Vec3d& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-// Whether the area vanishes against the edges, as far as the float coordinates can tell.
+// Whether the area is zero relative to the edges, within the precision of float coordinates.
 bool has_area(Vec3f a, Vec3f b, Vec3f c) {
   Vec3d u = difference(b, a), v = difference(c, a);
   Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -23,7 +23,7 @@ bool has_area(Vec3f a, Vec3f b, Vec3f c) {
   return squared(n) > relative * relative * longest * longest;
 }
 
-// Keeps the faces of `size` indices that `keep` accepts, in order; the number of those that went.
+// Keeps the faces of `size` indices that `keep` accepts, in order; returns the number of removed faces.
 template <class Keep>
 std::size_t keep_faces(std::vector<std::uint32_t>& indices, std::size_t size, Keep keep) {
   std::size_t out = 0;

@@ -1,4 +1,4 @@
-// What every reader of meshes makes sure of.
+// Checks that every reader of meshes performs.
 #pragma once
 #include <cstddef>
 
@@ -12,11 +12,11 @@ struct DroppedFaces {
   std::size_t total() const { return triangles + quads; }
 };
 
-// Removes the triangles without area and the quadrilaterals of which both halves have none, in every
+// Removes the triangles without area and the quadrilaterals whose halves both have none, in every
 // pose of the mesh. Indices must be in range.
 DroppedFaces drop_degenerate_faces(Mesh& mesh);
 
-// That so many were, at least one, of the mesh of a file or (empty) of one that is stated in place.
+// Reports that number of faces, at least one, for the mesh of a file or (if empty) one that is stated in place.
 Diagnostic dropped_faces_warning(std::size_t count, const std::string& file, const SourceLocation& where);
 
 }  // namespace montelux

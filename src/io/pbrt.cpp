@@ -8,7 +8,7 @@ namespace montelux {
 
 namespace {
 
-// Reads by `parse` and hands out a scene only if all went well.
+// Reads with `parse` and returns a scene only if there was no error.
 template <class Parse>
 ReadResult read(const std::string& folder, const ReadOptions& options, Parse parse) {
   ReadResult result;

@@ -17,7 +17,7 @@ std::string types_text(const ParameterSpec& spec) {
   return text;
 }
 
-// The range of a parameter, or its choices; empty where anything goes.
+// The range of a parameter, or its choices; empty if anything is valid.
 std::string valid_text(const ParameterSpec& spec) {
   constexpr double open = 1e29;
   std::string text;

@@ -1,10 +1,10 @@
-// What may stand in a scene, as documentation.
+// The documentation of what a scene may state.
 #pragma once
 #include <string>
 
 namespace montelux {
 
-// Every family with every name and parameter of its table, in Markdown; docs/formats.md holds this text.
+// Every family with all names and parameters of its table, in Markdown; docs/formats.md contains this text.
 std::string pbrt_reference();
 
 }  // namespace montelux

@@ -50,7 +50,7 @@ MONTELUX_INLINE double load_as(Type type, const char* at) {
   return 0;
 }
 
-// Numbers of a binary body, one after another. ok() turns false at the end of the bytes, and all is 0 from there on.
+// Numbers of a binary body in sequence. After the end of the bytes ok() is false and all numbers are 0.
 template <bool Swap>
 class BinaryBody {
  public:
@@ -74,7 +74,7 @@ class BinaryBody {
   bool ok_ = true;
 };
 
-// The same over text.
+// The same for text.
 class TextBody {
  public:
   explicit TextBody(std::string_view bytes) : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
@@ -128,7 +128,7 @@ class BodyReader {
   }
 
  private:
-  // A header may promise no more than the bytes can hold.
+  // A header must not state more than the bytes can contain.
   bool fits(const Element& element) {
     std::size_t least = 0;
     for (const Property& p : element.properties) least += Source::least_size(p.is_list ? p.count_type : p.type);
@@ -143,7 +143,7 @@ class BodyReader {
                     std::to_string(done) + " of " + std::to_string(element.count);
   }
 
-  // The number of entries of a list; no value where the bytes cannot hold so many.
+  // The number of entries of a list; no value if the bytes cannot contain that many.
   std::optional<std::size_t> list_size(const Property& p) {
     double count = source_.next(p.count_type);
     if (!source_.ok() || !(count >= 0) || count != std::floor(count)) return std::nullopt;
@@ -178,7 +178,7 @@ class BodyReader {
     if (uvs) mesh.uvs.reserve(element.count);
     bool finite_normals = true, finite_uvs = true;
     for (std::size_t i = 0; i < element.count; ++i) {
-      // Slot 8 takes what is not used.
+      // Slot 8 is for unused properties.
       std::array<float, 9> v{};
       for (std::size_t k = 0; k < slots.size(); ++k) {
         const Property& p = element.properties[k];
@@ -232,7 +232,7 @@ class BodyReader {
     constexpr double none = 4294967295.0;
     for (std::uint32_t& corner : corners_) {
       double index = source_.next(p.type);
-      // What is no index at all becomes one that is out of range, and is reported as such.
+      // A value that is not an index becomes one that is out of range, and is reported as such.
       corner = static_cast<std::uint32_t>(index >= 0 && index < none ? index : none);
     }
     return source_.ok();
@@ -295,7 +295,7 @@ Body read_body(std::string_view bytes, const Header& header) {
   return BodyReader(BinaryBody<true>(bytes), header).read();
 }
 
-// The first index that has no vertex.
+// The first index without a vertex.
 std::string index_problem(const Mesh& mesh) {
   for (const auto* indices : {&mesh.triangles, &mesh.quads})
     for (std::uint32_t index : *indices)

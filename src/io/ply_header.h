@@ -46,7 +46,7 @@ struct Header {
   std::size_t size = 0;  // bytes before the body
 };
 
-// Fails with what is wrong with it.
+// Fails with a description of what is wrong.
 Result<Header> read_header(std::string_view bytes);
 
 }  // namespace montelux::ply

@@ -11,40 +11,40 @@
 
 namespace montelux {
 
-// What a file says about the time of its animation.
+// The time of an animation as stated by a file.
 struct AnimationTime {
   double start = 0, end = 0;  // in its own unit, s in glTF
-  double frame_rate = 24;     // where nothing else is asked for
+  double frame_rate = 24;     // default
 };
 
-// The part of an animation's time that pictures need: moments at the ends of equal intervals, and, where the shutter is
-// open, what lies between. Empty: the start alone.
+// The part of an animation's time that images need: times at the ends of equal intervals and, if the shutter is
+// open, between them. Empty: only the start.
 struct AnimationWindow {
   double start = 0, end = 0;
   int intervals = 1;
   bool open = false;
-  double exposure = 0;  // of one picture of a sequence, in intervals
+  double exposure = 0;  // of one image of a sequence, in intervals
 };
 
 struct ReadOptions {
-  // Unknown parameters, and what Montelux cannot do yet (motion, media, some materials), are warnings instead of
-  // errors; stand-ins take their places.
+  // Unknown parameters and features that are not supported yet (motion, media, some materials) are warnings instead of
+  // errors; substitutes are used.
   bool lenient = false;
-  // Of a file that may hold several cameras: the name or the number of one; default: the first.
+  // For a file with several cameras: the name or the number of one; default: the first.
   std::optional<std::string> camera{};
-  // Of a file that may hold several animations: the name or the number of one; default: the first.
+  // For a file with several animations: the name or the number of one; default: the first.
   std::optional<std::string> animation{};
-  // Which part of the animation is needed; default: its beginning, as a still picture.
+  // The part of the animation that is needed; default: its beginning, as a still image.
   std::function<AnimationWindow(const AnimationTime&)> window{};
-  // In place of the scene's own.
+  // Replaces the scene's own.
   std::optional<Environment> environment{};
 };
 
-// What a lenient reading left out of a scene, or took otherwise than it is stated.
+// What a lenient reading omitted from a scene or replaced.
 struct Omission {
-  std::string what;  // as the warning says that stands for it among the diagnostics
+  std::string what;  // as in the warning that represents it among the diagnostics
   SourceLocation first;
-  int count = 1;  // of the same
+  int count = 1;  // occurrences
 };
 
 // An animation and its length, in the file's unit of time.
@@ -53,12 +53,12 @@ struct NamedAnimation {
   double seconds = 0;
 };
 
-// A scene, or no scene where an error was found. Diagnostics may hold warnings and notes beside a scene.
+// A scene, or no scene if there was an error. Diagnostics may contain warnings and notes in addition to a scene.
 struct ReadResult {
   std::optional<SceneDesc> scene;
   Diagnostics diagnostics;
-  std::vector<Omission> omissions{};  // in the order of their first places
-  // Of a file that may hold several, whether they are rendered or not; a name may be empty.
+  std::vector<Omission> omissions{};  // in the order of their first positions
+  // All of those in a file, rendered or not; a name may be empty.
   std::vector<std::string> cameras{};
   std::vector<NamedAnimation> animations{};
 };

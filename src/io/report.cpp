@@ -10,7 +10,7 @@ namespace montelux {
 
 namespace {
 
-// Files that excerpts are taken from, read once each.
+// The files from which excerpts are taken, each read once.
 class Excerpts {
  public:
   std::optional<std::string_view> line(const SourceLocation& where) {
@@ -39,7 +39,7 @@ std::string_view colour_of(Severity severity) {
   return severity == Severity::error ? "\x1b[1;31m" : severity == Severity::warning ? "\x1b[1;35m" : "\x1b[1;36m";
 }
 
-// The part of a long line around the column, and the column in it.
+// The part of a long line around the column, and the column within it.
 std::string excerpt_with_caret(std::string_view line, int column) {
   constexpr std::size_t width = 100;
   std::size_t at = std::min<std::size_t>(column > 0 ? std::size_t(column) - 1 : 0, line.size());

@@ -1,4 +1,4 @@
-// Diagnostics as text for a person.
+// Diagnostics as text for the user.
 #pragma once
 #include <string>
 

@@ -3,7 +3,7 @@
 namespace montelux {
 
 void Reporter::add(Diagnostic diagnostic) {
-  // One line is made of all of these.
+  // All of these are combined into one line.
   if (!diagnostic.group.summary.empty()) return out_->add(std::move(diagnostic));
   std::string file = diagnostic.where.file ? *diagnostic.where.file : std::string();
   Count& count = counts_[{std::move(file), diagnostic.severity}];

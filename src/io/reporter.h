@@ -1,4 +1,4 @@
-// Diagnostics of one reading, held to a number that a person can read.
+// The diagnostics of one reading, limited to a readable number.
 #pragma once
 #include <map>
 
@@ -6,8 +6,8 @@
 
 namespace montelux {
 
-// Adds to a list of diagnostics, at most `most_per_file` of a severity for a file; finish() says how many were left
-// out. Those with a summary are not counted.
+// Adds to a list of diagnostics, at most `most_per_file` per severity and file; finish() reports how many were
+// omitted. Those with a summary are not counted.
 class Reporter {
  public:
   static constexpr int most_per_file = 50;
@@ -17,12 +17,12 @@ class Reporter {
   void error(const SourceLocation& where, std::string message, std::string hint = {});
   void warning(const SourceLocation& where, std::string message, std::string hint = {});
   void note(const SourceLocation& where, std::string message, std::string hint = {});
-  // An error that a lenient reading lets pass as a warning.
+  // An error that is a warning with lenient reading.
   void tolerable(const SourceLocation& where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
   void finish();
 
-  // What a lenient reading let pass, counted: also where no warning has room for it.
+  // What a lenient reading tolerated, with counts: complete even if there are too many warnings.
   const std::vector<Omission>& omissions() const { return omissions_; }
 
   bool lenient() const { return lenient_; }
@@ -37,7 +37,7 @@ class Reporter {
   bool lenient_;
   std::map<std::pair<std::string, Severity>, Count> counts_;
   std::vector<Omission> omissions_;
-  std::map<std::string, std::size_t> omission_numbers_;  // by what was left out
+  std::map<std::string, std::size_t> omission_numbers_;  // by what was omitted
 };
 
 }  // namespace montelux

@@ -1,4 +1,4 @@
-// Scene files of every format that Montelux reads.
+// Scene files in all supported formats.
 #pragma once
 #include <span>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace montelux {
 
-// Endings of the names of scene files, with the dot.
+// File extensions of scene files, with the dot.
 std::span<const std::string_view> scene_file_endings();
 
-// Reads a scene by the ending of its name: .pbrt and .pbrt.gz as read_pbrt(), .gltf and .glb as read_gltf(). Any other
-// ending is an error that names the valid ones.
+// Reads a scene in the format given by the extension: .pbrt and .pbrt.gz by read_pbrt(), .gltf and .glb by read_gltf().
+// Any other extension is an error that names the valid ones.
 ReadResult read_scene(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace montelux

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t max_bytes = std::size_t{8} << 30;
 
-// What a packed file may unpack to: text of a scene is packed to a fifth, regular one to a hundredth; what gains more
-// was made to fill the memory.
+// The maximum size of a decompressed file: scenes compress to about a fifth, regular text to a hundredth; a higher
+// ratio indicates a file made to fill the memory.
 std::size_t max_unpacked(std::size_t packed) {
   constexpr std::size_t any = std::size_t{64} << 20, ratio = 256;
   return std::min(std::max(any, packed * ratio), max_bytes);
@@ -32,7 +32,7 @@ struct EndInflate {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
-// All members of a gzip file, one behind the other.
+// All members of a gzip file, concatenated.
 Result<std::string> unpack(const std::string& packed, const std::string& path) {
   z_stream stream{};
   constexpr int gzip_window = 15 + 16;
@@ -68,7 +68,7 @@ Result<std::string> unpack(const std::string& packed, const std::string& path) {
   }
 }
 
-// The bytes of the character that the text, which is not empty, begins with; 0 where that is no UTF-8 (Unicode 15,
+// The number of bytes of the first character of the text, which is not empty; 0 if it is not UTF-8 (Unicode 15,
 // table 3-7).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -76,7 +76,7 @@ std::size_t utf8_length(std::string_view text) {
   if (first < 0x80) return 1;
   const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
   if (first < 0xc2 || first > 0xf4) return 0;
-  // Neither longer forms than need be, nor surrogates, nor beyond U+10FFFF.
+  // No overlong forms, no surrogates, nothing above U+10FFFF.
   const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
   const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
   if (byte(1) < low || byte(1) > high) return 0;

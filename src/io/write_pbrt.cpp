@@ -24,7 +24,7 @@ std::string in_quotes(std::string_view text) {
   return result + "\"";
 }
 
-// A value as it stands between brackets.
+// A value as written between brackets.
 std::string value_text(float v) { return shortest(v); }
 std::string value_text(int v) { return std::to_string(v); }
 std::string value_text(std::uint32_t v) { return std::to_string(v); }
@@ -86,10 +86,10 @@ std::string transform_text(const Transform& transform) {
   return text + " ]\n";
 }
 
-// Of the moments after the start the last one: pbrt's format has no others.
+// Only the last of the later transforms: pbrt's format has no others.
 std::string moving_transform_text(const Transform& start, const std::vector<Transform>& later) {
   if (later.empty()) return transform_text(start);
-  // The transform before may be another one at either end.
+  // The preceding transform may differ at either end.
   const auto whole = [](const Transform& t) { return t.is_identity() ? std::string("Identity\n") : transform_text(t); };
   return "ActiveTransform StartTime\n" + whole(start) + "ActiveTransform EndTime\n" + whole(later.back()) +
          "ActiveTransform All\n";
@@ -126,7 +126,7 @@ class Writer {
     return in_quotes(entity.type) + parameters_text(entity.parameters);
   }
 
-  // The default material goes without a name as long as nobody has changed it.
+  // The default material is written without a name as long as it has not been changed.
   bool is_default(std::size_t i) const {
     const MaterialDesc& m = scene_.materials[i];
     return i == 0 && m.name.empty() && m.entity.type == "diffuse" && m.entity.parameters.all().empty();
@@ -216,7 +216,7 @@ class Writer {
     if (shape.reverse_orientation) text += "ReverseOrientation\n";
     if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
     text += "Shape " + entity_text(shape.entity);
-    // The mesh of a file stays there.
+    // The mesh of a file stays in that file.
     if (shape.mesh && shape.entity.type != "plymesh") text += mesh_text(*shape.mesh);
     write_block(shape.object_to_world, text, shape.object_to_world_later);
   }

@@ -11,7 +11,7 @@ namespace {
 
 float radians(float degrees) { return degrees * (pi / 180); }
 
-// The least box around points; the bounds of a surface that is flat there.
+// The smallest box around points; also the bounds of a flat surface.
 void set_box(LightBounds& b, std::initializer_list<Vec3f> points) {
   b.low = b.high = *points.begin();
   for (Vec3f p : points) b.low = min(b.low, p), b.high = max(b.high, p);
@@ -22,7 +22,7 @@ Vec3f unit_or_z(Vec3f v) {
   return l > 0 && is_finite(l) ? v * (1 / l) : Vec3f{0, 0, 1};
 }
 
-// The mean of a function over the unit square by midpoints: good enough to choose lights by and to scale power.
+// The mean of a function over the unit square by midpoints: sufficient for choosing lights and for scaling power.
 template <class AreaAt>
 double mean_over_square(AreaAt area_at, int n) {
   double sum = 0;
@@ -37,9 +37,9 @@ Rgb row_emission(const LightRow& row) {
   return e;
 }
 
-// Of the texels in the box around the triangle's part of an image, and one around that, as look-ups are bilinear; of a
-// large box, of 64 by 64 of them. What these miss may shine all the same: then it is a thousandth of `whole`, the
-// image's own mean, so that only what is black for certain is without power.
+// The mean of the texels in the box around the triangle's part of an image, plus one texel on each side because
+// look-ups are bilinear; a large box is sampled by 64 x 64 texels. If all of these are black, others may still emit:
+// the result is then a thousandth of `whole`, the mean of the image, so that only what is certainly black has no power.
 Rgb texel_mean(const LightImage& image, const Rgb& whole, const TriangleShape& shape) {
   const auto range = [](float a, float b, float c, int size) {
     const auto place = [size](float x, int further) {
@@ -158,7 +158,7 @@ LightId LightSetBuilder::add(const PatchShape& shape, const Emission& emission) 
   row.set(T::uv00, shape.uv00), row.set(T::uv10, shape.uv10), row.set(T::uv01, shape.uv01),
       row.set(T::uv11, shape.uv11);
   set_box(bounds, {shape.p00, shape.p10, shape.p01, shape.p11});
-  // The normal's components are linear in each parameter, so the corners' normals span all of them.
+  // The components of the normal are linear in each parameter, so the corners' normals span all of them.
   Vec3f corners[4] = {scaled_normal(0, 0), scaled_normal(1, 0), scaled_normal(0, 1), scaled_normal(1, 1)};
   bounds.axis = unit_or_z(scaled_normal(0.5f, 0.5f)) * sign;
   bounds.cos_spread = 1;
@@ -178,7 +178,7 @@ LightId LightSetBuilder::add(const DiskShape& shape, const Emission& emission) {
   auto [row, bounds, power] = surface(emission, area, shape.flip);
   row.set(T::centre, centre), row.set(T::axis1, a), row.set(T::axis2, b), row.set(T::normal, n);
   row.set(T::area, area), row.set(T::inner, inner), row.set(T::turn, turn);
-  // An ellipse reaches as far along an axis as the length of its half axes' components there.
+  // The extent of an ellipse along an axis is the length of the vector of its half axes' components there.
   Vec3f reach{std::hypot(a.x, b.x), std::hypot(a.y, b.y), std::hypot(a.z, b.z)};
   set_box(bounds, {centre - reach, centre + reach});
   bounds.axis = n, bounds.cos_spread = 1;
@@ -207,7 +207,7 @@ LightId LightSetBuilder::add_quadric(LightKind kind, const Transform& to_world, 
   row.set_bits(light_slot::transform, number_of(to_world));
   row.set(quadric_centre, to_world.point(Vec3f{0, 0, 0}));
 
-  // Whole spheres that stay round are sampled by the cap that is seen of them, if that is all of what shines there.
+  // A whole sphere that remains a sphere is sampled by its visible cap, if nothing else of it emits towards the point.
   Vec3f x = to_world.direction(Vec3f{radius, 0, 0}), y = to_world.direction(Vec3f{0, radius, 0});
   Vec3f z = to_world.direction(Vec3f{0, 0, radius});
   float r2 = dot(x, x), most = 1e-5f * r2;
@@ -219,7 +219,7 @@ LightId LightSetBuilder::add_quadric(LightKind kind, const Transform& to_world, 
     row.set_bits(light_slot::flags, std::bit_cast<std::uint32_t>(row.v[light_slot::flags]) | light_special);
     row.set(quadric_world_radius, sqrt(r2));
   }
-  // The mean projected area of a convex body is a quarter of its surface (Cauchy); of a part, at most half of its own.
+  // The mean projected area of a convex body is a quarter of its surface (Cauchy); for a part, at most half of its own.
   bounds.intensity *= whole ? 0.25f : 0.5f;
   Vec3f reach{std::hypot(x.x, y.x), std::hypot(x.y, y.y), std::hypot(x.z, y.z)};
   if (sphere) reach = {std::hypot(reach.x, z.x), std::hypot(reach.y, z.y), std::hypot(reach.z, z.z)};
@@ -261,7 +261,7 @@ LightId LightSetBuilder::add_point(Vec3f p, Rgb intensity) {
 
 float solid_angle(const SpotCone& cone) {
   const float cos_end = std::cos(radians(cone.end)), cos_edge = std::cos(radians(std::max(cone.edge, 0.0f)));
-  // The mean of the edge is a half, of its square a third.
+  // The mean over the edge is one half, that of its square one third.
   return two_pi * (1 - (cone.squared ? (cos_end + 2 * cos_edge) / 3 : 0.5f * (cos_edge + cos_end)));
 }
 
@@ -357,7 +357,7 @@ LightId LightSetBuilder::add_image_infinite(const Transform& to_world, Rgb facto
 LightSet LightSetBuilder::build(LightSettings settings, Vec3f scene_centre, float scene_radius) && {
   tables_.scene_centre = scene_centre;
   tables_.scene_radius = scene_radius > 0 ? scene_radius : 1.0f;
-  // Light from beyond meets the scene's disk, whose area its power is stated without.
+  // Light from infinity is incident on the scene's disk; its power is stated without the area of the disk.
   for (std::size_t i = 0; i < tables_.kinds.size(); ++i)
     if (is_unbounded(LightKind(tables_.kinds[i]))) tables_.powers[i] *= square(tables_.scene_radius);
   return LightSet(std::move(tables_), settings);

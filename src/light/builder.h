@@ -8,24 +8,24 @@
 
 namespace montelux {
 
-// What an emitting surface sends from each of its points.
+// What an emitting surface emits at each of its points.
 struct Emission {
   Rgb radiance{};                             // L, W / (m^2 sr) on each component
   float scale = 1;                            // factor of L or of the image
   std::optional<float> power{};               // of the whole shape, W: scales it so that L of luminance 1 emits that
-  bool two_sided = false;                     // else on the side of the normal
+  bool two_sided = false;                     // false: only on the side of the normal
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
-  std::string group = "default";              // of lights that share a layer of a picture
+  std::string group = "default";              // of lights that share a layer of an image
   Rgb tint = gray(1.0f);                      // factor of the image
-  std::optional<Rgb> image_mean{};            // of the image, where it has been taken: images are large
-  bool local_power = false;  // triangles are chosen by the image's texels on them instead of by its mean
-  // The shape has an alpha mask. Light sampling would draw points in its holes, so that it is left to rays that meet
-  // it.
+  std::optional<Rgb> image_mean{};            // mean of the image, if already computed: images are large
+  bool local_power = false;  // triangles are chosen by the texels of the image on them instead of by its mean
+  // The shape has an alpha mask. Light sampling would sample points in its holes, so the light is found only by rays
+  // that hit it.
   bool masked = false;
-  bool seen_through = false;  // the surface lets rays pass, so that its inside is seen from outside
+  bool seen_through = false;  // the surface lets rays pass, so that its inside is visible from outside
 };
 
-// Shapes that can emit. Each has a normal of its own; `flip` takes its opposite.
+// Shapes that can emit. Each defines its normal; `flip` reverses it.
 
 // In world space; the normal is that of (p1 - p0) x (p2 - p0).
 struct TriangleShape {
@@ -39,7 +39,7 @@ struct PatchShape {
   Vec2f uv00{0, 0}, uv10{1, 0}, uv01{0, 1}, uv11{1, 1};
   bool flip = false;
 };
-// At the height z, around the z axis from x toward y; the normal is that of +z. Angles in degrees.
+// At the height z, around the z axis from x towards y; the normal is that of +z. Angles in degrees.
 struct DiskShape {
   Transform to_world;
   float radius = 1, inner_radius = 0, height = 0, phi_max = 360;
@@ -58,10 +58,10 @@ struct CylinderShape {
   bool flip = false;
 };
 
-// The group that a light states. A name that no picture file could carry is an error.
+// The group that a light states. A name that no image file can store is an error.
 std::string light_group(const Entity& light, Diagnostics& diagnostics);
 
-// What the builder asks the scene for. A callback that cannot answer reports that itself and returns what is sensible.
+// What the builder needs from the scene. A callback that fails reports that itself and returns a sensible value.
 struct LightInputs {
   std::function<Rgb(const SpectrumValue&)> emission;  // of L, I, ...: a spectrum that is not an RGB has luminance 1
   std::function<std::shared_ptr<const LightImage>(const std::string& filename, const SourceLocation&)>
@@ -71,48 +71,48 @@ struct LightInputs {
 // The emission that an area light states ("diffuse").
 Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics);
 
-// Half angles in degrees: where a spot ends, and where it begins to fall off; and how.
+// Half angles in degrees: where a spot ends, and where its falloff begins; and the form of the falloff.
 struct SpotCone {
   float end, edge;
-  bool squared = false;  // else a smooth step
+  bool squared = false;  // false: a smooth step
 };
-// The whole sphere weighted by the cone.
+// The solid angle of the sphere weighted by the falloff.
 float solid_angle(const SpotCone& cone);
 
 class LightSetBuilder {
  public:
-  // The light's number. Shapes without area are taken too; they are never sampled.
+  // Returns the light's number. Shapes without area are accepted, too; they are never sampled.
   LightId add(const TriangleShape& shape, const Emission& emission);
   LightId add(const PatchShape& shape, const Emission& emission);
   LightId add(const DiskShape& shape, const Emission& emission);
   LightId add(const SphereShape& shape, const Emission& emission);
   LightId add(const CylinderShape& shape, const Emission& emission);
 
-  // A light that is not a shape, by the names and parameters of light_table(). No value where something is wrong, and
-  // then an error is reported.
+  // A light that is not a shape, by the names and parameters of light_table(). No value if something is wrong, which
+  // is then reported as an error.
   std::optional<LightId> add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
                              Diagnostics& diagnostics);
 
-  // The same one by one. All scales are included.
+  // The same for single kinds. All scales are included.
   LightId add_point(Vec3f p, Rgb intensity);
   LightId add_spot(Vec3f p, Vec3f axis, const SpotCone& cone, Rgb intensity);
   // The image is square and equal-area; null: constant.
   LightId add_goniometric(const Transform& to_world, Rgb intensity, std::shared_ptr<const LightImage> image);
   LightId add_projection(const Transform& to_world, float fov, Rgb factor, std::shared_ptr<const LightImage> image);
-  // `toward` leads to the light; irradiance at normal incidence.
+  // `toward` points to the light; irradiance at normal incidence.
   LightId add_distant(Vec3f toward, Rgb irradiance);
   LightId add_uniform_infinite(Rgb radiance);
   // The image is square and equal-area.
   LightId add_image_infinite(const Transform& to_world, Rgb factor, std::shared_ptr<const LightImage> image);
 
-  // The bounding sphere of the scene is where infinite lights are taken to be.
+  // Infinite lights are assumed to be on the bounding sphere of the scene.
   LightSet build(LightSettings settings, Vec3f scene_centre, float scene_radius) &&;
 
  private:
   LightId add_row(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
-  // The lights that follow belong to this group.
+  // Sets the group of the lights that follow.
   void begin_group(const std::string& name);
-  // What a surface of this area stores, and what the choice of lights needs of it.
+  // What a surface of this area stores, and what the light selection needs of it.
   struct Surface {
     LightRow row;
     LightBounds bounds;

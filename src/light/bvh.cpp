@@ -13,7 +13,7 @@ struct Cone {
   float cos_angle;
 };
 
-// The least cone around both, a little too wide rather than too narrow.
+// The smallest cone around both, slightly too wide rather than too narrow.
 Cone unite(const Cone& a, const Cone& b) {
   const Cone everything{{0, 0, 1}, -1};
   float angle_a = std::acos(std::clamp(a.cos_angle, -1.0f, 1.0f)),
@@ -25,14 +25,14 @@ Cone unite(const Cone& a, const Cone& b) {
   Vec3f side = b.axis - a.axis * dot(a.axis, b.axis);
   float side_length = length(side);
   if (angle >= pi) return everything;
-  // Axes that are as good as parallel leave the axis where it is.
+  // If the axes are nearly parallel, the axis stays unchanged.
   if (side_length < 1e-6f)
     return between < 1.0f ? Cone{a.axis, std::cos(std::max(angle_a, angle_b + between) + 1e-5f)} : everything;
   float turn = angle - angle_a;
   return {normalize(a.axis * std::cos(turn) + side * (std::sin(turn) / side_length)), std::cos(angle)};
 }
 
-// Which of two opposite axes stands for a light that emits both ways: any fixed rule will do.
+// Which of two opposite axes represents a light that emits both ways: any fixed rule is valid.
 Vec3f one_of_both(Vec3f axis) { return dot(axis, {0.87f, 0.41f, 0.27f}) < 0 ? -axis : axis; }
 
 struct Box {
@@ -43,7 +43,7 @@ struct Box {
 
 float component(Vec3f a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; }
 
-// Sums over a set of lights, from which the cost of a cluster follows without a walk over its cones.
+// Sums over a set of lights, from which the cost of a cluster follows without iterating over its cones.
 struct Cluster {
   Box box;
   Vec3f axes{0, 0, 0};  // weighted by intensity
@@ -115,7 +115,7 @@ struct LightBvh::Builder {
     v[link] = std::bit_cast<float>(is_leaf ? link_bits | leaf_bit : link_bits);
   }
 
-  // Where to part items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.
+  // Where to split items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.
   std::size_t split(std::size_t begin, std::size_t end, int depth) {
     if (end - begin == 2) return begin + 1;
     constexpr int most_slices = 12;
@@ -132,7 +132,7 @@ struct LightBvh::Builder {
     };
     float best = INFINITY;
     int best_dim = -1, best_slice = 0;
-    // Turns are kept in 32 bits: deep down, halving ends the matter in time.
+    // The turns of a path have 32 bits: deep in the tree, splitting in the middle limits the depth.
     bool room = depth + int(std::bit_width(end - begin)) < 31;
     for (int dim = 0; dim < 3 && room; ++dim) {
       if (!(component(extent, dim) > 0)) continue;

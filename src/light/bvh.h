@@ -1,6 +1,6 @@
-// A hierarchy over the lights that have a place: which one to sample at a point, by bounds of what each cluster of
-// lights can send there (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting"; the importance as in Pharr, Jakob and Humphreys 2023, sec. 12.6.3).
+// A hierarchy over the lights with a position: selects the light to sample at a point, by bounds of what each cluster
+// of lights can send there (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting"; importance as in Pharr, Jakob and Humphreys 2023, sec. 12.6.3).
 #pragma once
 #include <optional>
 #include <span>
@@ -12,22 +12,22 @@ namespace montelux {
 
 namespace light_bvh {
 
-// Angles are subtracted by a bound, which costs no root: cos(max(0, a - b)) <= min(1, cos a + sin b), and is near to
-// it. Rounding may not turn a small importance into none, so cosines are taken to be this much larger near zero.
+// Angles are subtracted by a bound without square roots: cos(max(0, a - b)) <= min(1, cos a + sin b), which is close.
+// Rounding must not turn a small importance into zero, so cosines near zero are increased by this much.
 inline constexpr float slack = 1e-3f;
-// Of a half of a node, if it is not dark: so small that it costs nothing, yet a turn leaves half of the 24 bits of u.
+// The minimum probability of a child that is not dark: negligible in cost, yet a turn leaves half of the 24 bits of u.
 inline constexpr float least_share = 0x1p-12f;
 
 }  // namespace light_bvh
 
-// Where a light is, where it looks, and how strong it is.
+// The position, orientation and strength of a light.
 struct LightBounds {
   Vec3f low{}, high{};     // box of its points
   Vec3f axis{0, 0, 1};     // unit: the middle of its normals
   float intensity = 0;     // largest radiant intensity, averaged over the components, W / sr
-  float cos_spread = -1;   // of the largest angle between the axis and a normal
-  float cos_emission = 0;  // of the largest angle between a normal and a direction that gets light
-  bool two_sided = false;  // sends as much along the opposite directions
+  float cos_spread = -1;   // cosine of the largest angle between the axis and a normal
+  float cos_emission = 0;  // cosine of the largest angle between a normal and a direction of emission
+  bool two_sided = false;  // emits the same in opposite directions
 };
 
 // The bounds of both.
@@ -35,18 +35,18 @@ LightBounds unite(const LightBounds& a, const LightBounds& b);
 
 class LightBvh {
  public:
-  // Over all lights by number; those without bounds are left out. O(n log n).
+  // Over all lights by number; those without bounds are omitted. O(n log n).
   explicit LightBvh(std::span<const std::optional<LightBounds>> bounds);
   LightBvh() = default;
 
   bool empty() const { return nodes_.empty(); }
 
-  // One light for the point p, by u in [0, 1). n is unit where only directions on its side matter, else zero.
-  // Never leaves out a light that reaches p on that side.
+  // Selects one light for the point p, by u in [0, 1). n is unit if only directions on its side matter, else zero.
+  // Every light that reaches p on that side has a positive probability.
   template <class F>
   LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
 
-  // The probability with which choose() takes the light at p, to the last bit the same. Of lights with bounds only.
+  // The probability with which choose() selects the light at p, bit for bit. Only for lights with bounds.
   template <class F>
   Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
@@ -55,14 +55,14 @@ class LightBvh {
   struct alignas(64) Node {
     float v[node_size] = {};
   };
-  // Slots of a node. The intensity is negative where the lights send both ways. The link (bits) is the first of two
-  // children that follow each other, or the light of a leaf, which the top bit tells.
+  // Slots of a node. The intensity is negative if the lights emit both ways. The link (bits) is the first of two
+  // consecutive children, or the light of a leaf, which the top bit marks.
   enum Slot {
     centre = 0,
     radius = 3,
     axis = 4,
     intensity = 7,
-    spread,  // the sine of the largest angle between the axis and a normal; 2 where that is above a right angle
+    spread,  // the sine of the largest angle between the axis and a normal; 2 if that exceeds a right angle
     cos_emission,
     link,
     inverse_radius_squared
@@ -87,7 +87,7 @@ class LightBvh {
   static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
     return (link_bits & Uint<F>(leaf_bit)) == Uint<F>(0u);
   }
-  // The same number of one node for all lanes, without a gather.
+  // The number of one node, the same for all lanes, without a gather.
   template <class F>
   MONTELUX_INLINE F number_of(std::uint32_t node, int slot) const {
     return F(nodes_[node].v[slot]);
@@ -99,11 +99,11 @@ class LightBvh {
   // At is Uint<F>, or std::uint32_t for one node in all lanes.
   template <class F, class At>
   F importance(At node, Vec3<F> p, Vec3<F> n) const;
-  // Sets of few lights are not descended but scanned: the choice is then in exact proportion to each light's
+  // Sets of few lights are scanned instead of descended: the choice is then exactly proportional to each light's
   // importance.
   static constexpr std::size_t most_scanned = 16;
   bool is_scanned() const { return leaves_.size() <= most_scanned; }
-  // The importance of every leaf, summed in their order.
+  // The importances of all leaves, summed in their order.
   template <class F>
   struct Scan {
     F importance[most_scanned];
@@ -121,7 +121,7 @@ class LightBvh {
   }
   template <class F>
   LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
-  // The probability of the first of two children, and whether either can send light to p.
+  // The probability of the first of two children, and whether either can emit light to p.
   template <class F>
   struct Fork {
     F first;
@@ -132,7 +132,7 @@ class LightBvh {
     F a = importance<F>(first_child, p, n);
     F b = importance<F>(Uint<F>(first_child + Uint<F>(1u)), p, n);
     F sum = a + b, first = a / max(sum, F(1e-37f));
-    // A half that can send light at all keeps a share that u can hit, however much more the other promises.
+    // A child that can send light keeps a share that u can hit, however large the other's importance is.
     first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::least_share)), first);
     first = select(a > F(0.0f), max(first, F(light_bvh::least_share)), first);
     return {first, sum > F(0.0f)};
@@ -141,7 +141,7 @@ class LightBvh {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> turns_;   // by light: bit k is the turn at depth k
   std::vector<std::uint32_t> leaves_;  // nodes that are leaves, in the order of the tree
-  std::vector<std::uint32_t> places_;  // by light: its place among the leaves
+  std::vector<std::uint32_t> places_;  // by light: its index among the leaves
 };
 
 template <class F, class At>
@@ -153,11 +153,11 @@ F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   const F inverse_d = one / sqrt(max(length_squared(from), F(1e-30f)));
   const Vec3<F> w = from * inverse_d;
 
-  // The angle under which the ball of the bounds is seen; from inside, every direction.
+  // The angular radius of the bounding ball; from inside, all directions.
   const F sin_b = number_of<F>(node, radius) * inverse_d;
   const Mask<F> inside = sin_b >= one;
 
-  // The least angle between a normal of the cluster and a direction to p.
+  // The smallest angle between a normal of the cluster and a direction to p.
   const Vec3<F> a{number_of<F>(node, axis), number_of<F>(node, axis + 1), number_of<F>(node, axis + 2)};
   const F strength = number_of<F>(node, intensity), along = dot(a, w);
   const F cos_w = select(strength < F(0.0f), abs(along), along);
@@ -166,7 +166,7 @@ F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
   F result = abs(strength) * max(cos_p, F(slack)) * near;
   result = select(cos_p > number_of<F>(node, cos_emission) - slack, result, F(0.0f));
 
-  // The least angle between n and a direction to the cluster.
+  // The smallest angle between n and a direction to the cluster.
   const F cos_q = select(inside, one, min(sin_b - dot(n, w), one));
   const F facing = select(cos_q > F(-slack), max(cos_q, F(slack)), F(0.0f));
   return result * select(length_squared(n) > F(0.5f), facing, one);
@@ -176,7 +176,7 @@ template <class F>
 LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   const Scan<F> s = scan<F>(p, n);
   const F target = u * s.sum;
-  // The first light at which the running sum passes the target; where rounding lets none pass, the last that counts.
+  // The first light at which the running sum exceeds the target; if rounding prevents that, the last valid one.
   F running(0.0f), chosen(0.0f);
   Uint<F> light(0u);
   Mask<F> open = on & (s.sum > F(0.0f));
@@ -204,7 +204,7 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     if (!any(inner)) break;
     Uint<F> child = select(inner, below, Uint<F>(0u));
     Fork<F> f = fork<F>(child, p, n);
-    // The rest of u, stretched, decides further down.
+    // The rescaled remainder of u decides further down.
     Mask<F> first = u < f.first;
     F share = select(first, f.first, F(1.0f) - f.first);
     F rest = min(select(first, u, u - f.first) / max(share, F(1e-37f)), F(one_minus_epsilon));

@@ -19,7 +19,7 @@ struct LightImage {
   }
   // The texel at uv in [0, 1)^2, v downward.
   const Rgb& nearest(Vec2f uv) const { return at(int(uv.x * float(width)), int(uv.y * float(height))); }
-  // Bilinear between texel middles; beyond the edge as at the edge.
+  // Bilinear between texel centres; constant beyond the outermost.
   Rgb bilinear(Vec2f uv) const {
     float x = std::clamp(uv.x, 0.0f, 1.0f) * float(width) - 0.5f,
           y = std::clamp(uv.y, 0.0f, 1.0f) * float(height) - 0.5f;

@@ -1,4 +1,4 @@
-// Light from beyond the scene, the same at every point.
+// Light from infinity, the same at every point.
 #pragma once
 #include "light/image.h"
 #include "light/row.h"
@@ -15,8 +15,8 @@ struct InfiniteSample {
   Density<SolidAngle, F> density;
 };
 
-// The same radiance from everywhere. Where only the side of n matters, directions follow the cosine, else all are
-// alike.
+// The same radiance from everywhere. If only the side of n matters, directions are cosine-weighted, else
+// uniform.
 template <class F>
 struct UniformInfinite {
   static MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> n, Vec3<F> wi) {
@@ -31,8 +31,8 @@ struct UniformInfinite {
   }
 };
 
-// A square equal-area image of the sphere (Clarberg 2008) that turns with the light's transform. Radiance is constant
-// on a texel, and directions are drawn in proportion to its components' mean.
+// A square equal-area image of the sphere (Clarberg 2008), rotated by the light's transform. Radiance is constant
+// on a texel, and directions are sampled in proportion to the mean of its components.
 template <class F>
 struct ImageInfinite {
   const LightImage& image;

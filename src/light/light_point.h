@@ -1,16 +1,16 @@
-// A point of a light as it is for everybody, whoever drew it: what can be handed from one reference point to another.
+// A point of a light, independent of the reference point: it can be passed from one reference point to another.
 #pragma once
 #include "light/light.h"
 
 namespace montelux {
 
-// A point of a surface that emits (measure: area), a direction to a light without bounds that rays meet (measure: solid
-// angle), or a light that is a delta (measure: the choice itself). `sort` is one of the words below.
+// A point of an emitting surface (measure: area), a direction to a light without bounds that rays can hit (measure:
+// solid angle), or a delta light (measure: the choice itself). `sort` is one of the values below.
 template <class F>
 struct LightPoint {
-  Vec3<F> p;             // point of the surface; or unit direction toward the light
+  Vec3<F> p;             // point of the surface; or unit direction towards the light
   Vec3<F> n;             // of the surface: unit, on the side that emits
-  Spectrum<F> radiance;  // sent from there to the lit side; of a delta light nothing: it depends on who asks
+  Spectrum<F> radiance;  // emitted from there to the lit side; zero for a delta light: depends on the reference point
   Uint<F> light;
   Uint<F> sort;
 };
@@ -19,7 +19,7 @@ namespace light_point {
 inline constexpr std::uint32_t surface = 0, two_sided_surface = 1, infinite = 2, delta = 3;
 }  // namespace light_point
 
-// As for WeightedReservoir, in lanes.
+// The same operation as for WeightedReservoir, in lanes.
 template <class F>
 MONTELUX_INLINE LightPoint<F> select(Mask<F> m, const LightPoint<F>& a,
                                      const LightPoint<F>& b) requires(lanes_of<F> > 1) {
@@ -27,7 +27,7 @@ MONTELUX_INLINE LightPoint<F> select(Mask<F> m, const LightPoint<F>& a,
           select(m, a.sort, b.sort)};
 }
 
-// A light point drawn at a reference point, without the choice of the light.
+// A light point sampled at a reference point, without the choice of the light.
 template <class F>
 struct LightPointDraw {
   LightPoint<F> point;
@@ -35,14 +35,14 @@ struct LightPointDraw {
   Mask<F> valid;
 };
 
-// A light point as a reference point sees it.
+// A light point as seen from a reference point.
 template <class F>
 struct LightPointView {
   Vec3<F> wi;
   F distance;
-  Spectrum<F> radiance;  // toward the reference point; of a delta light, its irradiance at normal incidence
+  Spectrum<F> radiance;  // towards the reference point; for a delta light, its irradiance at normal incidence
   F geometry;            // solid angle over the point's own measure: cos / distance^2 for a surface, else 1
-  Mask<F> valid;         // no: nothing arrives
+  Mask<F> valid;         // false: nothing arrives
 };
 
 }  // namespace montelux

@@ -25,7 +25,7 @@ std::optional<LightPolygon> LightSet::polygon(LightId light) const {
   const LightKind its_kind = kind(light);
   if (its_kind != LightKind::triangle && its_kind != LightKind::parallelogram) return std::nullopt;
   const LightRows<float> row = rows<float>(std::uint32_t(light), true);
-  // Both kinds begin with a corner and two edges.
+  // The rows of both kinds begin with a corner and two edges.
   const TriangleEmitter<float> flat(row);
   const Vec3f a = flat.p0, b = a + flat.e1, d = a + flat.e2;
   if (its_kind == LightKind::triangle) return LightPolygon{{a, b, d, d}, 3};

@@ -17,16 +17,16 @@
 
 namespace montelux {
 
-// The tables of a LightSet, as a builder fills them: one entry a light unless stated.
+// The tables of a LightSet, as filled by a builder: one entry per light unless stated.
 struct LightTables {
   std::vector<LightRow> rows;
   std::vector<std::uint32_t> kinds;
-  std::vector<std::optional<LightBounds>> bounds;                        // none: the light has no place
+  std::vector<std::optional<LightBounds>> bounds;                        // none: the light has no position
   std::vector<float> powers;                                             // emitted, W, averaged over the components
   std::vector<LightTransform> transforms;                                // by the number in a row; at least one
   std::vector<std::shared_ptr<const LightImage>> images;                 // by the number in a row
   std::vector<std::shared_ptr<const PiecewiseConstant2>> distributions;  // of each image; null: not needed
-  std::vector<std::uint32_t> groups;                                     // numbers in group_names
+  std::vector<std::uint32_t> groups;                                     // indices into group_names
   std::vector<std::string> group_names;
   Vec3f scene_centre{};
   float scene_radius = 1;
@@ -38,76 +38,76 @@ struct LightPolygon {
 };
 
 // Immutable. Every function is for one lane or many; `n` is the unit normal of the side that scatters at the reference
-// point, or the zero vector where both sides do (or there is no surface). Where n is given, lights and directions
-// wholly on its other side may have probability zero. Idle lanes may hold anything.
+// point, or the zero vector if both sides do (or there is no surface). If n is given, lights and directions
+// entirely on its other side may have probability zero. Idle lanes may contain anything.
 class LightSet {
  public:
   LightSet() = default;  // no lights
   explicit LightSet(LightTables tables, LightSettings settings = {});
 
-  // The same lights, chosen in another way.
+  // The same lights with other settings of the choice.
   LightSet with(LightSettings settings) const { return LightSet(tables_, settings); }
 
   std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
-  // The group of every light, for layers of a picture, and what the groups are called, in the order of their lights.
+  // The group of every light, for layers of an image, and the names of the groups, in the order of their lights.
   const std::vector<std::uint32_t>& groups() const { return tables_.groups; }
   const std::vector<std::string>& group_names() const { return tables_.group_names; }
   const LightSettings& settings() const { return settings_; }
   float scene_radius() const { return tables_.scene_radius; }
-  // Whether there are lights that no ray meets.
+  // Whether there are lights that no ray hits.
   bool has_delta() const { return has_delta_; }
-  // Whether there are lights with holes, which rays alone find.
+  // Whether there are lights with holes, which only rays find.
   bool has_masked() const { return has_masked_; }
 
-  // Lights that have no place: they shine from beyond the scene, or everywhere.
+  // Lights without a position: they emit from infinity, or everywhere.
   bool has_beyond() const { return !unbounded_.empty(); }
   template <class F>
   Mask<F> is_beyond(Uint<F> light, Mask<F> on) const;
 
-  // Which light to sample at p, and the probability of that choice (equal to the last bit).
+  // The light to sample at p, and the probability of that choice (equal bit for bit).
   template <class F>
   LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
   template <class F>
   Mass<F> choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
-  // A direction toward some light. Only draws by solid angle have the densities that hit() states.
+  // A direction towards some light. Only directions sampled by solid angle have the densities that hit() states.
   template <class F>
   LightSample<F> sample(Vec3<F> p, Vec3<F> n, F u_choice, Vec2<F> u, Mask<F> on,
                         LightMeasure measure = LightMeasure::solid_angle) const;
-  // The same for a light that is given: its density and radiance are without the choice.
+  // The same for a given light: its density and radiance do not include the choice.
   template <class F>
   LightSample<F> sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
                               LightMeasure measure = LightMeasure::solid_angle) const;
 
-  // A point of a light that is given, drawn at p by solid angle, with the density of sample_light.
+  // A point of a given light, sampled at p by solid angle, with the density of sample_light.
   template <class F>
   LightPointDraw<F> draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
-  // The point p of the surface of `light` with its oriented unit normal, where `radiance` is what hit_radiance says.
+  // The point p of the surface of `light` with its oriented unit normal; `radiance` is the result of hit_radiance.
   template <class F>
   LightPoint<F> point_of_hit(Uint<F> light, Vec3<F> p, Vec3<F> ng, Spectrum<F> radiance, Mask<F> on) const;
-  // What a light point sends to p.
+  // What a light point contributes at p.
   template <class F>
   LightPointView<F> view(const LightPoint<F>& point, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
-  // For a ray that left reference_p along the unit wi and met the surface of `light` at p, where the oriented unit
+  // For a ray that left reference_p along the unit wi and hit the surface of `light` at p, where the oriented unit
   // normal is ng and uv are the surface's parameters.
   template <class F>
   LightHit<F> hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
                   Vec3<F> wi, Mask<F> on) const;
-  // The radiance of hit() alone, as a camera ray needs it.
+  // Only the radiance of hit(), as needed by a camera ray.
   template <class F>
   Spectrum<F> hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const;
 
-  // The corners of a light that is a flat polygon, in order around it; none for the other kinds.
+  // The corners, in order, of a light that is a flat polygon; none for the other kinds.
   std::optional<LightPolygon> polygon(LightId light) const;
 
-  // The lights that a ray meets that leaves the scene, by their place in 0 ... infinite_count() - 1.
+  // The lights that a ray hits when it leaves the scene, by their index in 0 ... infinite_count() - 1.
   int infinite_count() const { return infinite_count_; }
   LightId infinite_light(int index) const { return LightId(unbounded_[std::size_t(index)]); }
   template <class F>
   LightHit<F> escaped(int infinite_index, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> wi, Mask<F> on) const;
-  // The radiance of all of them together.
+  // The sum of their radiances.
   template <class F>
   Spectrum<F> escaped_radiance(Vec3<F> wi, Mask<F> on) const;
 
@@ -128,7 +128,7 @@ class LightSet {
                              LightMeasure measure) const;
   template <class F>
   Spectrum<F> surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const;
-  // Of a light whose kind is is_delta; `distance` to the light, no density.
+  // For a light whose kind is is_delta; sets `distance` to the light, no density.
   template <class F>
   LightSample<F> sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const;
   template <class F>
@@ -139,12 +139,12 @@ class LightSet {
 
   LightTables tables_;
   LightSettings settings_;
-  LightBvh bvh_;                          // where lights are chosen so
-  std::optional<AliasTable> by_power_;    // likewise
+  LightBvh bvh_;                          // if lights are chosen by the hierarchy
+  std::optional<AliasTable> by_power_;    // if they are chosen by power
   std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   bool has_delta_ = false, has_masked_ = false;
-  float unbounded_mass_ = 0;  // of each unbounded light, by the hierarchy's choice
+  float unbounded_mass_ = 0;  // of each unbounded light, in the hierarchy's choice
 };
 
 }  // namespace montelux

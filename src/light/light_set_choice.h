@@ -1,4 +1,4 @@
-// The choice of a light: bodies of LightSet's templates.
+// The choice of a light: implementation of LightSet's templates.
 #pragma once
 #include "light/light_set.h"
 
@@ -21,7 +21,7 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     DiscreteSample<F> s = by_power_->sample(u);
     return {s.index, s.mass, on};
   }
-  // Unbounded lights take equal shares from the front of [0, 1), the hierarchy has the rest.
+  // Unbounded lights have equal shares at the start of [0, 1); the hierarchy has the rest.
   auto unbounded = std::uint32_t(unbounded_.size());
   F front = F(unbounded_mass_ * float(unbounded));
   Mask<F> among_unbounded = Mask<F>(unbounded > 0) & ((u < front) | Mask<F>(bvh_.empty()));

@@ -1,4 +1,4 @@
-// Points of lights: bodies of LightSet's templates.
+// Points of lights: implementation of LightSet's templates.
 #pragma once
 #include "light/light_set.h"
 

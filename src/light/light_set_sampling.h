@@ -1,4 +1,4 @@
-// Sampling of lights and what rays find on them: bodies of LightSet's templates.
+// Sampling of lights and what rays find on them: implementation of LightSet's templates.
 #pragma once
 #include "light/light_set.h"
 
@@ -49,7 +49,7 @@ Spectrum<F> LightSet::surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mas
   return e;
 }
 
-// A point of a surface; only kinds that can be drawn by solid angle have two ways.
+// A point of a surface; only kinds that can be sampled by solid angle have two ways.
 template <class Emitter, class F>
 EmitterPoint<F> draw_point(const Emitter& emitter, Vec3<F> from, Vec2<F> u, LightMeasure measure) {
   if constexpr (requires { emitter.sample_by_area(from, u); })
@@ -80,7 +80,7 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
   if (kind == LightKind::uniform_infinite) {
     s = UniformInfinite<F>::sample(n, u);
   } else {
-    // Each image has its own table, so the lanes of one light go together.
+    // Each image has its own table, so the lanes of one light are processed together.
     s.wi = {F(0.0f), F(0.0f), F(1.0f)}, s.factor = gray(F(0.0f)), s.density = {F(0.0f)};
     for (Mask<F> rest = on; any(rest);) {
       std::uint32_t light = lane(rows.light, std::countr_zero(bits(rest)));
@@ -170,7 +170,7 @@ template <class F>
 LightHit<F> LightSet::hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
                           Vec3<F> wi, Mask<F> on) const {
   LightHit<F> r{hit_radiance(light, ng, uv, wi, on), {F(0.0f)}};
-  // Where nothing shines, no density is asked for.
+  // Where nothing is emitted, no density is needed.
   on = on & !is_black(r.radiance);
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
     const LightRows<F> row = rows<F>(light, m);

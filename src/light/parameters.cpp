@@ -1,4 +1,4 @@
-// Lights as a scene file states them.
+// Lights as stated in a scene file.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@ namespace montelux {
 
 namespace {
 
-// What a light's parameters are read with.
+// What the parameters of a light are read with.
 struct Reader {
   const Entity& light;
   const Transform& to_world;
@@ -22,12 +22,12 @@ struct Reader {
   float scale() const { return light.parameters.number("scale", 1); }
   Vec3f from() const { return light.parameters.vec3("from", {0, 0, 0}); }
   Vec3f to() const { return light.parameters.vec3("to", {0, 0, 1}); }
-  // What turns emission into the power (or illuminance) that the parameter asks for, where it emits `present` now.
+  // The factor that scales an emission of `present` to the power (or illuminance) that the parameter states.
   float factor_for(std::string_view parameter, float present) const {
     float wanted = light.parameters.number(parameter, -1);
     return wanted > 0 && present > 0 ? wanted / present : 1.0f;
   }
-  // Null: not stated, or reported.
+  // Null: not stated, or invalid and reported.
   std::shared_ptr<const LightImage> image(bool must_be_square) const {
     std::string name = light.parameters.string("filename", "");
     if (name.empty()) return nullptr;
@@ -54,7 +54,7 @@ struct Reader {
   }
 };
 
-// The luminous part of what a slide sends: over its pixels, luminance times the solid angle.
+// The luminous part of what a projector emits: the sum over its pixels of luminance times solid angle.
 float projected_luminance(const LightImage& image, float fov) {
   float aspect = float(image.width) / float(image.height), tangent = std::tan(fov * (pi / 360));
   float width = std::max(aspect, 1.0f) * tangent, height = std::max(1 / aspect, 1.0f) * tangent;
@@ -80,11 +80,11 @@ float illuminance(const LightImage& image) {
   return float(4 * double(pi) * sum / (double(width) * height));
 }
 
-// A longitude-latitude image (+z on top, azimuth from +x toward +y along the rows) on the equal-area square. Each texel
-// is the mean of as many of the image's as it covers, so that the light as a whole stays.
+// A longitude-latitude image (+z on top, azimuth from +x towards +y along the rows) on the equal-area square. Each
+// texel is the mean of the texels that it covers, so that the total emission is preserved.
 LightImage equal_area_image(const LightImage& angles) {
   LightImage square;
-  // Finer than the image everywhere: texels are constant, and their edges would show.
+  // Finer than the image everywhere: texels are constant, and their edges would be visible.
   square.width = square.height = std::clamp(angles.width, 1, 8192);
   const int parts = square.width > 2048 ? 2 : 4;
   square.texels.resize(std::size_t(square.width) * std::size_t(square.height));

@@ -1,4 +1,4 @@
-// Four-sided surfaces that emit: parallelograms, and bilinear patches in general.
+// Four-sided emitting surfaces: parallelograms, and bilinear patches in general.
 #pragma once
 #include "light/surface.h"
 #include "mc/spherical_rectangle.h"
@@ -6,7 +6,7 @@
 namespace montelux {
 
 // A corner and two edges. A rectangle (the special flag) is sampled uniformly in solid angle (Urena, Fajardo and King
-// 2013), or in area where it looks very small or very large; a slanted one in area.
+// 2013), or in area if it appears very small or very large; a slanted one in area.
 template <class F>
 struct ParallelogramEmitter {
   enum Slot {
@@ -63,7 +63,7 @@ struct ParallelogramEmitter {
   }
 };
 
-// The surface p(x, y) = p00 + x a + y b + x y c. Its parameters are drawn uniformly, so that the density per area is
+// The surface p(x, y) = p00 + x a + y b + x y c. Its parameters are sampled uniformly, so that the density per area is
 // the inverse of |dp/dx x dp/dy|.
 template <class F>
 struct BilinearPatchEmitter {
@@ -102,7 +102,7 @@ struct BilinearPatchEmitter {
   MONTELUX_INLINE Vec3<F> scaled_normal(Vec2<F> at) const { return cross(a + c * at.y, b + c * at.x); }
 
   // The parameters of a point of the patch: (p - p00 - x a) is parallel to (b + x c), a quadratic equation in x along
-  // any axis; of its two roots that which leads to p.
+  // any axis; the root that yields p is the right one.
   MONTELUX_INLINE Vec2<F> parameters(Vec3<F> p) const {
     Vec3<F> q = p - p00, axis = scaled_normal({F(0.5f), F(0.5f)});
     F k2 = F(0.0f) - dot(axis, cross(a, c)), k1 = dot(axis, cross(q, c) - cross(a, b)), k0 = dot(axis, cross(q, b));

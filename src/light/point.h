@@ -1,4 +1,4 @@
-// Lights in one point: each states its place and its intensity (W / sr) toward a unit direction.
+// Lights at one point: each has a position and an intensity (W / sr) towards a unit direction.
 #pragma once
 #include <memory>
 
@@ -18,8 +18,8 @@ struct PointEmitter {
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F>, Mask<F>) const { return emission; }
 };
 
-// 0 below `low`, 1 above `high`, between them t^2 (1 + bend - bend t): for a bend of 2 a cubic with level ends, for 0 a
-// square. A step where low and high are equal.
+// 0 below `low`, 1 above `high`, between them t^2 (1 + bend - bend t): a bend of 2 gives a cubic with zero end slopes,
+// 0 a square. A step if low and high are equal.
 template <class F>
 MONTELUX_INLINE F soft_step(F x, F low, F high, F bend) {
   F t = clamp((x - low) / max(high - low, F(1e-30f)), 0.0f, 1.0f);
@@ -40,13 +40,13 @@ struct SpotEmitter {
   }
 };
 
-// Lights whose intensity an image gives, by direction: the images of all lights, and which of them a row names.
+// Lights whose intensity is given by an image, by direction: the images of all lights, and which of them a row uses.
 template <class F>
 struct ImagedLights {
   const std::shared_ptr<const LightImage>* images;
   LightRows<F> rows;
 
-  // The emission times what f(image, lane) gives, in the lanes that are on; other lanes are black.
+  // The emission times the result of f(image, lane), in the lanes that are on; other lanes are black.
   template <class Function>
   MONTELUX_INLINE Spectrum<F> times_image(Mask<F> on, Function f) const {
     Spectrum<F> e = rows.emission(), r = gray(F(0.0f));
@@ -59,7 +59,7 @@ struct ImagedLights {
   }
 };
 
-// A measured luminaire: the components' mean of a square equal-area image over the sphere of directions.
+// A measured luminaire: the mean of the components of a square equal-area image over the sphere of directions.
 template <class F>
 struct GoniometricEmitter {
   Vec3<F> p;
@@ -74,7 +74,7 @@ struct GoniometricEmitter {
   }
 };
 
-// A slide projector along the light's +z: the image on the plane z = 1, its shorter side within the field of view.
+// A slide projector along the light's +z: the image is on the plane z = 1, its shorter side within the field of view.
 template <class F>
 struct ProjectionEmitter {
   enum Slot { place = light_slot::shape, cotangent = place + 3, half_width, half_height };

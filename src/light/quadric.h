@@ -1,11 +1,11 @@
-// Round surfaces that emit: disks, spheres and cylinders, and parts of them.
+// Round emitting surfaces: disks, spheres and cylinders, and parts of them.
 #pragma once
 #include "light/surface.h"
 #include "mc/hemisphere.h"
 
 namespace montelux {
 
-// An ellipse around a centre by its two half axes, or a ring or sector of it. Sampled in area.
+// An ellipse around a centre, given by its two half axes, or a ring or sector of it. Sampled in area.
 template <class F>
 struct DiskEmitter {
   enum Slot {
@@ -40,9 +40,9 @@ enum QuadricSlot {
   quadric_centre = light_slot::shape,         // in the world
   quadric_world_radius = quadric_centre + 3,  // in the world; whole spheres only
   quadric_radius,
-  quadric_low,  // least and greatest z
+  quadric_low,  // minimum and maximum z
   quadric_high,
-  quadric_turn,  // part of a full turn that there is
+  quadric_turn,  // the existing fraction of a full turn
   quadric_area,
   quadric_volume_scale  // |determinant| of the transform
 };
@@ -69,7 +69,7 @@ struct QuadricEmitter {
   }
   // The point p of the world, which is `own` in the shape's space.
   MONTELUX_INLINE EmitterPoint<F> at(Vec3<F> from, Vec3<F> p, Vec3<F> wi, Vec3<F> own) const {
-    // An area grows under the map by |det| |inverse transpose of its normal|.
+    // The map scales an area by |det| |inverse transpose of its normal|.
     Vec3<F> outward = normalize(Vec3<F>{own.x, own.y, is_sphere ? own.z : F(0.0f)});
     Vec3<F> mapped = rows.transform().normal_to_world(outward);
     F mapped_length = length(mapped);
@@ -77,7 +77,7 @@ struct QuadricEmitter {
     Vec3<F> n = mapped * (select(rows.flag(light_flipped), F(-1.0f), F(1.0f)) / mapped_length);
     return {p, n, parameters(own), area_density(area, n, from, p, wi)};
   }
-  // Azimuth and height (of spheres: polar angle from the lower end) as fractions of the part that there is.
+  // Azimuth and height (of spheres: polar angle from the lower end) as fractions of the existing part.
   MONTELUX_INLINE Vec2<F> parameters(Vec3<F> own) const {
     F azimuth = azimuth_fraction(own) / rows.number(quadric_turn);
     F low = rows.number(quadric_low), high = rows.number(quadric_high);
@@ -94,7 +94,7 @@ template <class F>
 using CylinderEmitter = QuadricEmitter<F, false>;
 
 // A sphere. A whole one that is still a sphere in the world (the special flag) is sampled from outside uniformly in the
-// solid angle of its visible cap, else as any quadric.
+// solid angle of its visible cap, otherwise like any quadric.
 template <class F>
 struct SphereEmitter {
   QuadricEmitter<F, true> part;
@@ -132,7 +132,7 @@ struct SphereEmitter {
   }
 
  private:
-  // The cone under which the sphere is seen.
+  // The cone of directions to the sphere.
   struct Cap {
     Vec3<F> axis;
     F sin, one_minus_cos;

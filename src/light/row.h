@@ -1,4 +1,4 @@
-// How one light is stored: a row of numbers that packs gather from. The slots after the common ones are the kind's own.
+// How one light is stored: a row of numbers that packs gather from. Slots after the common ones depend on the kind.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -24,7 +24,7 @@ struct alignas(64) LightRow {
 
 // Slots that all kinds share.
 namespace light_slot {
-inline constexpr int emission = 0;   // radiance, or intensity, or irradiance, the scale included; factor of an image
+inline constexpr int emission = 0;   // radiance, or intensity, or irradiance, including the scale; factor of an image
 inline constexpr int flags = 3;      // bits below
 inline constexpr int image = 4;      // bits: number of the image + 1, or 0
 inline constexpr int transform = 5;  // bits: number of the transform
@@ -33,10 +33,10 @@ inline constexpr int shape = 6;      // first slot of the kind's own
 
 inline constexpr std::uint32_t light_two_sided = 1;  // emits on both sides
 inline constexpr std::uint32_t light_flipped = 2;    // the normal is the negative of the shape's own
-inline constexpr std::uint32_t light_special = 4;    // the kind says what: a right-angled or a whole one
-inline constexpr std::uint32_t light_masked = 8;  // has holes, which light sampling does not know: it draws none of it
+inline constexpr std::uint32_t light_special = 4;    // meaning depends on the kind: a right-angled or a whole one
+inline constexpr std::uint32_t light_masked = 8;     // has holes, which light sampling does not know: it is not sampled
 
-// A map from a light's own space to the world: twelve numbers forth, twelve back, each the rows of a 3 x 4 matrix.
+// A map from a light's own space to the world and back: two times twelve numbers, each the rows of a 3 x 4 matrix.
 inline constexpr int light_transform_size = 32;
 struct alignas(64) LightTransform {
   float v[light_transform_size] = {};
@@ -87,7 +87,7 @@ struct LightRows {
     for (int i = 0; i < spectrum_size; ++i) s.c[i] = number(light_slot::emission + i);
     return s;
   }
-  // Of lights of a kind that has one.
+  // Only for lights of a kind that has one.
   MONTELUX_INLINE LightTransforms<F> transform() const {
     return {transforms->v, Uint<F>(bits(light_slot::transform) * std::uint32_t(light_transform_size))};
   }
@@ -97,7 +97,7 @@ struct LightRows {
   }
 };
 
-// A point drawn on an emitting surface.
+// A point sampled on an emitting surface.
 template <class F>
 struct EmitterPoint {
   Vec3<F> p;
@@ -106,9 +106,9 @@ struct EmitterPoint {
   Density<SolidAngle, F> density;  // at the reference point
 };
 
-// What every emitting surface offers, made from its row: a point seen from a reference point, and the density at the
-// reference point with which sample() draws the point p, where the unit direction wi leads to. The density of a
-// direction is that of the surface's first point along it; convex surfaces of one side, or both where two-sided.
+// The interface of every emitting surface, made from its row: a point sampled from a reference point, and the density
+// at the reference point with which sample() samples the point p in the unit direction wi. The density of a direction
+// is that of the surface's first point along it; for convex surfaces with one or two emitting sides.
 template <class Emitter, class F>
 concept SurfaceEmitter = requires(const Emitter& e, Vec3<F> p, Vec2<F> u) {
   Emitter(LightRows<F>{});

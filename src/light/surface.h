@@ -1,11 +1,11 @@
-// What surfaces that emit have in common.
+// What emitting surfaces have in common.
 #pragma once
 #include "light/row.h"
 
 namespace montelux {
 
-// Flat surfaces are sampled by solid angle between these bounds, in steradians, and by area beyond: where they look
-// small the two are alike, and where they fill the view the spherical figures degenerate.
+// Flat surfaces are sampled by solid angle between these bounds, in steradians, and by area outside them: small
+// surfaces are equivalent in both, and the spherical shapes degenerate when they fill the view.
 inline constexpr float least_spherical = 1e-4f, most_spherical = 6.0f;
 
 // The density at `from` of a point p, seen along wi, that is uniform over a plane area with unit normal n.
@@ -20,8 +20,8 @@ MONTELUX_INLINE Vec3<F> direction_to(Vec3<F> from, Vec3<F> p) {
   return d * (F(1.0f) / sqrt(max(length_squared(d), F(1e-37f))));
 }
 
-// Where the line from `from` along w meets the plane of a corner and two edges, in fractions of the edges: Cramer's
-// rule.
+// The intersection of the line from `from` along w with the plane of a corner and two edges, in fractions of the edges:
+// Cramer's rule.
 template <class F>
 MONTELUX_INLINE Vec2<F> meet_plane(Vec3<F> from, Vec3<F> w, Vec3<F> corner, Vec3<F> e1, Vec3<F> e2) {
   Vec3<F> s = from - corner, h = cross(w, e2);
@@ -29,14 +29,14 @@ MONTELUX_INLINE Vec2<F> meet_plane(Vec3<F> from, Vec3<F> w, Vec3<F> corner, Vec3
   return {dot(s, h) * inverse, dot(w, cross(s, e1)) * inverse};
 }
 
-// Between four values at the corners 00, 10, 01, 11 of the unit square.
+// Interpolates between four values at the corners 00, 10, 01, 11 of the unit square.
 template <class F>
 MONTELUX_INLINE Vec2<F> bilinear(Vec2<F> v00, Vec2<F> v10, Vec2<F> v01, Vec2<F> v11, Vec2<F> at) {
   F x = F(1.0f) - at.x, y = F(1.0f) - at.y;
   return (v00 * x + v10 * at.x) * y + (v01 * x + v11 * at.x) * at.y;
 }
 
-// Whether a ray along wi meets a side that emits, where the surface's normal is n.
+// Whether a ray along wi hits a side that emits, where the surface's normal is n.
 template <class F>
 MONTELUX_INLINE Mask<F> meets_lit_side(const LightRows<F>& rows, Vec3<F> n, Vec3<F> wi) {
   Mask<F> front = dot(n, wi) < F(0.0f), both = rows.flag(light_two_sided);

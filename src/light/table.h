@@ -1,4 +1,4 @@
-// What a scene may say about lights.
+// The lights that a scene may state.
 #pragma once
 #include <span>
 
@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// Every light that is not the surface of a shape, by name.
+// Every light that is not an emitting shape, by name.
 std::span<const EntitySpec> light_table();
 // Every kind of emission that a shape may have.
 std::span<const EntitySpec> area_light_table();

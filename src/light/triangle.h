@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// Sampled uniformly in solid angle (Arvo 1995), or in area where it looks very small or very large.
+// Sampled uniformly in solid angle (Arvo 1995), or in area if it appears very small or very large.
 template <class F>
 struct TriangleEmitter {
   enum Slot {
@@ -31,7 +31,7 @@ struct TriangleEmitter {
     Vec2<F> b = sample_triangle(u);
     if (any(by_angle)) {
       Vec2<F> met = meet_plane(from, sample_spherical_triangle(seen, u), p0, e1, e2);
-      // Rounding may lead just past an edge.
+      // Rounding may lead slightly past an edge.
       met.x = clamp(met.x, 0.0f, 1.0f);
       met.y = clamp(met.y, 0.0f, F(1.0f) - met.x);
       b = select(by_angle, met, b);

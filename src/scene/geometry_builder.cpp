@@ -21,7 +21,7 @@ Bounds3 bounds_of(const std::vector<Vec3f>& points) {
   return box;
 }
 
-// Whether the oriented normal of triangle `i` is against (p1 - p0) x (p2 - p0): vertex normals decide where there are
+// Whether the oriented normal of triangle `i` is opposite to (p1 - p0) x (p2 - p0): vertex normals decide if there are
 // any.
 bool faces_backward(const Mesh& world, std::size_t i, bool flip) {
   const std::uint32_t* v = world.triangles.data() + 3 * i;
@@ -47,7 +47,7 @@ std::optional<Shape> quadric_of(const ShapeDesc& shape) {
   return std::nullopt;
 }
 
-// The shapes as the lights know them.
+// The shapes in the types of the light builder.
 template <class S>
 bool turned_round(const S& s) {
   return s.reverse_orientation != s.object_to_world.swaps_handedness();
@@ -100,19 +100,19 @@ std::uint32_t GeometryBuilder::add_store_object(const std::function<void()>& add
   return std::uint32_t(store_.objects.size() - 1);
 }
 
-// The shape as it is in its own space: its motion places it.
+// The shape in its own space: its motion places it.
 std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
   ShapeDesc still = moving;
   still.object_to_world = Transform();
   still.object_to_world_later.clear();
-  // Normals of quadrics turn round with a map that mirrors; those of meshes and curves go with it.
+  // A map that mirrors reverses the normals of quadrics, but not those of meshes and curves.
   if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
     still.reverse_orientation = !moving.reverse_orientation;
   const std::uint32_t object = add_store_object([&] { add_shape(still, false); });
-  // What was used of the copy was used.
+  // Parameters that the copy used count as used.
   for (const Parameter& p : still.entity.parameters.all())
     if (p.used) moving.entity.parameters.use(p.name);
-  if (moving.area_light) moving.area_light->parameters.use_all();  // that it does not shine has been reported
+  if (moving.area_light) moving.area_light->parameters.use_all();  // it is reported that it does not emit
   return object;
 }
 
@@ -129,7 +129,7 @@ void GeometryBuilder::add_object(const ObjectDesc& object) {
 }
 
 void GeometryBuilder::add_instance(const InstanceDesc& instance) {
-  // Rays that the world has.
+  // The usual range of rays in the world.
   constexpr float usual_coordinate = 1e9f;
   if (!(ray_reach(instance.object_to_world) >= usual_coordinate)) {
     diagnostics_.warning(instance.where, "an object that is scaled down so far, or stands so far away, cannot be seen",
@@ -143,7 +143,7 @@ void GeometryBuilder::add_instance(const InstanceDesc& instance) {
     place_moving(parts.still, {[&](double t) { return motion.at(t); }, motion.steps()});
   else
     place(parts.still, start);
-  // Two motions, one within the other, bend even where neither turns.
+  // Two nested motions bend even if neither rotates.
   for (const std::pair<std::uint32_t, Motion>& part : parts.moving)
     place_moving(part.first,
                  {[&](double t) { return motion.at(t) * part.second.at(t); },
@@ -172,7 +172,7 @@ void GeometryBuilder::place_moving(std::uint32_t object, const Placing& placing)
   store_.instances.back().keys = keys;
   store_.instance_motion.resize(number);
   store_.instance_motion.push_back(keys);
-  // Points go on straight lines from key to key: the box of the corners at all keys holds them.
+  // Points move in straight lines from key to key: the box of the corners at all keys contains them.
   const Bounds3& box = object_bounds_[object];
   if (box.is_empty()) return;
   for (std::uint32_t key = 0; key < keys.count; ++key) {
@@ -205,7 +205,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
   const bool interface = inputs_.is_interface(shape.material);
   const bool partly_interface = inputs_.is_partly_interface(shape.material);
-  if (!alpha || (interface && !shape.area_light)) {  // nothing there that light could meet
+  if (!alpha || (interface && !shape.area_light)) {  // nothing that light could hit
     shape.entity.parameters.use_all();
     if (shape.area_light) shape.area_light->parameters.use_all();
     return;
@@ -244,7 +244,7 @@ void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const G
     add_triangles(world.mesh, world.flip_normal, row, emission);
     return;
   }
-  // A flat patch is two triangles wherever nobody looks at its parameters; the kernel is much faster with those.
+  // A flat patch becomes two triangles unless its parameters are used; the kernel is much faster with those.
   const bool parameters_matter = emission || row.alpha != 0 || inputs_.uses_parameters(shape.material);
   SplitMesh split = parameters_matter ? split_affine_quads(world.mesh) : split_flat_quads(world.mesh);
   if (!split.triangles.triangles.empty()) add_triangles(split.triangles, world.flip_normal, row, emission);
@@ -278,7 +278,7 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, const Geometry
   grow(bounds_of(world.positions));
   if (emission)
     for (std::uint32_t i = 0; i < count; ++i) {
-      // What shines must be seen from the side to which it shines.
+      // Emission must be visible from the side that emits.
       if (faces_backward(world, i, flip) != flip) row.flags &= ~GeometryRow::one_sided;
       TriangleShape triangle;
       Vec3f* p[3] = {&triangle.p0, &triangle.p1, &triangle.p2};
@@ -295,7 +295,7 @@ void GeometryBuilder::add_triangles(const Mesh& world, bool flip, const Geometry
   store_.rows.push_back(row);
 }
 
-// The poses after the first lie behind it, positions and normals alike.
+// Appends the poses after the first, positions and normals.
 void GeometryBuilder::add_later_poses(const Mesh& world, GeometryRow& row) {
   if (world.later.empty()) return;
   row.poses = std::uint32_t(world.later.size()) + 1;

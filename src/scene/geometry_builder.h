@@ -11,17 +11,17 @@
 
 namespace montelux {
 
-// What the builder asks about a shape's surroundings.
+// What the builder needs to know about a shape's attributes.
 struct ShapeInputs {
   // Emission of an area light.
   std::function<Emission(const Entity& area_light)> emission;
-  // 1 + number of the texture, or 0 for a surface without a mask; none where the surface is nowhere there.
+  // 1 + number of the texture, or 0 for a surface without a mask; none if the surface is fully transparent.
   std::function<std::optional<std::uint32_t>(const Entity& shape)> alpha;
   // Whether light passes the material unchanged.
   std::function<bool(MaterialDescId)> is_interface;
-  // Whether it does at times: a mixture with an interface in it.
+  // Whether light sometimes passes it unchanged: a mixture that contains an interface.
   std::function<bool(MaterialDescId)> is_partly_interface;
-  // Whether the material looks at the surface's parameters: textures, normal maps, a grain.
+  // Whether the material uses the surface's parameters: textures, normal maps, a grain.
   std::function<bool(MaterialDescId)> uses_parameters;
 };
 
@@ -30,13 +30,13 @@ class GeometryBuilder {
   GeometryBuilder(const ShapeInputs& inputs, LightSetBuilder& lights, Diagnostics& diagnostics)
       : inputs_(inputs), lights_(lights), diagnostics_(diagnostics) {}
 
-  // Shapes of the world must all be added before the first object, and must outlive the builder: those that move are
-  // placed last, as instances of their own.
+  // All shapes of the world must be added before the first object, and must outlive the builder: moving ones are
+  // placed last, as separate instances.
   void add_world_shape(const ShapeDesc& shape);
   void add_object(const ObjectDesc& object);
   void add_instance(const InstanceDesc& instance);
 
-  // Ends the building. The box of the world's shapes and of all instances is whole then.
+  // Ends the building. The box of the world's shapes and of all instances is complete then.
   GeometryStore take();
   Bounds3 bounds() const { return bounds_; }
 
@@ -46,7 +46,7 @@ class GeometryBuilder {
     std::function<Transform(double)> at;
     int steps;
   };
-  // An object of the description: what stands still in it, and each shape that moves in it, as objects of the store.
+  // An object of the description: its static part, and each shape that moves in it, as objects of the store.
   struct ObjectParts {
     std::uint32_t still;
     std::vector<std::pair<std::uint32_t, Motion>> moving;

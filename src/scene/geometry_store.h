@@ -1,5 +1,5 @@
 // All geometry of a scene in a few flat arrays, so that packs can gather from them and the ray-tracing kernel can share
-// them: each vertex is in memory once.
+// them: each vertex is stored once.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -27,37 +27,37 @@ struct alignas(64) GeometryRow {
   std::uint32_t first_light = 0;    // 1 + the light of primitive 0, the others following; 0: emits nothing
   std::uint32_t alpha = 0;          // 1 + number of a number texture; 0: opaque
   std::uint32_t object = 0;         // number of the object from 1, for the id layer
-  std::uint32_t poses = 1;          // of a mesh that changes its form: how many, evenly spaced over time
-  std::uint32_t pose_vertices = 0;  // vertices of one pose, each pose behind the other; 0: one pose alone
+  std::uint32_t poses = 1;          // number of poses of a deforming mesh, evenly spaced over time
+  std::uint32_t pose_vertices = 0;  // vertices of one pose; the poses are consecutive; 0: only one pose
   std::uint32_t unused[4] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
                                  turns_to_ray = 16, open_to_some_shadow_rays = 32;
-  static constexpr std::uint32_t one_sided = 64;  // of triangles: the camera does not see their backs
+  static constexpr std::uint32_t one_sided = 64;  // of triangles: the camera does not see their back
 };
 static_assert(sizeof(GeometryRow) == 64);
 
-// Geometries that instances place; numbers of GeometryStore::rows.
+// Geometries that instances place; indices into GeometryStore::rows.
 struct ObjectRange {
   std::uint32_t first = 0, count = 0;
 };
 
-// Some of GeometryStore::instance_keys; none for an instance that stands still.
+// A range of GeometryStore::instance_keys; none for a static instance.
 struct KeyRange {
   std::uint32_t first = 0, count = 0;
 };
 
 struct PlacedObject {
   std::uint32_t object = 0;
-  Transform object_to_world;  // at the start, where it moves
+  Transform object_to_world;  // at the start, if it moves
   KeyRange keys{};
 };
 
 struct GeometryStore {
-  std::vector<Vec3f> positions;  // one more than there are vertices, so that the last can be read as four floats
+  std::vector<Vec3f> positions;  // one more than the number of vertices, so that the last can be read as four floats
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // numbers of positions
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into positions
   std::vector<Shape> shapes;
   std::vector<CurveSet> curves;
   std::vector<GeometryRow> rows;  // first those of the world, then those of the objects
@@ -65,21 +65,21 @@ struct GeometryStore {
   std::vector<ObjectRange> objects;
   std::vector<PlacedObject> instances;
   std::vector<std::array<float, 24>> instance_rows;  // object to world, then world to object, three rows of four each
-  // Object to world at moments evenly spaced from the start to the end: between them the kernel, and surface(), take
-  // the matrices entry by entry on straight lines. Empty where no instance moves.
+  // Object to world at times evenly spaced from the start to the end: in between, the kernel and surface() interpolate
+  // the matrices linearly, entry by entry. Empty if no instance moves.
   std::vector<std::array<float, 12>> instance_keys;
-  std::vector<KeyRange> instance_motion;  // of each instance; empty where none moves
+  std::vector<KeyRange> instance_motion;  // of each instance; empty if none moves
   bool deforms = false;                   // some mesh has more than one pose
 
   bool moves() const { return deforms || !instance_keys.empty(); }
-  // Whether any surface is there for some rays and not for others.
+  // Whether any surface exists for some rays and not for others.
   bool has_half_open() const {
     return std::ranges::any_of(
         rows, [](const GeometryRow& r) { return r.alpha != 0 || (r.flags & GeometryRow::open_to_some_shadow_rays); });
   }
 };
 
-// Where a ray met the scene. `geometry` is a row number; `instance` is 1 + an instance's number, or 0.
+// Where a ray hit the scene. `geometry` is a row number; `instance` is 1 + an instance's number, or 0.
 template <class F>
 struct Hit {
   F t, u, v;  // distance in units of the direction; the primitive's own parameters

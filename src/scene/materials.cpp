@@ -6,7 +6,7 @@ namespace montelux {
 
 namespace {
 
-// How many slots a model reads, from the first on.
+// How many slots a model reads, starting with the first.
 std::uint32_t slots_of(BsdfKind kind) {
   constexpr auto spectrum = std::uint32_t(spectrum_size);
   switch (kind) {
@@ -36,7 +36,7 @@ std::uint32_t slots_of(BsdfKind kind) {
   return std::uint32_t(bsdf_row_size);
 }
 
-// The frame turned by a tangent-space normal (components in [-1, 1], z outward); the map keeps the side of the surface.
+// The frame rotated by a tangent-space normal (components in [-1, 1], z outward); keeps the side of the surface.
 template <class F>
 Frame<F> with_normal(const Frame<F>& frame, const Vec3<F>& dpdu, const Vec3<F>& tangent_normal) {
   Vec3<F> n = frame.to_world(tangent_normal);
@@ -84,7 +84,7 @@ Uint<F> MaterialSet::settle_mixtures(Uint<F> material, const TexturePoints<F>& p
     for_each_material<F>(material, mixed, [&](std::uint32_t number, Mask<F> same) {
       const Mixture& mixture = *materials_[number].mixture;
       const F amount = clamp(textures_->number(mixture.amount, points, same), 0.0f, 1.0f);
-      // The part of u below or above the amount is uniform again, for a mixture in the mixture.
+      // The part of u below or above the amount is rescaled to a uniform number for nested mixtures.
       const Mask<F> second = u < amount;
       const F rest = select(second, u, u - amount) / select(second, amount, F(1.0f) - amount);
       u = select(same, rest, u);
@@ -137,7 +137,7 @@ SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3
       [&](std::uint32_t number, Mask<F> same) { look_up<F>(materials_[number], at.point, points, same, s); });
 
   s.is_delta = is_delta<F>(s.lanes(on));
-  // A bent coat reflects to where its base does not look.
+  // A coat with its own normal reflects into directions that its base does not face.
   const Mask<F> both_sides = on & ((gather(two_sided_.data(), s.kind) != U(0u)) | has_bent_coat<F>(s.kind, s.slots));
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
   s.light_normal = select<F>(both_sides, zero, face_forward(s.frame.n, -d));

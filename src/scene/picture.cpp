@@ -13,7 +13,7 @@ namespace montelux {
 
 namespace {
 
-// Pixels [ceil(size * low), ceil(size * high)), as pbrt cuts a window.
+// Pixels [ceil(size * low), ceil(size * high)), the rounding of pbrt.
 int cut(int size, float fraction) { return std::clamp(int(std::ceil(float(size) * fraction)), 0, size); }
 
 PixelBounds crop_of(const Entity& film, int width, int height, bool resized, Diagnostics& diagnostics) {
@@ -31,7 +31,7 @@ PixelBounds crop_of(const Entity& film, int width, int height, bool resized, Dia
   return all;
 }
 
-// The name of ours that serves a name of the file's.
+// Our name for what a file names.
 std::string served_by(const EntitySpec* spec, const std::string& name) {
   return spec && !spec->instead.empty() ? std::string(spec->instead) : name;
 }
@@ -43,7 +43,7 @@ void read_sampler(const SceneDesc& scene, PictureSettings& s, Diagnostics& diagn
   s.seed = std::uint32_t(p.integer("seed", scene.options.integer("seed", 0)));
   std::string point_set = served_by(find_entity(sampler_table(), scene.sampler.type), scene.sampler.type);
   s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
-  // Points that are the same in every pass would bias the picture, and leave its error bar without that.
+  // Points that are the same in every pass would bias the image and leave it without an error bar.
   if (const Parameter* jitter = p.find("jitter"); jitter && !p.boolean("jitter", true))
     diagnostics.warning(jitter->where,
                         "strata without jitter would bias the picture: samples are jittered all the same",
@@ -55,7 +55,7 @@ void read_sampler(const SceneDesc& scene, PictureSettings& s, Diagnostics& diagn
                                                             "\": error bars need passes that are random");
 }
 
-// ambientocclusion in our own words.
+// The settings of ambientocclusion as our settings.
 std::string ambient_occlusion(const ParameterList& p) {
   std::vector<std::string> settings;
   if (p.find("maxdistance")) settings.push_back(fmt::format("distance={}", p.number("maxdistance", 0)));
@@ -107,7 +107,7 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
               close = scene.camera.parameters.number("shutterclose", 1);
   s.transforms_start = scene.transforms_start, s.transforms_end = scene.transforms_end;
   s.shutter_open = double(open), s.shutter_close = double(close);
-  // Of the exposure that the file states, whichever another one is asked for.
+  // Uses the exposure that the file states, even if another one is requested.
   s.imaging_ratio = (close - open) * film.number("iso", 100) / 100;
   if (scene.shutter) s.shutter_open = scene.shutter->first, s.shutter_close = scene.shutter->second;
 

@@ -13,8 +13,8 @@ namespace montelux {
 
 namespace {
 
-// Prepares one scene, a family at a time. Each family reports what is wrong with it and stands in something harmless,
-// so that all errors of a scene come out in one run.
+// Prepares one scene, one family at a time. Each family reports its errors and uses a harmless substitute,
+// so that one run reports all errors of a scene.
 class Preparation {
  public:
   Preparation(const SceneDesc& desc, const PrepareOptions& options, Diagnostics& diagnostics)
@@ -103,7 +103,7 @@ Camera Preparation::make_camera() {
   return built(Transform()).moved({desc_.world_to_camera.inverted(), later});
 }
 
-// A mixture that leads to itself has no value: it is reported, and stands as a diffuse surface.
+// A mixture that contains itself has no value: it is reported and replaced by a diffuse surface.
 void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
   enum class Visit { none, open, done };
   std::vector<Visit> visits(materials.size(), Visit::none);
@@ -122,7 +122,7 @@ void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
   for (std::uint32_t i = 0; i < materials.size(); ++i) has_cycle(i);
 }
 
-// Whether a mixture may turn out to be an interface. Mixtures do not lead to themselves.
+// Whether a mixture may be an interface. Mixtures do not contain themselves.
 bool is_partly_interface(const std::vector<Material>& materials, std::uint32_t number) {
   const std::optional<Mixture>& mixture = materials[number].mixture;
   return mixture && std::ranges::any_of(mixture->children, [&](std::uint32_t child) {

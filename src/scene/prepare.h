@@ -9,7 +9,7 @@
 namespace montelux {
 
 struct PrepareOptions {
-  std::optional<std::pair<int, int>> resolution;  // instead of the film's
+  std::optional<std::pair<int, int>> resolution;  // overrides the film's
 };
 
 struct PreparedScene {
@@ -17,7 +17,7 @@ struct PreparedScene {
   PictureSettings picture;
 };
 
-// Reads the images that the scene names. No value where anything is wrong that was not wrong before; all of it is in
+// Reads the images that the scene names. No value if there are new errors; all diagnostics are added to
 // `diagnostics`.
 std::optional<PreparedScene> prepare(const SceneDesc& desc, const PrepareOptions& options, Diagnostics& diagnostics);
 

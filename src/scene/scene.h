@@ -1,4 +1,4 @@
-// A scene prepared for rendering: immutable, complete, and nothing in it refers to a file.
+// A scene prepared for rendering: immutable, complete, and independent of any file.
 #pragma once
 #include <memory>
 #include <string>
@@ -27,13 +27,13 @@ struct Scene {
   Bounds3 bounds;                         // of all surfaces, world space
   std::vector<std::string> object_names;  // of object number i + 1
   Shutter shutter;
-  bool pixel_centres = false;  // camera rays go through the centres of pixels, of the lens and of the shutter's time
+  bool pixel_centres = false;  // camera rays use the centres of pixels, of the lens and of the exposure
 
-  // Whether anything but light moves: only then a path needs a moment of its own.
+  // Whether the geometry or the camera moves: only then does a path need a time.
   bool moves() const { return geometry.moves() || camera.moves(); }
 
-  // Whether a surface is there for this ray: an alpha mask may have a hole there, and a mixture may turn out to be an
-  // interface, which shadow rays do not meet (paths do, and cross it). `local`: in the space of the hit's instance.
+  // Whether a surface exists for this ray: an alpha mask may have a hole there, and a mixture may be an
+  // interface, which shadow rays do not hit (paths do, and cross it). `local`: in the space of the hit's instance.
   bool is_opaque(const Hit<float>& hit, const Ray<float>& local, RayUse use) const;
 };
 

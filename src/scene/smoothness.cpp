@@ -9,7 +9,7 @@ namespace {
 
 bool is_smooth(const Material& material) {
   if (material.is_interface || material.mixture) return false;
-  // Facets of these slots; `power` takes what is in them to GGX's alpha.
+  // Facets of these slots; `power` converts their values to GGX's alpha.
   const auto are_smooth = [&](int x, int y, float power) {
     for (const RowBinding& binding : material.bindings)
       if (binding.slot == x || binding.slot == y) return true;

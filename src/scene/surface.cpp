@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t row_words = sizeof(GeometryRow) / 4;
 
-// Places of the members of GeometryRow, in words.
+// Positions of the members of GeometryRow, in words.
 enum RowWord : std::uint32_t {
   kind,
   first,
@@ -40,7 +40,7 @@ Vec2<F> gather_vec2(const std::vector<Vec2f>& from, Uint<F> i) {
   return gather2<F>(&from.data()->x, Uint<F>(i * Uint<F>(2u)));
 }
 
-// Numbers of the three corners; those of triangle 0 in idle lanes.
+// Indices of the three corners; those of triangle 0 in idle lanes.
 template <class F>
 std::array<Uint<F>, 3> corner_numbers(const GeometryStore& store, Uint<F> triangle) {
   const std::uint32_t* index = store.triangles.data()->data();
@@ -48,13 +48,13 @@ std::array<Uint<F>, 3> corner_numbers(const GeometryStore& store, Uint<F> triang
   return {gather(index, i), gather(index + 1, i), gather(index + 2, i)};
 }
 
-// Where a time lies between moments evenly spaced over [0, 1].
+// The position of a time between times evenly spaced over [0, 1].
 template <class F>
 struct TimeStep {
-  Uint<F> first;  // the moment before
-  F fraction;     // of the way to the next
+  Uint<F> first;  // index of the preceding time
+  F fraction;     // of the interval to the next
 };
-// `moments` >= 2. The kernel reckons in the same way.
+// `moments` >= 2. The kernel uses the same operations.
 template <class F>
 TimeStep<F> time_step(F time, Uint<F> moments) {
   const F steps = to_float(Uint<F>(moments - Uint<F>(1u)));
@@ -63,7 +63,7 @@ TimeStep<F> time_step(F time, Uint<F> moments) {
   return {to_uint(first), scaled - first};
 }
 
-// The poses of meshes between which a time lies, as offsets to the numbers of vertices; both 0 for meshes of one form.
+// The poses of meshes before and after a time, as offsets to the vertex indices; both 0 for rigid meshes.
 template <class F>
 struct PosePair {
   Uint<F> before, after;
@@ -78,7 +78,7 @@ PosePair<F> pose_pair(const std::uint32_t* words, Uint<F> row, F time) {
   return {before, before + stride, step.fraction};
 }
 
-// Corners and normals at their time. Only scenes with meshes that change their form come here.
+// Corners and normals at the time of each lane. Used only for scenes with deforming meshes.
 template <class F>
 void pose_triangles(const GeometryStore& store, const std::array<Uint<F>, 3>& corner, const PosePair<F>& pose,
                     Uint<F> normal_shift, TriangleCorners<F>& corners, TriangleNormals<F>& normals) {
@@ -126,7 +126,7 @@ SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F
   pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(words, select(on, row, U(0u)), time),
                     gather(words + RowWord::normal_shift, row), corners, normals);
   SurfacePoint<F> s = triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
-  // The corners are rounded, too.
+  // The interpolated corners are rounded, too.
   s.p_error = s.p_error * 2.0f;
   return s;
 }
@@ -138,15 +138,15 @@ Affine<F> gather_affine(const float* base, Uint<F> at) {
   return r;
 }
 
-// A point of an instanced object, brought to the world.
+// A point of an instanced object, transformed to the world.
 template <class F>
 struct Placing {
   Affine<F> to_world;
-  F rounding;  // of an entry of to_world, as a part of it
+  F rounding;  // relative rounding error of an entry of to_world
 };
 
-// Rounding of the product and its sums adds to the error that the point brings (Pharr et al. 2023, eq. 6.30), and so
-// does that of the map itself where it moves.
+// The rounding of the product and its sums adds to the error of the point (Pharr et al. 2023, eq. 6.30), and so
+// does that of the map itself if it moves.
 template <class F>
 void place_point(const Placing<F>& placing, SurfacePoint<F>& s, Mask<F> placed) {
   const Affine<F>& to_world = placing.to_world;
@@ -210,14 +210,14 @@ Transform place_at(const GeometryStore& store, std::uint32_t instance, float tim
   return from_matrix(m).value_or(placed.object_to_world);
 }
 
-// A ray as the instance's own space sees it.
+// A ray in the space of the instance.
 Ray<float> to_object_space(const GeometryStore& store, std::uint32_t instance, Ray<float> ray) {
   if (instance == 0) return ray;
   const Transform to_object = place_at(store, instance - 1, ray.time).inverted();
   return {to_object.point(ray.o), to_object.direction(ray.d), ray.t_max, ray.time};
 }
 
-// Of what is no mesh, in the space of its instance.
+// The surface point of a primitive other than a triangle, in the space of its instance.
 SurfacePoint<float> other_point(const GeometryStore& store, const Hit<float>& hit, const Ray<float>& local) {
   const GeometryRow& row = store.rows[hit.geometry];
   if (row.kind == GeometryKind::shape)

@@ -8,23 +8,23 @@ namespace montelux {
 template <class F>
 struct SurfaceHit {
   SurfacePoint<F> point;
-  F distance;  // that the ray has come, of a unit direction
+  F distance;  // travelled by the ray, for a unit direction
   Uint<F> material;
   Uint<F> light;   // 1 + number of the light; 0: emits nothing
   Uint<F> object;  // number of the object, from 1
-  // The surface faces the ray that met it, as bands of curves do: to another ray it is another one.
+  // The surface faces the incident ray, like curves do: for another ray it is a different surface.
   Mask<F> turns_to_ray;
 };
 
-// The surface where rays met the scene, at their time.
+// The surface where rays hit the scene, at their time.
 template <class F>
 SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on);
 
-// The same point of the same surface at another time: moved with its instance, or with the form of its mesh.
+// The same point of the same surface at another time: moved with its instance, or with the deformation of its mesh.
 template <class F>
 SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, F time, Mask<F> on);
 
-// The point in the world where one ray met a surface; `local` is the ray in the space of the hit's instance.
+// The point in the world where one ray hit a surface; `local` is the ray in the space of the hit's instance.
 SurfacePoint<float> point_of_local_ray(const GeometryStore& store, const Ray<float>& local, const Hit<float>& hit);
 
 // Surface parameters of a hit, for alpha masks: uv alone, one ray.

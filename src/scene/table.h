@@ -1,4 +1,4 @@
-// What a scene may say about the picture and how to compute it.
+// What a scene may state about the image and how to compute it.
 #pragma once
 #include <span>
 
@@ -7,10 +7,10 @@
 namespace montelux {
 
 std::span<const EntitySpec> film_table();
-// `instead` of a sampler is the name of the point set that serves it.
+// `instead` of a sampler is the name of the point set that replaces it.
 std::span<const EntitySpec> sampler_table();
 std::span<const EntitySpec> integrator_table();
-// Accepted for the sake of files that name one; the ray-tracing kernel builds its own.
+// Accepted for compatibility with files that name one; the ray-tracing kernel builds its own.
 std::span<const EntitySpec> accelerator_table();
 std::span<const EntitySpec> medium_table();
 // One entity, whose parameters are the options.

@@ -29,7 +29,7 @@ T value_at(const std::uint8_t* p) {
   return x;
 }
 
-// One component as a real; integers that are normalised by glTF 2.0, 3.6.2.2.
+// One component as a real; normalised integers are converted by glTF 2.0, 3.6.2.2.
 float real_at(const std::uint8_t* p, int code, bool normalized) {
   const auto scaled = [&](float x, float most) { return normalized ? std::max(x / most, -1.0f) : x; };
   switch (code) {
@@ -73,7 +73,7 @@ struct Range {
   std::size_t stride;
 };
 
-// Where `count` elements of `size` bytes lie, if all of them are inside of the view that `element` names.
+// The position of `count` elements of `size` bytes, if all of them are inside the view that `element` names.
 std::optional<Range> range_of(Document& document, const Element& element, std::uint64_t count, std::size_t size) {
   const auto number = element.required("bufferView").index_of(document.list("bufferViews"), "a buffer view");
   if (!number) return std::nullopt;

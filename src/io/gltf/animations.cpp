@@ -20,7 +20,7 @@ void normalize(std::vector<double>& q) {
     q = {0, 0, 0, 1};
 }
 
-// Along the shorter arc at constant speed (Shoemake 1985).
+// Interpolates along the shorter arc at constant speed (Shoemake 1985).
 std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t) {
   normalize(a), normalize(b);
   double cosine = 0;
@@ -34,7 +34,7 @@ std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t
   return a;
 }
 
-// The keys of a sampler; nothing where they are wrong.
+// The keys of a sampler; nothing if they are wrong.
 std::optional<std::vector<double>> read_times(Document& document, const Element& input) {
   const auto numbers = read_accessor(document, input, {{"SCALAR"}});
   if (!numbers) return std::nullopt;
@@ -60,7 +60,7 @@ std::size_t targets_of(Document& document, std::size_t node) {
   return mesh ? meshes[*mesh]["primitives"][std::size_t{0}]["targets"].size() : 0;
 }
 
-// The first key whose quaternion says nothing.
+// The first key whose quaternion is zero.
 std::optional<std::size_t> zero_rotation(const Numbers& values, bool is_cubic) {
   const std::size_t parts = is_cubic ? 3 : 1;
   for (std::size_t key = 0; key * parts < values.count; ++key) {
@@ -151,7 +151,7 @@ std::vector<double> Track::at(double time) const {
 }
 
 void Animation::apply(double time, std::vector<LocalPose>& poses, std::vector<std::vector<double>>& weights) const {
-  // What shrinks to nothing keeps a size, so that its map can be inverted.
+  // A scale of zero is replaced by a small one, so that the map can be inverted.
   constexpr double smallest = 1e-6;
   for (const Track& track : tracks) {
     const std::vector<double> value = track.at(time);

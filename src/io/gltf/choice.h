@@ -1,4 +1,4 @@
-// Things of a document that a person chooses by name or number.
+// Parts of a document that the user selects by name or number.
 #pragma once
 #include <algorithm>
 #include <charconv>
@@ -11,7 +11,7 @@
 
 namespace montelux::gltf {
 
-// A text that is a whole number alone.
+// The value of a text that consists of a whole number only.
 inline std::optional<std::size_t> as_number(const std::string& text) {
   std::size_t n = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), n);
@@ -19,7 +19,7 @@ inline std::optional<std::size_t> as_number(const std::string& text) {
   return n;
 }
 
-// "there is no `kind` 'choice'", with what is valid and the nearest of it.
+// "there is no `kind` 'choice'", with the valid ones and the closest of them.
 inline void report_no_such(const Document& document, const std::string& kind, const std::string& choice,
                            std::size_t count, const std::vector<std::string>& names) {
   std::string hint = count == 0 ? "there is none" : "valid: numbers from 0 to " + std::to_string(count - 1);

@@ -18,7 +18,7 @@ Vec3f moved_point(const Matrix4& m, Vec3f p) {
   return {row(0), row(1), row(2)};
 }
 
-// By the cofactors, which are the inverse transpose but for a factor.
+// Uses the cofactors, which are the inverse transpose up to a factor.
 Vec3f moved_normal(const Matrix4& m, Vec3f n) {
   const auto& a = m.m;
   const auto cofactor = [&](std::size_t i, std::size_t j) {

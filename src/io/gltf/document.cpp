@@ -16,7 +16,7 @@ std::uint32_t word_at(const std::string& bytes, std::size_t i) {
   return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
 }
 
-// Of RFC 4648; nothing where another character is among them.
+// Decodes RFC 4648; nothing if there is an invalid character.
 std::optional<std::string> from_base64(std::string_view text) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<std::string> from_base64(std::string_view text) {
   return bytes;
 }
 
-// Extensions that the reader knows, in part or in whole.
+// Extensions that the reader supports, partly or completely.
 constexpr std::array<std::string_view, 11> known_extensions{
     "KHR_lights_punctual",  "KHR_materials_anisotropy", "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
     "KHR_materials_ior",    "KHR_materials_specular",   "KHR_materials_transmission", "KHR_materials_unlit",

@@ -1,4 +1,4 @@
-// A glTF file in memory: its JSON, and the bytes that it names.
+// A glTF file in memory: its JSON, and the bytes that it refers to.
 #pragma once
 #include <map>
 #include <memory>
@@ -21,23 +21,23 @@ class Document {
  public:
   Document(std::string path, Reporter& report);
 
-  // Reads the file and the JSON in it. False where there is no document; that has been reported.
+  // Reads the file and the JSON in it. False if there is no valid document, which has been reported.
   bool read();
-  // What must hold before anything else is looked at: the version, and the extensions.
+  // Checks what must hold before anything else: the version, and the extensions.
   void check_asset() const;
 
   Element root() const { return {&json_, "", source_}; }
-  // A list of the document's, as "meshes".
+  // A list of the document, for example "meshes".
   Element list(std::string_view name) const { return root()[name]; }
   const std::string& folder() const { return folder_; }
   SourceLocation whole() const { return {source_.file, 0, 0}; }
   Reporter& report() const { return source_.report; }
 
-  // The bytes of a buffer, or nothing where it has none that can be read; reported once.
+  // The bytes of a buffer, or nothing if they cannot be read, which is reported once.
   std::optional<Bytes> buffer(std::size_t number);
   // Within its buffer's bounds.
   std::optional<BufferView> view(std::size_t number);
-  // The file that an element's "uri" names, without its escapes; a "data:" is decoded instead.
+  // The file that an element's "uri" names, without escapes; a "data:" URI is decoded instead.
   struct Link {
     std::string file;                 // relative to the folder; or
     std::optional<std::string> data;  // the bytes themselves

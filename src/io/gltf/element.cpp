@@ -29,7 +29,7 @@ std::string_view name_of(Kind kind) {
   return "an object";
 }
 
-// "~" and "/" have spellings of their own in a pointer.
+// "~" and "/" are escaped in a pointer.
 std::string step(std::string_view name) {
   std::string text = "/";
   for (char c : name.substr(0, 60)) {
@@ -115,7 +115,7 @@ std::optional<double> Element::number() const {
     report_kind("a number");
     return std::nullopt;
   }
-  // All numbers become single precision sooner or later.
+  // All numbers become single precision eventually.
   if (!(std::abs(value_->number) <= 3e38)) {
     error("is too large a number");
     return std::nullopt;

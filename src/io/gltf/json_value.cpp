@@ -11,13 +11,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A place in the text that moves on as the parser reads.
+// A position in the text that advances as the parser reads.
 struct Place {
   std::size_t read = 0;
   int line = 1, column = 0;
 };
 
-// Hands out the characters of a text and says to `place` how far it got.
+// Iterates over the characters of a text and records the position in `place`.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -99,7 +99,7 @@ class TreeBuilder {
     v.number = value;
     return put(std::move(v));
   }
-  // Where the next value belongs.
+  // The slot of the next value.
   JsonValue& slot() {
     if (open_.empty()) return root;
     JsonValue& parent = *open_.back();
@@ -117,7 +117,7 @@ class TreeBuilder {
     }
     JsonValue& value = slot();
     value = of(kind);
-    // The value stays where it is while it is open: only the innermost list grows.
+    // The value does not move while it is open: only the innermost list grows.
     open_.push_back(&value);
     return true;
   }

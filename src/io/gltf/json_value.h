@@ -1,4 +1,4 @@
-// JSON as a tree that knows where its values stand.
+// JSON as a tree with the position of each value.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,9 +19,9 @@ struct JsonValue {
   std::string text;
   std::vector<JsonValue> items;     // of a list
   std::vector<JsonMember> members;  // of an object, in the order of the file
-  int line = 0, column = 0;         // from 1: where the value ends, or its list or object begins
+  int line = 0, column = 0;         // from 1: the end of the value, or the beginning of its list or object
 
-  // Null where the object has no such member, or where this is no object.
+  // Null if the object has no such member, or if this is not an object.
   const JsonValue* find(std::string_view name) const;
 };
 
@@ -30,13 +30,13 @@ struct JsonMember {
   JsonValue value;
 };
 
-// What is wrong with a text that is no JSON, and where.
+// What is wrong with a text that is not JSON, and where.
 struct JsonProblem {
   std::string message;
   int line = 0, column = 0;
 };
 
-// Values nested more than 200 deep are a problem, too.
+// Nesting deeper than 200 is a problem, too.
 std::variant<JsonValue, JsonProblem> parse_json(std::string_view text);
 
 }  // namespace montelux::gltf

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int longer_side = 1280;
 
-// The size of a picture of this shape.
+// The size of an image with this aspect ratio.
 void state_film(double aspect, SceneDesc& scene) {
   const int width = aspect >= 1 ? longer_side : std::max(int(std::lround(longer_side * aspect)), 1);
   const int height = aspect >= 1 ? std::max(int(std::lround(longer_side / aspect)), 1) : longer_side;
@@ -21,7 +21,7 @@ void state_film(double aspect, SceneDesc& scene) {
   put_integer(scene.film, "yresolution", height);
 }
 
-// A node's matrix without scale and shear: its axes at right angles, z kept first (glTF 2.0, 3.10: scale is ignored).
+// A node's matrix without scale and shear: its axes orthogonal, z kept first (glTF 2.0, 3.10: scale is ignored).
 Matrix4 rigid(const Matrix4& m) {
   const auto column = [&](std::size_t j) { return std::array<double, 3>{m.m[0][j], m.m[1][j], m.m[2][j]}; };
   const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
@@ -82,7 +82,7 @@ std::optional<std::size_t> choose_camera(Document& document, const NodeTree& tre
   return std::nullopt;
 }
 
-// Of an orthographic camera the vertical half of the picture, ymag, becomes 1 in camera space.
+// For an orthographic camera the vertical half of the image, ymag, becomes 1 in camera space.
 Matrix4 camera_to_world(const Document& document, std::size_t camera, const Matrix4& node_to_world) {
   // The camera looks along its own -z.
   Matrix4 own;
@@ -134,7 +134,7 @@ void state_default_camera(const Bounds3& box, SceneDesc& scene) {
   const std::array<double, 3> way{0.4, 0.35, 0.85};
   const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
   for (std::size_t i = 0; i < 3; ++i) eye[i] = centre[i] + way[i] / length * distance;
-  // look_at() is of a left-handed world: seen from there x goes to the left.
+  // look_at() assumes a left-handed world: seen from there, x points to the left.
   if (const auto look = look_at(eye, centre, {0, 1, 0})) scene.world_to_camera = scale(-1, 1, 1) * *look;
   scene.camera = {"perspective", {}, {}};
   put_number(scene.camera, "fov", fov);
@@ -149,7 +149,7 @@ std::optional<LightDesc> light_of(Document& document, std::size_t light, const M
   const Rgb emission = Rgb{{c.x, c.y, c.z}} * float(intensity);
   Entity e{*type == "directional" ? "distant" : *type, {}, element.where()};
   put_rgb(e, *type == "directional" ? "L" : "I", emission);
-  // Lights shine along their own -z.
+  // Lights emit along their own -z.
   if (*type == "directional") put_point(e, "to", {0, 0, -1});
   if (*type == "spot") state_spot(element["spot"], e);
   const auto placed = from_matrix(rigid(node_to_world));
@@ -160,7 +160,7 @@ std::optional<LightDesc> light_of(Document& document, std::size_t light, const M
 
 std::optional<LightDesc> environment_of(Document& document, const Element& scene) {
   const Element extras = scene["extras"];
-  // Extras may be anything.
+  // Extras may contain anything.
   if (!extras.is_object() || !extras["environment"].is_text()) return std::nullopt;
   const auto link = document.link(extras["environment"]);
   if (!link) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<LightDesc> environment_of(Document& document, const Element& scene
   Entity e{"infinite", {}, extras["environment"].where()};
   put_string(e, "filename", link->file);
   put_string(e, "mapping", "latlong");
-  // The image's pole, its own +z, is +y of the world; its azimuth runs from +x toward +z.
+  // The pole of the image, its own +z, is +y of the world; its azimuth goes from +x towards +z.
   Matrix4 m;
   m.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
   return LightDesc{std::move(e), *from_matrix(m)};

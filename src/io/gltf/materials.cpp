@@ -15,7 +15,7 @@ Rgb rgb_of(const std::vector<double>& v) { return Rgb{{float(v[0]), float(v[1]),
 
 bool is_black(const Rgb& c) { return c[0] <= 0 && c[1] <= 0 && c[2] <= 0; }
 
-// Reflectances and the like are from 0 to 1.
+// Reflectances and similar factors are between 0 and 1.
 std::vector<double> shares(const Element& element, std::vector<double> otherwise) {
   auto list = element.numbers(otherwise.size());
   if (!list) return otherwise;
@@ -74,7 +74,7 @@ void MaterialReader::put_specular(Entity& e, const Element& extensions) {
     if (*eta != 0 && *eta < 1)
       ior.error("an index of refraction must be at least 1");
     else
-      // 0 means that the dielectric reflects like a mirror: an index without end does.
+      // 0 means that the dielectric reflects like a mirror, as with an infinite index.
       put_number(e, "eta", *eta == 0 ? 1e6 : *eta);
   }
   const Element specular = extensions["KHR_materials_specular"];
@@ -115,7 +115,7 @@ void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
   put_channel(e, "grainy", direction, "g");
 }
 
-// KHR_materials_volume: attenuationColor is left of white light after attenuationDistance.
+// KHR_materials_volume: attenuationColor is the transmittance of attenuationDistance.
 void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
   const std::vector<double> left = shares(volume["attenuationColor"], {1, 1, 1});
   const Element stated = volume["attenuationDistance"];
@@ -123,7 +123,7 @@ void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
   if (!distance) return;
   if (!(*distance > 0)) return stated.error("must be above 0");
   Rgb absorption;
-  // What is black is so after a distance, not at once.
+  // A black component absorbs everything over that distance, but not immediately.
   for (int i = 0; i < spectrum_size; ++i)
     absorption.c[i] = float(-std::log(std::max(left[std::size_t(i)], 1e-6)) / *distance);
   if (!is_black(absorption)) put_rgb(glass, "absorption", absorption);
@@ -138,7 +138,7 @@ void MaterialReader::put_normal_map(Entity& e, const Element& info, const Normal
   if (scale != 1) put_numbers(e, names.scale, {float(scale), float(scale)});
 }
 
-// Where texture coordinates lie as in a mirror; nothing where it is all the same.
+// The material for mirrored texture coordinates; nothing if it is the same.
 std::optional<Entity> MaterialReader::mirrored(const Entity& e) {
   const bool has_grain = e.parameters.find("anisotropyrotation") != nullptr;
   Entity turned{e.type, {}, e.where};
@@ -165,7 +165,7 @@ MaterialDescId MaterialReader::add(Entity e, const std::string& name) {
   return id;
 }
 
-// KHR_materials_transmission: a share of the light goes through, as through glass, or a pane where there is no volume.
+// KHR_materials_transmission: a share of the light passes, through glass or, if there is no volume, through a pane.
 MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& material, const std::string& name) {
   const Element extensions = material["extensions"], transmission = extensions["KHR_materials_transmission"];
   const Element volume = extensions["KHR_materials_volume"], model = material["pbrMetallicRoughness"];
@@ -189,7 +189,7 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   const Factor tint = base_color(material);
   if (tint.texture || tint.value[0] < 1 || tint.value[1] < 1 || tint.value[2] < 1)
     put_spectrum(glass, "tint", tint, TexelMeaning::color);
-  // Once, however many materials there are.
+  // Reported once, for any number of materials.
   if (base.type == "coatedmetallicroughness" && !std::exchange(has_lost_coat_, true))
     transmission.warning(
         "glass that transmits is shown without its clear coat and its grain, here and in all materials like this one");
@@ -249,7 +249,7 @@ std::optional<Parameter> MaterialReader::alpha(const Element& material) {
   return e.parameters.all().front();
 }
 
-// KHR_materials_unlit: a black surface that shines in its base colour, on the sides that are shown.
+// KHR_materials_unlit: a black surface that emits its base colour, on the sides that are shown.
 MaterialUse MaterialReader::read_unlit(const Element& material) {
   MaterialUse use;
   Entity black{"diffuse", {}, material.where()};
@@ -282,7 +282,7 @@ MaterialUse MaterialReader::read(const Element& material) {
   put_specular(e, extensions);
   put_coat_and_grain(e, extensions);
   const bool is_coated = e.type == "coatedmetallicroughness";
-  // Without a specular part it is Lambert's law.
+  // Without a specular part it is Lambertian.
   const bool is_diffuse = !is_coated && is_black(metallic.value) && e.parameters.number("specular", 1) == 0;
   if (is_diffuse) e = Entity{"diffuse", {}, material.where()};
   put_spectrum(e, is_diffuse ? "reflectance" : "basecolor", base, TexelMeaning::color);
@@ -298,7 +298,7 @@ MaterialUse MaterialReader::read(const Element& material) {
   use.area_light = emission(material);
   use.repeats_emission = use.area_light && repeats(textures_.use(material["emissiveTexture"]));
   use.alpha = alpha(material);
-  // Glass has an inside, which is seen from there.
+  // Glass has an inside, from which its surface is visible.
   use.one_sided = !is_double_sided(material) && scene_.materials[std::size_t(use.id)].entity.type == e.type;
   use.uv_set = uv_set_.value_or(0);
   return use;
@@ -306,7 +306,7 @@ MaterialUse MaterialReader::read(const Element& material) {
 
 const MaterialUse& MaterialReader::use(std::optional<std::size_t> number) {
   auto [place, is_new] = uses_.try_emplace(number);
-  // An absent element has all the defaults.
+  // An absent element has all defaults.
   if (is_new)
     place->second =
         read(number ? document_.list("materials")[*number] : document_.root()["materials"][std::size_t(-1)]);

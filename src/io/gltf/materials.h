@@ -4,13 +4,13 @@
 
 namespace montelux::gltf {
 
-// What a surface of one material is made of.
+// What a surface with one material consists of.
 struct MaterialUse {
   MaterialDescId id{};
-  // Where a normal map lies on the surface as in a mirror: the same, with the map's green turned round.
+  // For mirrored texture coordinates: the same with the green of the normal map inverted.
   std::optional<MaterialDescId> mirrored;
   std::optional<Entity> area_light;
-  bool repeats_emission = false;   // its texture goes on beyond its edges, which that of an area light does not
+  bool repeats_emission = false;   // its texture repeats beyond its edges, which that of an area light does not
   std::optional<Parameter> alpha;  // of the shapes
   bool one_sided = false;          // backs are not shown
   int uv_set = 0;
@@ -21,11 +21,11 @@ class MaterialReader {
   MaterialReader(Document& document, SceneDesc& scene)
       : document_(document), scene_(scene), textures_(document, scene) {}
 
-  // Of the material with that number (which must be one), or of none: glTF's default. Each is read once.
+  // The material with that number (which must be valid), or with none: glTF's default. Each is read once.
   const MaterialUse& use(std::optional<std::size_t> number);
 
  private:
-  // A factor, and the texture that it is of.
+  // A factor, and the texture that it multiplies.
   struct Factor {
     Rgb value = gray(1.0f);
     std::optional<TextureUse> texture;
@@ -35,10 +35,10 @@ class MaterialReader {
   void put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning);
   void put_channel(Entity& e, const char* name, const Factor& factor, const char* channel);
   void put_specular(Entity& e, const Element& extensions);
-  // Where there are any; then the material is a coated one.
+  // If there are any; then the material is a coated one.
   void put_coat_and_grain(Entity& e, const Element& extensions);
   void put_absorption(Entity& glass, const Element& volume);
-  // How materials call a normal map, and the factors of its x and y.
+  // The names of the parameters of a normal map and of the factors of its x and y.
   struct NormalParameters {
     const char *texture, *scale;
   };
@@ -54,15 +54,15 @@ class MaterialReader {
   static bool repeats(const std::optional<TextureUse>& texture);
   Factor base_color(const Element& material);
   double base_alpha(const Element& material) const;
-  // Remembers which set of texture coordinates a material takes, and warns where textures differ.
+  // Records which set of texture coordinates a material uses, and warns if textures differ.
   void note_uv_set(const std::optional<TextureUse>& use, const Element& material);
 
   Document& document_;
   SceneDesc& scene_;
   TextureReader textures_;
   std::map<std::optional<std::size_t>, MaterialUse> uses_;
-  std::optional<int> uv_set_;   // of the material at hand
-  bool has_lost_coat_ = false;  // that of glass, which has been said
+  std::optional<int> uv_set_;   // of the current material
+  bool has_lost_coat_ = false;  // whether the omitted coat of glass has been reported
 };
 
 }  // namespace montelux::gltf

@@ -24,7 +24,7 @@ std::optional<Numbers> attribute(Document& document, const Element& user, const 
   return std::nullopt;
 }
 
-// The corners of the triangles that a primitive of this mode makes of a run of vertices (glTF 2.0, 3.7.2.1).
+// The triangle corners that a primitive of this mode makes from a range of vertices (glTF 2.0, 3.7.2.1).
 std::vector<std::uint32_t> triangles_of(std::uint64_t mode, const std::vector<std::uint32_t>& v) {
   if (mode == 4) return {v.begin(), v.begin() + std::ptrdiff_t(v.size() / 3 * 3)};
   std::vector<std::uint32_t> corners;
@@ -91,7 +91,7 @@ std::vector<MorphTarget> read_targets(Document& document, const Element& list, s
   return targets;
 }
 
-// Twice the area of the triangle in the plane of (u, v), with its sign, against the side to which normals point.
+// Twice the signed area of the triangle in the plane of (u, v), relative to the side of the normals.
 bool is_mirrored(const Mesh& mesh, const std::uint32_t* v) {
   const Vec2f a = mesh.uvs[v[1]] - mesh.uvs[v[0]], b = mesh.uvs[v[2]] - mesh.uvs[v[0]];
   float turn = a.x * b.y - a.y * b.x;
@@ -102,7 +102,7 @@ bool is_mirrored(const Mesh& mesh, const std::uint32_t* v) {
   return turn < 0;
 }
 
-// A white that is everywhere the same changes nothing.
+// A constant white changes nothing.
 void check_colors(Document& document, const Element& attributes, std::size_t count) {
   const Element colors = attributes["COLOR_0"];
   const auto numbers = attribute(document, colors, {{"VEC3", "VEC4"}}, count);
@@ -143,7 +143,7 @@ class PrimitiveReader {
     auto targets = read_targets(document_, element["targets"], positions->count);
     if (!corners) return {};
     mesh->triangles = *std::move(corners);
-    // What has no area at rest may get some.
+    // A triangle without area may get some when deformed.
     if (!skin && targets.empty()) drop_degenerate_faces(*mesh);
     if (mesh->triangles.empty()) return {};
     Primitive whole{std::move(mesh), material, std::move(skin), std::move(targets), false, element};

@@ -7,18 +7,18 @@
 
 namespace montelux::gltf {
 
-// Four joints of a skin a vertex, and their weights, which sum to one.
+// Four joints of a skin per vertex, and their weights, which sum to one.
 struct SkinBinding {
   std::vector<std::array<std::uint32_t, 4>> joints;
   std::vector<std::array<float, 4>> weights;
 };
 
-// What a morph target adds to positions and normals; empty where it adds nothing.
+// What a morph target adds to positions and normals; empty if it adds nothing.
 struct MorphTarget {
   std::vector<Vec3f> positions, normals;
 };
 
-// Triangles of one material. Texture coordinates have v upward, as the description has it.
+// Triangles of one material. v of the texture coordinates points upward, as in the description.
 struct Primitive {
   std::shared_ptr<const Mesh> mesh;
   std::optional<std::size_t> material;
@@ -31,19 +31,18 @@ struct Primitive {
 
 struct MeshUse {
   std::vector<Primitive> primitives;
-  std::vector<double> weights;  // of the morph targets; as many as there are
+  std::vector<double> weights;  // of the morph targets; one for each
 };
 
-// What the reader of meshes asks about materials.
+// What the mesh reader needs to know about materials.
 struct MaterialTraits {
   int uv_set = 0;
-  bool parts_mirrored =
-      false;  // triangles whose texture coordinates lie as in a mirror go into a primitive of their own
+  bool parts_mirrored = false;  // triangles with mirrored texture coordinates become a separate primitive
 };
 using TraitsOfMaterial = std::function<MaterialTraits(std::optional<std::size_t>)>;
 
-// Reads the mesh with that number, which must be one. Points and lines are left out with a warning; a primitive in
-// which anything is wrong is left out with an error.
+// Reads the mesh with that number, which must be valid. Points and lines are omitted with a warning; a primitive
+// with any error is omitted.
 MeshUse read_mesh(Document& document, std::size_t number, const TraitsOfMaterial& traits);
 
 }  // namespace montelux::gltf

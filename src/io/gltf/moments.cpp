@@ -11,7 +11,7 @@ namespace montelux::gltf {
 
 namespace {
 
-constexpr int most_steps = 128;  // of what moves, in the ray-tracing kernel
+constexpr int most_steps = 128;  // per moving object, in the ray-tracing kernel
 constexpr double aim = 1.3e-5, tolerance = 7.6e-5, aim_of_ways = 1e-3;
 
 struct Pose {
@@ -28,7 +28,7 @@ Pose pose_at(const NodeTree& tree, const std::optional<Animation>& animation, do
   return pose;
 }
 
-// Of the linear part, against its own size: how far it is from the chord between two maps, of which it is at `t`.
+// The distance of the linear part from the chord between two maps, at `t`, relative to its own size.
 double off_the_chord(const Matrix4& a, const Matrix4& b, double t, const Matrix4& there) {
   double size = 0, off = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -39,11 +39,11 @@ double off_the_chord(const Matrix4& a, const Matrix4& b, double t, const Matrix4
   return size > 0 ? off / size : 0;
 }
 
-// What chords leave out of the motion between moments.
+// The error of approximating the motion between times by chords.
 struct ChordErrors {
-  std::vector<double> turns;  // of the linear parts, against their sizes, by chord
-  std::size_t node = 0;       // that has the largest of these
-  double way = 0;             // of a place or of a morph target's weight, against all of its way
+  std::vector<double> turns;  // of the linear parts, relative to their sizes, by chord
+  std::size_t node = 0;       // the node with the largest of these
+  double way = 0;             // of a position or of a morph target's weight, relative to its whole distance
 };
 
 std::string time_text(double seconds) {
@@ -51,8 +51,8 @@ std::string time_text(double seconds) {
   return text.substr(0, text.find_last_not_of('0') + 2);
 }
 
-// Of a way that is sampled between its moments: how far samples are from the chord, over how far they are from the
-// start.
+// The error of a path that is sampled between its times: the distance of samples from the chord over their distance
+// from the start.
 class WayError {
  public:
   void add_sample(double from_start, double off) {
@@ -68,7 +68,7 @@ double place_of(const Matrix4& m, std::size_t i) { return m.m[i][3]; }
 double off_between(double a, double b, double t, double there) { return std::abs((1 - t) * a + t * b - there); }
 
 ChordErrors chord_errors(const NodeTree& tree, const Moments& moments, const std::optional<Animation>& animation) {
-  // Where steps are few, motion may come back to its chord within one.
+  // With few steps, the motion may return to its chord within one.
   const std::size_t steps = moments.count() - 1, nodes = tree.nodes.size();
   const int parts = steps <= 16 ? 8 : 2;
   const double step = (moments.end - moments.start) / double(steps);
@@ -108,7 +108,7 @@ void fill(Moments& moments, const NodeTree& tree, const std::optional<Animation>
   }
 }
 
-// The largest turn of each of n intervals, which have as many chords each; 0 where it is given up.
+// The largest turn in each of n intervals with the same number of chords; 0 for those that were given up.
 std::vector<double> largest_turns(const ChordErrors& errors, std::size_t n, const std::vector<bool>& is_given_up) {
   std::vector<double> largest(n, 0.0);
   for (std::size_t k = 0; k < errors.turns.size(); ++k) {
@@ -118,7 +118,7 @@ std::vector<double> largest_turns(const ChordErrors& errors, std::size_t n, cons
   return largest;
 }
 
-// Which intervals between moments not even this many chords follow; they are reported.
+// Reports the intervals between times that not even this many chords approximate.
 std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
                            const Moments& moments, const ChordErrors& errors, int most_chords) {
   std::vector<bool> result(errors.turns.size(), false);
@@ -144,8 +144,8 @@ std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::
   return result;
 }
 
-// The most intervals from the first on, fewer than all and at least `least`, that can be followed, by the turns that
-// this many chords leave out. Errors go with the square of the step.
+// The maximum number of intervals from the first on, fewer than all and at least `least`, that can be approximated,
+// given the errors of this many chords. Errors are proportional to the square of the step.
 int longest_part(const std::vector<double>& turns, int chords, int least) {
   double needed = 1;
   int longest = least;
@@ -176,7 +176,7 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
   }
   const int intervals = std::max(window.intervals, 1);
   const double exposure = std::clamp(window.exposure, 0.0, 1e6);
-  // The first n intervals, with as many chords each.
+  // The first n intervals, with equal numbers of chords.
   const auto take = [&](int n, int chords) {
     moments.end = window.start + (window.end - window.start) * n / intervals;
     moments.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
@@ -187,7 +187,7 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
     take(most, 1);
     return moments;
   }
-  // The moments of the first frames, if all are too many; the rest is another scene. One frame is the least.
+  // The times of the first frames, if all are too many; the rest becomes another scene. The minimum is one frame.
   const int least = std::min(most, 1 + int(std::ceil(exposure - 1e-9)));
   if (intervals > most_steps && exposure + 1 > most_steps)
     document.report().tolerable(document.whole(),

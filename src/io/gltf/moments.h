@@ -1,4 +1,4 @@
-// A document's nodes at the moments of an animation.
+// The nodes of a document at the times of an animation.
 #pragma once
 #include <span>
 
@@ -7,11 +7,11 @@
 
 namespace montelux::gltf {
 
-// Matrices and weights at each moment, evenly spaced from start to end. One moment: nothing moves.
+// Matrices and weights at times evenly spaced from start to end. Only one time: nothing moves.
 struct Moments {
   double start = 0, end = 0;                              // s
-  std::vector<std::vector<Matrix4>> world;                // of the nodes, by moment
-  std::vector<std::vector<std::vector<double>>> weights;  // of the nodes' morph targets, by moment
+  std::vector<std::vector<Matrix4>> world;                // of the nodes, by time
+  std::vector<std::vector<std::vector<double>>> weights;  // of the nodes' morph targets, by time
   int frames_held = 1 << 30;                              // see SceneDesc
 
   std::size_t count() const { return world.size(); }
@@ -19,10 +19,10 @@ struct Moments {
   bool morphs(std::size_t node) const;
 };
 
-// As many moments as the window asks for, and where the shutter is open as many between them as straight lines from one
-// to the next need to follow what turns to 1.3e-5 of its distance from the axis, and places and weights to a thousandth
-// of their way; 129 in all at most. Where these do not follow turns to 7.6e-5, or are too few for the frames, the scene
-// holds fewer frames than were asked for, and where it does not even follow one, that is an error.
+// The times that the window needs and, if the shutter is open, as many times in between as linear interpolation needs
+// to approximate rotations to 1.3e-5 of the distance from the axis, and positions and weights to a thousandth of their
+// path; at most 129 in all. If these do not approximate rotations to 7.6e-5, or are too few for the frames, the scene
+// contains fewer frames than requested; if not even one is possible, that is an error.
 Moments moments_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
                    const AnimationWindow& window);
 

@@ -45,7 +45,7 @@ Node read_node(Document& document, const Element& element) {
   return node;
 }
 
-// Leaves each node one parent at most.
+// Keeps at most one parent per node.
 void link_parents(std::vector<Node>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     std::vector<std::size_t> kept;
@@ -69,7 +69,7 @@ std::vector<std::size_t> order_from(const std::vector<Node>& nodes, std::vector<
   return order;
 }
 
-// The nodes at the top of the scene that is shown.
+// The root nodes of the scene that is shown.
 std::vector<std::size_t> roots_of(Document& document, NodeTree& tree) {
   const Element scenes = document.list("scenes"), nodes = document.list("nodes");
   std::vector<std::size_t> roots;
@@ -136,7 +136,7 @@ NodeTree read_nodes(Document& document) {
   for (std::size_t i = 0; i < tree.nodes.size(); ++i)
     if (!tree.nodes[i].parent) tops.push_back(i);
   tree.ordered_ = order_from(tree.nodes, std::move(tops));
-  // What no root leads to is a ring.
+  // Nodes that cannot be reached from a root form a cycle.
   if (tree.ordered_.size() < tree.nodes.size()) {
     std::vector<bool> reached(tree.nodes.size());
     for (std::size_t i : tree.ordered_) reached[i] = true;

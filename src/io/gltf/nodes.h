@@ -1,11 +1,11 @@
-// The tree of nodes of a glTF document, and where they are.
+// The tree of nodes of a glTF document, and their transforms.
 #pragma once
 #include "io/gltf/document.h"
 #include "math/transform.h"
 
 namespace montelux::gltf {
 
-// Where a node is in its parent: a matrix, or translation, rotation (a unit quaternion x, y, z, w) and scale.
+// The transform of a node in its parent: a matrix, or translation, rotation (a unit quaternion x, y, z, w) and scale.
 struct LocalPose {
   std::optional<Matrix4> fixed;
   std::array<double, 3> translation{}, scale{1, 1, 1};
@@ -29,10 +29,10 @@ struct NodeTree {
 
   std::vector<Node> nodes;
   std::vector<std::size_t> shown;  // those of the scene, parents before their children
-  Element scene;                   // absent where the document has none
+  Element scene;                   // absent if the document has none
 
-  // Of all nodes, from poses that may differ from their own. Nodes outside of the scene's tree have the matrices that
-  // their parents give them, too.
+  // The matrices of all nodes, from poses that may differ from their own. Nodes outside the scene's tree get the
+  // matrices that their parents give them, too.
   std::vector<Matrix4> world_matrices(const std::vector<LocalPose>& poses) const;
   std::vector<LocalPose> poses() const;
 
@@ -41,7 +41,7 @@ struct NodeTree {
   std::vector<std::size_t> ordered_;  // all nodes, parents first
 };
 
-// Children that are their own ancestors, or have two parents, are errors.
+// Reports children that are their own ancestors, or have two parents, as errors.
 NodeTree read_nodes(Document& document);
 
 }  // namespace montelux::gltf

@@ -1,4 +1,4 @@
-// Parameters of entities, as a reader of glTF states them.
+// Parameters of entities, as stated by the glTF reader.
 #pragma once
 #include "parameter/value.h"
 

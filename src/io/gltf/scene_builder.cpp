@@ -12,9 +12,9 @@ namespace montelux::gltf {
 
 namespace {
 
-// From this many triangles on, a mesh that is shown more than once is kept once.
+// Meshes with at least this many triangles that are shown more than once are stored once.
 constexpr std::size_t fewest_to_instance = 256;
-// Bytes of all poses of a mesh that changes its form.
+// Maximum size of all poses of a deforming mesh, in bytes.
 constexpr std::size_t most_pose_bytes = std::size_t(8) << 30;
 
 std::string shown_name(const Node& node, std::size_t number) {
@@ -95,14 +95,14 @@ std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) 
   return placing;
 }
 
-// The mesh without what shines: lights on objects that are instanced do not. Nothing where it is not worth while.
+// The mesh without emission, because instanced objects cannot emit. Nothing if instancing is not worthwhile.
 std::optional<ObjectDescId> SceneBuilder::object_of(std::size_t mesh, bool mirrored) {
   auto [place, is_new] = objects_.try_emplace({mesh, mirrored});
   if (!is_new) return place->second;
   ObjectDesc object{"mesh " + std::to_string(mesh) + (mirrored ? " mirrored" : ""), {}};
   std::size_t triangles = 0;
   for (const Primitive& primitive : meshes_[mesh].primitives) {
-    // What changes its form does so at each node in its own way.
+    // A deforming mesh has its own form at each node.
     if (!primitive.targets.empty() || primitive.skin) return std::nullopt;
     if (shines(primitive)) continue;
     triangles += primitive.mesh->triangles.size() / 3;
@@ -116,7 +116,7 @@ std::optional<ObjectDescId> SceneBuilder::object_of(std::size_t mesh, bool mirro
 
 ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   const MaterialUse& material = materials_.use(primitive.material);
-  // Texture coordinates lie as in a mirror once more where the map mirrors.
+  // A map that mirrors inverts the mirroring of texture coordinates.
   const bool turned = primitive.is_mirrored != mirrored;
   ShapeDesc shape;
   shape.entity = {"trianglemesh", {}, primitive.where.where()};
@@ -125,7 +125,7 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   shape.material = turned ? material.mirrored.value_or(material.id) : material.id;
   shape.area_light = material.area_light;
   const auto& uvs = primitive.mesh->uvs;
-  // Of a texel's breadth beyond the edge nobody need be told.
+  // Less than a texel beyond the edge is not worth a message.
   const auto is_beyond = [](const Vec2f& uv) {
     return std::min(uv.x, uv.y) < -1e-3f || std::max(uv.x, uv.y) > 1 + 1e-3f;
   };
@@ -156,7 +156,7 @@ const std::vector<double>& SceneBuilder::weights_of(std::size_t node, std::size_
   return own.empty() ? meshes_[*tree_.nodes[node].mesh].weights : own;
 }
 
-// In the world: each moment with its own vertices.
+// In world space: each time with its own vertices.
 void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive) {
   const Node& n = tree_.nodes[node];
   const Skin* skin = skin_of(n, primitive);
@@ -187,7 +187,7 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   const Transform placed(moments_.world.front()[node], Matrix4{});
   const bool mirrored = !skin && placed.swaps_handedness();
   ShapeDesc shape = shape_of(primitive, mirrored);
-  shape.reverse_orientation = mirrored;  // the winding is that of the mesh's own space
+  shape.reverse_orientation = mirrored;  // the winding refers to the mesh's own space
   shape.mesh = std::move(mesh);
   scene_.shapes.push_back(std::move(shape));
 }

@@ -14,11 +14,11 @@ class SceneBuilder {
   SceneBuilder(Document& document, const ReadOptions& options)
       : document_(document), options_(options), tree_(read_nodes(document)), materials_(document, scene_) {}
 
-  // The scene is whole where no error was reported.
+  // The scene is complete if no error was reported.
   SceneDesc build();
 
  private:
-  // Where a node is at the first moment, and at the later ones if it moves. Nothing where it has no size.
+  // The transform of a node at the first time, and at later ones if it moves. Nothing if its scale is zero.
   struct Placing {
     Transform first;
     std::vector<Transform> later;
@@ -36,7 +36,7 @@ class SceneBuilder {
   ShapeDesc shape_of(const Primitive& primitive, bool mirrored);
   const Skin* skin_of(const Node& node, const Primitive& primitive);
   const std::vector<double>& weights_of(std::size_t node, std::size_t moment);
-  // What shines must not move: an error, or (lenient reading) it stays as it is at the first moment.
+  // Emitters must not move: an error, or with lenient reading they stay as they are at the first time.
   void report_moves(const Element& where, std::string_view what);
   void place_lights();
   void place_camera();

@@ -11,7 +11,7 @@ namespace montelux::gltf {
 
 std::optional<std::string> TextureReader::image_file(const Element& image, std::size_t number) {
   const auto embed = [&](std::string bytes) {
-    // A name that no file beside the scene has.
+    // A name that no file in the scene's folder has.
     std::string name =
         std::filesystem::path(*document_.whole().file).filename().string() + "#images/" + std::to_string(number);
     scene_.embedded[name] = std::make_shared<const std::string>(std::move(bytes));
@@ -52,7 +52,7 @@ void TextureReader::read_sampler(const Element& sampler, TextureUse& use) const 
   if (code && *code != 9728 && *code != 9729) filter.error("must be 9728 (nearest) or 9729 (linear)");
 }
 
-// In glTF's parameters, with v downward: scale, then turn (counter-clockwise as u and v are drawn), then offset.
+// In glTF's parameters, with v downward: scale, then rotation (counter-clockwise as u and v are drawn), then offset.
 void TextureReader::read_transform(const Element& transform, TextureUse& use) const {
   const auto offset = transform["offset"].numbers(2).value_or(std::vector<double>{0, 0});
   const auto scale = transform["scale"].numbers(2).value_or(std::vector<double>{1, 1});
@@ -116,7 +116,7 @@ std::string TextureReader::spectrum(const TextureUse& use, const Rgb& factor, Te
 
 std::string TextureReader::number(const TextureUse& use, std::string_view channel, double factor) {
   Entity e = image_entity(use);
-  // Alpha is linear whatever the encoding, and so shares the texels of the colour.
+  // Alpha is linear in every encoding, so it shares the texels of the colour.
   if (channel != "a") put_string(e, "encoding", "linear");
   put_string(e, "channel", std::string(channel));
   if (factor != 1) put_number(e, "scale", factor);

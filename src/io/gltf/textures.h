@@ -4,13 +4,13 @@
 
 namespace montelux::gltf {
 
-// How the texels of an image are meant.
+// What the texels of an image represent.
 enum class TexelMeaning { color, data };
 
-// What a textureInfo says, checked.
+// The content of a textureInfo, checked.
 struct TextureUse {
   std::string file;                                     // image, relative to the scene's folder, or embedded
-  int uv_set = 0;                                       // of TEXCOORD_0, 1, ...
+  int uv_set = 0;                                       // index n of TEXCOORD_n
   std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};       // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
   std::array<std::string, 2> wrap{"repeat", "repeat"};  // of u and v
   bool nearest = false;
@@ -21,15 +21,15 @@ class TextureReader {
  public:
   TextureReader(Document& document, SceneDesc& scene) : document_(document), scene_(scene) {}
 
-  // The texture that a material names ({"index": ...}); nothing where there is none, or none that can be read.
+  // The texture that a material names ({"index": ...}); nothing if there is none, or none that can be read.
   std::optional<TextureUse> use(const Element& info);
 
   // The name of a texture of spectra: the image times the factor.
   std::string spectrum(const TextureUse& use, const Rgb& factor, TexelMeaning meaning);
   // The name of a texture of numbers: one channel ("r", "g", "b", "a") of the image times the factor.
   std::string number(const TextureUse& use, std::string_view channel, double factor);
-  // The name of a texture that is 1 where the texture of that name is at least `edge`, else 0.
-  // Its square.
+  // The names of two derived textures: the square of the given one, and one that is 1 where the given one is at least
+  // `edge`, else 0.
   std::string squared(const std::string& texture);
   std::string threshold(const std::string& texture, double edge);
 
@@ -38,7 +38,7 @@ class TextureReader {
   void read_sampler(const Element& sampler, TextureUse& use) const;
   void read_transform(const Element& transform, TextureUse& use) const;
   Entity image_entity(const TextureUse& use) const;
-  // The name of a texture with this content, new or old.
+  // The name of a texture with this content, existing or new.
   std::string add(bool is_spectrum, Entity entity);
 
   Document& document_;

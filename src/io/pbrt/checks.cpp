@@ -59,7 +59,7 @@ struct Renamed {
   std::string_view old_name, new_name;
 };
 
-// Names of older versions of the format that no edit distance would find.
+// Names from older versions of the format that edit distance would not find.
 constexpr std::array<Renamed, 20> renamed{{{"matte", "diffuse"},
                                            {"glass", "dielectric"},
                                            {"mirror", "conductor"},
@@ -87,7 +87,7 @@ std::string joined(const std::vector<std::string_view>& names) {
   return text;
 }
 
-// "did you mean ...?", or the list of what is valid.
+// "did you mean ...?", or the list of valid names.
 std::string hint_for(const std::string& name, const std::vector<std::string_view>& valid) {
   auto has = [&](std::string_view candidate) {
     return std::find(valid.begin(), valid.end(), candidate) != valid.end();
@@ -115,7 +115,7 @@ std::string range_of(const ParameterSpec& spec, double value) {
   return spec.high > open_end ? "be of a sensible size" : "be at most " + shortest(spec.high);
 }
 
-// One parameter against its row.
+// Checks one parameter against its row.
 class RangeCheck {
  public:
   RangeCheck(const ParameterSpec& spec, const Parameter& parameter, Reporter& report)
@@ -194,7 +194,7 @@ void report_unknown_name(Family family, const std::string& name, const SourceLoc
 
 bool type_fits(const ParameterSpec& spec, ParameterType type, std::optional<TextureKind> kind) {
   if (std::find(spec.types.begin(), spec.types.end(), type) == spec.types.end()) return false;
-  // What may be both goes by the kind of the texture.
+  // A parameter that may be either kind has that of the texture.
   auto takes = [&](ParameterType t) { return std::find(spec.types.begin(), spec.types.end(), t) != spec.types.end(); };
   if (!kind || !takes(ParameterType::number) || !takes(ParameterType::spectrum)) return true;
   if (type == ParameterType::number) return *kind == TextureKind::number;

@@ -1,4 +1,4 @@
-// What a file states, held against the tables.
+// Checks of what a file states against the tables.
 #pragma once
 #include <optional>
 #include <string>
@@ -32,21 +32,21 @@ enum class TextureKind { number, spectrum };
 
 struct CheckContext {
   Reporter& report;
-  const std::string& folder;          // of the scene: files are looked for there
+  const std::string& folder;          // of the scene: files are relative to it
   std::optional<TextureKind> kind{};  // of the texture whose parameters are checked
 };
 
-// The parameters that the entity takes and that are right in type, number and range; the others are reported.
+// The parameters that the entity has and that are valid in type, number and range; all others are reported.
 ParameterList checked_parameters(Family family, const EntitySpec& spec, const ParameterList& stated,
                                  const CheckContext& context);
 
-// Whether a parameter fits its row in all but range; what is valid for it otherwise.
+// Whether a parameter fits its row in everything but range; what is valid for it otherwise.
 bool type_fits(const ParameterSpec& spec, ParameterType type, std::optional<TextureKind> kind);
 
-// What no table can say: parameters that must agree with each other, files that must be there, total sizes.
+// What no table can state: parameters that must agree with each other, files that must exist, total sizes.
 void check_entity(Family family, const Entity& entity, const CheckContext& context);
 
-// Reports a name that the table lacks, with the nearest one that it has.
+// Reports a name that the table does not have, with the closest one that it has.
 void report_unknown_name(Family family, const std::string& name, const SourceLocation& where, Reporter& report);
 
 }  // namespace montelux::pbrt

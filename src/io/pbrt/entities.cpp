@@ -1,4 +1,4 @@
-// Entities in general, and the directives that say how to take the picture.
+// Entities in general, and the directives that state how to render the image.
 #include "io/pbrt/parser.h"
 #include "io/text_file.h"
 #include "scene/table.h"
@@ -7,8 +7,8 @@ namespace montelux::pbrt {
 
 namespace {
 
-// What the checks have looked at is not used by that. What has no effect has been reported, and where a single value is
-// valid it is the one that is in force.
+// Looking up a parameter in a check does not count as using it. Parameters without effect have been reported, and if
+// only a single value is valid, it is already in effect.
 void expect_uses(const ParameterList& checked, const EntitySpec& spec) {
   checked.forget_uses();
   for (const ParameterSpec& row : spec.parameters)
@@ -19,7 +19,7 @@ void expect_uses(const ParameterList& checked, const EntitySpec& spec) {
 
 ParameterList Parser::parameters() { return read_parameters({*lexer_, report_, scene_.folder, state_.color_space}); }
 
-// What serves in the place of an entity; null where reading must be lenient for it and is not.
+// The substitute for an entity; null if it requires lenient reading and reading is not lenient.
 const EntitySpec* Parser::stand_in(Family family, const EntitySpec& spec, const SourceLocation& where) {
   std::string name = std::string(name_of(family)) + " '" + std::string(spec.name) + "'";
   std::string instead(spec.instead);
@@ -54,7 +54,7 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
   }
   const EntitySpec* spec = stand_in(family, *named, type_where);
   ParameterList all = stated;
-  // Defaults that Attribute has set, where the entity takes them and does not state them.
+  // Defaults set by Attribute, if the entity accepts them and does not state them.
   auto defaults = state_.attributes.find(family);
   if (defaults != state_.attributes.end())
     for (const Parameter& parameter : defaults->second.all())
@@ -63,7 +63,7 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
   Entity entity{type, checked_parameters(family, *named, all, context), here()};
   if (!spec) return std::nullopt;
   if (spec != named) {
-    // A stand-in keeps what it understands; that it stands in has been reported.
+    // A substitute keeps the parameters that it knows; the substitution has been reported.
     Entity other{std::string(spec->name), {}, here()};
     for (const Parameter& parameter : entity.parameters.all()) {
       const ParameterSpec* row = find_parameter(*spec, parameter.name);
@@ -76,7 +76,7 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
   return Stated{std::move(entity), spec};
 }
 
-// Names of textures are looked up at the end: they may be defined further on.
+// Names of textures are resolved at the end: they may be defined later.
 void Parser::note_texture_uses(const Stated& stated) {
   for (const Parameter& parameter : stated.entity.parameters.all()) {
     const auto* use = std::get_if<TextureName>(&parameter.values);
@@ -146,7 +146,7 @@ void Parser::directive_attribute_begin() {
 
 void Parser::directive_attribute_end() {
   if (!is_in_world(true)) return;
-  // An End that closes an object would leave its shapes ownerless; the object stays open for its own End.
+  // An End that closes an object would leave its shapes without owner; the object stays open for its own End.
   if (!blocks_.empty() && blocks_.back().begin == "ObjectBegin")
     return report_.error(here(), "AttributeEnd without AttributeBegin inside of ObjectBegin");
   if (auto block = close_block("AttributeBegin", "AttributeEnd")) state_ = std::move(block->state);

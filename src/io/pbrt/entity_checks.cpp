@@ -1,4 +1,4 @@
-// What parameters must be together.
+// Parameters that depend on each other.
 #include <algorithm>
 #include <cstdint>
 
@@ -16,7 +16,7 @@ SourceLocation place_of(const Entity& entity, std::string_view parameter) {
   return p ? p->where : entity.where;
 }
 
-// A parameter that, where it is given, holds `count` values of T.
+// Checks that a parameter, if given, has `count` values of T.
 template <class T>
 const std::vector<T>* counted(const Entity& entity, std::string_view name, std::size_t count, Reporter& report) {
   const Parameter* p = entity.parameters.find(name);
@@ -38,7 +38,7 @@ void check_window(const Entity& entity, std::string_view name, Reporter& report)
 
 void check_film(const Entity& film, Reporter& report) {
   std::int64_t x = film.parameters.integer("xresolution", 1280), y = film.parameters.integer("yresolution", 720);
-  // A side that is out of its own range was found there.
+  // A side that is out of its own range was reported there.
   if (std::string complaint = size_complaint(x, y); !complaint.empty() && std::max(x, y) <= max_picture_side)
     report.error(place_of(film, "xresolution"), complaint);
   check_window<float>(film, "cropwindow", report);
@@ -142,7 +142,7 @@ void check_texture(const Entity& tex, Reporter& report) {
                  "valid: sRGB, linear, gamma 2.2 (or another exponent)");
 }
 
-// Files that are read must be there.
+// Files that are read must exist.
 void check_files(const Entity& entity, const CheckContext& context) {
   for (std::string_view name : {"filename", "filename1", "normalmap", "lensfile", "emissionfilename"}) {
     const Parameter* p = entity.parameters.find(name);
@@ -162,7 +162,7 @@ void check_files(const Entity& entity, const CheckContext& context) {
 void check_entity(Family family, const Entity& entity, const CheckContext& context) {
   switch (family) {
     case Family::film:
-      // Its file is one to write.
+      // Its file is an output file.
       return check_film(entity, context.report);
     case Family::camera:
       check_camera(entity, context.report);

@@ -1,4 +1,4 @@
-// The words of a pbrt file.
+// The tokens of a pbrt file.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,7 +10,7 @@ namespace montelux::pbrt {
 
 enum class TokenKind { end, word, number, quoted, open, close, unclosed_quote };
 
-// `text` points into the file's text; that of a quoted string is without its quotes and with its escapes as written.
+// `text` points into the file's text; that of a quoted string excludes its quotes and keeps its escapes.
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string_view text;
@@ -18,12 +18,12 @@ struct Token {
   int column = 0;
 };
 
-// Cuts text into tokens; white space and comments (# to the end of the line) part them. The text must outlive it.
+// Splits text into tokens, separated by white space and comments (# to the end of the line). The text must outlive it.
 class Lexer {
  public:
   Lexer(std::string_view text, std::shared_ptr<const std::string> file) : text_(text), file_(std::move(file)) {}
 
-  // The token ahead; next() steps over it.
+  // The next token; next() consumes it.
   const Token& peek() {
     if (!has_ahead_) ahead_ = scan(), has_ahead_ = true;
     return ahead_;
@@ -48,10 +48,10 @@ class Lexer {
   bool has_ahead_ = false;
 };
 
-// The string that a quoted token means: \n, \t, \r, \b, \f, \\, \' and \" resolved.
+// The value of a quoted token: \n, \t, \r, \b, \f, \\, \' and \" are resolved.
 std::string unescape(std::string_view quoted);
 
-// How a message names a token: 'text', or "the end of the file".
+// The name of a token in a message: 'text', or "the end of the file".
 std::string describe(const Token& token);
 
 }  // namespace montelux::pbrt

@@ -14,7 +14,7 @@ SourceLocation place_of(const Entity& shape, std::string_view parameter) {
   return p ? p->where : shape.where;
 }
 
-// An attribute has one value a vertex or none at all.
+// An attribute must have one value per vertex, or none.
 bool fits_vertices(const Entity& shape, std::string_view name, std::size_t count, std::size_t vertices,
                    Reporter& report) {
   if (count == 0 || count == vertices) return true;
@@ -53,9 +53,9 @@ std::optional<std::vector<std::uint32_t>> face_indices(const Entity& shape, std:
   return indices;
 }
 
-// The later poses of a mesh, from arrays that hold them one behind the other; false after an error.
+// The later poses of a mesh, from arrays that contain them consecutively; false after an error.
 bool take_later_poses(const Entity& shape, Mesh& mesh, Reporter& report) {
-  constexpr std::size_t most_poses = 128;  // after the first, as the ray-tracing kernel takes them
+  constexpr std::size_t most_poses = 128;  // after the first: the limit of the ray-tracing kernel
   const std::vector<Vec3f>&p = shape.parameters.array<Vec3f>("P1"), &n = shape.parameters.array<Vec3f>("N1");
   const std::size_t vertices = mesh.positions.size(), poses = p.size() / vertices;
   if (p.empty() && n.empty()) return true;
@@ -122,7 +122,7 @@ std::optional<Mesh> take_mesh(Entity& shape, Reporter& report) {
   if (!indices || !good) return std::nullopt;
   (is_bilinear ? mesh.quads : mesh.triangles) = std::move(*indices);
   if (shape.type == "loopsubdiv") {
-    // Even a flat face of a control mesh takes part in subdivision.
+    // Even a flat face of a control mesh contributes to the subdivision.
     if (!subdivision_is_sensible(shape, mesh.triangles.size() / 3, report)) return std::nullopt;
   } else if (std::size_t dropped = drop_degenerate_faces(mesh).total()) {
     report.add(dropped_faces_warning(dropped, "", shape.where));

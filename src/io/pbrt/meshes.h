@@ -8,8 +8,8 @@
 
 namespace montelux::pbrt {
 
-// The mesh of a trianglemesh, bilinearmesh or loopsubdiv, whose arrays leave the parameters. What does not fit together
-// is reported; no value then, or where no face is left.
+// The mesh of a trianglemesh, bilinearmesh or loopsubdiv, whose arrays are moved out of the parameters. Inconsistencies
+// are reported; no value then, or if no face remains.
 std::optional<Mesh> take_mesh(Entity& shape, Reporter& report);
 
 }  // namespace montelux::pbrt

@@ -15,7 +15,7 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-// Plain decimals of few digits, the bulk of every mesh: where the digits and the power of ten are both exact as floats,
+// Plain decimals with few digits, as in most meshes: if the digits and the power of ten are both exact as floats,
 // one division rounds correctly (Clinger 1990). No value for all others.
 std::optional<float> short_decimal(std::string_view text) {
   static constexpr std::array<float, 11> powers{1e0f, 1e1f, 1e2f, 1e3f, 1e4f, 1e5f, 1e6f, 1e7f, 1e8f, 1e9f, 1e10f};
@@ -55,7 +55,7 @@ std::optional<double> to_double(std::string_view text) {
   auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small counts as zero; the exponent's sign tells it from too large.
+    // Too small counts as zero; the sign of the exponent distinguishes it from too large.
     std::size_t exponent = text.find_first_of("eE");
     bool tiny = exponent != std::string_view::npos && exponent + 1 < text.size() && text[exponent + 1] == '-';
     return tiny ? std::optional<double>(0.0) : std::nullopt;
@@ -71,7 +71,7 @@ std::optional<float> to_float(std::string_view text) {
   float value = 0;
   auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value)) return value;
-  // Out of the range of normal floats: by way of double.
+  // Outside the range of normal floats: converted through double.
   auto wide = to_double(text);
   if (!wide || std::abs(*wide) > static_cast<double>(std::numeric_limits<float>::max())) return std::nullopt;
   return static_cast<float>(*wide);

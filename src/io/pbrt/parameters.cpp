@@ -17,7 +17,7 @@ enum class Notation { plain, rgb, sampled, blackbody };
 struct TypeWord {
   std::string_view word;
   ParameterType type;
-  int group = 1;  // numbers a value
+  int group = 1;  // numbers per value
   Notation notation = Notation::plain;
 };
 
@@ -50,7 +50,7 @@ struct Header {
   std::string_view type, name;
 };
 
-// The two words of "type name"; no value where there are not two.
+// The two words of "type name"; no value if there are not two.
 std::optional<Header> split_header(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   std::size_t type_start = text.find_first_not_of(blanks);
@@ -77,7 +77,7 @@ class ValueReader {
   ValueReader(const ParameterContext& context, const Token& header, std::string_view name, const TypeWord* type)
       : context_(context), header_(header), name_(printable(name)), type_(type) {}
 
-  // Calls take(token) for every value; false where the list is malformed. Stands behind the list afterwards.
+  // Calls take(token) for every value; false if the list is malformed. Afterwards the position is after the list.
   template <class Take>
   bool each(Take take);
   std::optional<Values> read();
@@ -140,7 +140,7 @@ bool ValueReader::each(Take take) {
   return good_;
 }
 
-// All values by `parse`, which gives no value for a token that is not meant.
+// All values by `parse`, which returns no value for an invalid token.
 template <class T, class Parse>
 std::optional<std::vector<T>> ValueReader::parsed(std::string_view what, Parse parse) {
   std::vector<T> values;
@@ -195,7 +195,7 @@ std::optional<Values> ValueReader::grouped() {
 
 std::optional<Values> ValueReader::read_sampled() {
   Lexer& lexer = context_.lexer;
-  // Names and numbers do not mix: the first value decides.
+  // Names and numbers must not be mixed: the first value decides.
   std::vector<float> pairs;
   std::vector<SpectrumValue> values;
   SourceLocation where = lexer.where(header_);
@@ -281,7 +281,7 @@ std::vector<std::string_view> words_of_types() {
   return words;
 }
 
-// Numbers behind an unbracketed value.
+// Numbers after an unbracketed value.
 void skip_stray_numbers(const ParameterContext& context, std::string_view name) {
   if (context.lexer.peek().kind != TokenKind::number) return;
   context.report.error(context.lexer.where(context.lexer.peek()),

@@ -11,7 +11,7 @@
 
 namespace montelux::pbrt {
 
-// What the values of a list are read against.
+// The context in which the values of a list are read.
 struct ParameterContext {
   Lexer& lexer;
   Reporter& report;
@@ -19,14 +19,14 @@ struct ParameterContext {
   const std::string& color_space;  // in force
 };
 
-// Whether a word starts a directive, so that a value list that meets it has lost its bracket.
+// Whether a word begins a directive, so that a value list that reaches it lacks its bracket.
 bool is_directive(std::string_view word);
 
-// All parameters up to the next token that is no quoted string. Malformed ones are reported and left out; their types
-// are not yet compared with any table.
+// All parameters up to the next token that is not a quoted string. Malformed ones are reported and omitted; their types
+// are not yet checked against a table.
 ParameterList read_parameters(const ParameterContext& context);
 
-// How a file spells a type: "float" for a number, "rgb, spectrum or blackbody" for a spectrum.
+// The notation of a type in a file: "float" for a number, "rgb, spectrum or blackbody" for a spectrum.
 std::string_view spelling(ParameterType type);
 
 }  // namespace montelux::pbrt

@@ -77,7 +77,7 @@ Parser::Parser(std::string folder, Diagnostics& diagnostics, bool lenient) : rep
   scene_.materials.push_back({"", Entity{"diffuse", {}, {}}});
 }
 
-// What a file is that cannot be pbrt's, by how it begins.
+// The format of a file that is not pbrt's, recognised by its beginning.
 static std::string_view other_format(std::string_view text) {
   if (text.starts_with("glTF")) return "binary glTF";
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -145,7 +145,7 @@ void Parser::parse_directive() {
   resynchronise();
 }
 
-// Steps to the next directive, or to a word at the start of a line that looks as if it should be one.
+// Skips to the next directive, or to a word at the start of a line that looks as if it should be one.
 void Parser::resynchronise() {
   int line = std::max(directive_.line, lexer_->peek().line);
   while (true) {
@@ -164,7 +164,7 @@ void Parser::include_file(bool keep_state) {
   if (!keep_state && !is_in_world(true)) return;
   std::string path = resolve_path(scene_.folder, *name);
   if (keep_state) return parse_file(path);
-  // An imported file leaves no trace in the graphics state.
+  // An imported file does not change the graphics state.
   GraphicsState saved = state_;
   std::size_t depth = blocks_.size();
   parse_file(path);
@@ -215,7 +215,7 @@ std::optional<std::string> Parser::word_argument(std::initializer_list<std::stri
   return std::nullopt;
 }
 
-// Fills `values`; they may stand in brackets.
+// Reads `values`, which may be in brackets.
 bool Parser::numbers(std::span<double> values) {
   bool bracketed = lexer_->peek().kind == TokenKind::open;
   if (bracketed) lexer_->next();
@@ -243,7 +243,7 @@ bool Parser::numbers(std::span<double> values) {
   return false;
 }
 
-// Whether the directive stands on its side of WorldBegin. The first one that does not is reported: the others follow
+// Whether the directive is on its side of WorldBegin. Only the first one that is not is reported: the others follow
 // from it.
 bool Parser::is_in_world(bool wanted) {
   if (in_world_ == wanted) return true;

@@ -1,4 +1,4 @@
-// The state of reading a pbrt scene, and one function a directive.
+// The state of reading a pbrt scene, with one function per directive.
 #pragma once
 #include <array>
 #include <filesystem>
@@ -30,10 +30,10 @@ struct GraphicsState {
   std::uint32_t material = 0;  // a number of a material, or `named_material` plus one of a name
   std::optional<Entity> area_light;
   std::string color_space = "srgb";
-  std::map<Family, ParameterList> attributes;  // defaults that Attribute states
+  std::map<Family, ParameterList> attributes;  // defaults stated by Attribute
 };
 
-// Marks a material that is stated by a name, which may be defined further on.
+// Marks a material that is stated by a name, which may be defined later.
 inline constexpr std::uint32_t named_material = 0x80000000u;
 
 class Parser {
@@ -43,7 +43,7 @@ class Parser {
 
   void parse_file(const std::string& path);
   void parse_text(std::string_view text, const std::string& file_name);
-  // Closes the reading: unclosed blocks, names without a definition. The scene is whole if no error was reported.
+  // Ends the reading: unclosed blocks, undefined names. The scene is complete if no error was reported.
   SceneDesc finish();
 
   static bool knows(std::string_view directive) { return find_directive(directive) != nullptr; }
@@ -55,7 +55,7 @@ class Parser {
   static std::span<const DirectiveRow> directive_rows();
   static const DirectiveRow* find_directive(std::string_view word);
 
-  // A Begin that waits for its End.
+  // A Begin without its End so far.
   struct OpenBlock {
     std::string_view begin;  // the directive
     SourceLocation where;
@@ -70,7 +70,7 @@ class Parser {
     std::string name;
     SourceLocation where;
   };
-  // An entity that was read, with its row; no value after an error that leaves nothing to keep.
+  // An entity that was read, with its row; no value after an error that leaves nothing usable.
   struct Stated {
     Entity entity;
     const EntitySpec* spec;
@@ -166,7 +166,7 @@ class Parser {
   GraphicsState state_;
   std::vector<OpenBlock> blocks_;
   Lexer* lexer_ = nullptr;
-  Token directive_;  // the one in work
+  Token directive_;  // the current one
   bool in_world_ = false;
   bool told_of_world_ = false;
   std::vector<std::filesystem::path> open_files_;
@@ -180,7 +180,7 @@ class Parser {
   std::vector<NameUse> material_uses_;
   std::map<std::string, ObjectDescId> object_ids_;
   std::optional<ObjectDescId> open_object_;
-  std::vector<NameUse> instance_uses_;  // one an instance
+  std::vector<NameUse> instance_uses_;  // one per instance
   std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
 };
 

@@ -57,7 +57,7 @@ void Parser::resolve_materials() {
   for (ObjectDesc& object : scene_.objects)
     for (ShapeDesc& shape : object.shapes) resolve(shape);
 
-  // A mixture names materials that stand before it, so that none can contain itself.
+  // A mixture names only materials before it, so that none can contain itself.
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     const Entity& mix = scene_.materials[i].entity;
     if (mix.type != "mix") continue;

@@ -19,7 +19,7 @@ void split_quads(Mesh& mesh) {
 
 }  // namespace
 
-// The mesh of a file, which is read once however often it is placed.
+// The mesh of a file, which is read once, however often it is placed.
 std::shared_ptr<const Mesh> Parser::one_ply_mesh(const std::string& file, const SourceLocation& where) {
   std::string path = resolve_path(scene_.folder, file);
   if (!is_regular_file(path)) return nullptr;  // reported with the other files
@@ -32,7 +32,7 @@ std::shared_ptr<const Mesh> Parser::one_ply_mesh(const std::string& file, const 
   return entry->second;
 }
 
-// The faces of the first file with the vertices of the others at later moments.
+// The faces of the first file with the vertices of the others at later times.
 std::shared_ptr<const Mesh> Parser::posed_ply_mesh(const Mesh& first, const Parameter& later) {
   auto mesh = std::make_shared<Mesh>(first);
   if (!mesh->quads.empty())
@@ -77,7 +77,7 @@ void Parser::directive_shape() {
   auto stated = stated_entity(Family::shape);
   if (!is_in_world(true) || !stated) return;
   note_texture_uses(*stated);
-  // Light that is sampled stays where it is.
+  // Lights that are sampled cannot move.
   const bool shines = state_.area_light && !open_object_;
   ShapeDesc shape{std::move(stated->entity),
                   shines ? still_transform("shape, which emits light,") : state_.transform.start,
@@ -89,7 +89,7 @@ void Parser::directive_shape() {
   const std::string& type = shape.entity.type;
   if (type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv") {
     shape.mesh = mesh_of(shape.entity);
-    // A mesh that has lost all of its faces is no shape.
+    // A mesh that has lost all its faces is not a shape.
     if (!shape.mesh || (shape.mesh->triangles.empty() && shape.mesh->quads.empty())) return;
     if (shines && !shape.mesh->later.empty()) {
       report_.tolerable(here(), "this shape, which emits light, changes its form; only shapes that emit none can",
@@ -126,7 +126,7 @@ void Parser::directive_object_begin() {
 void Parser::directive_object_end() {
   if (!is_in_world(true)) return;
   if (!open_object_) return report_.error(here(), "ObjectEnd without ObjectBegin");
-  // Blocks that were opened inside and not closed are reported and closed with the object.
+  // Blocks that were opened inside the object and not closed are reported and closed with it.
   while (!blocks_.empty() && blocks_.back().begin != "ObjectBegin") {
     report_.error(blocks_.back().where, std::string(blocks_.back().begin) + " has no end before ObjectEnd");
     blocks_.pop_back();

@@ -1,4 +1,4 @@
-// Spectra that a scene names.
+// Spectra that a scene refers to by name.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace montelux::pbrt {
 
-// Wavelengths and values from pairs; reports what is wrong with them (uneven number, not rising) at `where`.
+// Wavelengths and values from pairs; reports errors in them (odd number, not increasing) at `where`.
 std::optional<SampledValue> sampled_from_pairs(const std::vector<float>& pairs, const SourceLocation& where,
                                                Reporter& report);
 

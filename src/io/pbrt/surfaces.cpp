@@ -23,7 +23,7 @@ void Parser::directive_texture() {
   auto& names = kind == TextureKind::number ? number_textures_ : spectrum_textures_;
   auto texture = stated_entity(Family::texture, *type_name, lexer_->where(type), stated, kind);
   if (texture) check_texture_of_texture(*texture, kind);
-  // The name counts as known even if the texture is faulty, so that its uses are not reported as well.
+  // The name counts as defined even if the texture is invalid, so that its uses are not reported as well.
   auto [first, is_new] = names.emplace(*name, where);
   if (!is_new)
     return report_.error(where, "texture '" + printable(*name) + "' is defined twice",
@@ -33,7 +33,7 @@ void Parser::directive_texture() {
       {*name, kind == TextureKind::spectrum, std::move(texture->entity), still_transform("texture")});
 }
 
-// Textures build on textures that stand before them, so that none can contain itself.
+// Textures use only textures before them, so that none can contain itself.
 void Parser::check_texture_of_texture(const Stated& stated, TextureKind kind) {
   if (stated.entity.type == "marble" && kind == TextureKind::number)
     report_.error(here(), "texture 'marble' is of \"spectrum\" only");
@@ -60,7 +60,7 @@ void Parser::check_texture_of_texture(const Stated& stated, TextureKind kind) {
 void Parser::directive_material() {
   Token type = lexer_->peek();
   if (type.kind == TokenKind::quoted && (type.text.empty() || type.text == "none")) {
-    // Older files name the absence of a material so.
+    // Older files denote the absence of a material in this way.
     lexer_->next();
     parameters();
     if (!is_in_world(true)) return;
@@ -136,7 +136,7 @@ void Parser::directive_medium_interface() {
   std::vector<std::string> names{*inside};
   if (lexer_->peek().kind == TokenKind::quoted) names.push_back(unescape(lexer_->next().text));
   for (const std::string& name : names) {
-    // A known medium has been reported where it is defined.
+    // A defined medium was reported at its definition.
     if (name.empty() || media_.contains(name)) continue;
     report_.error(where, "there is no medium '" + printable(name) + "'");
   }

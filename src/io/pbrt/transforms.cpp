@@ -30,7 +30,7 @@ void Parser::set_transform(const Transform& transform, bool concatenate) {
   if (state_.change_end) current.end = end;
 }
 
-// The current transform of something that cannot move.
+// The current transform for something that cannot move.
 Transform Parser::still_transform(std::string_view owner) {
   if (state_.transform.moves())
     report_.tolerable(here(), "this " + std::string(owner) + " moves; only cameras, shapes and instances can",
@@ -38,7 +38,7 @@ Transform Parser::still_transform(std::string_view owner) {
   return state_.transform.start;
 }
 
-// Where something that can move is at the end, if it moves; else nothing.
+// The transform at the end of something that can move, if it moves; else nothing.
 std::vector<Transform> Parser::transform_at_end(std::string_view owner) {
   const MovingTransform& t = state_.transform;
   if (!t.moves()) return {};
@@ -81,7 +81,7 @@ void Parser::directive_look_at() {
   set_transform(*transform, true);
 }
 
-// Sixteen numbers, column after column.
+// Sixteen numbers, column by column.
 std::optional<Matrix4> Parser::matrix_argument() {
   std::array<double, 16> v;
   if (!numbers(v)) return std::nullopt;
