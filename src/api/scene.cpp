@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "api/description.h"
 #include "api/frames.h"
 #include "api/parts.h"
 #include "io/report.h"
@@ -168,28 +169,53 @@ Status check_resolution(int width, int height) {
 
 namespace {
 
+// Runs a step of loading; what it throws becomes an error of the whole scene.
+template <class Step>
+void guarded(const std::string& name, Diagnostics& diagnostics, Step step) {
+  const auto fail = [&](std::string message) {
+    diagnostics.error({std::make_shared<std::string>(name), 0, 0}, std::move(message));
+  };
+  try {
+    step();
+  } catch (const std::bad_alloc&) {
+    fail("the scene does not fit in memory");
+  } catch (const std::exception& e) {
+    fail(fmt::format("the scene could not be loaded: {}", e.what()));
+  }
+}
+
 LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
   Stopwatch watch;
-  LoadResult result;
-  try {
+  ReadResult read;
+  guarded(file.string(), read.diagnostics, [&] {
     ReadOptions how{options.lenient, options.camera, options.animation,
                     [&](const AnimationTime& time) { return window_of(options, time); }};
     if (options.environment)
       how.environment = {options.environment->file, options.environment->rotation, options.environment->scale};
-    ReadResult read = read_scene(file.string(), how);
-    result.diagnostics = std::move(read.diagnostics);
-    if (!read.scene) return result;
+    read = read_scene(file.string(), how);
+  });
+  return load_description(std::move(read), options, watch.lap());
+}
+
+}  // namespace
+
+LoadResult load_description(ReadResult read, const LoadOptions& options, double read_seconds) {
+  LoadResult result;
+  result.diagnostics = std::move(read.diagnostics);
+  if (!read.scene || result.diagnostics.has_errors()) return result;
+  const std::string name = read.scene->file;
+  guarded(name, result.diagnostics, [&] {
+    Stopwatch watch;
     if (options.shutter) read.scene->shutter = std::pair{options.shutter->open, options.shutter->close};
-    const double read_seconds = watch.lap();
     LoadOptions settled = options;
     settled.resolution = resolution_of(options, *read.scene), settled.resolution_scale.reset();
     if (settled.resolution)
       if (Status possible = check_resolution(settled.resolution->first, settled.resolution->second); !possible) {
-        result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0}, possible.error());
-        return result;
+        result.diagnostics.error({std::make_shared<std::string>(name), 0, 0}, possible.error());
+        return;
       }
     std::optional<PreparedScene> prepared = prepare(*read.scene, {settled.resolution}, result.diagnostics);
-    if (!prepared || result.diagnostics.has_errors()) return result;
+    if (!prepared || result.diagnostics.has_errors()) return;
     // The description's meshes are copied: their memory goes before the kernel takes its own.
     SceneDesc desc = std::move(*read.scene);
     for (ShapeDesc& shape : desc.shapes) shape.mesh.reset();
@@ -214,16 +240,9 @@ LoadResult load(const std::filesystem::path& file, const LoadOptions& options) {
     parts->info.prepare_seconds = prepare_seconds;
     parts->info.build_seconds = build_seconds;
     result.scene.emplace(std::move(parts));
-  } catch (const std::bad_alloc&) {
-    result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0}, "the scene does not fit in memory");
-  } catch (const std::exception& e) {
-    result.diagnostics.error({std::make_shared<std::string>(file.string()), 0, 0},
-                             fmt::format("the scene could not be loaded: {}", e.what()));
-  }
+  });
   return result;
 }
-
-}  // namespace
 
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
   LoadResult result = load(file, options);

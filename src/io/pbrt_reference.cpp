@@ -1,15 +1,13 @@
 #include "io/pbrt_reference.h"
 
-#include "io/pbrt/checks.h"
-#include "io/pbrt/numbers.h"
+#include "io/checks.h"
+#include "io/numbers.h"
 #include "io/pbrt/parameters.h"
 #include "scene/table.h"
 
 namespace montelux {
 
 namespace {
-
-using pbrt::Family;
 
 std::string types_text(const ParameterSpec& spec) {
   std::string text;
@@ -27,8 +25,8 @@ std::string valid_text(const ParameterSpec& spec) {
   bool positive = spec.low > 0 && spec.low < 1e-20;
   if (has_low && spec.low <= -2147483647.0) has_low = false;
   if (positive) text = "> 0";
-  if (has_low && !positive) text = ">= " + pbrt::shortest(spec.low);
-  if (has_high) text += (text.empty() ? "<= " : ", <= ") + pbrt::shortest(spec.high);
+  if (has_low && !positive) text = ">= " + shortest(spec.low);
+  if (has_high) text += (text.empty() ? "<= " : ", <= ") + shortest(spec.high);
   return text;
 }
 
@@ -55,19 +53,19 @@ std::string family_text(std::string_view title, std::span<const EntitySpec> tabl
 
 std::string pbrt_reference() {
   std::string text;
-  text += family_text("Material, MakeNamedMaterial", pbrt::table_of(Family::material));
-  text += family_text("Texture", pbrt::table_of(Family::texture));
-  text += family_text("LightSource", pbrt::table_of(Family::light));
-  text += family_text("AreaLightSource", pbrt::table_of(Family::area_light));
-  text += family_text("Shape", pbrt::table_of(Family::shape));
-  text += family_text("Camera", pbrt::table_of(Family::camera));
-  text += family_text("Film", pbrt::table_of(Family::film));
-  text += family_text("PixelFilter", pbrt::table_of(Family::filter));
-  text += family_text("Sampler", pbrt::table_of(Family::sampler));
-  text += family_text("Integrator", pbrt::table_of(Family::integrator));
-  text += family_text("Accelerator", pbrt::table_of(Family::accelerator));
+  text += family_text("Material, MakeNamedMaterial", table_of(Family::material));
+  text += family_text("Texture", table_of(Family::texture));
+  text += family_text("LightSource", table_of(Family::light));
+  text += family_text("AreaLightSource", table_of(Family::area_light));
+  text += family_text("Shape", table_of(Family::shape));
+  text += family_text("Camera", table_of(Family::camera));
+  text += family_text("Film", table_of(Family::film));
+  text += family_text("PixelFilter", table_of(Family::filter));
+  text += family_text("Sampler", table_of(Family::sampler));
+  text += family_text("Integrator", table_of(Family::integrator));
+  text += family_text("Accelerator", table_of(Family::accelerator));
   text += family_text("MakeNamedMedium", medium_table());
-  text += family_text("Option", pbrt::table_of(Family::option));
+  text += family_text("Option", table_of(Family::option));
   return text;
 }
 

@@ -3,14 +3,12 @@
 #include <set>
 
 #include "image/output_file.h"
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 #include "io/pbrt/parameters.h"
 
 namespace montelux {
 
 namespace {
-
-using pbrt::shortest;
 
 std::string in_quotes(std::string_view text) {
   std::string result = "\"";

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 #include "io/text_file.h"
 
 namespace montelux::gltf {
@@ -126,11 +126,11 @@ std::optional<double> Element::number() const {
 std::optional<double> Element::number(double low, double high) const {
   const std::optional<double> x = number();
   if (!x || (*x >= low && *x <= high)) return x;
-  const std::string found = "; found " + pbrt::shortest(*x);
+  const std::string found = "; found " + shortest(*x);
   if (high >= 1e30)
-    error("must be at least " + pbrt::shortest(low) + found);
+    error("must be at least " + shortest(low) + found);
   else
-    error("must be from " + pbrt::shortest(low) + " to " + pbrt::shortest(high) + found);
+    error("must be from " + shortest(low) + " to " + shortest(high) + found);
   return std::nullopt;
 }
 

@@ -5,18 +5,6 @@
 
 namespace montelux::pbrt {
 
-namespace {
-
-// Looking up a parameter in a check does not count as using it. Parameters without effect have been reported, and if
-// only a single value is valid, it is already in effect.
-void expect_uses(const ParameterList& checked, const EntitySpec& spec) {
-  checked.forget_uses();
-  for (const ParameterSpec& row : spec.parameters)
-    if (row.later || row.choices.size() == 1) checked.use(row.name);
-}
-
-}  // namespace
-
 ParameterList Parser::parameters() { return read_parameters({*lexer_, report_, scene_.folder, state_.color_space}); }
 
 // The substitute for an entity; null if it requires lenient reading and reading is not lenient.
@@ -59,7 +47,7 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
   if (defaults != state_.attributes.end())
     for (const Parameter& parameter : defaults->second.all())
       if (find_parameter(*named, parameter.name) && !stated.find(parameter.name)) all.add(parameter);
-  CheckContext context{report_, scene_.folder, kind};
+  CheckContext context{report_, scene_.folder, spelling, kind};
   Entity entity{type, checked_parameters(family, *named, all, context), here()};
   if (!spec) return std::nullopt;
   if (spec != named) {
@@ -108,7 +96,7 @@ void Parser::directive_option() {
   ParameterList stated = parameters();
   if (!is_in_world(false)) return;
   if (stated.all().empty()) return report_.error(here(), "Option takes a parameter, as \"integer seed\" 1");
-  CheckContext context{report_, scene_.folder};
+  CheckContext context{report_, scene_.folder, spelling};
   ParameterList good = checked_parameters(Family::option, table_of(Family::option)[0], stated, context);
   expect_uses(good, option_spec());
   for (const Parameter& p : good.all()) scene_.options.add(p);

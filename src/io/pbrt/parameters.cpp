@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 #include "io/pbrt/spectra.h"
 #include "io/text_file.h"
 

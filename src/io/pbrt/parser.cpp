@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 #include "io/text_file.h"
 
 namespace montelux::pbrt {

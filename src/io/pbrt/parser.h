@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/pbrt/checks.h"
+#include "io/checks.h"
 #include "io/pbrt/lexer.h"
 #include "io/pbrt/parameters.h"
 #include "io/reporter.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "color/named_spectra.h"
+#include "io/numbers.h"
 #include "io/pbrt/lexer.h"
-#include "io/pbrt/numbers.h"
 #include "io/text_file.h"
 
 namespace montelux::pbrt {

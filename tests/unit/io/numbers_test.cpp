@@ -1,5 +1,5 @@
 // Numbers as text, against the C library's own conversion.
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,6 @@
 
 namespace montelux {
 namespace {
-
-using pbrt::to_float;
 
 TEST(Numbers, of_few_digits_round_as_the_c_library_does) {
   std::mt19937 random(5);
@@ -41,7 +39,7 @@ TEST(Numbers, read_back_as_they_were_written) {
   for (int i = 0; i < 100000; ++i) {
     float value =
         std::ldexp(static_cast<float>(random()) / 4294967296.0f - 0.5f, static_cast<int>(random() % 200) - 100);
-    ASSERT_EQ(to_float(pbrt::shortest(value)), value);
+    ASSERT_EQ(to_float(shortest(value)), value);
   }
 }
 

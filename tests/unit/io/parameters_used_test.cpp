@@ -3,8 +3,8 @@
 
 #include <map>
 
+#include "io/checks.h"
 #include "io/pbrt.h"
-#include "io/pbrt/checks.h"
 #include "io/pbrt/parameters.h"
 #include "scene/prepare.h"
 #include "scene/unused.h"
@@ -13,8 +13,6 @@
 namespace montelux::test {
 
 namespace {
-
-using pbrt::Family;
 
 // Files that parameters name.
 void write_files(const TemporaryFolder& folder) {
@@ -218,7 +216,7 @@ TEST_P(Parameters, are_used_or_warned_of) {
   write_files(folder);
   const Family family = GetParam();
   int count = 0;
-  for (const EntitySpec& entity : pbrt::table_of(family)) {
+  for (const EntitySpec& entity : table_of(family)) {
     if (entity.later) continue;  // refused as a whole
     for (const ParameterSpec& spec : entity.parameters) {
       const ParameterType type = spec.types.front();
@@ -240,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
                                          Family::shape, Family::camera, Family::filter, Family::film, Family::sampler,
                                          Family::integrator, Family::accelerator, Family::option),
                          [](const auto& family) {
-                           std::string name(pbrt::name_of(family.param));
+                           std::string name(name_of(family.param));
                            std::ranges::replace(name, ' ', '_');
                            return name;
                          });

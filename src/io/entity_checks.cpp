@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "io/pbrt/checks.h"
-#include "io/pbrt/numbers.h"
+#include "io/checks.h"
+#include "io/numbers.h"
 #include "io/text_file.h"
 #include "scene/picture.h"
 
-namespace montelux::pbrt {
+namespace montelux {
 
 namespace {
 
@@ -187,4 +187,4 @@ void check_entity(Family family, const Entity& entity, const CheckContext& conte
   check_files(entity, context);
 }
 
-}  // namespace montelux::pbrt
+}  // namespace montelux

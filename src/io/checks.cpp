@@ -1,4 +1,4 @@
-#include "io/pbrt/checks.h"
+#include "io/checks.h"
 
 #include <algorithm>
 #include <array>
@@ -6,15 +6,14 @@
 #include "camera/table.h"
 #include "filter/table.h"
 #include "geometry/table.h"
-#include "io/pbrt/numbers.h"
-#include "io/pbrt/parameters.h"
+#include "io/numbers.h"
 #include "io/text_file.h"
 #include "light/table.h"
 #include "material/table.h"
 #include "scene/table.h"
 #include "texture/table.h"
 
-namespace montelux::pbrt {
+namespace montelux {
 
 std::string_view name_of(Family family) {
   constexpr std::array<std::string_view, 12> names{"material", "texture",    "light",       "area light",
@@ -99,10 +98,11 @@ std::string hint_for(const std::string& name, const std::vector<std::string_view
   return hint + (valid.empty() ? "it takes no parameters" : "valid: " + joined(valid));
 }
 
-std::string types_of(const ParameterSpec& spec, std::optional<TextureKind> kind) {
+std::string types_of(const ParameterSpec& spec, const CheckContext& context) {
   std::string text;
   for (ParameterType type : spec.types)
-    if (type_fits(spec, type, kind)) text += (text.empty() ? "" : " or ") + std::string(spelling(type));
+    if (type_fits(spec, type, context.kind))
+      text += (text.empty() ? "" : " or ") + std::string(context.name_of_type(type));
   return text;
 }
 
@@ -187,6 +187,12 @@ class RangeCheck {
 
 }  // namespace
 
+void expect_uses(const ParameterList& checked, const EntitySpec& spec) {
+  checked.forget_uses();
+  for (const ParameterSpec& row : spec.parameters)
+    if (row.later || row.choices.size() == 1) checked.use(row.name);
+}
+
 void report_unknown_name(Family family, const std::string& name, const SourceLocation& where, Reporter& report) {
   report.error(where, "there is no " + std::string(name_of(family)) + " '" + printable(name) + "'",
                hint_for(name, names_of(table_of(family))));
@@ -218,8 +224,8 @@ ParameterList checked_parameters(Family family, const EntitySpec& spec, const Pa
     }
     if (!type_fits(*row, parameter.type, context.kind)) {
       context.report.error(parameter.where, "'" + parameter.name + "' of " + owner + " must be " +
-                                                types_of(*row, context.kind) + ", not " +
-                                                std::string(spelling(parameter.type)));
+                                                types_of(*row, context) + ", not " +
+                                                std::string(context.name_of_type(parameter.type)));
       continue;
     }
     if (!std::visit(RangeCheck(*row, parameter, context.report), parameter.values)) continue;
@@ -232,4 +238,4 @@ ParameterList checked_parameters(Family family, const EntitySpec& spec, const Pa
   return good;
 }
 
-}  // namespace montelux::pbrt
+}  // namespace montelux

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace montelux::pbrt {
+namespace montelux {
 
 // The number that the whole text states; no value if it is not a number, not finite or too large for the type.
 std::optional<float> to_float(std::string_view text);
@@ -15,4 +15,4 @@ std::optional<int> to_integer(std::string_view text);
 std::string shortest(float value);
 std::string shortest(double value);
 
-}  // namespace montelux::pbrt
+}  // namespace montelux

@@ -1,4 +1,4 @@
-#include "io/pbrt/numbers.h"
+#include "io/numbers.h"
 
 #include <array>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace montelux::pbrt {
+namespace montelux {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::optional<int> to_integer(std::string_view text) {
 std::string shortest(float value) { return to_text(value); }
 std::string shortest(double value) { return to_text(value); }
 
-}  // namespace montelux::pbrt
+}  // namespace montelux

@@ -1,4 +1,4 @@
-// Checks of what a file states against the tables.
+// Checks of what a scene file or a program states against the tables.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,7 +7,7 @@
 #include "parameter/spec.h"
 #include "parameter/value.h"
 
-namespace montelux::pbrt {
+namespace montelux {
 
 enum class Family {
   material,
@@ -32,8 +32,9 @@ enum class TextureKind { number, spectrum };
 
 struct CheckContext {
   Reporter& report;
-  const std::string& folder;          // of the scene: files are relative to it
-  std::optional<TextureKind> kind{};  // of the texture whose parameters are checked
+  const std::string& folder;                        // of the scene: files are relative to it
+  std::string_view (*name_of_type)(ParameterType);  // in messages
+  std::optional<TextureKind> kind{};                // of the texture whose parameters are checked
 };
 
 // The parameters that the entity has and that are valid in type, number and range; all others are reported.
@@ -46,7 +47,11 @@ bool type_fits(const ParameterSpec& spec, ParameterType type, std::optional<Text
 // What no table can state: parameters that must agree with each other, files that must exist, total sizes.
 void check_entity(Family family, const Entity& entity, const CheckContext& context);
 
+// After the checks, whose look-ups count as no use: parameters without effect have been reported, and if only a single
+// value is valid, it is already in effect. Such parameters are marked as used, all others as unused.
+void expect_uses(const ParameterList& checked, const EntitySpec& spec);
+
 // Reports a name that the table does not have, with the closest one that it has.
 void report_unknown_name(Family family, const std::string& name, const SourceLocation& where, Reporter& report);
 
-}  // namespace montelux::pbrt
+}  // namespace montelux
