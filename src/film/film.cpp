@@ -1,7 +1,9 @@
 #include "film/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -9,18 +11,47 @@ namespace montelux {
 
 namespace {
 
-// Adds one value to a mean and a sum of squared deviations; n counts the new value.
-void add_value(double x, double n, double& mean, double& m2) {
-  double delta = x - mean;
-  mean += delta / n;
-  m2 += delta * (x - mean);
-}
-
-bool all_finite(const Rgb& c) {
+// Finite, and within what sums can hold.
+bool is_kept(const Rgb& c) {
   for (float x : c.c)
-    if (!std::isfinite(x)) return false;
+    if (!(std::abs(x) < ExactSum::largest)) return false;
   return true;
 }
+
+// The number within the bounds; 0 of what is no number.
+double within(double x, double bound) { return x >= -bound ? std::min(x, bound) : x < -bound ? -bound : 0; }
+
+bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
+
+// Of the tiles that have passes, the numbers of all these.
+std::vector<int> pass_numbers(const std::map<std::size_t, FilmTile>& tiles) {
+  std::vector<int> all;
+  for (const auto& [index, tile] : tiles) {
+    const auto same = [](int pass, const FilmPass& own) { return pass == own.pass; };
+    if (std::equal(all.begin(), all.end(), tile.passes.begin(), tile.passes.end(), same)) continue;
+    std::vector<int> own, both;
+    for (const FilmPass& pass : tile.passes) own.push_back(pass.pass);
+    std::ranges::set_union(all, own, std::back_inserter(both));
+    all = std::move(both);
+  }
+  return all;
+}
+
+// What the passes of one tile say of its mean.
+struct TileMean {
+  double mean[spectrum_size] = {};
+  double pixels = 0;  // that have a finite sample, in the mean over passes
+  int passes = 0;     // in which there are such pixels
+  explicit TileMean(const FilmTile& tile) {
+    for (const FilmPass& pass : tile.passes) {
+      if (pass.pixels == 0) continue;
+      ++passes, pixels += pass.pixels;
+      for (int c = 0; c < spectrum_size; ++c) mean[c] += pass.sum[c] / pass.pixels;
+    }
+    for (double& m : mean) m /= std::max(passes, 1);
+    pixels /= std::max(passes, 1);
+  }
+};
 
 }  // namespace
 
@@ -38,16 +69,9 @@ void PixelFeatures::add(const Features& f) {
   if (object == 0) object = f.object;
 }
 
-void PixelFeatures::merge(const PixelFeatures& other) {
-  for (int c = 0; c < spectrum_size; ++c) albedo[c] += other.albedo[c];
-  for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
-  emission += other.emission, depth += other.depth, hits += other.hits, samples += other.samples;
-  if (object == 0) object = other.object;
-}
-
 void PixelPass::add(const PixelSample& sample) {
   features.add(sample.features);
-  if (!all_finite(sample.radiance)) {
+  if (!is_kept(sample.radiance)) {
     ++non_finite;
     return;
   }
@@ -55,146 +79,202 @@ void PixelPass::add(const PixelSample& sample) {
   for (int i = 0; i < spectrum_size; ++i) sum[i] += sample.radiance.c[i];
 }
 
-void PixelEstimate::add(const double (&pass_mean)[spectrum_size]) {
-  if (passes % 2 == 0) {
-    for (double channel : pass_mean) half_sum += channel / spectrum_size;
-    ++half_passes;
-  }
+void PixelSums::add(int pass, const PixelPass& sums) {
+  const PixelFeatures& f = sums.features;
+  samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(sums.non_finite);
+  if (f.hits == 0) return;
+  constexpr double largest = ExactSum::largest, largest_albedo = 64;
+  emission.add(within(f.emission, largest));
+  for (int c = 0; c < spectrum_size; ++c) albedo[c].add(within(f.albedo[c], largest_albedo * f.hits));
+  for (int c = 0; c < 3; ++c)
+    normal[c].add(within(f.normal[c], f.hits)), position[c].add(within(f.position[c], largest));
+  depth.add(within(f.depth, largest));
+  if (f.object != 0 && (object == 0 || pass < object_pass)) object = f.object, object_pass = pass;
+}
+
+void PixelSums::add_mean(int pass, const double (&mean)[spectrum_size]) {
   ++passes;
-  for (int i = 0; i < spectrum_size; ++i) add_value(pass_mean[i], passes, mean[i], m2[i]);
+  for (int c = 0; c < spectrum_size; ++c) radiance[c].add(mean[c]);
+  if (pass % 2 != 0) return;
+  ++half_passes;
+  for (double channel : mean) half.add(channel / spectrum_size);
+}
+
+void PixelSums::merge(const PixelSums& other) {
+  for (int c = 0; c < spectrum_size; ++c) radiance[c].merge(other.radiance[c]), albedo[c] += other.albedo[c];
+  for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
+  half += other.half, emission += other.emission, depth += other.depth;
+  passes += other.passes, half_passes += other.half_passes, non_finite += other.non_finite;
+  hits += other.hits, samples += other.samples;
+  if (other.object != 0 && (object == 0 || other.object_pass < object_pass))
+    object = other.object, object_pass = other.object_pass;
+}
+
+PixelEstimate PixelSums::estimate() const {
+  PixelEstimate e;
+  for (int c = 0; c < spectrum_size; ++c) e.mean[c] = radiance[c].mean(passes), e.m2[c] = radiance[c].m2(passes);
+  e.half_sum = half.value(), e.half_passes = half_passes;
+  e.passes = passes, e.non_finite = non_finite;
+  return e;
+}
+
+PixelFeatures PixelSums::features() const {
+  PixelFeatures f;
+  f.emission = emission.value(), f.depth = depth.value();
+  for (int c = 0; c < spectrum_size; ++c) f.albedo[c] = albedo[c].value();
+  for (int c = 0; c < 3; ++c) f.normal[c] = normal[c].value(), f.position[c] = position[c].value();
+  f.hits = hits, f.samples = samples, f.object = object;
+  return f;
 }
 
 void PixelEstimate::merge(const PixelEstimate& other) {
-  non_finite += other.non_finite;
-  if (other.passes == 0) return;
-  // Chan, Golub and LeVeque 1979.
-  double n = double(passes) + double(other.passes);
-  for (int i = 0; i < spectrum_size; ++i) {
-    double delta = other.mean[i] - mean[i];
-    mean[i] += delta * (double(other.passes) / n);
-    m2[i] += other.m2[i] + delta * delta * (double(passes) * double(other.passes) / n);
+  for (int c = 0; c < spectrum_size; ++c) {
+    Moments both{passes, 0, mean[c], m2[c]};
+    both.merge({other.passes, 0, other.mean[c], other.m2[c]});
+    mean[c] = both.mean, m2[c] = both.m2;
   }
   half_sum += other.half_sum, half_passes += other.half_passes;
-  passes += other.passes;
+  passes += other.passes, non_finite += other.non_finite;
 }
 
 double PixelEstimate::variance_of_mean(int channel) const {
   if (passes < 2) return std::numeric_limits<double>::infinity();
-  return m2[channel] / (double(passes) - 1) / double(passes);
+  return Moments{passes, 0, mean[channel], m2[channel]}.variance() / passes;
 }
 
+bool FilmTile::has(int pass) const { return std::ranges::binary_search(passes, pass, {}, &FilmPass::pass); }
+
 Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride)
-    : grid_{bounds, stride},
-      cells_(grid_.cells()),
-      pixels_(std::size_t(cells_.area())),
-      features_(std::size_t(cells_.area())),
-      tile_sums_(std::size_t(cells_.area())) {
+    : grid_{bounds, stride}, cells_(grid_.cells()), pixels_(std::size_t(cells_.area())) {
   if (layers) layers_.emplace(cells_, layers->count(), layers->spread);
 }
 
-void Film::PassSum::add(const double (&mean)[spectrum_size]) {
-  for (int i = 0; i < spectrum_size; ++i) sum[i] += mean[i];
-  ++pixels;
+FilmTile& Film::name_tile(const PixelBounds& cells) {
+  const std::size_t index = index_of_cell(cells.x0, cells.y0);
+  auto found = tiles_.find(index);
+  if (found == tiles_.end()) found = tiles_.emplace(index, FilmTile{cells, {}}).first;
+  if (!(found->second.cells == cells)) throw std::invalid_argument("the tiles of the film are other ones");
+  return found->second;
 }
 
-void Film::keep_pass_sum(const PixelBounds& tile, int pass, PassSum sum) {
-  sum.cells = tile.area();
-  auto& sums = tile_sums_[index_of_cell(tile.x0, tile.y0)];
-  if (sums.size() <= std::size_t(pass)) sums.resize(std::size_t(pass) + 1);
-  sums[std::size_t(pass)] = sum;
+int Film::passes(const PixelBounds& tile) const {
+  const auto found = tiles_.find(index_of_cell(tile.x0, tile.y0));
+  return found == tiles_.end() ? 0 : int(found->second.passes.size());
+}
+
+bool Film::has(const PixelBounds& tile, int pass) const {
+  const auto found = tiles_.find(index_of_cell(tile.x0, tile.y0));
+  return found != tiles_.end() && found->second.has(pass);
 }
 
 void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
                     std::span<const ExactRgb> sums) {
-  PassSum tile_sum;
+  FilmPass& whole = new_pass(tile, pass);
   const PixelSample* sample = samples.data();
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
-      PixelEstimate& estimate = pixels_[index_of_cell(x, y)];
-      PixelFeatures& features = features_[index_of_cell(x, y)];
-      double mean[spectrum_size] = {};
-      int finite = 0;
-      for (int s = 0; s < samples_per_pixel; ++s, ++sample) {
-        features.add(sample->features);
-        if (!all_finite(sample->radiance)) continue;
-        ++finite;
-        for (int i = 0; i < spectrum_size; ++i) mean[i] += sample->radiance.c[i];
-      }
-      estimate.non_finite += std::uint32_t(samples_per_pixel - finite);
-      if (finite == 0) continue;
-      if (layers_) {
+      PixelPass of_pixel;
+      for (int s = 0; s < samples_per_pixel; ++s, ++sample) of_pixel.add(*sample);
+      if (layers_ && of_pixel.finite > 0) {
         const std::size_t stride = std::size_t(layers_->count()) + 1;
         const auto own = sums.subspan(
             std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
-        layers_->add(x, y, finite, own);
-        for (int i = 0; i < spectrum_size; ++i) mean[i] = own.front().c[i].value();
+        layers_->add(x, y, of_pixel.finite, own);
+        for (int i = 0; i < spectrum_size; ++i) of_pixel.sum[i] = own.front().c[i].value();
       }
-      for (double& m : mean) m /= finite;
-      estimate.add(mean);
-      tile_sum.add(mean);
+      add_pixel(pixels_[index_of_cell(x, y)], of_pixel, whole);
     }
-  keep_pass_sum(tile, pass, tile_sum);
 }
 
 void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels) {
-  PassSum tile_sum;
+  FilmPass& whole = new_pass(tile, pass);
   const PixelPass* of_pixel = pixels.data();
   for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) {
-      features_[index_of_cell(x, y)].merge(of_pixel->features);
-      PixelEstimate& estimate = pixels_[index_of_cell(x, y)];
-      estimate.non_finite += std::uint32_t(of_pixel->non_finite);
-      if (of_pixel->finite == 0) continue;
-      double mean[spectrum_size] = {};
-      for (int i = 0; i < spectrum_size; ++i) mean[i] = of_pixel->sum[i] / of_pixel->finite;
-      estimate.add(mean);
-      tile_sum.add(mean);
-    }
-  keep_pass_sum(tile, pass, tile_sum);
+    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) add_pixel(pixels_[index_of_cell(x, y)], *of_pixel, whole);
+}
+
+FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
+  std::vector<FilmPass>& passes = name_tile(tile).passes;
+  const auto at = std::ranges::lower_bound(passes, pass, {}, &FilmPass::pass);
+  if (at != passes.end() && at->pass == pass) throw std::invalid_argument("the film has this pass");
+  return *passes.insert(at, {pass, 0, {}});
+}
+
+void Film::add_pixel(PixelSums& pixel, const PixelPass& sums, FilmPass& whole) {
+  pixel.add(whole.pass, sums);
+  if (sums.finite == 0) return;
+  double mean[spectrum_size] = {};
+  for (int c = 0; c < spectrum_size; ++c) whole.sum[c] += mean[c] = sums.sum[c] / sums.finite;
+  ++whole.pixels;
+  pixel.add_mean(whole.pass, mean);
 }
 
 void Film::merge(const Film& other) {
   if (!(grid_ == other.grid_)) throw std::invalid_argument("films of different bounds or strides cannot be merged");
   if (layers_.has_value() != other.layers_.has_value())
     throw std::invalid_argument("films of different layers cannot be merged");
-  if (layers_) layers_->merge(*other.layers_);
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i].merge(other.pixels_[i]);
-    features_[i].merge(other.features_[i]);
-    tile_sums_[i].insert(tile_sums_[i].end(), other.tile_sums_[i].begin(), other.tile_sums_[i].end());
+  int cells = 0;
+  for (const auto& [index, theirs] : other.tiles_)
+    for (const FilmPass& pass : theirs.passes)
+      if (has(theirs.cells, pass.pass)) throw std::invalid_argument("both films have the same pass");
+  for (const auto& [index, theirs] : other.tiles_) {
+    std::vector<FilmPass>& ours = name_tile(theirs.cells).passes;
+    ours.insert(ours.end(), theirs.passes.begin(), theirs.passes.end());
+    std::ranges::sort(ours, is_before);
   }
+  for (const auto& [index, tile] : tiles_) cells += tile.cells.area();
+  if (cells > cells_.area()) throw std::invalid_argument("films of different tiles cannot be merged");
+  if (layers_) layers_->merge(*other.layers_);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].merge(other.pixels_[i]);
 }
 
 std::uint64_t Film::non_finite() const {
   std::uint64_t n = 0;
-  for (const PixelEstimate& p : pixels_) n += p.non_finite;
+  for (const PixelSums& p : pixels_) n += p.non_finite;
   return n;
 }
 
+// With the mean m_t of tile t over its n_t passes and its share w_t of the pixels the mean is the sum of w_t m_t.
+// Passes are independent of each other, while in a pass the tiles y_tp may depend on each other; so the variance is
+// estimated by the sum over passes of the square of the sum over tiles of w_t (y_tp - m_t) / sqrt(n_t (n_t - 1)): for
+// tiles of the same passes that is the variance of the image means of these over their number.
 ImageEstimate Film::image() const {
   ImageEstimate image;
-  double m2[spectrum_size] = {};
-  for (std::size_t pass = 0;; ++pass) {
-    PassSum total;
-    for (const auto& sums : tile_sums_) {
-      if (pass >= sums.size()) continue;
-      for (int i = 0; i < spectrum_size; ++i) total.sum[i] += sums[pass].sum[i];
-      total.pixels += sums[pass].pixels, total.cells += sums[pass].cells;
-    }
-    if (total.cells < cells_.area()) break;
-    if (total.pixels == 0) continue;
-    ++image.passes;
-    for (int i = 0; i < spectrum_size; ++i) add_value(total.sum[i] / total.pixels, image.passes, image.mean[i], m2[i]);
+  int cells = 0, fewest = std::numeric_limits<int>::max();
+  double pixels = 0;
+  std::vector<TileMean> means;
+  for (const auto& [index, tile] : tiles_) {
+    cells += tile.passes.empty() ? 0 : tile.cells.area();
+    const TileMean& own = means.emplace_back(tile);
+    if (own.passes > 0) pixels += own.pixels, fewest = std::min(fewest, own.passes);
   }
-  for (int i = 0; i < spectrum_size; ++i)
-    image.standard_error[i] = image.passes < 2 ? std::numeric_limits<double>::infinity()
-                                               : std::sqrt(m2[i] / (image.passes - 1.0) / image.passes);
+  if (cells < cells_.area() || pixels == 0) return image;
+  image.passes = fewest;
+  const std::vector<int> numbers = pass_numbers(tiles_);
+  std::vector<std::array<double, spectrum_size>> deviations(numbers.size());
+  auto own = means.begin();
+  for (auto tile = tiles_.begin(); tile != tiles_.end(); ++tile, ++own) {
+    if (own->passes == 0) continue;
+    const double n = own->passes, share = own->pixels / pixels, weight = share / std::sqrt(n * std::max(n - 1, 1.0));
+    for (int c = 0; c < spectrum_size; ++c) image.mean[c] += share * own->mean[c];
+    std::size_t at = 0;
+    for (const FilmPass& pass : tile->second.passes) {
+      while (numbers[at] != pass.pass) ++at;
+      for (int c = 0; c < spectrum_size && pass.pixels > 0; ++c)
+        deviations[at][std::size_t(c)] += weight * (pass.sum[c] / pass.pixels - own->mean[c]);
+    }
+  }
+  for (int c = 0; c < spectrum_size; ++c) {
+    double variance = 0;
+    for (const auto& deviation : deviations) variance += deviation[std::size_t(c)] * deviation[std::size_t(c)];
+    image.standard_error[c] = fewest < 2 ? std::numeric_limits<double>::infinity() : std::sqrt(variance);
+  }
   return image;
 }
 
 ErrorEstimate Film::error() const {
   if (grid_.stride > 1) return {};
-  if (std::none_of(pixels_.begin(), pixels_.end(), [](const PixelEstimate& p) { return p.passes > 1; })) return {};
+  if (std::none_of(pixels_.begin(), pixels_.end(), [](const PixelSums& p) { return p.passes > 1; })) return {};
   FilmPlanes planes(bounds());
   planes.copy(*this, bounds());
   return estimate_error(planes);
@@ -202,8 +282,9 @@ ErrorEstimate Film::error() const {
 
 double Film::mse() const {
   double sum = 0, pixels = 0;
-  for (const PixelEstimate& pixel : pixels_) {
-    if (pixel.passes < 2) continue;
+  for (const PixelSums& sums : pixels_) {
+    if (sums.passes < 2) continue;
+    const PixelEstimate pixel = sums.estimate();
     for (int c = 0; c < spectrum_size; ++c) sum += pixel.variance_of_mean(c) / spectrum_size;
     pixels += 1;
   }

@@ -3,6 +3,7 @@
 // samples inside a pass.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,20 +11,21 @@
 #include "film/layer_film.h"
 #include "film/picture_error.h"
 #include "image/pixel_sample.h"
+#include "mc/exact_moments.h"
 
 namespace montelux {
 
-// Mean and spread of one pixel over passes (Welford 1962; West 1979), by channel.
+// Mean and spread of one pixel over passes, by channel.
 struct PixelEstimate {
   double mean[spectrum_size] = {};
   double m2[spectrum_size] = {};  // sum of squared deviations of the pass means
-  // The sum over every other pass, from the first on, of the mean of the channels: with the rest an independent half.
+  // The sum over the passes of even number of the mean of the channels: with the rest an independent half.
   double half_sum = 0;
   std::uint32_t half_passes = 0;
   std::uint32_t passes = 0;
   std::uint32_t non_finite = 0;  // samples kept out of the mean
 
-  void add(const double (&pass_mean)[spectrum_size]);
+  // The passes of both.
   void merge(const PixelEstimate& other);
   // Variance of `mean` (not of one pass), by channel; infinite below two passes.
   double variance_of_mean(int channel) const;
@@ -36,8 +38,6 @@ struct PixelFeatures {
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
-  // The later samples.
-  void merge(const PixelFeatures& other);
 };
 
 // The samples of one pixel in one pass, summed: the radiance of those that are finite, and the features.
@@ -48,13 +48,48 @@ struct PixelPass {
   void add(const PixelSample& sample);
 };
 
+// What a film keeps of a pixel: sums over passes that no order changes.
+struct PixelSums {
+  ExactMoments radiance[spectrum_size];  // of the pass means
+  ExactSum half;
+  ExactSum emission, position[3], depth;  // of the sums over the samples of a pass, as PixelFeatures has them
+  SmallExactSum albedo[spectrum_size], normal[3];
+  std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
+  std::uint32_t hits = 0, samples = 0;
+  std::uint32_t object = 0;
+  int object_pass = 0;  // that the object is of: the first in which a sample hit
+
+  // A pass; of the radiance only the mean of its finite samples, where there are any.
+  void add(int pass, const PixelPass& sums);
+  void add_mean(int pass, const double (&mean)[spectrum_size]);
+  void merge(const PixelSums& other);
+  PixelEstimate estimate() const;
+  PixelFeatures features() const;
+};
+
 // The mean of the whole image over passes, with the error that correlations between pixels leave it.
 struct ImageEstimate {
   double mean[spectrum_size] = {};
-  double standard_error[spectrum_size] = {};  // infinite below two complete passes
-  int passes = 0;
+  double standard_error[spectrum_size] = {};  // infinite below two passes
+  int passes = 0;                             // of the tile that has fewest
 };
 
+// A tile of a film in one pass: the sums of the pass means of its pixels, in their order.
+struct FilmPass {
+  int pass = 0;
+  int pixels = 0;  // that have a finite sample
+  double sum[spectrum_size] = {};
+};
+
+// The passes that a tile has, by their numbers.
+struct FilmTile {
+  PixelBounds cells;
+  std::vector<FilmPass> passes;
+  bool has(int pass) const;
+};
+
+// A pass is known by its number: the film of a set of passes is the same bits in whatever order, by whatever threads
+// and in whatever parts they came. Tiles may have different passes.
 class Film {
  public:
   // `stride`: only the pixels of that grid are sampled.
@@ -65,9 +100,17 @@ class Film {
   // The layers, where the film was made with a plan of them. Then the pass means are those of their exact sums.
   const std::optional<LayerFilm>& layers() const { return layers_; }
 
-  // Adds one pass of a tile, which counts cells of the grid: samples in row-major order, those of one pixel
-  // consecutive. Passes of one tile must be added in their order, for the sums to be the same bits in every run; tiles
-  // are independent, so different tiles may be added by different threads at once. `sums`: of a film with layers, as
+  // Names a tile, which counts cells of the grid. Tiles may not overlap. A tile that add_pass() does not know yet is
+  // named by it; but tiles must be named before threads add passes to them.
+  FilmTile& name_tile(const PixelBounds& cells);
+  // All that are named, from top to bottom and from left to right.
+  const std::map<std::size_t, FilmTile>& tiles() const { return tiles_; }
+  // How many passes a tile has, and whether it has this one.
+  int passes(const PixelBounds& tile) const;
+  bool has(const PixelBounds& tile, int pass) const;
+
+  // Adds a pass to a tile, which must not have it: samples in row-major order, those of one pixel consecutive. Tiles
+  // are independent, so different tiles may be added to by different threads at once. `sums`: of a film with layers, as
   // PixelIntegrator::trace_layers fills them.
   void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
                 std::span<const ExactRgb> sums = {});
@@ -75,17 +118,17 @@ class Film {
   // The same of a pass whose samples came one by one, and are summed for each pixel.
   void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> sums);
 
-  // The film of all passes of both; the same grid and layers are required. `other` holds the later passes.
+  // The film of the passes of both; the same grid, layers and tiles are required, and no tile may have a pass in both.
   void merge(const Film& other);
 
   // Of a pixel that is not sampled those of the one that stands for its cell.
-  const PixelEstimate& pixel(int x, int y) const { return pixels_[index(x, y)]; }
-  const PixelFeatures& features(int x, int y) const { return features_[index(x, y)]; }
+  PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
+  PixelFeatures features(int x, int y) const { return pixels_[index(x, y)].features(); }
   // Samples taken at a pixel.
-  double samples(int x, int y) const { return is_sampled(x, y) ? features_[index(x, y)].samples : 0; }
+  double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }
   std::uint64_t non_finite() const;
-  // Over the passes that are complete: every tile has them. A pixel that has no finite sample in a pass is left out of
-  // that pass.
+  // From the estimates of the tiles, each over its own passes. A pixel that has no finite sample in a pass is left out
+  // of that pass. There is no mean until every pixel has a pass.
   ImageEstimate image() const;
   // Whether samples are taken at this pixel: all, unless the film has a stride.
   bool is_sampled(int x, int y) const {
@@ -97,26 +140,17 @@ class Film {
   double mse() const;
 
  private:
-  struct PassSum {
-    double sum[spectrum_size] = {};  // of the pass means of the pixels, in tile order
-    int pixels = 0;                  // that have a finite sample
-    int cells = 0;                   // of the tile, where the pass is there
-
-    void add(const double (&mean)[spectrum_size]);
-  };
   std::size_t index_of_cell(int x, int y) const {
     return std::size_t(y - cells_.y0) * std::size_t(cells_.width()) + std::size_t(x - cells_.x0);
   }
   std::size_t index(int x, int y) const { return index_of_cell(grid_.cell_x(x), grid_.cell_y(y)); }
-  void keep_pass_sum(const PixelBounds& tile, int pass, PassSum sum);
+  FilmPass& new_pass(const PixelBounds& tile, int pass);
+  static void add_pixel(PixelSums& pixel, const PixelPass& sums, FilmPass& whole);
 
   PixelGrid grid_;
   PixelBounds cells_;
-  std::vector<PixelEstimate> pixels_;
-  std::vector<PixelFeatures> features_;
-  // The sum of every pass over a tile, by the tile's first pixel and then by pass: threads write to different tiles,
-  // and the sum over tiles is taken in their order.
-  std::vector<std::vector<PassSum>> tile_sums_;
+  std::vector<PixelSums> pixels_;
+  std::map<std::size_t, FilmTile> tiles_;  // by the index of the first cell
   std::optional<LayerFilm> layers_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "image/layers.h"
 #include "image/pixel_sample.h"
+#include "mc/exact_moments.h"
 
 namespace montelux {
 
@@ -26,7 +27,7 @@ class LayerFilm {
 
   // One pass of a pixel: the sums over its finite samples, of which there is one at least; all light first.
   void add(int x, int y, int samples, std::span<const ExactRgb> sums);
-  // Fails where bounds, count or spread differ. `other` holds the later passes.
+  // The film of the passes of both. Fails where bounds, count or spread differ.
   void merge(const LayerFilm& other);
 
   // Over all finite samples of the pixel.
@@ -39,9 +40,7 @@ class LayerFilm {
   }
   int passes(int x, int y) const { return counts_[index(x, y)].passes; }
   // Only where has_spread(). Number -1 is all light, whose co-moment is its m2.
-  const LayerSpread& spread(int x, int y, int number) const {
-    return spreads_[first_sum(x, y) + std::size_t(number + 1)];
-  }
+  LayerSpread spread(int x, int y, int number) const;
   // Variance of a layer's mean, infinite below two passes.
   double variance_of_mean(int x, int y, int number, int channel) const;
 
@@ -49,6 +48,11 @@ class LayerFilm {
   struct Counts {
     std::uint64_t samples = 0;
     int passes = 0;
+  };
+  // Of the pass means of one layer, by channel.
+  struct SpreadSums {
+    ExactMoments own[spectrum_size];
+    ExactProducts with_all[spectrum_size];  // products with those of all light
   };
   std::size_t index(int x, int y) const {
     return std::size_t(y - bounds_.y0) * std::size_t(bounds_.width()) + std::size_t(x - bounds_.x0);
@@ -61,9 +65,9 @@ class LayerFilm {
 
   PixelBounds bounds_;
   int count_;
-  std::vector<Counts> counts_;        // by pixel
-  std::vector<ExactRgb> sums_;        // by pixel: all light, then the layers
-  std::vector<LayerSpread> spreads_;  // likewise
+  std::vector<Counts> counts_;       // by pixel
+  std::vector<ExactRgb> sums_;       // by pixel, all light, then the layers
+  std::vector<SpreadSums> spreads_;  // likewise
 };
 
 }  // namespace montelux

@@ -182,7 +182,7 @@ class ChainJob {
   }
   void end_chain() {
     leave_memory();
-    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass_, tile.pixels);
+    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, settings_.first_pass + pass_, tile.pixels);
     ++pass_;
   }
 

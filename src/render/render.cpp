@@ -38,17 +38,14 @@ class StopFlag final : public StopQuery {
   std::atomic<bool> set_{false};
 };
 
-// A tile, and how many of its passes are in the film.
+// A tile, whose part of the film its mutex guards.
 struct TileState {
   PixelBounds bounds;
-  int passes_added = 0;
   std::mutex mutex;
-  std::condition_variable added;
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
-// The shared state of one render. Work units are numbered pass by pass; a unit enters the film after the same tile's
-// previous pass, whichever thread did that one.
+// The shared state of one render. Work units are numbered pass by pass.
 class Job {
  public:
   Job(const PixelIntegrator& integrator, const RenderSettings& settings, const std::vector<PixelBounds>& tiles)
@@ -56,7 +53,9 @@ class Job {
         settings_(settings),
         film_(settings.bounds, settings.layers, settings.stride),
         tiles_(tiles.begin(), tiles.end()),
-        units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {}
+        units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {
+    for (const PixelBounds& tile : tiles) film_.name_tile(tile);
+  }
 
   void work() {
     FlushDenormals flush;
@@ -73,7 +72,7 @@ class Job {
         if (!failure_) failure_ = std::current_exception();
         stop_ = true;
       }
-      drop_units();
+      drop_.request_stop();
     }
     std::scoped_lock lock(mutex_);
     rays_ += rays;
@@ -95,9 +94,10 @@ class Job {
         requested = since_start_.seconds();
       }
       if (time_is_over()) stop_ = true;
-      if (interrupted && since_start_.seconds() > requested + stop_grace) drop_units();
+      // Units in work are left unfinished then, and do not enter the film.
+      if (interrupted && since_start_.seconds() > requested + stop_grace) drop_.request_stop();
       if (time_is_over() && first_pass_is_done() && since_start_.seconds() > *settings_.seconds + time_grace)
-        drop_units();
+        drop_.request_stop();
       observer.progress(progress(false));
       lock.lock();
     }
@@ -118,15 +118,6 @@ class Job {
   bool first_pass_is_done() const { return first_units_done_ == tiles_.size(); }
   // The error takes two passes of every pixel.
   bool has_two_passes() const { return second_units_done_ == tiles_.size(); }
-
-  // Units in work are left unfinished and do not enter the film.
-  void drop_units() {
-    drop_.request_stop();
-    for (TileState& tile : tiles_) {
-      std::scoped_lock lock(tile.mutex);
-      tile.added.notify_all();
-    }
-  }
 
   std::chrono::milliseconds next_look() const {
     const double elapsed = since_start_.seconds();
@@ -149,26 +140,23 @@ class Job {
   }
 
   RayCounts do_unit(std::uint64_t unit, Workspace& space) {
-    const int pass = int(unit / tiles_.size());
+    const int number = int(unit / tiles_.size()), pass = settings_.first_pass + number;
     TileState& tile = tiles_[unit % tiles_.size()];
     const int k = settings_.plan.samples_per_pass;
     space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds,
-                     {settings_.sampler, settings_.seed, std::uint32_t(settings_.first_pass + pass), std::uint32_t(k),
+                     {settings_.sampler, settings_.seed, std::uint32_t(pass), std::uint32_t(k),
                       std::uint32_t(settings_.width), std::uint32_t(settings_.height)},
                      settings_.shutter};
     if (settings_.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
     RayCounts rays = trace(request, space);
-    std::unique_lock lock(tile.mutex);
-    tile.added.wait(lock, [&] { return tile.passes_added == pass || drop_.stop_requested(); });
+    std::scoped_lock lock(tile.mutex);
     if (drop_.stop_requested()) return {};
     film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
-    ++tile.passes_added;
     ++units_done_;
-    if (pass == 0) ++first_units_done_;
-    if (pass == 1) ++second_units_done_;
-    tile.added.notify_all();
+    if (number == 0) ++first_units_done_;
+    if (number == 1) ++second_units_done_;
     return rays;
   }
 
@@ -177,7 +165,7 @@ class Job {
         progress_after(since_start_.seconds(), double(units_done_) / double(units_), settings_.seconds, finished);
     for (TileState& tile : tiles_) {
       std::scoped_lock lock(tile.mutex);
-      p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(tile.passes_added) *
+      p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(film_.passes(tile.bounds)) *
                    std::uint64_t(settings_.plan.samples_per_pass);
     }
     // At the end the film has it.
