@@ -14,6 +14,8 @@ std::string_view name_of(PointSetKind kind) {
   return point_set_names[std::size_t(kind)].name;
 }
 
+std::uint32_t grid_columns(std::uint32_t n) { return std::max(1u, std::uint32_t(std::lround(std::sqrt(double(n))))); }
+
 bool is_fixed(PointSetKind kind) {
   for (const NamedPointSet& entry : fixed_point_set_names)
     if (entry.kind == kind) return true;
@@ -64,7 +66,7 @@ F stratified1(Uint<F> index, std::uint32_t n, Uint<F> key, F jitter) {
 template <class F>
 Vec2<F> stratified2(Uint<F> index, std::uint32_t n, Uint<F> key, Vec2<F> jitter) {
   using U = Uint<F>;
-  const auto columns = std::max(1u, std::uint32_t(std::lround(std::sqrt(double(n)))));
+  const std::uint32_t columns = grid_columns(n);
   const std::uint32_t base = n / columns, tall = n % columns, in_tall = tall * (base + 1u);
   U cell = stratum<F>(index, n, key);
   Mask<F> is_tall = cell < U(in_tall);

@@ -49,6 +49,9 @@ inline constexpr std::array<NamedPointSet, 1> fixed_point_set_names{{
 // Higher dimensions are random numbers, the same everywhere: roulette with a constant 1/2 would never end a path.
 inline constexpr std::uint32_t grid_dimensions = 256;
 
+// Columns of the cells into which n points divide the square (stratified, uniform_grid): the rounded root of n.
+std::uint32_t grid_columns(std::uint32_t n);
+
 std::string_view name_of(PointSetKind kind);
 // Whether the points are the same in every pass, which biases every estimate.
 bool is_fixed(PointSetKind kind);

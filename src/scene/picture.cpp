@@ -43,11 +43,14 @@ void read_sampler(const SceneDesc& scene, PictureSettings& s, Diagnostics& diagn
   s.seed = std::uint32_t(p.integer("seed", scene.options.integer("seed", 0)));
   std::string point_set = served_by(find_entity(sampler_table(), scene.sampler.type), scene.sampler.type);
   s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
-  // Points that are the same in every pass would bias the image and leave it without an error bar.
-  if (const Parameter* jitter = p.find("jitter"); jitter && !p.boolean("jitter", true))
-    diagnostics.warning(jitter->where,
-                        "strata without jitter would bias the picture: samples are jittered all the same",
-                        "--sampler uniform-grid takes the centres of strata");
+  if (const Parameter* jitter = p.find("jitter"); jitter && !p.boolean("jitter", true)) {
+    s.sampler = PointSetKind::uniform_grid;
+    const int x = p.integer("xsamples", 4), y = p.integer("ysamples", 4), columns = int(grid_columns(std::uint32_t(s.samples)));
+    if (x != columns)
+      diagnostics.warning(jitter->where, fmt::format("{} x {} strata without jitter: the {} samples are at the centres "
+                                                     "of a grid with {} columns instead of {}",
+                                                     x, y, s.samples, columns, x));
+  }
   const std::string randomization = p.string("randomization", "fastowen");
   if (randomization == "none" || randomization == "permutedigits")
     diagnostics.warning(p.find("randomization")->where, "points are scrambled by Owen's method instead of by \"" +

@@ -125,7 +125,7 @@ std::vector<EntitySpec> samplers() {
        "a jittered grid",
        {{"xsamples", {integer}, "strata along x; default 4", 1, 4096},
         {"ysamples", {integer}, "strata along y; default 4", 1, 4096},
-        {"jitter", {boolean}, "default true; strata without it would bias the picture: false has no effect"},
+        {"jitter", {boolean}, "default true; false: the centres of the strata, the same in every pass (biased)"},
         {"seed", {integer}, "default 0", -most_integer, most_integer}}},
       {"halton", "Halton points", sampler_parameters({randomization()})},
       {"sobol", "Sobol points over the image", sampler_parameters({randomization()})},

@@ -1,11 +1,14 @@
 // Every parameter that the tables accept is used, or a warning at its place says that it is not.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "io/checks.h"
 #include "io/pbrt.h"
 #include "io/pbrt/parameters.h"
+#include "mc/point_set.h"
 #include "scene/prepare.h"
 #include "scene/unused.h"
 #include "temporary_folder.h"
@@ -113,7 +116,14 @@ std::string of(const Map& map, const std::string& entity, std::string_view param
   return own == map.end() ? "" : own->second;
 }
 
-std::string value_of(const std::string& entity, const ParameterSpec& spec, ParameterType type) {
+// The texture of a kind that the parameter takes; where it takes both, of the kind of the texture that it belongs to.
+std::string texture_for(const ParameterSpec& spec, bool spectra) {
+  const auto takes = [&](ParameterType type) { return std::ranges::find(spec.types, type) != spec.types.end(); };
+  const bool is_spectrum = takes(ParameterType::spectrum) && (spectra || !takes(ParameterType::number));
+  return is_spectrum ? "\"colours\"" : "\"numbers\"";
+}
+
+std::string value_of(const std::string& entity, const ParameterSpec& spec, ParameterType type, bool spectra) {
   if (std::string stated = of(values(), entity, spec.name); !stated.empty()) return stated;
   switch (type) {
     case ParameterType::boolean:
@@ -128,7 +138,7 @@ std::string value_of(const std::string& entity, const ParameterSpec& spec, Param
     case ParameterType::spectrum:
       return "[ 0.25 0.5 0.75 ]";
     case ParameterType::texture:
-      return "\"numbers\"";
+      return texture_for(spec, spectra);
     case ParameterType::point2:
     case ParameterType::vector2:
       return "[ 0.5 1 ]";
@@ -142,22 +152,23 @@ std::string type_text(ParameterType type) {
 }
 
 // The entity with one of its parameters, which begins the third line.
-std::string entity_text(Family family, const EntitySpec& entity, const ParameterSpec& spec, ParameterType type) {
+std::string entity_text(Family family, const EntitySpec& entity, const ParameterSpec& spec, ParameterType type,
+                        bool spectra) {
   const std::string name(entity.name);
   const std::string own = "\"" + type_text(type) + " " + std::string(spec.name) + "\"";
   std::string rest;
   for (const std::string& needed : needs(family, name))
     if (!needed.starts_with(own)) rest += " " + needed;
-  return "\n" + own + " " + value_of(name, spec, type) + "\n" + rest + " " + of(companions(), name, spec.name) + "\n";
+  return "\n" + own + " " + value_of(name, spec, type, spectra) + "\n" + rest + " " + of(companions(), name, spec.name) + "\n";
 }
 
 // A scene that states the parameter on its third line.
 std::string scene_text(Family family, const EntitySpec& entity, const std::string& parameters, bool spectra) {
   const std::string name = "\"" + std::string(entity.name) + "\"";
   const std::string parts =
-      "Texture \"numbers\" \"float\" \"constant\"\nMakeNamedMaterial \"a\" \"string type\" "
-      "\"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
-  const std::string end = parts + "Material \"diffuse\" Shape \"sphere\" LightSource \"point\"\n";
+      "Texture \"numbers\" \"float\" \"constant\" Texture \"colours\" \"spectrum\" \"constant\" "
+      "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
+  const std::string end = "Material \"diffuse\" Shape \"sphere\" LightSource \"point\"\n";
   switch (family) {
     case Family::camera:
       return "\nCamera " + name + parameters + "WorldBegin\n" + end;
@@ -174,18 +185,16 @@ std::string scene_text(Family family, const EntitySpec& entity, const std::strin
     case Family::option:
       return "\nOption" + parameters + "WorldBegin\n" + end;
     case Family::texture:
-      return "WorldBegin\nTexture \"t\" " + std::string(spectra ? "\"spectrum\" " : "\"float\" ") + name + parameters +
+      return "WorldBegin " + parts + "Texture \"t\" " + (spectra ? "\"spectrum\" " : "\"float\" ") + name + parameters +
              end;
     case Family::light:
-      return "WorldBegin\nLightSource " + name + parameters + end;
+      return "WorldBegin " + parts + "LightSource " + name + parameters + end;
     case Family::area_light:
-      return "WorldBegin\nAreaLightSource " + name + parameters + end;
+      return "WorldBegin " + parts + "AreaLightSource " + name + parameters + end;
     case Family::shape:
-      return "WorldBegin\nShape " + name + parameters + end;
+      return "WorldBegin " + parts + "Shape " + name + parameters + end;
     case Family::material:
-      return "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" "
-             "\"diffuse\"\nMaterial " +
-             name + parameters + "Shape \"sphere\" LightSource \"point\"\n";
+      return "WorldBegin " + parts + "Material " + name + parameters + "Shape \"sphere\" LightSource \"point\"\n";
   }
   return {};
 }
@@ -218,12 +227,13 @@ TEST_P(Parameters, are_used_or_warned_of) {
   int count = 0;
   for (const EntitySpec& entity : table_of(family)) {
     if (entity.later) continue;  // refused as a whole
-    for (const ParameterSpec& spec : entity.parameters) {
-      const ParameterType type = spec.types.front();
-      const std::string parameters = entity_text(family, entity, spec, type);
+    for (const ParameterSpec& spec : entity.parameters) for (const ParameterType type : spec.types) {
       // Some textures are of numbers or of spectra alone.
-      Said said = say(scene_text(family, entity, parameters, false), folder.path());
-      if (!said.ready) said = say(scene_text(family, entity, parameters, true), folder.path());
+      Said said;
+      for (bool spectra : {false, true})
+        if (!said.ready)
+          said = say(scene_text(family, entity, entity_text(family, entity, spec, type, spectra), spectra),
+                     folder.path());
       ++count;
       EXPECT_TRUE(said.ready) << entity.name << " " << spec.name << ":\n" << said.all;
       EXPECT_EQ(said.no_effect, spec.later) << entity.name << " " << spec.name << ":\n" << said.all;
@@ -290,9 +300,33 @@ Taken taken(const std::string& options) {
   return t;
 }
 
+TEST(Sampler, without_jitter_takes_the_centres_of_the_strata) {
+  const auto strata = [](int x, int y, const char* jitter) {
+    return taken("Sampler \"stratified\" \"integer xsamples\" " + std::to_string(x) + " \"integer ysamples\" " +
+                 std::to_string(y) + "\n \"bool jitter\" " + jitter);
+  };
+  EXPECT_EQ(strata(4, 4, "true").picture.sampler, PointSetKind::stratified);
+  for (const auto& [x, y] : {std::pair{4, 4}, {2, 3}}) {
+    const Taken without = strata(x, y, "false");
+    EXPECT_EQ(without.said, "");
+    ASSERT_EQ(without.picture.sampler, PointSetKind::uniform_grid);
+    // The points of a pixel are the centres of x columns and y rows.
+    std::set<std::pair<int, int>> cells;
+    for (int i = 0; i < x * y; ++i) {
+      const Sampler<float> points({without.picture.sampler, 0, 0, std::uint32_t(x * y)}, 5, 6, std::uint32_t(i));
+      const Vec2f u = points.get2(0u);
+      const float column = u.x * float(x) - 0.5f, row = u.y * float(y) - 0.5f;
+      EXPECT_NEAR(column, std::round(column), 1e-5f);
+      EXPECT_NEAR(row, std::round(row), 1e-5f);
+      cells.insert({int(std::round(column)), int(std::round(row))});
+    }
+    EXPECT_EQ(cells.size(), std::size_t(x * y));
+  }
+  EXPECT_EQ(strata(8, 2, "false").said,
+            "2:2 8 x 2 strata without jitter: the 16 samples are at the centres of a grid with 4 columns instead of 8\n");
+}
+
 TEST(Sampler, that_would_leave_no_error_bar_is_warned_of) {
-  EXPECT_EQ(taken("Sampler \"stratified\" \"bool jitter\" true").said, "");
-  EXPECT_EQ(taken("Sampler \"stratified\"\n \"bool jitter\" false").said.find("2:2 strata without jitter"), 0u);
   for (const char* good : {"owen", "fastowen"})
     EXPECT_EQ(taken("Sampler \"halton\" \"string randomization\" \"" + std::string(good) + "\"").said, "");
   for (const char* other : {"none", "permutedigits"})
