@@ -6,7 +6,7 @@ namespace {
 
 using enum ParameterType;
 
-std::vector<ParameterSpec> with_radius(std::string_view x, std::string_view y, std::vector<ParameterSpec> list = {}) {
+std::vector<ParameterSpec> with_radius(const char* x, const char* y, std::vector<ParameterSpec> list = {}) {
   list.insert(list.begin(), {{"xradius", {number}, x, 1e-3, 64}, {"yradius", {number}, y, 1e-3, 64}});
   return list;
 }

@@ -10,7 +10,7 @@ using List = std::vector<ParameterSpec>;
 constexpr double most = 1e30;
 constexpr double positive = 1e-30;
 
-ParameterSpec array(std::string_view name, ParameterType type, std::string_view meaning, double low = -most) {
+ParameterSpec array(std::string_view name, ParameterType type, const char* meaning, double low = -most) {
   return {name, {type}, meaning, low, most, {}, true};
 }
 ParameterSpec later(ParameterSpec spec) {

@@ -273,6 +273,9 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), defaults, scene, accel};
   Made result = row->make(request);
   if (!result) return result;
+  // A row that no reader knows would be ignored in silence.
+  if (const auto unused = list.unused(); !unused.empty())
+    return Failure{fmt::format("{} does not read its setting {}", choice.name, unused.front()->name)};
   if (scene.pixel_centres) {
     result->biases.push_back("disablepixeljitter");
     result->notes.push_back(

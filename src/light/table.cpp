@@ -16,7 +16,7 @@ ParameterSpec group() {
 ParameterSpec power() {
   return {"power", {number}, "total power in watts that the light is scaled to; default: not", -1, most};
 }
-ParameterSpec illuminance(std::string_view meaning) { return {"illuminance", {number}, meaning, -1, most}; }
+ParameterSpec illuminance(const char* meaning) { return {"illuminance", {number}, meaning, -1, most}; }
 ParameterSpec intensity() { return {"I", {spectrum}, "radiant intensity; default 1", 0, most}; }
 ParameterSpec portal() {
   ParameterSpec spec{"portal", {point3}, "four corners through which the light enters", -most, most, {}, true};

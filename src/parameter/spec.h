@@ -2,6 +2,7 @@
 // documentation and the bindings use.
 #pragma once
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace montelux {
 struct ParameterSpec {
   std::string_view name;
   std::vector<ParameterType> types;
-  std::string_view meaning;                 // one line: meaning, unit, default
+  std::string meaning;                      // one line: meaning, unit, default
   double low = -1e30, high = 1e30;          // valid range of numbers and integers, inclusive
   std::vector<std::string_view> choices{};  // valid strings; empty: any
   bool array = false;                       // takes more than one value

@@ -1,7 +1,5 @@
 #include "integrator/direct/settings.h"
 
-#include <algorithm>
-
 namespace montelux {
 
 namespace {
@@ -40,44 +38,54 @@ constexpr std::pair<std::string_view, PointSetKind> patterns[] = {
     {"sobol", PointSetKind::padded_sobol},
 };
 
+NamedValues<DirectStrategy> strategy_names() {
+  NamedValues<DirectStrategy> names;
+  for (std::size_t i = 0; i < direct_strategy_names.size(); ++i)
+    names.emplace_back(direct_strategy_names[i], DirectStrategy(i));
+  return names;
+}
+
+NamedValues<MisHeuristic> heuristic_names() {
+  NamedValues<MisHeuristic> names;
+  for (const NamedMisHeuristic& entry : mis_heuristic_names) names.emplace_back(entry.name, entry.heuristic);
+  return names;
+}
+
+Status read_pattern(const std::string& text, DirectSettings& s) {
+  s.fixed = text == "fixed";
+  if (s.fixed) s.pattern = PointSetKind::uniform_grid;
+  for (const auto& [name, kind] : patterns)
+    if (name == text) s.pattern = kind;
+  return Done{};
+}
+
+Fields<DirectSettings> direct_fields() {
+  using S = DirectSettings;
+  Fields<S> fields;
+  fields.choice<DirectStrategy>("strategy", &S::strategy, "how the light is found", strategy_names())
+      .integer("shadow-rays", &S::shadow_rays, "shadow rays of each camera ray", 1, 4096)
+      .text("pattern",
+            "where shadow rays go; default: as the sampler says; fixed and uniform-grid are biased", read_pattern, {},
+            {"fixed", "random", "uniform-grid", "stratified", "sobol"})
+      .integer("candidates", &S::candidates, "of ris, for each shadow ray", 1, 4096)
+      .choice<MisHeuristic>("mis", &S::heuristic, "heuristic of mis", heuristic_names())
+      .choice<Lanes>("lanes", &S::lanes, "paths side by side", lanes_names());
+  return fields;
+}
+
 }  // namespace
 
 std::span<const DirectPreset> direct_presets() { return presets; }
 
 EntitySpec direct_spec() {
   return {"direct",
-          "direct light at the first surface alone, by the strategy of choice",
-          {{"strategy",
-            {string},
-            "how the light is found; default mis",
-            0,
-            0,
-            {direct_strategy_names.begin(), direct_strategy_names.end()}},
-           {"shadow-rays", {integer}, "shadow rays of each camera ray; default 1", 1, 4096},
-           {"pattern",
-            {string},
-            "where shadow rays go; default: as the sampler says; fixed and uniform-grid are biased",
-            0,
-            0,
-            {"fixed", "random", "uniform-grid", "stratified", "sobol"}},
-           {"candidates", {integer}, "of ris, for each shadow ray; default 32", 1, 4096},
-           {"mis", {string}, "heuristic of mis; default power", 0, 0, {"balance", "power", "maximum", "cutoff"}},
-           {"lanes", {string}, "paths side by side; default native", 0, 0, {"one", "native"}}}};
+          "direct light at the first surface alone, by the strategy of choice", direct_fields().specs({})};
 }
 
 DirectSettings direct_settings(const ParameterList& list) {
   DirectSettings s;
-  const std::string strategy = list.string("strategy", "mis");
-  s.strategy = DirectStrategy(std::ranges::find(direct_strategy_names, strategy) - direct_strategy_names.begin());
-  s.shadow_rays = list.integer("shadow-rays", s.shadow_rays);
-  const std::string pattern = list.string("pattern", "");
-  s.fixed = pattern == "fixed";
-  if (s.fixed) s.pattern = PointSetKind::uniform_grid;
-  for (const auto& [name, kind] : patterns)
-    if (name == pattern) s.pattern = kind;
-  s.candidates = list.integer("candidates", s.candidates);
-  s.heuristic = mis_heuristic_named(list.string("mis", "power")).value_or(MisHeuristic::power);
-  s.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
+  // None of the rows can fail: their choices have been checked.
+  (void)direct_fields().read(list, s);
   return s;
 }
 

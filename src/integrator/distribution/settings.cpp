@@ -4,6 +4,8 @@
 
 #include <charconv>
 
+#include "integrator/path/settings.h"
+
 namespace montelux {
 
 namespace {
@@ -27,28 +29,49 @@ Result<std::vector<int>> read_counts(std::string_view name, const std::string& t
   }
 }
 
+std::string counts_text(const std::vector<int>& counts) { return fmt::format("{}", fmt::join(counts, "/")); }
+
+using S = DistributionSettings;
+using Counts = std::vector<int> S::*;
+
+// How a row of counts is read, and how its default is shown.
+auto reader_of(std::string_view name, Counts place, int low) {
+  return [=](const std::string& text, S& s) -> Status {
+    auto counts = read_counts(name, text, low);
+    if (!counts) return counts.failure();
+    s.*place = *std::move(counts);
+    return Done{};
+  };
+}
+auto shown_by(Counts place) {
+  return [=](const S& s) { return counts_text(s.*place); };
+}
+
+Fields<S> distribution_fields() {
+  Fields<S> fields;
+  fields
+      .text("branching", "secondary rays at the 1st/2nd/... surface", reader_of("branching", &S::branching, 1),
+            shown_by(&S::branching))
+      .text("shadow-rays", "shadow rays at the 1st/2nd/... surface", reader_of("shadow-rays", &S::shadow_rays, 0),
+            shown_by(&S::shadow_rays))
+      .other(max_depth_spec());
+  return fields;
+}
+
 }  // namespace
 
 EntitySpec distribution_spec() {
-  using enum ParameterType;
-  return {"distribution",
-          "distribution ray tracing: many secondary rays at each surface",
-          {{"branching", {string}, "secondary rays at the 1st/2nd/... surface; default 8/4/1"},
-           {"shadow-rays", {string}, "shadow rays at the 1st/2nd/... surface; default 4/2/1"},
-           {"maxdepth", {integer}, "most bounces; default: none", 0, 2147483647, {"none"}}}};
+  return {"distribution", "distribution ray tracing: many secondary rays at each surface",
+          distribution_fields().specs({})};
 }
 
 Result<DistributionSettings> distribution_settings(const ParameterList& list, std::optional<int> max_depth) {
   DistributionSettings s;
   s.max_depth = max_depth;
-  auto branching = read_counts("branching", list.string("branching", "8/4/1"), 1);
-  if (!branching) return branching.failure();
-  auto shadow_rays = read_counts("shadow-rays", list.string("shadow-rays", "4/2/1"), 0);
-  if (!shadow_rays) return shadow_rays.failure();
-  s.branching = *branching, s.shadow_rays = *shadow_rays;
+  if (Status read = distribution_fields().read(list, s); !read) return read.failure();
   if (s.branching.back() > 1 && !s.max_depth)
     return Failure{fmt::format("branching {} never ends: its last number must be 1, or maxdepth must be set",
-                               list.string("branching", ""))};
+                               counts_text(s.branching))};
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include "integrator/branches.h"
 #include "integrator/path/first_hits.h"
 #include "mc/hemisphere.h"
+#include "parameter/fields.h"
 
 namespace montelux {
 
@@ -108,30 +109,47 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
   }
 }
 
+namespace {
+
+struct LookRow {
+  std::string_view name;
+  Look look;
+  std::string_view meaning;
+  bool has_samples = true;
+};
+constexpr LookRow look_rows[] = {
+    {"ao", Look::ambient_occlusion, "the share of open directions (no picture of light)"},
+    {"normal", Look::normal, "shading normals as colours (no picture of light)", false},
+    {"albedo", Look::albedo, "light reflected of unit light from everywhere (no picture of light)"},
+    {"depth", Look::depth, "distance from the camera (no picture of light)", false},
+    {"irradiance", Look::irradiance, "direct light that falls on surfaces (no picture of light)"}};
+
+Fields<LookSettings> look_fields(const LookRow& row) {
+  Fields<LookSettings> fields;
+  if (row.has_samples) fields.integer("samples", &LookSettings::samples, "of each camera ray", 1, 4096);
+  if (row.look != Look::ambient_occlusion) return fields;
+  fields
+      .number("distance", &LookSettings::distance, "what lies farther does not occlude; 1e30: no bound", 1e-6, 1e30)
+      .boolean("cossample", &LookSettings::by_cosine, "directions are drawn by the cosine, with less noise");
+  return fields;
+}
+
+}  // namespace
+
 std::vector<EntitySpec> look_specs() {
-  using enum ParameterType;
-  const ParameterSpec samples{"samples", {integer}, "of each camera ray; default 1", 1, 4096};
-  return {{"ao",
-           "the share of open directions (no picture of light)",
-           {samples,
-            {"distance", {number}, "what lies farther does not occlude; default: no bound", 1e-6, 1e30},
-            {"cossample", {boolean}, "directions are drawn by the cosine, with less noise; default on"}}},
-          {"normal", "shading normals as colours (no picture of light)", {}},
-          {"albedo", "light reflected of unit light from everywhere (no picture of light)", {samples}},
-          {"depth", "distance from the camera (no picture of light)", {}},
-          {"irradiance", "direct light that falls on surfaces (no picture of light)", {samples}}};
+  std::vector<EntitySpec> all;
+  for (const LookRow& row : look_rows) all.push_back({row.name, row.meaning, look_fields(row).specs({})});
+  return all;
 }
 
 LookSettings look_settings(std::string_view name, const ParameterList& list) {
   LookSettings s;
-  s.look = name == "ao"       ? Look::ambient_occlusion
-           : name == "normal" ? Look::normal
-           : name == "albedo" ? Look::albedo
-           : name == "depth"  ? Look::depth
-                              : Look::irradiance;
-  s.samples = list.integer("samples", s.samples);
-  s.distance = list.number("distance", s.distance);
-  s.by_cosine = list.boolean("cossample", s.by_cosine);
+  for (const LookRow& row : look_rows) {
+    if (row.name != name) continue;
+    s.look = row.look;
+    // None of the rows can fail: their values have been checked.
+    (void)look_fields(row).read(list, s);
+  }
   return s;
 }
 

@@ -40,7 +40,6 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
 // "uniform", "power", "bvh", or "ris:32".
 Status read_light_selection(const std::string& text, PathSettings& settings) {
   constexpr std::string_view resampled = "ris:";
-  if (text.empty()) return Done{};
   if (const auto at = std::ranges::find(light_selection_names, text); at != light_selection_names.end()) {
     settings.light_selection = LightSelection(at - light_selection_names.begin());
     return Done{};
@@ -59,47 +58,73 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
                              did_you_mean(text, {"uniform", "power", "bvh", "ris:8"}))};
 }
 
-std::vector<ParameterSpec> common_parameters() {
-  return {{"maxdepth",
-           {integer},
-           "maximum number of bounces; default: as the scene states, else none",
-           0,
-           2147483647,
-           {"none"}},
-          {"roulette", {string}, "throughput, proportional, efficiency, fixed:PROBABILITY or off; default throughput"},
-          {"roulette-depth", {integer}, "scattering events before roulette; default 2", 0, 1 << 20},
-          {"lanes", {string}, "paths side by side; default native", 0, 0, {"one", "native"}}};
+std::string roulette_text(const PathSettings& s) {
+  switch (s.roulette) {
+    case PathRoulette::throughput:
+      return "throughput";
+    case PathRoulette::proportional:
+      return "proportional";
+    case PathRoulette::efficiency:
+      return "efficiency";
+    case PathRoulette::fixed:
+      return "fixed:" + setting_text(s.fixed_survival);
+    case PathRoulette::off:
+      break;
+  }
+  return "off";
+}
+
+// What `naive` takes, too.
+Fields<PathSettings> common_fields() {
+  Fields<PathSettings> fields;
+  fields.other(max_depth_spec())
+      .text("roulette", "throughput, proportional, efficiency, fixed:PROBABILITY or off", read_roulette, roulette_text)
+      .integer("roulette-depth", &PathSettings::roulette_depth, "scattering events before roulette", 0, 1 << 20)
+      .choice<Lanes>("lanes", &PathSettings::lanes, "paths side by side", lanes_names());
+  return fields;
+}
+
+Fields<PathSettings> light_fields() {
+  Fields<PathSettings> fields;
+  fields.boolean("nee", &PathSettings::nee, "next-event estimation")
+      .choice<PathMis>("mis", &PathSettings::mis, "how the two share the light",
+                       {{"balance", PathMis::balance}, {"power", PathMis::power}, {"off", PathMis::off}})
+      .text("light-selection",
+            "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one out of so many of bvh, by what each "
+            "would contribute); default: as the scene says",
+            read_light_selection);
+  return fields;
 }
 
 }  // namespace
 
+NamedValues<Lanes> lanes_names() { return {{"one", Lanes::one}, {"native", Lanes::native}}; }
+
+ParameterSpec max_depth_spec() {
+  return {"maxdepth",
+          {integer},
+          "maximum number of bounces; default: as the scene states, else none",
+          0,
+          2147483647,
+          {"none"}};
+}
+
 EntitySpec path_spec() {
-  EntitySpec spec{"path",
-                  "path tracing: next-event estimation and BSDF sampling by MIS, Russian roulette",
-                  {{"nee", {boolean}, "next-event estimation; default on"},
-                   {"mis", {string}, "how the two share the light; default power", 0, 0, {"balance", "power", "off"}},
-                   {"light-selection",
-                    {string},
-                    "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one out of so many of bvh, by what "
-                    "each would contribute); default: as the scene says"}}};
-  for (ParameterSpec& more : common_parameters()) spec.parameters.push_back(std::move(more));
+  EntitySpec spec{"path", "path tracing: next-event estimation and BSDF sampling by MIS, Russian roulette",
+                  light_fields().specs({})};
+  for (ParameterSpec& more : common_fields().specs({})) spec.parameters.push_back(std::move(more));
   return spec;
 }
 
 EntitySpec naive_spec() {
-  return {"naive", "path tracing that waits for the path to hit a light", common_parameters()};
+  return {"naive", "path tracing that waits for the path to hit a light", common_fields().specs({})};
 }
 
 Result<PathSettings> path_settings(const ParameterList& list, std::optional<int> max_depth) {
   PathSettings s;
   s.max_depth = max_depth;
-  s.nee = list.boolean("nee", s.nee);
-  const std::string mis = list.string("mis", "power");
-  s.mis = mis == "off" ? PathMis::off : mis == "balance" ? PathMis::balance : PathMis::power;
-  if (Status read = read_roulette(list.string("roulette", "throughput"), s); !read) return read.failure();
-  s.roulette_depth = list.integer("roulette-depth", s.roulette_depth);
-  if (Status read = read_light_selection(list.string("light-selection", ""), s); !read) return read.failure();
-  s.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
+  for (const Fields<PathSettings>& fields : {light_fields(), common_fields()})
+    if (Status read = fields.read(list, s); !read) return read.failure();
   if (s.roulette == PathRoulette::off && !s.max_depth)
     return Failure{"without roulette paths may never end: maxdepth must be set, too"};
   return s;

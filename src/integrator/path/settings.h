@@ -5,6 +5,7 @@
 
 #include "light/light.h"
 #include "parameter/choice.h"
+#include "parameter/fields.h"
 
 namespace montelux {
 
@@ -12,6 +13,9 @@ class SurvivalMap;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
 enum class Lanes { one, native };
+NamedValues<Lanes> lanes_names();
+// The row of the maximum depth, which the catalogue reads, since a scene may state it too.
+ParameterSpec max_depth_spec();
 
 // How next-event estimation and BSDF sampling share the light that both can find; `off`: it is all next-event
 // estimation's where the surface is not a mirror.

@@ -27,72 +27,67 @@ RestirSettings defaults_of(std::string_view name, bool groups) {
   return s;
 }
 
-std::vector<ParameterSpec> common_parameters(bool paths) {
-  using enum ParameterType;
-  return {
-      {"candidates", {integer}, "first candidates by the light hierarchy; default 4", 0, most},
-      {"power-candidates", {integer}, "first candidates by power; default 0", 0, most},
-      {"bsdf", {boolean}, "one more candidate by the BSDF; default on"},
-      {"groups",
-       {boolean},
-       "pixels share in groups, whose samples are all tried at all of their pixels; off: each has neighbours of its "
-       "own; default on, off where weights are stated"},
-      {"neighbours",
-       {integer},
-       paths ? "pixels that a pixel learns from in each round; default 7, without groups 4"
-             : "pixels that a pixel learns from in each round; default 15, without groups 5",
-       0,
-       16},
-      {"radius",
-       {number},
-       paths ? "how far they are, in pixels: groups are of one block of twice as many; default 4, without groups 6"
-             : "how far they are, in pixels: groups are of one block of twice as many; default 2, without groups 8",
-       1,
-       most},
-      {"rounds",
-       {integer},
-       paths ? "rounds of spatial reuse; default 3, without groups 2" : "rounds of spatial reuse; default 1",
-       0,
-       8},
-      {"similar",
-       {boolean},
-       paths ? "share among alike: in groups, the same object first (default on); else the same normal and depth "
-               "(default off)"
-             : "share among alike: in groups, the same object first; else the same normal and depth; default on"},
-      {"temporal",
-       {boolean},
-       paths ? "learn from the frame before; default off" : "learn from the frame before; default on"},
-      {"carry", {boolean}, "in a sequence, learn from the picture before, too; default on with temporal=on"},
-      {"m-cap", {number}, "most confidence of the frame before, in new frames; default 20; with temporal=on", 0, 1e6},
-      {"weights",
-       {string},
-       "how reservoirs share without groups, which stating them turns off; naive is biased; default pairwise",
-       0,
-       0,
-       {"naive", "unbiased", "pairwise", "generalised"}},
-      {"visibility-reuse", {boolean}, "samples that are hidden are not passed on; default on"},
-      {"chain", {integer}, "frames that learn from each other: a pass; default 16", 1, 1024},
-      {"warm-up", {integer}, "frames before those, which are not shown; default 0; with temporal=on", 0, 1024},
-      {"maxdepth",
-       {integer},
-       "maximum number of bounces; default: as the scene states, else none",
-       0,
-       2147483647,
-       {"none"}},
-      {"lanes", {string}, "pixels side by side; default native", 0, 0, {"one", "native"}}};
+NamedValues<ReuseWeights> weights_names() {
+  NamedValues<ReuseWeights> names;
+  for (const NamedReuseWeights& entry : reuse_weight_names) names.emplace_back(entry.name, entry.weights);
+  return names;
 }
 
-std::vector<ParameterSpec> path_parameters() {
-  using enum ParameterType;
-  std::vector<ParameterSpec> all = common_parameters(true);
-  all.push_back({"direct", {boolean}, "direct light at the first rough surface is shared, too; default on"});
-  all.push_back({"footprint",
-                 {number},
-                 "paths are joined where the lobes cover this area, over the squared depth of the first surface; "
-                 "default 0.001",
-                 0,
-                 1e6});
-  return all;
+Status read_shift(const std::string& text, RestirSettings& s) {
+  s.indirect.joins = text != "replay";
+  if (text == "reconnection") s.indirect.most_replayed = 0;
+  return Done{};
+}
+std::string shift_text(const RestirSettings& s) {
+  return !s.indirect.joins ? "replay" : s.indirect.most_replayed > 0 ? "hybrid" : "reconnection";
+}
+
+// One row for each setting of the integrator of this name.
+Fields<RestirSettings> fields_of(std::string_view name) {
+  using S = RestirSettings;
+  const bool paths = name != "restir-di";
+  Fields<S> fields;
+  fields.integer("candidates", &S::candidates, "first candidates by the light hierarchy", 0, most)
+      .integer("power-candidates", &S::power_candidates, "first candidates by power", 0, most)
+      .boolean("bsdf", &S::bsdf_candidate, "one more candidate by the BSDF")
+      .other({"groups",
+              {ParameterType::boolean},
+              "pixels share in groups, whose samples are all tried at all of their pixels; off: each has neighbours of "
+              "its own; default on, off where weights are stated"})
+      .integer("neighbours", &S::neighbours, "pixels that a pixel learns from in each round", 0, 16)
+      .number("radius", &S::radius, "how far they are, in pixels: groups are of one block of twice as many", 1, most)
+      .integer("rounds", &S::rounds, "rounds of spatial reuse", 0, 8)
+      .boolean("similar", &S::similar,
+               "share among alike: in groups, the same object first; else the same normal and depth")
+      .boolean("temporal", &S::temporal, "learn from the frame before")
+      .boolean("carry", &S::carry, "in a sequence, learn from the picture before, too, with temporal=on")
+      .number("m-cap", &S::m_cap, "most confidence of the frame before, in new frames, with temporal=on", 0, 1e6)
+      .choice<ReuseWeights>("weights", &S::weights,
+                            "how reservoirs share without groups, which stating them turns off; naive is biased",
+                            weights_names())
+      .boolean("visibility-reuse", &S::visibility_reuse, "samples that are hidden are not passed on")
+      .integer("chain", &S::chain, "frames that learn from each other: a pass", 1, 1024)
+      .integer("warm-up", &S::warm_up, "frames before those, which are not shown, with temporal=on", 0, 1024)
+      .other(max_depth_spec())
+      .choice<Lanes>("lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "pixels side by side", lanes_names());
+  if (!paths) return fields;
+  fields.boolean("direct", &S::direct, "direct light at the first rough surface is shared, too")
+      .number("footprint", [](S& s) -> float& { return s.indirect.footprint; },
+              "paths are joined where the lobes cover this area, over the squared depth of the first surface", 0, 1e6);
+  if (name == "restir-gi") return fields;
+  // How a path is shifted decides last whether events scatter again.
+  fields
+      .integer("replayed", [](S& s) -> int& { return s.indirect.most_replayed; }, "most events that scatter again", 1,
+               64)
+      .text("shift",
+            "how a path becomes another pixel's: it is joined to the next surface, or scatters again with the same "
+            "numbers as far as the light, or as far as a surface to which it can be joined",
+            read_shift, shift_text, {"reconnection", "replay", "hybrid"});
+  return fields;
+}
+// The table's rows, with the defaults in groups and without.
+std::vector<ParameterSpec> specs_of(std::string_view name) {
+  return fields_of(name).specs(defaults_of(name, true), defaults_of(name, false), "without groups");
 }
 
 }  // namespace
@@ -100,43 +95,23 @@ std::vector<ParameterSpec> path_parameters() {
 EntitySpec restir_di_spec() {
   return {"restir-di",
           "path tracing whose direct light at the first rough surface is resampled over pixels and frames (ReSTIR DI)",
-          common_parameters(false)};
+          specs_of("restir-di")};
 }
 
 EntitySpec restir_gi_spec() {
   return {"restir-gi",
           "path tracing whose light at the first rough surface is resampled over pixels and frames, where paths can be "
           "joined to the next surface (ReSTIR GI)",
-          path_parameters()};
+          specs_of("restir-gi")};
 }
 
 EntitySpec restir_pt_spec() {
-  using enum ParameterType;
-  std::vector<ParameterSpec> all = path_parameters();
-  all.push_back(
-      {"shift",
-       {string},
-       "how a path becomes another pixel's: it is joined to the next surface, or scatters again with the same "
-       "numbers as far as the light, or as far as a surface to which it can be joined; default hybrid",
-       0,
-       0,
-       {"reconnection", "replay", "hybrid"}});
-  all.push_back({"replayed", {integer}, "most events that scatter again; default 4", 1, 64});
   return {"restir-pt",
           "path tracing whose paths behind the first rough surface are resampled over pixels and frames (ReSTIR PT)",
-          all};
+          specs_of("restir-pt")};
 }
 
 namespace {
-
-void read_path_reuse(std::string_view name, const ParameterList& list, RestirSettings& s) {
-  s.direct = list.boolean("direct", s.direct);
-  s.indirect.footprint = list.number("footprint", s.indirect.footprint);
-  if (name == "restir-gi") return;
-  const std::string shift = list.string("shift", "hybrid");
-  s.indirect.joins = shift != "replay";
-  s.indirect.most_replayed = shift == "reconnection" ? 0 : list.integer("replayed", s.indirect.most_replayed);
-}
 
 // What is stated and would decide nothing, with what it needs.
 Status refuse_idle(std::string_view name, const ParameterList& list, const RestirSettings& s) {
@@ -167,27 +142,12 @@ Result<RestirSettings> restir_settings(std::string_view name, const ParameterLis
   RestirSettings s = defaults_of(name, list.boolean("groups", weights.empty()));
   if (s.groups && !weights.empty() && weights != "generalised")
     return Failure{fmt::format("{}: groups share by generalised weights; weights={} needs groups=off", name, weights)};
-  s.candidates = list.integer("candidates", s.candidates);
-  s.power_candidates = list.integer("power-candidates", s.power_candidates);
-  s.bsdf_candidate = list.boolean("bsdf", s.bsdf_candidate);
-  s.neighbours = list.integer("neighbours", s.neighbours);
-  s.radius = list.number("radius", s.radius);
-  s.rounds = list.integer("rounds", s.rounds);
-  s.similar = list.boolean("similar", s.similar);
-  s.temporal = list.boolean("temporal", s.temporal);
-  s.carry = list.boolean("carry", s.carry);
-  s.m_cap = list.number("m-cap", s.m_cap);
-  s.weights = *reuse_weights_named(weights.empty() ? "pairwise" : weights);
-  s.visibility_reuse = list.boolean("visibility-reuse", s.visibility_reuse);
-  s.chain = list.integer("chain", s.chain);
-  s.warm_up = list.integer("warm-up", s.warm_up);
+  if (Status read = fields_of(name).read(list, s); !read) return read.failure();
   s.path.max_depth = max_depth;
-  s.path.lanes = list.string("lanes", "native") == "one" ? Lanes::one : Lanes::native;
   // A direction of the BSDF alone finds no light that is a delta, and would wait for the others.
   if (s.candidates + s.power_candidates == 0)
     return Failure{
         fmt::format("{} needs candidates on lights: candidates or power-candidates must be at least 1", name)};
-  if (name != "restir-di") read_path_reuse(name, list, s);
   if (Status idle = refuse_idle(name, list, s); !idle) return idle.failure();
   return s;
 }

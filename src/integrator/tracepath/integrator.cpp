@@ -4,6 +4,7 @@
 
 #include "integrator/arrival.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/path/settings.h"
 #include "integrator/tracepath/horizon.h"
 #include "mc/hemisphere.h"
 #include "mc/roulette.h"
@@ -162,24 +163,26 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
   return counts;
 }
 
+static Fields<TracePathSettings> tracepath_fields() {
+  Fields<TracePathSettings> fields;
+  fields
+      .number("p-emit", &TracePathSettings::p_emit, "probability of taking emitted light where there is both", 0.001,
+              0.999)
+      .integer("roulette-depth", &TracePathSettings::roulette_depth, "scattering events before roulette", 0, 64)
+      .other(max_depth_spec());
+  return fields;
+}
+
 EntitySpec tracepath_spec() {
-  using enum ParameterType;
   return {"tracepath",
           "the recursive TracePath of COS 526, made right: emitted or reflected light; a light, and elsewhere",
-          {{"p-emit", {number}, "probability of taking emitted light where there is both; default 0.9", 0.001, 0.999},
-           {"roulette-depth", {integer}, "scattering events before roulette; default 1", 0, 64},
-           {"maxdepth",
-            {integer},
-            "maximum number of bounces; default: as the scene states, else none",
-            0,
-            2147483647,
-            {"none"}}}};
+          tracepath_fields().specs({})};
 }
 
 TracePathSettings tracepath_settings(const ParameterList& list) {
   TracePathSettings s;
-  s.p_emit = list.number("p-emit", s.p_emit);
-  s.roulette_depth = list.integer("roulette-depth", s.roulette_depth);
+  // None of the rows can fail: their values have been checked.
+  (void)tracepath_fields().read(list, s);
   return s;
 }
 

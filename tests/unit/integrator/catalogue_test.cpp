@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "integrator/direct/settings.h"
 #include "integrator/restir/settings.h"
 #include "render_scenes.h"
@@ -24,6 +26,53 @@ std::string failure_of(const TestScene& scene, const std::string& text) {
 TEST(IntegratorCatalogue, makes_every_integrator_by_its_name_alone) {
   const TestScene scene(room);
   for (const EntitySpec& spec : integrator_catalogue()) EXPECT_EQ(scene.integrator(spec.name).name, spec.name);
+}
+
+// A value of a setting that is not its default.
+std::string value_of(const ParameterSpec& row) {
+  const std::string name(row.name);
+  if (name == "branching" || (name == "shadow-rays" && row.types.front() == ParameterType::string)) return "2/1";
+  if (name == "roulette") return "proportional";
+  if (name == "light-selection") return "power";
+  if (row.types.front() == ParameterType::boolean) return row.meaning.ends_with("default off") ? "on" : "off";
+  if (row.types.front() == ParameterType::string) return std::string(row.choices.front());
+  return fmt::format("{}", std::clamp(row.types.front() == ParameterType::integer ? 3.0 : 0.75, row.low, row.high));
+}
+
+// What a setting needs beside it.
+std::string companions(const EntitySpec& integrator, const ParameterSpec& row) {
+  const std::string name(row.name);
+  if (!integrator.name.starts_with("restir")) return "";
+  if (name == "m-cap" || name == "warm-up" || name == "carry") return ",temporal=on";
+  return "";
+}
+
+TEST(IntegratorCatalogue, reads_every_setting) {
+  const TestScene scene(room);
+  int count = 0;
+  for (const EntitySpec& spec : integrator_catalogue())
+    for (const ParameterSpec& row : spec.parameters) {
+      const std::string text =
+          fmt::format("{}:{}={}{}", spec.name, row.name, value_of(row), companions(spec, row));
+      EXPECT_EQ(failure_of(scene, text), "") << text;
+      ++count;
+    }
+  EXPECT_GT(count, 90);
+}
+
+TEST(IntegratorCatalogue, states_the_defaults_of_the_settings_themselves) {
+  const auto meaning = [](std::string_view integrator, std::string_view setting) {
+    for (const EntitySpec& spec : integrator_catalogue())
+      if (spec.name == integrator) return find_parameter(spec, setting)->meaning;
+    return std::string();
+  };
+  EXPECT_TRUE(meaning("path", "roulette-depth").ends_with("; default 2"));
+  EXPECT_TRUE(meaning("tracepath", "roulette-depth").ends_with("; default 1"));
+  EXPECT_TRUE(meaning("restir-di", "neighbours").ends_with("; default 15, without groups 5"));
+  EXPECT_TRUE(meaning("restir-pt", "neighbours").ends_with("; default 7, without groups 4"));
+  EXPECT_TRUE(meaning("restir-pt", "shift").ends_with("; default hybrid"));
+  EXPECT_TRUE(meaning("restir-gi", "footprint").ends_with("; default 0.001"));
+  EXPECT_TRUE(meaning("distribution", "branching").ends_with("; default 8/4/1"));
 }
 
 TEST(IntegratorCatalogue, makes_every_preset) {
