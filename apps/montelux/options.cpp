@@ -191,7 +191,7 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set) {
 }
 
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {
-  verb.add_option("SCENE", file, "scene file (.pbrt, .pbrt.gz, .gltf, .glb)")->required()->type_name("FILE");
+  verb.add_option("SCENE", file, "scene file (" + scene_extensions() + ")")->required()->type_name("FILE");
   add_option(verb, {"--resolution", "WxH|P%", "size of the picture in pixels, or as a percentage of the file's"},
              [&options](const std::string& text) { return parse_resolution(text, options); });
   add_option(verb, {"--camera", "NAME|N", "camera of a glTF scene, by its name or number; default: the first"},

@@ -244,6 +244,8 @@ LoadResult load_description(ReadResult read, const LoadOptions& options, double 
   return result;
 }
 
+std::string scene_extensions() { return scene_file_extensions(); }
+
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
   LoadResult result = load(file, options);
   if (!options.verbose) result.diagnostics = grouped(result.diagnostics);

@@ -109,6 +109,9 @@ struct LoadResult {
   Diagnostics diagnostics;           // all of them, in the order of the file
 };
 
+// The extensions of scene files: ".pbrt, .pbrt.gz, ...".
+std::string scene_extensions();
+
 // Never throws: what is wrong is in the diagnostics.
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 

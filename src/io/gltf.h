@@ -12,4 +12,8 @@ namespace montelux {
 // with the JSON pointer of what is wrong (and line and column in a .gltf).
 ReadResult read_gltf(const std::string& path, const ReadOptions& options = {});
 
+// All strings of the JSON of a file with this content, without escapes, a line each: among them are the names of other
+// files. Content that is no JSON is returned as it is.
+std::string gltf_strings(const std::string& content);
+
 }  // namespace montelux
