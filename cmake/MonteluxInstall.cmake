@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 # The layers are archives of their own, of which a user needs none: the installed library holds all of their objects.
 set(objects "")
-foreach(layer math mc color image parameter geometry texture filter material phase medium light camera
+foreach(layer math work mc color image parameter geometry texture filter material phase medium light camera
         scene film accel integrator render denoise io lab api montelux dist page)
   if(TARGET montelux_${layer})
     get_target_property(type montelux_${layer} TYPE)
@@ -17,6 +17,7 @@ endforeach()
 find_package(OpenEXR 3 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(muparser REQUIRED)
 find_package(embree ${embree_VERSION_MAJOR} QUIET CONFIG)
@@ -31,7 +32,7 @@ add_library(Montelux::montelux ALIAS montelux_library)
 set_target_properties(montelux_library PROPERTIES OUTPUT_NAME montelux EXPORT_NAME montelux LINKER_LANGUAGE CXX)
 target_compile_features(montelux_library INTERFACE cxx_std_20)
 target_link_libraries(montelux_library PRIVATE embree OpenEXR::OpenEXR fmt::fmt muparser::muparser ZLIB::ZLIB
-                      Threads::Threads ${CMAKE_DL_LIBS})
+                      Threads::Threads TBB::tbb ${CMAKE_DL_LIBS})
 # The module of image formats is found as any library of the program that uses it.
 target_link_options(montelux_library INTERFACE $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${module_folder}>)
 if(MONTELUX_SANITIZE)

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
 #include "lab/experiments/experiment.h"
 #include "lab/report/write.h"
 #include "parameter/choice.h"
 #include "render/stopwatch.h"
+#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -55,26 +54,20 @@ void run_task(Task& task) {
       task.outcome.verdicts.push_back({verdict->claim, verdict->detail, verdict->passed});
 }
 
-// Workers take the tasks in turn; the reports stay in the order of the table.
+// The reports stay in the order of the table, whichever thread makes them.
 void run_tasks(std::vector<Task>& tasks, int threads, LabObserver& observer) {
-  std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   std::size_t done = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      {
-        const std::scoped_lock lock(mutex);
-        if (observer.stop_requested()) return;
-      }
-      run_task(tasks[i]);
-      const std::scoped_lock lock(mutex);
-      observer.finished(tasks[i].outcome, ++done, tasks.size());
-    }
+  const auto work = [&](std::size_t i, int) {
+    run_task(tasks[i]);
+    const std::scoped_lock lock(mutex);
+    observer.finished(tasks[i].outcome, ++done, tasks.size());
   };
-  const int available = threads > 0 ? threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  std::vector<std::jthread> workers;
-  for (int i = 1; i < std::min(available, int(tasks.size())); ++i) workers.emplace_back(work);
-  work();
+  const auto stop = [&] {
+    const std::scoped_lock lock(mutex);
+    return observer.stop_requested();
+  };
+  Scheduler(threads).run(tasks.size(), work, {.stop = stop});
 }
 
 }  // namespace

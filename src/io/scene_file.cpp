@@ -52,12 +52,11 @@ static ReadResult read_scene_alone(const std::string& path, const ReadOptions& o
     if (format->has_choices) return result;
     for (const auto& [choice, kind] : {std::pair{&options.camera, "camera"}, {&options.animation, "animation"}})
       if (*choice)
-        result.diagnostics.warning({std::make_shared<std::string>(path), 0, 0},
-                                   std::string("the choice of a ")
-                                       .append(kind)
-                                       .append(" is ignored: a ")
-                                       .append(format->name)
-                                       .append(" file has one only"));
+        result.diagnostics.warning({std::make_shared<std::string>(path), 0, 0}, std::string("the choice of a ")
+                                                                                    .append(kind)
+                                                                                    .append(" is ignored: a ")
+                                                                                    .append(format->name)
+                                                                                    .append(" file has one only"));
     return result;
   }
   ReadResult result;

@@ -1,5 +1,5 @@
-// Settings of a struct, each stated once: name, type, range and meaning of the parameter, and where its value is stored. The
-// default is the value that the struct has; help, documentation and reader follow from the row.
+// Settings of a struct, each stated once: name, type, range and meaning of the parameter, and where its value is
+// stored. The default is the value that the struct has; help, documentation and reader follow from the row.
 #pragma once
 #include <functional>
 #include <optional>

@@ -11,6 +11,7 @@
 
 #include "render/float_mode.h"
 #include "render/watch.h"
+#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -23,8 +24,8 @@ struct ChainTile {
   std::vector<PixelPass> pixels;  // of the chain at hand
 };
 
-// The shared state of one render. Threads take the tiles of one step, and who has done the last of them moves the chain
-// on to its next step while the others wait.
+// The shared state of one render. A driver runs the steps of the chains, each as a stage of the scheduler with a unit
+// for each tile; the thread that requested the render reports progress.
 class ChainJob {
  public:
   ChainJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
@@ -39,12 +40,10 @@ class ChainJob {
 
   // True if the observer stopped the work before it was done.
   bool watch(int threads, RenderObserver& observer) {
-    running_ = threads;
-    std::vector<std::jthread> pool;
-    for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
+    std::jthread driver([this, threads] { drive(threads); });
     bool interrupted = false;
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return running_ == 0; })) {
+    while (!changed_.wait_for(lock, poll_interval(since_start_.seconds()), [this] { return ended_; })) {
       if (observer.stop_requested()) stop_ = interrupted = true;
       if (time_is_over()) stop_ = true;
       const Progress now = progress(false);
@@ -54,7 +53,7 @@ class ChainJob {
     }
     const Progress last = progress(true);
     lock.unlock();
-    pool.clear();
+    driver.join();
     if (failure_) std::rethrow_exception(failure_);
     observer.progress(last);
     return interrupted && !is_whole_;
@@ -70,30 +69,34 @@ class ChainJob {
   }
 
  private:
-  void work() {
-    FlushDenormals flush;
+  struct Worker {
     RayCounts rays;
     std::vector<PixelSample> samples;
-    std::unique_lock lock(mutex_);
+  };
+
+  // Runs the steps of all chains, one after the other; the tiles of a step are the units of a stage.
+  void drive(int threads) {
+    std::exception_ptr failure;
+    RayCounts rays;
     try {
+      Scheduler scheduler(threads);
+      std::vector<Worker> workers(std::size_t(scheduler.threads()));
+      const auto run_tile = [&](std::size_t i, int number) {
+        FlushDenormals flush;
+        Worker& worker = workers[std::size_t(number)];
+        worker.rays += do_tile(tiles_[i], worker.samples);
+      };
       while (!over_) {
-        if (next_tile_ == tiles_.size()) {
-          changed_.wait(lock);
-          continue;
-        }
-        ChainTile& tile = tiles_[next_tile_++];
-        lock.unlock();
-        rays += do_tile(tile, samples);
-        lock.lock();
-        if (++tiles_done_ == tiles_.size()) finish_step();
+        scheduler.run(tiles_.size(), run_tile);
+        const std::scoped_lock lock(mutex_);
+        finish_step();
       }
+      for (const Worker& worker : workers) rays += worker.rays;
     } catch (...) {
-      if (!lock.owns_lock()) lock.lock();
-      if (!failure_) failure_ = std::current_exception();
-      over_ = true;
+      failure = std::current_exception();
     }
-    rays_ += rays;
-    --running_;
+    const std::scoped_lock lock(mutex_);
+    rays_ = rays, failure_ = failure, ended_ = true;
     changed_.notify_all();
   }
 
@@ -122,8 +125,6 @@ class ChainJob {
       is_whole_ = pass_ == settings_.plan.passes && step_.frame == frames_;
       if (ends && !over_) begin_chain();
     }
-    next_tile_ = tiles_done_ = 0;
-    changed_.notify_all();
   }
 
   // Seconds of frames that are not shown, those of a chain that is being warmed up among them. All threads work on one
@@ -210,7 +211,6 @@ class ChainJob {
   std::unique_ptr<Chain> chain_;
   ChainStep step_;
   ErrorWatch error_;
-  std::size_t next_tile_ = 0, tiles_done_ = 0;
   int pass_ = 0;  // chains that are in the film
   std::uint64_t shown_frames_ = 0;
   double frame_began_ = 0;      // seconds since the start
@@ -220,7 +220,7 @@ class ChainJob {
   int forgotten_ = 0;
   bool over_ = false;
   bool is_whole_ = false;  // all chains to their last frames
-  int running_ = 0;
+  bool ended_ = false;     // the driver
   RayCounts rays_;
   std::exception_ptr failure_;
 };
@@ -229,9 +229,8 @@ class ChainJob {
 
 RenderResult render_chains(const CoupledIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer) {
-  const int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   ChainJob job(integrator, settings);
-  const bool interrupted = job.watch(threads, observer);
+  const bool interrupted = job.watch(settings.threads, observer);
   return job.take_result(interrupted);
 }
 

@@ -1,12 +1,10 @@
 #include "render/motion.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
-#include <vector>
 
 #include "integrator/restir/history.h"
+#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -56,14 +54,9 @@ void fill_row(const Scene& scene, const Accel& accel, const MotionRequest& reque
 
 PixelBuffer motion_vectors(const Scene& scene, const Accel& accel, const MotionRequest& request) {
   PixelBuffer out = make_pixel_buffer(request.bounds.width(), request.bounds.height(), {"X", "Y"});
-  std::atomic<int> next{0};
-  const int threads = request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  std::vector<std::jthread> pool;
-  for (int i = 0; i < threads; ++i)
-    pool.emplace_back([&] {
-      for (int y; (y = next.fetch_add(1)) < out.height;) fill_row(scene, accel, request, y, out);
-    });
-  pool.clear();
+  Scheduler(request.threads).run(std::size_t(out.height), [&](std::size_t y, int) {
+    fill_row(scene, accel, request, int(y), out);
+  });
   return out;
 }
 

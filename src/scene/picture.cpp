@@ -45,7 +45,8 @@ void read_sampler(const SceneDesc& scene, PictureSettings& s, Diagnostics& diagn
   s.sampler = point_set_named(point_set).value_or(PointSetKind::blue_noise);
   if (const Parameter* jitter = p.find("jitter"); jitter && !p.boolean("jitter", true)) {
     s.sampler = PointSetKind::uniform_grid;
-    const int x = p.integer("xsamples", 4), y = p.integer("ysamples", 4), columns = int(grid_columns(std::uint32_t(s.samples)));
+    const int x = p.integer("xsamples", 4), y = p.integer("ysamples", 4),
+              columns = int(grid_columns(std::uint32_t(s.samples)));
     if (x != columns)
       diagnostics.warning(jitter->where, fmt::format("{} x {} strata without jitter: the {} samples are at the centres "
                                                      "of a grid with {} columns instead of {}",

@@ -128,8 +128,7 @@ Fields<LookSettings> look_fields(const LookRow& row) {
   Fields<LookSettings> fields;
   if (row.has_samples) fields.integer("samples", &LookSettings::samples, "of each camera ray", 1, 4096);
   if (row.look != Look::ambient_occlusion) return fields;
-  fields
-      .number("distance", &LookSettings::distance, "what lies farther does not occlude; 1e30: no bound", 1e-6, 1e30)
+  fields.number("distance", &LookSettings::distance, "what lies farther does not occlude; 1e30: no bound", 1e-6, 1e30)
       .boolean("cossample", &LookSettings::by_cosine, "directions are drawn by the cosine, with less noise");
   return fields;
 }

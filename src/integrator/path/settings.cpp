@@ -101,12 +101,8 @@ Fields<PathSettings> light_fields() {
 NamedValues<Lanes> lanes_names() { return {{"one", Lanes::one}, {"native", Lanes::native}}; }
 
 ParameterSpec max_depth_spec() {
-  return {"maxdepth",
-          {integer},
-          "maximum number of bounces; default: as the scene states, else none",
-          0,
-          2147483647,
-          {"none"}};
+  return {"maxdepth", {integer},  "maximum number of bounces; default: as the scene states, else none",
+          0,          2147483647, {"none"}};
 }
 
 EntitySpec path_spec() {

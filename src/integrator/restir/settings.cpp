@@ -69,16 +69,18 @@ Fields<RestirSettings> fields_of(std::string_view name) {
       .integer("chain", &S::chain, "frames that learn from each other: a pass", 1, 1024)
       .integer("warm-up", &S::warm_up, "frames before those, which are not shown, with temporal=on", 0, 1024)
       .other(max_depth_spec())
-      .choice<Lanes>("lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "pixels side by side", lanes_names());
+      .choice<Lanes>(
+          "lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "pixels side by side", lanes_names());
   if (!paths) return fields;
   fields.boolean("direct", &S::direct, "direct light at the first rough surface is shared, too")
-      .number("footprint", [](S& s) -> float& { return s.indirect.footprint; },
-              "paths are joined where the lobes cover this area, over the squared depth of the first surface", 0, 1e6);
+      .number(
+          "footprint", [](S& s) -> float& { return s.indirect.footprint; },
+          "paths are joined where the lobes cover this area, over the squared depth of the first surface", 0, 1e6);
   if (name == "restir-gi") return fields;
   // How a path is shifted decides last whether events scatter again.
   fields
-      .integer("replayed", [](S& s) -> int& { return s.indirect.most_replayed; }, "most events that scatter again", 1,
-               64)
+      .integer(
+          "replayed", [](S& s) -> int& { return s.indirect.most_replayed; }, "most events that scatter again", 1, 64)
       .text("shift",
             "how a path becomes another pixel's: it is joined to the next surface, or scatters again with the same "
             "numbers as far as the light, or as far as a surface to which it can be joined",

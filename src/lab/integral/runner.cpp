@@ -1,10 +1,6 @@
 #include "lab/integral/runner.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 namespace montelux::lab {
 
@@ -30,38 +26,12 @@ bool Runner::add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, st
 }
 
 bool Runner::run_all(std::span<Unit> units) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> stopped{false};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t i; !stopped && (i = next.fetch_add(1)) < units.size();) {
-        Unit& unit = units[i];
-        unit.sums = technique_.run(unit.part);
-        if (execution_.stop) {
-          std::scoped_lock lock(mutex);
-          if (execution_.stop()) stopped = true;
-        }
-      }
-    } catch (...) {
-      std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
-      stopped = true;
-    }
-  };
   std::uint64_t samples = 0;
   for (const Unit& unit : units) samples += unit.part.count;
-  // A thread costs tens of microseconds to start: not for less than a few thousand samples each.
-  const int wanted = execution_.threads > 0 ? execution_.threads : int(std::thread::hardware_concurrency());
-  const int threads = int(std::clamp<std::uint64_t>(samples / 16384, 1, std::uint64_t(std::max(1, wanted))));
-  {
-    std::vector<std::jthread> pool;
-    for (int i = 1; i < threads; ++i) pool.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
-  return next >= units.size() && !stopped;
+  // To wake a thread takes tens of microseconds: not for less than a few thousand samples each.
+  const auto useful = int(std::clamp<std::uint64_t>(samples / 16384, 1, std::uint64_t(scheduler_.threads())));
+  const auto run = [&](std::size_t i, int) { units[i].sums = technique_.run(units[i].part); };
+  return scheduler_.run(units.size(), run, {useful, execution_.stop}) == units.size();
 }
 
 void Runner::enter(std::uint32_t pass, const TermSums& own) {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "lab/integral/technique.h"
+#include "work/scheduler.h"
 
 namespace montelux::lab {
 
@@ -11,7 +12,11 @@ namespace montelux::lab {
 class Runner {
  public:
   Runner(const Technique& technique, const Execution& execution, IntegralState& state)
-      : technique_(technique), traits_(technique.traits()), execution_(execution), state_(state) {}
+      : technique_(technique),
+        traits_(technique.traits()),
+        execution_(execution),
+        scheduler_(execution.threads),
+        state_(state) {}
 
   // Adds samples [first, first + count) to passes [begin, end) of this run. False: stopped, and the state is as before.
   bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count);
@@ -30,6 +35,7 @@ class Runner {
   const Technique& technique_;
   TechniqueTraits traits_;
   const Execution& execution_;
+  Scheduler scheduler_;
   IntegralState& state_;
   std::size_t last_ = 0;  // the record that was used last
 };

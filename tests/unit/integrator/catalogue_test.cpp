@@ -52,8 +52,7 @@ TEST(IntegratorCatalogue, reads_every_setting) {
   int count = 0;
   for (const EntitySpec& spec : integrator_catalogue())
     for (const ParameterSpec& row : spec.parameters) {
-      const std::string text =
-          fmt::format("{}:{}={}{}", spec.name, row.name, value_of(row), companions(spec, row));
+      const std::string text = fmt::format("{}:{}={}{}", spec.name, row.name, value_of(row), companions(spec, row));
       EXPECT_EQ(failure_of(scene, text), "") << text;
       ++count;
     }

@@ -159,7 +159,8 @@ std::string entity_text(Family family, const EntitySpec& entity, const Parameter
   std::string rest;
   for (const std::string& needed : needs(family, name))
     if (!needed.starts_with(own)) rest += " " + needed;
-  return "\n" + own + " " + value_of(name, spec, type, spectra) + "\n" + rest + " " + of(companions(), name, spec.name) + "\n";
+  return "\n" + own + " " + value_of(name, spec, type, spectra) + "\n" + rest + " " +
+         of(companions(), name, spec.name) + "\n";
 }
 
 // A scene that states the parameter on its third line.
@@ -227,18 +228,19 @@ TEST_P(Parameters, are_used_or_warned_of) {
   int count = 0;
   for (const EntitySpec& entity : table_of(family)) {
     if (entity.later) continue;  // refused as a whole
-    for (const ParameterSpec& spec : entity.parameters) for (const ParameterType type : spec.types) {
-      // Some textures are of numbers or of spectra alone.
-      Said said;
-      for (bool spectra : {false, true})
-        if (!said.ready)
-          said = say(scene_text(family, entity, entity_text(family, entity, spec, type, spectra), spectra),
-                     folder.path());
-      ++count;
-      EXPECT_TRUE(said.ready) << entity.name << " " << spec.name << ":\n" << said.all;
-      EXPECT_EQ(said.no_effect, spec.later) << entity.name << " " << spec.name << ":\n" << said.all;
-      EXPECT_FALSE(said.of_no_effect_elsewhere) << entity.name << " " << spec.name << ":\n" << said.all;
-    }
+    for (const ParameterSpec& spec : entity.parameters)
+      for (const ParameterType type : spec.types) {
+        // Some textures are of numbers or of spectra alone.
+        Said said;
+        for (bool spectra : {false, true})
+          if (!said.ready)
+            said = say(scene_text(family, entity, entity_text(family, entity, spec, type, spectra), spectra),
+                       folder.path());
+        ++count;
+        EXPECT_TRUE(said.ready) << entity.name << " " << spec.name << ":\n" << said.all;
+        EXPECT_EQ(said.no_effect, spec.later) << entity.name << " " << spec.name << ":\n" << said.all;
+        EXPECT_FALSE(said.of_no_effect_elsewhere) << entity.name << " " << spec.name << ":\n" << said.all;
+      }
   }
   EXPECT_GE(count, 2);
 }
@@ -322,8 +324,9 @@ TEST(Sampler, without_jitter_takes_the_centres_of_the_strata) {
     }
     EXPECT_EQ(cells.size(), std::size_t(x * y));
   }
-  EXPECT_EQ(strata(8, 2, "false").said,
-            "2:2 8 x 2 strata without jitter: the 16 samples are at the centres of a grid with 4 columns instead of 8\n");
+  EXPECT_EQ(
+      strata(8, 2, "false").said,
+      "2:2 8 x 2 strata without jitter: the 16 samples are at the centres of a grid with 4 columns instead of 8\n");
 }
 
 TEST(Sampler, that_would_leave_no_error_bar_is_warned_of) {

@@ -25,7 +25,8 @@ Fields<Settings> fields() {
   Fields<Settings> all;
   all.integer("count", &Settings::count, "how many", 0, 10)
       .boolean("fast", &Settings::fast, "whether in a hurry")
-      .number("width", [](Settings& s) -> float& { return s.inner.width; }, "in pixels", 0, 1)
+      .number(
+          "width", [](Settings& s) -> float& { return s.inner.width; }, "in pixels", 0, 1)
       .choice<Order>("order", &Settings::order, "which comes first", {{"first", Order::first}, {"last", Order::last}})
       .text(
           "text", "numbers",
@@ -74,8 +75,7 @@ TEST(Fields, leave_what_is_not_stated) {
 }
 
 TEST(Fields, store_what_is_stated) {
-  const auto list =
-      typed({{"count", "4"}, {"fast", "off"}, {"width", "0.75"}, {"order", "first"}, {"text", "2/1"}});
+  const auto list = typed({{"count", "4"}, {"fast", "off"}, {"width", "0.75"}, {"order", "first"}, {"text", "2/1"}});
   ASSERT_TRUE(list);
   Settings s;
   ASSERT_TRUE(fields().read(*list, s));
