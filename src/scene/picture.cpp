@@ -72,7 +72,7 @@ void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& 
   s.integrator = served_by(find_entity(integrator_table(), integrator.type), integrator.type);
   if (s.integrator == "ao") s.integrator = ambient_occlusion(p);
   if (!p.boolean("samplelights", true)) s.integrator = "naive";
-  if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 5);
+  if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 0);
   std::string selection = p.string("lightsampler", "bvh");
   if (selection == "exhaustive")
     diagnostics.note(integrator.where, "light sampler \"exhaustive\" is served by \"bvh\"");

@@ -49,7 +49,7 @@ ParameterSpec randomization() {
 }
 
 List integrator_parameters(List more = {}) {
-  List list{{"maxdepth", {integer}, "most bounces; default 5", 0, most_integer}};
+  List list{{"maxdepth", {integer}, "most bounces; default none", 0, most_integer}};
   list.insert(list.end(), more.begin(), more.end());
   return list;
 }

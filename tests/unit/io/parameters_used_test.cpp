@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 
+#include "api/render.h"
 #include "io/checks.h"
 #include "io/pbrt.h"
 #include "io/pbrt/parameters.h"
@@ -136,7 +138,7 @@ std::string value_of(const std::string& entity, const ParameterSpec& spec, Param
     case ParameterType::string:
       return "\"" + std::string(spec.choices.empty() ? "text" : spec.choices.back()) + "\"";
     case ParameterType::spectrum:
-      return "[ 0.25 0.5 0.75 ]";
+      return spec.low < 0.25 ? "[ 0.25 0.5 0.75 ]" : "[ 1.25 1.5 1.75 ]";
     case ParameterType::texture:
       return texture_for(spec, spectra);
     case ParameterType::point2:
@@ -151,16 +153,17 @@ std::string type_text(ParameterType type) {
   return type == ParameterType::spectrum ? "rgb" : std::string(pbrt::spelling(type));
 }
 
-// The entity with one of its parameters, which begins the third line.
-std::string entity_text(Family family, const EntitySpec& entity, const ParameterSpec& spec, ParameterType type,
-                        bool spectra) {
+// The entity with one of its parameters, which begins the third line; without it for an empty value.
+std::string entity_text(Family family, const EntitySpec& entity, const ParameterSpec& spec, const std::string& word,
+                        const std::string& value) {
   const std::string name(entity.name);
-  const std::string own = "\"" + type_text(type) + " " + std::string(spec.name) + "\"";
+  const std::string own = "\"" + word + " " + std::string(spec.name) + "\"";
   std::string rest;
   for (const std::string& needed : needs(family, name))
     if (!needed.starts_with(own)) rest += " " + needed;
-  return "\n" + own + " " + value_of(name, spec, type, spectra) + "\n" + rest + " " +
+  return "\n" + (value.empty() ? std::string() : own + " " + value) + "\n" + rest + " " +
          of(companions(), name, spec.name) + "\n";
+  of(companions(), name, spec.name) + "\n";
 }
 
 // A scene that states the parameter on its third line.
@@ -169,7 +172,7 @@ std::string scene_text(Family family, const EntitySpec& entity, const std::strin
   const std::string parts =
       "Texture \"numbers\" \"float\" \"constant\" Texture \"colours\" \"spectrum\" \"constant\" "
       "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
-  const std::string end = "Material \"diffuse\" Shape \"sphere\" LightSource \"point\"\n";
+  const std::string ball = " Shape \"sphere\" LightSource \"point\"\n", end = "Material \"diffuse\"" + ball;
   switch (family) {
     case Family::camera:
       return "\nCamera " + name + parameters + "WorldBegin\n" + end;
@@ -187,11 +190,13 @@ std::string scene_text(Family family, const EntitySpec& entity, const std::strin
       return "\nOption" + parameters + "WorldBegin\n" + end;
     case Family::texture:
       return "WorldBegin " + parts + "Texture \"t\" " + (spectra ? "\"spectrum\" " : "\"float\" ") + name + parameters +
-             end;
+             (spectra ? "Material \"diffuse\" \"texture reflectance\" \"t\""
+                      : "Material \"coateddiffuse\" \"texture roughness\" \"t\"") +
+             ball;
     case Family::light:
       return "WorldBegin " + parts + "LightSource " + name + parameters + end;
     case Family::area_light:
-      return "WorldBegin " + parts + "AreaLightSource " + name + parameters + end;
+      return "WorldBegin " + parts + "AreaLightSource " + name + parameters + "ReverseOrientation " + end;
     case Family::shape:
       return "WorldBegin " + parts + "Shape " + name + parameters + end;
     case Family::material:
@@ -234,7 +239,10 @@ TEST_P(Parameters, are_used_or_warned_of) {
         Said said;
         for (bool spectra : {false, true})
           if (!said.ready)
-            said = say(scene_text(family, entity, entity_text(family, entity, spec, type, spectra), spectra),
+            said = say(scene_text(family, entity,
+                                  entity_text(family, entity, spec, type_text(type),
+                                              value_of(std::string(entity.name), spec, type, spectra)),
+                                  spectra),
                        folder.path());
         ++count;
         EXPECT_TRUE(said.ready) << entity.name << " " << spec.name << ":\n" << said.all;
@@ -243,6 +251,71 @@ TEST_P(Parameters, are_used_or_warned_of) {
       }
   }
   EXPECT_GE(count, 2);
+}
+
+// A default that the meaning of a row states, as a file states it: type and value. Nothing for "default none" and the
+// like.
+std::optional<std::pair<std::string, std::string>> stated_default(const ParameterSpec& spec, bool spectra) {
+  static const std::regex pattern("default (\\S+?(?: [-0-9.]+)*)(?:$|[;,)]| \\()");
+  std::smatch match;
+  if (!std::regex_search(spec.meaning, match, pattern)) return std::nullopt;
+  const std::string value = match[1];
+  static const std::regex numbers("[-0-9.e]+( [-0-9.e]+)*");
+  const bool is_numbers = std::regex_match(value, numbers);
+  const auto takes = [&](ParameterType type) { return std::ranges::find(spec.types, type) != spec.types.end(); };
+  const std::size_t count = std::size_t(std::ranges::count(value, ' ')) + 1;
+  if (takes(ParameterType::boolean) && (value == "true" || value == "false")) return std::pair{"bool", value};
+  if (takes(ParameterType::string) && std::ranges::find(spec.choices, value) != spec.choices.end())
+    return std::pair{"string", "\"" + value + "\""};
+  const bool is_spectrum = takes(ParameterType::spectrum) && (spectra || !takes(ParameterType::number));
+  if (is_spectrum && value.starts_with("metal-")) return std::pair{"spectrum", "\"" + value + "\""};
+  if (!is_numbers) return std::nullopt;
+  if (is_spectrum) return std::pair{"rgb", "[ " + (count == 3 ? value : value + " " + value + " " + value) + " ]"};
+  return std::pair{type_text(spec.types.front()), "[ " + value + " ]"};
+}
+
+std::vector<float> picture_of(const TemporaryFolder& folder, const std::string& text) {
+  LoadOptions options;
+  options.resolution = {6, 4};
+  const LoadResult loaded = load_scene(folder.write("scene.pbrt", text), options);
+  if (!loaded.scene) return {};
+  RenderObserver observer;
+  RenderOptions how;
+  how.samples = 2, how.threads = 1;
+  const Result<Rendering> rendering = render_scene(*loaded.scene, how, observer);
+  EXPECT_TRUE(rendering) << text;
+  return rendering ? layers_of(*rendering).values : std::vector<float>{};
+}
+
+TEST_P(Parameters, have_the_defaults_that_the_tables_state) {
+  TemporaryFolder folder;
+  write_files(folder);
+  const Family family = GetParam();
+  int tried = 0, seen = 0;
+  for (const EntitySpec& entity : table_of(family)) {
+    if (entity.later) continue;
+    for (const ParameterSpec& spec : entity.parameters)
+      for (bool spectra : {false, true}) {
+        const auto stated = stated_default(spec, spectra);
+        if (spec.later || !stated || (spectra && family != Family::texture)) continue;
+        const auto picture = [&](const std::string& value) {
+          return picture_of(
+              folder, scene_text(family, entity, entity_text(family, entity, spec, stated->first, value), spectra));
+        };
+        const std::vector<float> without = picture("");
+        if (without.empty()) continue;  // a texture of the other kind
+        EXPECT_TRUE(picture(stated->second) == without) << entity.name << " " << spec.name << " " << stated->second;
+        ++tried;
+        // The twin: most other values make another picture, so that another default would be found.
+        const bool has_own_type = stated->first == type_text(spec.types.front());
+        if (has_own_type)
+          seen += picture(value_of(std::string(entity.name), spec, spec.types.front(), spectra)) != without;
+      }
+  }
+  if (family == Family::material || family == Family::texture || family == Family::light || family == Family::shape) {
+    EXPECT_GE(tried, 15);
+    EXPECT_GE(seen, tried / 3) << tried;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
