@@ -10,34 +10,6 @@ namespace montelux {
 
 namespace {
 
-// Channels of the multi-layer picture, in their order.
-enum Channel {
-  r,
-  g,
-  b,
-  a,
-  stderr_r,
-  stderr_g,
-  stderr_b,
-  albedo_r,
-  albedo_g,
-  albedo_b,
-  n_x,
-  n_y,
-  n_z,
-  p_x,
-  p_y,
-  p_z,
-  z,
-  samples,
-  id
-};
-
-std::vector<std::string> channel_names() {
-  return {"R",   "G",   "B",   "A",   "stderr.R", "stderr.G", "stderr.B", "albedo.R", "albedo.G", "albedo.B",
-          "N.X", "N.Y", "N.Z", "P.X", "P.Y",      "P.Z",      "Z",        "samples",  "id"};
-}
-
 // The colour of a pixel of the picture: the mean of all light, as the layers know it where there are any, so that they
 // sum to it.
 double color_at(const Rendering& rendering, int x, int y, int channel) {
@@ -46,6 +18,56 @@ double color_at(const Rendering& rendering, int x, int y, int channel) {
   const int px = grid.bounds.x0 + x, py = grid.bounds.y0 + y;
   if (rendering.layers) return film.layers()->mean(grid.cell_x(px), grid.cell_y(py), channel);
   return film.pixel(px, py).mean[channel];
+}
+
+// One pixel, as the layers see it.
+struct PixelView {
+  const Rendering& rendering;
+  int x, y;  // in the image
+  const PixelEstimate& estimate;
+  const PixelFeatures& features;
+  double samples;
+
+  // The mean over the samples that hit a surface; 0 if none did.
+  double per_hit(double sum) const { return features.hits > 0 ? sum / features.hits : 0; }
+};
+
+// A layer that every image has. Its channels are "name.R" or, without a name, "R".
+struct LayerRow {
+  std::string_view name;
+  std::vector<std::string_view> channels;
+  bool fits_half;  // 16-bit floats keep what it is for, unlike that of an error or a position
+  double (*value)(const PixelView& at, int channel);
+};
+
+// The one table of these layers, in their order.
+const std::vector<LayerRow>& layer_rows() {
+  using At = const PixelView&;
+  static const std::vector<LayerRow> rows{
+      {"", {"R", "G", "B"}, true, [](At at, int c) { return color_at(at.rendering, at.x, at.y, c); }},
+      {"",
+       {"A"},
+       true,
+       [](At at, int) { return at.features.samples > 0 ? at.features.hits / at.features.samples : 0; }},
+      {"stderr", {"R", "G", "B"}, false, [](At at, int c) { return std::sqrt(at.estimate.variance_of_mean(c)); }},
+      {"albedo", {"R", "G", "B"}, true, [](At at, int c) { return at.per_hit(at.features.albedo[c]); }},
+      {"N", {"X", "Y", "Z"}, true, [](At at, int c) { return at.per_hit(at.features.normal[c]); }},
+      {"P", {"X", "Y", "Z"}, false, [](At at, int c) { return at.per_hit(at.features.position[c]); }},
+      {"", {"Z"}, false, [](At at, int) { return at.per_hit(at.features.depth); }},
+      {"", {"samples"}, false, [](At at, int) { return at.samples; }},
+      {"", {"id"}, false, [](At at, int) { return double(at.features.object); }}};
+  return rows;
+}
+
+std::string channel_name(const LayerRow& row, std::string_view channel) {
+  return row.name.empty() ? std::string(channel) : std::string(row.name).append(".").append(channel);
+}
+
+std::vector<std::string> channel_names() {
+  std::vector<std::string> names;
+  for (const LayerRow& row : layer_rows())
+    for (std::string_view channel : row.channels) names.push_back(channel_name(row, channel));
+  return names;
 }
 
 // Appends the mean of each layer of light, and its standard error where it is known, for the rows from `first` on.
@@ -68,16 +90,16 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
   }
 }
 
-// What an eye sees or a compositor weighs; a standard error or a place would lose what it is for.
+// What an eye sees or a compositor weighs.
 std::vector<std::string> half_channels(const std::vector<std::string>& channels) {
   std::vector<std::string> names;
+  for (const LayerRow& row : layer_rows())
+    for (std::string_view channel : row.channels)
+      if (row.fits_half) names.push_back(channel_name(row, channel));
   for (const std::string& channel : channels) {
-    const std::size_t dot = channel.rfind('.');
-    const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
-    const bool of_picture = layer.empty() && std::string_view("RGBA").find(channel) != std::string_view::npos;
+    const std::string layer = channel.substr(0, std::min(channel.rfind('.'), channel.size()));
     const bool of_light = layer.starts_with("bounce") || layer.starts_with("Combined_");
-    if (of_picture || (of_light && !layer.ends_with("_stderr")) || layer == "albedo" || layer == "N")
-      names.push_back(channel);
+    if (of_light && !layer.ends_with("_stderr")) names.push_back(channel);
   }
   return names;
 }
@@ -100,23 +122,10 @@ PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
   for (int y = 0; y < count; ++y)
     for (int x = 0; x < image.width; ++x) {
       const int px = bounds.x0 + x, py = bounds.y0 + first + y;
-      const PixelEstimate& pixel = film.pixel(px, py);
-      const PixelFeatures& feature = film.features(px, py);
-      auto set = [&](int channel, double value) { image.at(x, y, channel) = float(value); };
-      for (int c = 0; c < spectrum_size; ++c) {
-        set(Channel::r + c, color_at(rendering, x, first + y, c));
-        set(Channel::stderr_r + c, std::sqrt(pixel.variance_of_mean(c)));
-      }
-      set(Channel::a, feature.samples > 0 ? feature.hits / feature.samples : 0);
-      set(Channel::samples, film.samples(px, py));
-      set(Channel::id, feature.object);
-      if (feature.hits == 0) continue;
-      for (int c = 0; c < 3; ++c) {
-        set(Channel::albedo_r + c, feature.albedo[c] / feature.hits);
-        set(Channel::n_x + c, feature.normal[c] / feature.hits);
-        set(Channel::p_x + c, feature.position[c] / feature.hits);
-      }
-      set(Channel::z, feature.depth / feature.hits);
+      const PixelView at{rendering, x, first + y, film.pixel(px, py), film.features(px, py), film.samples(px, py)};
+      int channel = 0;
+      for (const LayerRow& row : layer_rows())
+        for (int c = 0; c < int(row.channels.size()); ++c) image.at(x, y, channel++) = float(row.value(at, c));
     }
   if (rendering.motion) append_layer(image, "motion", rows_of(*rendering.motion, first, count));
   if (rendering.layers) append_light(image, first, *film.layers(), film.grid(), layer_names(*rendering.layers));
