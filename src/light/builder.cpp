@@ -83,6 +83,20 @@ std::uint32_t LightSetBuilder::number_of(std::shared_ptr<const LightImage> image
   return std::uint32_t(tables_.images.size());
 }
 
+std::uint32_t LightSetBuilder::number_of_directions(std::shared_ptr<const LightImage> image) {
+  const std::uint32_t number = number_of(image);
+  if (tables_.distributions[number - 1]) return number;
+  std::vector<float> weights;
+  weights.reserve(image->texels.size());
+  for (const Rgb& t : image->texels) {
+    const float w = average(t);
+    weights.push_back(std::isfinite(w) ? std::max(w, 0.0f) : 0.0f);
+  }
+  tables_.distributions[number - 1] =
+      std::make_shared<const PiecewiseConstant2>(weights, std::uint32_t(image->width), std::uint32_t(image->height));
+  return number;
+}
+
 std::uint32_t LightSetBuilder::number_of(const Transform& to_world) {
   tables_.transforms.push_back(light_transform(to_world));
   return std::uint32_t(tables_.transforms.size() - 1);
@@ -291,13 +305,12 @@ LightId LightSetBuilder::add_goniometric(const Transform& to_world, Rgb intensit
   row.set(light_slot::emission, intensity);
   row.set(light_slot::shape, b.low);
   row.set_bits(light_slot::transform, number_of(to_world * Transform(swap, swap)));
-  if (image) row.set_bits(light_slot::image, number_of(std::move(image)));
+  if (image) row.set_bits(light_slot::image, number_of_directions(std::move(image)));
   return add_row(LightKind::goniometric, row, b, 4 * pi * b.intensity);
 }
 
 LightId LightSetBuilder::add_projection(const Transform& to_world, float fov, Rgb factor,
                                         std::shared_ptr<const LightImage> image) {
-  using T = ProjectionEmitter<float>;
   // The slide's first row is at its upper edge.
   Transform slide = to_world * scale(1, -1, 1);
   float aspect = float(image->width) / float(image->height), tangent = std::tan(0.5f * radians(fov));
@@ -310,10 +323,10 @@ LightId LightSetBuilder::add_projection(const Transform& to_world, float fov, Rg
   b.cos_emission = 1;
   b.intensity = average(factor * image->mean());
   row.set(light_slot::emission, factor);
-  row.set(T::place, b.low), row.set(T::cotangent, 1 / tangent);
-  row.set(T::half_width, width), row.set(T::half_height, height);
+  row.set(projection_place, b.low), row.set(projection_cotangent, 1 / tangent);
+  row.set(projection_half_width, width), row.set(projection_half_height, height);
   row.set_bits(light_slot::transform, number_of(slide));
-  row.set_bits(light_slot::image, number_of(std::move(image)));
+  row.set_bits(light_slot::image, number_of_directions(std::move(image)));
   float solid_angle = 4 * std::asin(square(tangent) * width * height /
                                     std::sqrt((1 + square(tangent * width)) * (1 + square(tangent * height))));
   return add_row(LightKind::projection, row, b, solid_angle * b.intensity);
@@ -336,21 +349,11 @@ LightId LightSetBuilder::add_uniform_infinite(Rgb radiance) {
 
 LightId LightSetBuilder::add_image_infinite(const Transform& to_world, Rgb factor,
                                             std::shared_ptr<const LightImage> image) {
-  std::vector<float> weights;
-  weights.reserve(image->texels.size());
-  for (const Rgb& t : image->texels) {
-    float w = average(t);
-    weights.push_back(std::isfinite(w) ? std::max(w, 0.0f) : 0.0f);
-  }
   LightRow row;
   row.set(light_slot::emission, factor);
   row.set_bits(light_slot::transform, number_of(to_world));
   float power = 4 * pi * pi * average(factor * image->mean());
-  auto distribution =
-      std::make_shared<const PiecewiseConstant2>(weights, std::uint32_t(image->width), std::uint32_t(image->height));
-  std::uint32_t number = number_of(std::move(image));
-  row.set_bits(light_slot::image, number);
-  tables_.distributions[number - 1] = std::move(distribution);
+  row.set_bits(light_slot::image, number_of_directions(std::move(image)));
   return add_row(LightKind::image_infinite, row, std::nullopt, power);
 }
 

@@ -122,6 +122,8 @@ class LightSetBuilder {
   LightId add_quadric(LightKind kind, const Transform& to_world, LightRow own, float own_area, bool flip,
                       const Emission& emission);
   std::uint32_t number_of(std::shared_ptr<const LightImage> image);
+  // With a table for drawing texels by their mean component.
+  std::uint32_t number_of_directions(std::shared_ptr<const LightImage> image);
   std::uint32_t number_of(const Transform& to_world);
 
   LightTables tables_;

@@ -8,6 +8,12 @@
 
 namespace montelux {
 
+// A point of the closed square, moved off the upper edges.
+template <class F>
+MONTELUX_INLINE Vec2<F> inside_square(Vec2<F> uv) {
+  return {min(uv.x, F(one_minus_epsilon)), min(uv.y, F(one_minus_epsilon))};
+}
+
 template <class F>
 struct InfiniteSample {
   Vec3<F> wi;
@@ -45,8 +51,7 @@ struct ImageInfinite {
     return {wi, texels(s.p, on), {s.density.value * inv_four_pi}};
   }
   MONTELUX_INLINE InfiniteSample<F> at(Vec3<F> wi, Mask<F> on) const {
-    Vec2<F> uv = square_from_sphere(normalize(transform.direction_to_light(wi)));
-    uv = {min(uv.x, F(one_minus_epsilon)), min(uv.y, F(one_minus_epsilon))};
+    Vec2<F> uv = inside_square(square_from_sphere(normalize(transform.direction_to_light(wi))));
     return {wi, texels(uv, on), {distribution.density(uv).value * inv_four_pi}};
   }
 

@@ -14,11 +14,14 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
                                       [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); }));
   for (std::uint32_t i = 0; i < count(); ++i)
     has_delta_ |= is_delta(kind(LightId(i))), has_masked_ |= rows<float>(i, true).flag(light_masked);
-  if (settings_.selection == LightSelection::power && count() > 0)
-    by_power_.emplace(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));
+  if (settings_.selection == LightSelection::power && count() > 0) power_table_ = by_power();
   if (settings_.selection == LightSelection::bvh) bvh_ = LightBvh(tables_.bounds);
   std::size_t shares = unbounded_.size() + (bvh_.empty() ? 0 : 1);
   unbounded_mass_ = shares > 0 ? 1.0f / float(shares) : 0.0f;
+}
+
+AliasTable LightSet::by_power() const {
+  return AliasTable(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));
 }
 
 std::optional<LightPolygon> LightSet::polygon(LightId light) const {

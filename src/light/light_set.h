@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "light/bvh.h"
+#include "light/emission.h"
 #include "light/image.h"
 #include "light/infinite.h"
 #include "light/light_point.h"
@@ -111,6 +112,18 @@ class LightSet {
   template <class F>
   Spectrum<F> escaped_radiance(Vec3<F> wi, Mask<F> on) const;
 
+  // ---- rays that start at lights
+
+  // Chooses lights in proportion to their power: for rays that start at lights. There must be a light.
+  AliasTable by_power() const;
+  // A ray from a light that is given.
+  template <class F>
+  LightEmission<F> emit(Uint<F> light, Vec2<F> u_point, Vec2<F> u_direction, Mask<F> on) const;
+  // The densities with which emit() draws the ray along the unit d from the point p of a light; n is the unit normal of
+  // the side of its surface that emits. p and n do not matter for other lights.
+  template <class F>
+  EmissionDensities<F> emission_densities(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec3<F> d, Mask<F> on) const;
+
  private:
   template <class F>
   MONTELUX_INLINE LightRows<F> rows(Uint<F> light, Mask<F> on) const {
@@ -132,6 +145,25 @@ class LightSet {
   template <class F>
   LightSample<F> sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const;
   template <class F>
+  LightEmission<F> emit_surface(LightKind kind, const LightRows<F>& rows, Vec2<F> u_point, Vec2<F> u_direction,
+                                Mask<F> on) const;
+  template <class F>
+  static Density<SolidAngle, F> surface_emission_density(const LightRows<F>& rows, Vec3<F> n, Vec3<F> d);
+  template <class F>
+  LightEmission<F> emit_point(LightKind kind, const LightRows<F>& rows, Vec2<F> u, Mask<F> on) const;
+  template <class F>
+  Density<SolidAngle, F> point_emission_density(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const;
+  template <class F>
+  LightEmission<F> emit_beyond(LightKind kind, const LightRows<F>& rows, Vec2<F> u_point, Vec2<F> u_direction,
+                               Mask<F> on) const;
+  template <class F>
+  Density<Area, F> beyond_position_density() const;
+  // Calls f(light, lanes) once for each light among the lanes, and f(distribution, lanes) for each image.
+  template <class F, class Function>
+  void for_each_light(Uint<F> light, Mask<F> on, Function f) const;
+  template <class F, class Function>
+  void for_each_image(const LightRows<F>& rows, Mask<F> on, Function f) const;
+  template <class F>
   ImageInfinite<F> image_infinite(LightId light) const;
   // Radiance, and density without the choice.
   template <class F>
@@ -139,9 +171,9 @@ class LightSet {
 
   LightTables tables_;
   LightSettings settings_;
-  LightBvh bvh_;                          // if lights are chosen by the hierarchy
-  std::optional<AliasTable> by_power_;    // if they are chosen by power
-  std::vector<std::uint32_t> unbounded_;  // first the infinite ones, then the distant ones
+  LightBvh bvh_;                           // if lights are chosen by the hierarchy
+  std::optional<AliasTable> power_table_;  // if they are chosen by power
+  std::vector<std::uint32_t> unbounded_;   // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   bool has_delta_ = false, has_masked_ = false;
   float unbounded_mass_ = 0;  // of each unbounded light, in the hierarchy's choice
@@ -149,6 +181,18 @@ class LightSet {
 
 }  // namespace montelux
 
+namespace montelux {
+
+template <class F>
+inline constexpr bool all_are_surface_emitters =
+    (SurfaceEmitter<TriangleEmitter<F>, F> && SurfaceEmitter<ParallelogramEmitter<F>, F> &&
+     SurfaceEmitter<BilinearPatchEmitter<F>, F> && SurfaceEmitter<DiskEmitter<F>, F> &&
+     SurfaceEmitter<SphereEmitter<F>, F> && SurfaceEmitter<CylinderEmitter<F>, F>);
+static_assert(all_are_surface_emitters<float> && all_are_surface_emitters<NativeFloats>);
+
+}  // namespace montelux
+
 #include "light/light_set_choice.h"
+#include "light/light_set_emission.h"
 #include "light/light_set_points.h"
 #include "light/light_set_sampling.h"

@@ -17,8 +17,8 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     Uint<F> light = min(to_uint(u * float(count())), Uint<F>(count() - 1));
     return {light, {F(1.0f / float(count()))}, on};
   }
-  if (by_power_) {
-    DiscreteSample<F> s = by_power_->sample(u);
+  if (power_table_) {
+    DiscreteSample<F> s = power_table_->sample(u);
     return {s.index, s.mass, on};
   }
   // Unbounded lights have equal shares at the start of [0, 1); the hierarchy has the rest.
@@ -47,7 +47,7 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   if (count() == 0) return {F(0.0f)};
   light = select(on, light, Uint<F>(0u));
   if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
-  if (by_power_) return by_power_->mass<F>(light);
+  if (power_table_) return power_table_->mass<F>(light);
   Mask<F> unbounded = is_beyond<F>(light, on);
   F share = F(1.0f) - F(unbounded_mass_ * float(unbounded_.size()));
   Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));

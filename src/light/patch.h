@@ -37,10 +37,10 @@ struct ParallelogramEmitter {
     Vec3<F> p = point(at);
     return {p, n, parameters(at), density_of(seen, from, p, direction_to(from, p))};
   }
-  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const {
-    Vec3<F> p = point(u);
-    return {p, n, parameters(u), area_density(rows.number(area), n, from, p, direction_to(from, p))};
-  }
+  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const { return {point(u), n, parameters(u), site_density(p0)}; }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
+  MONTELUX_INLINE Vec3<F> site_error() const { return rounding_of(abs(p0) + abs(e1) + abs(e2)); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     return density_of(SphericalRectangle<F>::from_edges(p0 - from, e1, e2), from, p, wi);
   }
@@ -83,14 +83,19 @@ struct BilinearPatchEmitter {
   explicit MONTELUX_INLINE BilinearPatchEmitter(const LightRows<F>& r)
       : rows(r), p00(r.vec3(corner)), a(r.vec3(along_x)), b(r.vec3(along_y)), c(r.vec3(twist)) {}
 
-  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const {
-    Vec3<F> p = point(u), scaled = scaled_normal(u);
+  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const {
+    Vec3<F> scaled = scaled_normal(u);
     F stretch = length(scaled);
     Vec3<F> n = scaled * (select(rows.flag(light_flipped), F(-1.0f), F(1.0f)) / max(stretch, F(1e-37f)));
     Vec2<F> uv = u;
     if (any(rows.has_image())) uv = bilinear(rows.vec2(uv00), rows.vec2(uv10), rows.vec2(uv01), rows.vec2(uv11), u);
-    return {p, n, uv, area_density(stretch, n, from, p, direction_to(from, p))};
+    return {point(u), n, uv, {F(1.0f) / stretch}};
   }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F> p) const {
+    return {F(1.0f) / length(scaled_normal(parameters(p)))};
+  }
+  MONTELUX_INLINE Vec3<F> site_error() const { return rounding_of(abs(p00) + abs(a) + abs(b) + abs(c)); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     Vec3<F> scaled = scaled_normal(parameters(p));
     F stretch = length(scaled);

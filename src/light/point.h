@@ -74,25 +74,59 @@ struct GoniometricEmitter {
   }
 };
 
+// Slots of a projection light.
+enum ProjectionSlot {
+  projection_place = light_slot::shape,
+  projection_cotangent = projection_place + 3,
+  projection_half_width,
+  projection_half_height
+};
+
+// The plane z = 1 of a projector's own space, on which its image lies.
+template <class F>
+struct ProjectionPlane {
+  static constexpr float near = 1e-3f;  // minimum cosine to the axis at which a point is lit
+  LightRows<F> rows;
+  F cotangent, half_width, half_height;
+
+  explicit MONTELUX_INLINE ProjectionPlane(const LightRows<F>& r)
+      : rows(r),
+        cotangent(r.number(projection_cotangent)),
+        half_width(r.number(projection_half_width)),
+        half_height(r.number(projection_half_height)) {}
+
+  // Where a unit direction of the projector's space meets the image, in [0, 1]^2 within it; own.z > 0.
+  MONTELUX_INLINE Vec2<F> place(Vec3<F> own) const {
+    F scale = cotangent / max(own.z, F(near));
+    return {0.5f * (own.x * scale / half_width + 1.0f), 0.5f * (own.y * scale / half_height + 1.0f)};
+  }
+  // The inverse.
+  MONTELUX_INLINE Vec3<F> direction(Vec2<F> uv) const {
+    return normalize(Vec3<F>{(2.0f * uv.x - 1.0f) * half_width / cotangent,
+                             (2.0f * uv.y - 1.0f) * half_height / cotangent, F(1.0f)});
+  }
+  // A density of the place as one of the direction in the world: dw = cos^3 dA on a plane at distance 1.
+  MONTELUX_INLINE Density<SolidAngle, F> of_direction(Density<Area, F> of_place, Vec3<F> own) const {
+    F area = 4.0f * half_width * half_height / (cotangent * cotangent);
+    return {of_place.value / (area * own.z * own.z * own.z * rows.transform().solid_angle_growth(own))};
+  }
+};
+
 // A slide projector along the light's +z: the image is on the plane z = 1, its shorter side within the field of view.
 template <class F>
 struct ProjectionEmitter {
-  enum Slot { place = light_slot::shape, cotangent = place + 3, half_width, half_height };
-  static constexpr float near = 1e-3f;  // minimum cosine to the axis at which a point is lit
   Vec3<F> p;
   ImagedLights<F> light;
 
   MONTELUX_INLINE ProjectionEmitter(const LightRows<F>& r, const std::shared_ptr<const LightImage>* images)
-      : p(r.vec3(place)), light{images, r} {}
+      : p(r.vec3(projection_place)), light{images, r} {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F> on) const {
     Vec3<F> own = normalize(light.rows.transform().direction_to_light(w));
-    F scale = light.rows.number(cotangent) / max(own.z, F(near));
-    F u = 0.5f * (own.x * scale / light.rows.number(half_width) + 1.0f);
-    F v = 0.5f * (own.y * scale / light.rows.number(half_height) + 1.0f);
-    Mask<F> lit = (own.z >= F(near)) & (u >= F(0.0f)) & (u <= F(1.0f)) & (v >= F(0.0f)) & (v <= F(1.0f));
-    return light.times_image(Mask<F>(on & lit), [&](const LightImage& image, int k) {
-      return image.nearest({lane(u, k), lane(v, k)});
-    });
+    Vec2<F> uv = ProjectionPlane<F>(light.rows).place(own);
+    Mask<F> lit = (own.z >= F(ProjectionPlane<F>::near)) & (uv.x >= F(0.0f)) & (uv.x <= F(1.0f)) & (uv.y >= F(0.0f)) &
+                  (uv.y <= F(1.0f));
+    return light.times_image(Mask<F>(on & lit),
+                             [&](const LightImage& image, int k) { return image.nearest(lane(uv, k)); });
   }
 };
 

@@ -22,13 +22,18 @@ struct DiskEmitter {
 
   explicit MONTELUX_INLINE DiskEmitter(const LightRows<F>& r) : rows(r), n(r.vec3(normal)) {}
 
-  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const {
+  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const {
     F hole = rows.number(inner);
     F r = sqrt(lerp(u.x, hole * hole, F(1.0f)));
     SinCos<F> angle = sin_cos_two_pi(u.y * rows.number(turn));
     Vec3<F> p = rows.vec3(centre) + rows.vec3(axis1) * (r * angle.cos) + rows.vec3(axis2) * (r * angle.sin);
     Vec2<F> uv{u.y, (F(1.0f) - r) / max(F(1.0f) - hole, F(1e-6f))};
-    return {p, n, uv, density(from, p, direction_to(from, p))};
+    return {p, n, uv, site_density(p)};
+  }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
+  MONTELUX_INLINE Vec3<F> site_error() const {
+    return rounding_of(abs(rows.vec3(centre)) + abs(rows.vec3(axis1)) + abs(rows.vec3(axis2)));
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     return area_density(rows.number(area), n, from, p, wi);
@@ -54,28 +59,37 @@ struct QuadricEmitter {
 
   explicit MONTELUX_INLINE QuadricEmitter(const LightRows<F>& r) : rows(r) {}
 
-  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const {
+  MONTELUX_INLINE EmitterPoint<F> sample(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const {
     F radius = rows.number(quadric_radius), low = rows.number(quadric_low), high = rows.number(quadric_high);
     F z = lerp(u.x, low, high);
     F r = radius;
     if constexpr (is_sphere) r = safe_sqrt((radius - z) * (radius + z));
     SinCos<F> angle = sin_cos_two_pi(u.y * rows.number(quadric_turn));
     Vec3<F> own{r * angle.cos, r * angle.sin, z};
-    Vec3<F> p = rows.transform().point_to_world(own);
-    return at(from, p, direction_to(from, p), own);
+    return at(rows.transform().point_to_world(own), own);
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
-    return at(from, p, wi, rows.transform().point_to_light(p)).density;
+    const EmitterSite<F> s = at(p, rows.transform().point_to_light(p));
+    return to_solid_angle(s.density, length_squared(p - from), dot(s.n, wi));
+  }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F> p) const {
+    return at(p, rows.transform().point_to_light(p)).density;
+  }
+  MONTELUX_INLINE Vec3<F> site_error() const {
+    const F reach =
+        max(rows.number(quadric_radius), max(abs(rows.number(quadric_low)), abs(rows.number(quadric_high))));
+    return rounding_of(rows.transform().absolute_point_to_world({reach, reach, reach}));
   }
   // The point p of the world, which is `own` in the shape's space.
-  MONTELUX_INLINE EmitterPoint<F> at(Vec3<F> from, Vec3<F> p, Vec3<F> wi, Vec3<F> own) const {
+  MONTELUX_INLINE EmitterSite<F> at(Vec3<F> p, Vec3<F> own) const {
     // The map scales an area by |det| |inverse transpose of its normal|.
     Vec3<F> outward = normalize(Vec3<F>{own.x, own.y, is_sphere ? own.z : F(0.0f)});
     Vec3<F> mapped = rows.transform().normal_to_world(outward);
     F mapped_length = length(mapped);
     F area = rows.number(quadric_area) * rows.number(quadric_volume_scale) * mapped_length;
     Vec3<F> n = mapped * (select(rows.flag(light_flipped), F(-1.0f), F(1.0f)) / mapped_length);
-    return {p, n, parameters(own), area_density(area, n, from, p, wi)};
+    return {p, n, parameters(own), {F(1.0f) / area}};
   }
   // Azimuth and height (of spheres: polar angle from the lower end) as fractions of the existing part.
   MONTELUX_INLINE Vec2<F> parameters(Vec3<F> own) const {
@@ -125,6 +139,9 @@ struct SphereEmitter {
             {select(cap.visible, cone_density(cap.one_minus_cos).value, result.density.value)}};
   }
   MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return part.sample(from, u); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const { return part.site(u); }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F> p) const { return part.site_density(p); }
+  MONTELUX_INLINE Vec3<F> site_error() const { return part.site_error(); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     Cap cap = cap_from(from);
     F value = all(cap.visible) ? F(0.0f) : part.density(from, p, wi).value;

@@ -57,7 +57,17 @@ struct LightTransforms {
   MONTELUX_INLINE F at(int i) const { return gather(base + i, offset); }
   MONTELUX_INLINE Vec3<F> row(int i) const { return {at(i), at(i + 1), at(i + 2)}; }
   MONTELUX_INLINE Vec3<F> point_to_world(Vec3<F> p) const { return rotate(0, p) + Vec3<F>{at(3), at(7), at(11)}; }
+  // A bound of |point_to_world(p)| where no component of p exceeds `reach`; of the sum's terms, too.
+  MONTELUX_INLINE Vec3<F> absolute_point_to_world(Vec3<F> reach) const {
+    return {dot(abs(row(0)), reach) + abs(at(3)), dot(abs(row(4)), reach) + abs(at(7)),
+            dot(abs(row(8)), reach) + abs(at(11))};
+  }
   MONTELUX_INLINE Vec3<F> point_to_light(Vec3<F> p) const { return rotate(12, p) + Vec3<F>{at(15), at(19), at(23)}; }
+  // How much a solid angle about the unit direction d of the light's space grows on its way to the world.
+  MONTELUX_INLINE F solid_angle_growth(Vec3<F> d) const {
+    const F l = length(direction_to_world(d));
+    return abs(dot(row(0), cross(row(4), row(8)))) / (l * l * l);
+  }
   MONTELUX_INLINE Vec3<F> direction_to_world(Vec3<F> d) const { return rotate(0, d); }
   MONTELUX_INLINE Vec3<F> direction_to_light(Vec3<F> d) const { return rotate(12, d); }
   // By the inverse transpose; not normalised.
@@ -106,14 +116,27 @@ struct EmitterPoint {
   Density<SolidAngle, F> density;  // at the reference point
 };
 
+// A point drawn on an emitting surface without a reference point.
+template <class F>
+struct EmitterSite {
+  Vec3<F> p;
+  Vec3<F> n;   // unit, on the side that emits
+  Vec2<F> uv;  // where an image of the emission is looked up
+  Density<Area, F> density;
+};
+
 // The interface of every emitting surface, made from its row: a point sampled from a reference point, and the density
-// at the reference point with which sample() samples the point p in the unit direction wi. The density of a direction
-// is that of the surface's first point along it; for convex surfaces with one or two emitting sides.
+// at the reference point with which sample() samples the point p in the unit direction wi; a point sampled by area
+// alone, the density with which site() samples p, and a bound of the rounding error of its coordinates. The density of
+// a direction is that of the surface's first point along it; for convex surfaces with one or two emitting sides.
 template <class Emitter, class F>
 concept SurfaceEmitter = requires(const Emitter& e, Vec3<F> p, Vec2<F> u) {
   Emitter(LightRows<F>{});
   { e.sample(p, u) } -> std::same_as<EmitterPoint<F>>;
   { e.density(p, p, p) } -> std::same_as<Density<SolidAngle, F>>;
+  { e.site(u) } -> std::same_as<EmitterSite<F>>;
+  { e.site_density(p) } -> std::same_as<Density<Area, F>>;
+  { e.site_error() } -> std::same_as<Vec3<F>>;
 };
 
 }  // namespace montelux

@@ -14,10 +14,22 @@ MONTELUX_INLINE Density<SolidAngle, F> area_density(F area, Vec3<F> n, Vec3<F> f
   return to_solid_angle(Density<Area, F>{F(1.0f) / area}, length_squared(p - from), dot(n, wi));
 }
 
+// A bound of the rounding error of a sum of a few products, by the sum of their absolute values.
+template <class F>
+MONTELUX_INLINE Vec3<F> rounding_of(Vec3<F> absolute_sum) {
+  return absolute_sum * 0x1p-20f;
+}
+
 template <class F>
 MONTELUX_INLINE Vec3<F> direction_to(Vec3<F> from, Vec3<F> p) {
   Vec3<F> d = p - from;
   return d * (F(1.0f) / sqrt(max(length_squared(d), F(1e-37f))));
+}
+
+// A site as a reference point sees it.
+template <class F>
+MONTELUX_INLINE EmitterPoint<F> seen_from(Vec3<F> from, const EmitterSite<F>& s) {
+  return {s.p, s.n, s.uv, to_solid_angle(s.density, length_squared(s.p - from), dot(s.n, direction_to(from, s.p)))};
 }
 
 // The intersection of the line from `from` along w with the plane of a corner and two edges, in fractions of the edges:

@@ -39,11 +39,13 @@ struct TriangleEmitter {
     Vec3<F> p = point(b);
     return {p, n, parameters(b), density_of(seen, from, p, direction_to(from, p))};
   }
-  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const {
+  MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
+  MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const {
     Vec2<F> b = sample_triangle(u);
-    Vec3<F> p = point(b);
-    return {p, n, parameters(b), area_density(rows.number(area), n, from, p, direction_to(from, p))};
+    return {point(b), n, parameters(b), site_density(p0)};
   }
+  MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
+  MONTELUX_INLINE Vec3<F> site_error() const { return rounding_of(abs(p0) + abs(e1) + abs(e2)); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     return density_of(spherical(from), from, p, wi);
   }

@@ -31,6 +31,10 @@ struct Affine {
     const Vec3<F> yz = cross(y, z);
     return Vec3<F>{dot(q, yz), dot(q, cross(z, x)), dot(q, cross(x, y))} / dot(x, yz);
   }
+  // How much volumes grow: the determinant's absolute value.
+  MONTELUX_INLINE F volume() const {
+    return abs(dot(Vec3<F>{m[0], m[4], m[8]}, cross(Vec3<F>{m[1], m[5], m[9]}, Vec3<F>{m[2], m[6], m[10]})));
+  }
   // Multiplies by the absolute values of the linear part: for error bounds.
   MONTELUX_INLINE Vec3<F> absolute(const Vec3<F>& d) const {
     return {abs(m[0]) * d.x + abs(m[1]) * d.y + abs(m[2]) * d.z, abs(m[4]) * d.x + abs(m[5]) * d.y + abs(m[6]) * d.z,
