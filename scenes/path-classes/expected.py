@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Writes the scenes of this folder and expected.json: one scene for each class of paths L(S|D)*E (Heckbert 1990), its
 mean in theory, and which integrators find it. Formulas are those of ../analytic/expected.py, with nothing of Montelux.
+
+Few paths from a light arrive in the small window that the camera looks at. For them the window and the floor are made
+wider (WIDE), and the mean is that of the formula over the window.
 """
 import json
 import os
@@ -68,9 +71,26 @@ POINT_TO_MIRROR = (
 )
 
 REFLECT = "fresnel_metal(cos(radians(45)), 0.2, 3.9)"
+# Half the side of the wider window and floor, and the formulas there at the point (x, 0, z).
+WIDE = 0.15
+WIDE_FORMULAS = {
+    "le": "2",
+    "ldde": "0.5/pi * 0.5/(1 - 0.5) * (1 - cos(radians(60)))/2 * 40/2**2",
+    "lde": "0.6/pi * 2 * polygon((-x, 1, -z), (2 - x, 1, -z), (2 - x, 1, 1 - z), (-x, 1, 1 - z))",
+    "lsde": "0.6/pi * 5 * polygon((1.75 - x, 0.5, -0.5 - z), (1.75 - x, 1.5, -0.5 - z), (1.75 - x, 1.5, 0.5 - z), "
+            "(1.75 - x, 0.5, 0.5 - z), normal=(0, 1, 0))",
+    "lsde-point": "0.6/pi * 3 * point(1.75 - x, 1, -z)",
+}
+
+
+def mean_over_window(formula, n=40):
+    places = [WIDE * ((2 * i + 1) / n - 1) for i in range(n)]
+    return sum(eval(formula, globals(), {"x": x, "z": z}) for x in places for z in places) / n**2
+
+
 ALL = ["path", "naive", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"]
 SCENES = {
-    # name: class, title, camera, world, formula, who finds it besides paths from the eye (none: nobody does)
+    # name: class, title, camera, world, formula, who finds it besides paths from the eye (none: those do not)
     "le": ("LE", "A lamp.", LEVEL, lamp(2, (-1, -1, 0), (-1, 1, 0), (1, 1, 0), (1, -1, 0)), "2", ["direct"]),
     "lde": ("LDE", "A diffuse patch under a lamp.", DOWN,
             FLOOR + lamp(2, (0, 1, 0), (2, 1, 0), (2, 1, 1), (0, 1, 1)),
@@ -91,7 +111,7 @@ SCENES = {
              IMAGE, []),
     "lsdse": ("LSDSE", "A caustic seen in a mirror.", ACROSS, FLOOR + TURN_DOWN + WALL_MIRROR + TO_MIRROR,
               REFLECT + " * " + IMAGE, []),
-    "lsde-point": ("LSDE of delta lights", "A diffuse patch lit by a point light through a mirror: no path by chance meets it.",
+    "lsde-point": ("LSDE of delta lights", "A diffuse patch lit by a point light through a mirror: no path from the eye meets it.",
                    DOWN, FLOOR + WALL_MIRROR + POINT_TO_MIRROR, POINT_IMAGE, None),
     "lsdse-point": ("LSDSE of delta lights", "The same in a mirror.", ACROSS,
                     FLOOR + TURN_DOWN + WALL_MIRROR + POINT_TO_MIRROR, REFLECT + " * " + POINT_IMAGE, None),
@@ -104,6 +124,9 @@ if __name__ == "__main__":
             file.write(HEAD.format(title=title, name=name, camera=camera, world=world))
         entries.append({"scene": name + ".pbrt", "class": paths, "formula": formula,
                         "value": float("%.9g" % eval(formula)), "found_by": [] if more is None else ALL + more})
+        if name in WIDE_FORMULAS:
+            entries[-1]["found_by"].append("light")
+            entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
     with open(os.path.join(here, "expected.json"), "w") as file:
         json.dump(entries, file, indent=1)
         file.write("\n")

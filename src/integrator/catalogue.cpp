@@ -7,6 +7,7 @@
 #include "integrator/clamped.h"
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
+#include "integrator/light_tracing/integrator.h"
 #include "integrator/look/integrator.h"
 #include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
@@ -156,6 +157,33 @@ Made make_radiosity(const Request& r) {
   return chosen;
 }
 
+Made make_light(const Request& r) {
+  auto integrator = LightTracer::make(r.scene, r.accel, light_tracing_settings(r.list, r.max_depth));
+  if (!integrator) return integrator.failure();
+  ChosenIntegrator chosen{"light", {}, {}, {}, *std::move(integrator)};
+  note_depth(chosen, r.max_depth);
+  if (r.scene.lights.has_masked()) {
+    chosen.biases.push_back("no masked emitters");
+    chosen.missing.push_back("light of emitters with an alpha mask");
+    chosen.notes.push_back("no path starts at emitters with an alpha mask: the picture is biased by their light");
+  }
+  if (!r.scene.camera.sees_directions() && r.scene.lights.infinite_count() > 0) {
+    chosen.biases.push_back("no sky behind the scene");
+    chosen.missing.push_back("the sky that the camera sees directly");
+    chosen.notes.push_back(
+        "an orthographic camera sees the sky in a few directions, which no path from the sky takes: the picture is "
+        "black where no surface is");
+  }
+  const auto turns = [](const GeometryRow& row) { return (row.flags & GeometryRow::turns_to_ray) != 0; };
+  if (std::ranges::any_of(r.scene.geometry.rows, turns)) {
+    chosen.biases.push_back("curves that face the light");
+    chosen.notes.push_back(
+        "curves face every ray that meets them, and here rays come from the lights: the picture is biased where the "
+        "shape of a curve matters");
+  }
+  return chosen;
+}
+
 template <const char* name>
 Made make_look(const Request& r) {
   ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
@@ -182,7 +210,8 @@ const std::vector<Row>& rows() {
                          {restir_di_spec(), make_restir<restir_di>},
                          {restir_gi_spec(), make_restir<restir_gi>},
                          {restir_pt_spec(), make_restir<restir_pt>},
-                         {radiosity_spec(), make_radiosity, LightSearch::diffuse}};
+                         {radiosity_spec(), make_radiosity, LightSearch::diffuse},
+                         {light_tracing_spec(), make_light, LightSearch::from_lights}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();

@@ -106,9 +106,41 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
   return {
       fmt::format("light of {} lights by way of smooth surfaces ({})", lights, surfaces),
       fmt::format("light of {} lights may be missing that comes to surfaces by way of smooth glass or mirrors ({}): "
-                  "no ray meets such a light, and no light sample passes such a surface; no integrator finds it "
-                  "yet (a small sphere that shines, in the light's place, is found)",
+                  "no ray meets such a light, and no light sample passes such a surface; light finds what the camera "
+                  "sees of it directly (and a small sphere that shines, in the light's place, is found)",
                   lights, surfaces)};
+}
+
+// Follows a camera ray by smooth surfaces alone. The model of the first of them, where the ray comes to light or to a
+// rough surface.
+std::optional<BsdfKind> look(const Scene& scene, const Accel& accel, const Ray<float>& eye,
+                             RandomStream<float> random) {
+  using F = float;
+  const Vec3f zero{0, 0, 0};
+  const auto all = [](F) { return F(1); };
+  RayCounts counts;
+  const auto [found, hit] = accel.trace<F>(eye, true, RayUse::camera);
+  Arrival<F> at = arrive<F>(scene, accel, {eye.o, zero}, eye, hit, found, random.fork(0), counts, all);
+  std::optional<BsdfKind> first;
+  for (int depth = 1; at.found && depth <= deepest; ++depth) {
+    const Vec2f u = random.next2();
+    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo, {random.next(), u.x, u.y}, at.context);
+    if (!next.valid || !next.delta || !(max_component(next.weight) > 0)) return std::nullopt;
+    if (!first) first = BsdfKind(at.bsdf.kind);
+    const Ray<F> ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
+    at = trace_to_arrival<F>(scene, accel, {ray.o, zero}, ray, true, random.fork(std::uint32_t(depth)), counts, all);
+    if (!is_black(at.light) || (at.found && !at.bsdf.is_delta)) return first;
+  }
+  return std::nullopt;
+}
+
+std::optional<MissingLight> missing_reflections(const std::vector<BsdfKind>& seen) {
+  if (seen.empty()) return std::nullopt;
+  const std::string surfaces = list_of(seen, [](BsdfKind kind) { return name(kind); });
+  return MissingLight{fmt::format("light seen by way of smooth surfaces ({})", surfaces),
+                      fmt::format("what the camera sees in mirrors or through smooth glass ({}) is missing: paths from "
+                                  "the lights are connected with the lens at rough surfaces alone (path finds it)",
+                                  surfaces)};
 }
 
 }  // namespace
@@ -159,6 +191,20 @@ bool has_indirect_light(const Scene& scene, const Accel& accel, int width, int h
   return false;
 }
 
+std::vector<BsdfKind> smooth_surfaces_in_view(const Scene& scene, const Accel& accel, int width, int height) {
+  constexpr std::uint32_t rays = 8192;
+  const RandomStream<float> all(0x299f31d0u, 0x082efa98u);
+  std::set<BsdfKind> seen;
+  for (std::uint32_t i = 0; i < rays; ++i) {
+    RandomStream<float> random = all.fork(i);
+    const Vec2f place = random.next2(), lens = random.next2();
+    const float time = scene.shutter.time(random.next());
+    const Vec2f raster{place.x * float(width), place.y * float(height)};
+    if (const auto kind = look(scene, accel, scene.camera.generate(raster, lens, time).ray, random)) seen.insert(*kind);
+  }
+  return {seen.begin(), seen.end()};
+}
+
 std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, const Accel& accel, int width,
                                         int height) {
   const auto misses = [search](PathClass c) { return finding(search, c) == Finding::no; };
@@ -166,6 +212,9 @@ std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, 
   if (misses(PathClass::lsde_delta))
     if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
       missing.push_back(missing_caustics(caustics));
+  if (misses(PathClass::lse))
+    if (const auto light = missing_reflections(smooth_surfaces_in_view(scene, accel, width, height)))
+      missing.push_back(*light);
   if (misses(PathClass::ldde) && has_indirect_light(scene, accel, width, height))
     missing.push_back({"light that was scattered more than once",
                        "light that was scattered more than once is missing: this integrator looks for one scattering "

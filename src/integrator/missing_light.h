@@ -21,6 +21,10 @@ struct DeltaCaustics {
 // lights or no smooth surfaces, else some milliseconds. A pure function of the scene.
 DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel);
 
+// Models of smooth surfaces through which, or in which, the camera sees light or rough surfaces, by some thousand
+// camera rays of a picture of this size. A pure function of the scene.
+std::vector<BsdfKind> smooth_surfaces_in_view(const Scene& scene, const Accel& accel, int width, int height);
+
 // Whether the eye sees light that was scattered more than once, by a few thousand paths of a picture of this size.
 bool has_indirect_light(const Scene& scene, const Accel& accel, int width, int height);
 

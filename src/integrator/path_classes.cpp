@@ -14,6 +14,9 @@ constexpr std::array<Finding, class_count> one_event_row{yes, yes, yes, no, no, 
 constexpr std::array<Finding, class_count> diffuse_row{yes, yes,     refused, refused, refused,
                                                        yes, refused, refused, refused, refused};
 
+// Paths from the lights are connected with the lens at rough vertices alone.
+constexpr std::array<Finding, class_count> from_lights_row{yes, yes, no, no, no, yes, yes, no, yes, no};
+
 }  // namespace
 
 std::optional<Finding> finding(LightSearch search, PathClass path_class) {
@@ -25,6 +28,8 @@ std::optional<Finding> finding(LightSearch search, PathClass path_class) {
       return one_event_row[column];
     case LightSearch::diffuse:
       return diffuse_row[column];
+    case LightSearch::from_lights:
+      return from_lights_row[column];
     case LightSearch::none:
       break;
   }

@@ -132,6 +132,31 @@ TEST(DirectStrategies, find_the_closed_forms_of_scenes_with_direct_light_alone) 
 
 TEST(FullIntegrators, find_the_closed_form_of_every_scene) { hold_to_closed_forms(expected_means(), full_ways, 16); }
 
+// What light finds is right, in every scene of which it names nothing as missing. Where the camera looks at so little
+// that hardly a path arrives there is nothing to test.
+TEST(LightTracing, finds_the_closed_form_of_every_scene_that_it_sees_whole) {
+  const std::vector<Expected> scenes = expected_means();
+  const double level = sidak_level(family_level, double(scenes.size()));
+  int tested = 0, caught = 0;
+  for (const Expected& e : scenes) {
+    const TestScene scene(read_text(folder / e.scene), folder.string());
+    ChosenIntegrator chosen = scene.integrator("light");
+    const bool biased = !chosen.biases.empty() && chosen.biases.front().find("maxdepth") == std::string::npos;
+    note_missing_light(chosen, {{}, {}, scene.picture().width, scene.picture().height}, scene.scene(), scene.accel());
+    if (!chosen.missing.empty() || biased) continue;
+    const Measured m = measure(scene, "light", 64);
+    EXPECT_EQ(m.non_finite, 0u) << e.scene;
+    if (e.value != 0 && !(m.standard_error > 0 && m.standard_error < 0.05 * e.value)) continue;
+    SCOPED_TRACE(e.scene);
+    EXPECT_TRUE(agrees(m, e.value, level))
+        << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value << " is right ("
+        << (m.mean - e.value) / m.standard_error << " standard errors)";
+    ++tested, caught += !agrees(m, 0.9 * e.value, level) + !agrees(m, 1.1 * e.value, level);
+  }
+  EXPECT_GT(tested, 15);
+  EXPECT_GT(caught, 1.2 * tested);
+}
+
 TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
   const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
   EXPECT_EQ(scene.integrator("direct:pattern=fixed").biases,

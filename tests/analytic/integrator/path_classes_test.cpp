@@ -17,13 +17,15 @@ const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) 
 constexpr int passes = 32, samples_per_pass = 48;
 constexpr double rounding = 1e-5;
 const std::vector<std::string> ways{
-    "path", "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt"};
+    "path", "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt", "light"};
 std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }
 
 struct PathClass {
   std::string scene, paths, formula;
   double value = 0;
   std::set<std::string> found_by;
+  // Half the side of a wider window and floor, for paths from the light, and the mean over that.
+  double wide_side = 0, wide_value = 0;
   montelux::PathClass path_class() const {
     const auto at = std::find(path_class_names.begin(), path_class_names.end(), paths);
     EXPECT_NE(at, path_class_names.end()) << paths;
@@ -35,9 +37,13 @@ void PrintTo(const PathClass& c, std::ostream* out) { *out << c.paths; }
 const std::vector<PathClass>& classes() {
   static const std::vector<PathClass> all = [] {
     std::vector<PathClass> read;
-    for (const nlohmann::json& e : nlohmann::json::parse(read_text(folder / "expected.json")))
+    for (const nlohmann::json& e : nlohmann::json::parse(read_text(folder / "expected.json"))) {
       read.push_back({e.at("scene"), e.at("class"), e.at("formula"), e.at("value").get<double>(),
                       e.at("found_by").get<std::set<std::string>>()});
+      if (!e.contains("wide")) continue;
+      read.back().wide_side = e.at("wide").at("side").get<double>();
+      read.back().wide_value = e.at("wide").at("value").get<double>();
+    }
     return read;
   }();
   return all;
@@ -54,6 +60,18 @@ Measured measure(const TestScene& scene, const std::string& way, int per_pass = 
   EXPECT_EQ(film.non_finite(), 0u) << way;
   return {film.image().mean[0], film.image().standard_error[0]};
 }
+// The scene with its wider window and floor.
+std::string wide_text(const PathClass& c) {
+  const std::string side = std::to_string(c.wide_side);
+  std::string text = replaced(read_text(folder / c.scene), "[ -1e-3 1e-3 -1e-3 1e-3 ]",
+                              "[ -" + side + " " + side + " -" + side + " " + side + " ]");
+  const std::string floor = "[ -0.02 0 -0.02   -0.02 0 0.02   0.02 0 0.02   0.02 0 -0.02 ]";
+  if (text.find(floor) == std::string::npos) return text;
+  const std::string low = " -" + side, high = " " + side, zero = " 0";
+  return replaced(text, floor,
+                  "[" + low + zero + low + low + zero + high + high + zero + high + high + zero + low + " ]");
+}
+
 bool agrees(const Measured& m, double value) {
   const double distance = std::max(0.0, std::abs(m.mean - value) - rounding * value);
   if (distance == 0) return true;
@@ -66,6 +84,15 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
   const PathClass& c = GetParam();
   const TestScene scene(read_text(folder / c.scene), folder.string());
   for (const std::string& way : ways) {
+    const bool from_lights = light_search(name_of(way)) == LightSearch::from_lights;
+    if (from_lights && c.found_by.contains(way)) {
+      const TestScene wide(wide_text(c), folder.string());
+      const Measured m = measure(wide, way, 2048);
+      EXPECT_TRUE(agrees(m, c.wide_value))
+          << way << ": " << m.mean << " +- " << m.standard_error << " where " << c.wide_value << " is right";
+      EXPECT_FALSE(agrees(m, 1.1 * c.wide_value)) << m.standard_error / m.mean;
+      continue;
+    }
     const Measured m = measure(scene, way);
     if (!c.found_by.contains(name_of(way))) {
       EXPECT_EQ(m.mean, 0) << way;
@@ -144,14 +171,15 @@ TEST(PathClassesOfRadiosity, with_smooth_surfaces_are_refused) {
 // The table of docs/integrators.md, cell by cell.
 TEST(PathClassesOfDocumentation, are_those_of_the_table_of_findings) {
   const std::string text = read_text(std::filesystem::path(MONTELUX_SOURCE_DIR) / "docs/integrators.md");
-  const LightSearch columns[] = {LightSearch::any_length, LightSearch::one_event, LightSearch::diffuse};
+  const LightSearch columns[] = {LightSearch::any_length, LightSearch::one_event, LightSearch::diffuse,
+                                 LightSearch::from_lights};
   for (std::size_t i = 0; i < path_class_names.size(); ++i) {
     const std::size_t row = text.find("\n| " + std::string(path_class_names[i]) + " | ");
     ASSERT_NE(row, std::string::npos) << path_class_names[i];
     std::istringstream line(text.substr(row + 1, text.find('\n', row + 1) - row - 1));
     std::vector<std::string> cells;
     for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
-    ASSERT_GE(cells.size(), 6u) << path_class_names[i];
+    ASSERT_GE(cells.size(), 7u) << path_class_names[i];
     for (std::size_t c = 0; c < std::size(columns); ++c) {
       const Finding found = *finding(columns[c], montelux::PathClass(i));
       EXPECT_EQ(cells[3 + c], " " + std::string(finding_names[std::size_t(found)]) + " ")

@@ -1,0 +1,71 @@
+#include "integrator/light_tracing/integrator.h"
+
+#include <algorithm>
+
+#include "integrator/light_tracing/loop.h"
+
+namespace montelux {
+
+namespace {
+
+class LightTracingChain final : public Chain {
+ public:
+  // What `shared` refers to must outlive the chain.
+  LightTracingChain(const Scene& scene, const Accel& accel, const LightTracingSettings& settings,
+                    const std::optional<AliasTable>& by_power, const ChainPass& pass)
+      : scene_(scene),
+        accel_(accel),
+        settings_(settings),
+        by_power_(by_power),
+        pass_(pass),
+        one_sided_(std::ranges::any_of(scene.geometry.rows,
+                                       [](const GeometryRow& r) { return (r.flags & GeometryRow::one_sided) != 0; })),
+        plane_(pass.bounds, scene.filter) {}
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    if (step.stage == 0)
+      return settings_.lanes == Lanes::one ? follow<float>(step, tile) : follow<NativeFloats>(step, tile);
+    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x, ++i) out[std::size_t(i)].radiance = plane_.take(x, y);
+    return {};
+  }
+
+ private:
+  template <class F>
+  RayCounts follow(const ChainStep& step, const PixelBounds& tile) {
+    if (!by_power_) return {};
+    const LightTracingScene<Accel> shared{scene_,     accel_, settings_, *by_power_, pass_, std::uint32_t(step.frame),
+                                          one_sided_, plane_};
+    return LightTracingLoop<F, Accel>(shared).run(tile);
+  }
+
+  const Scene& scene_;
+  const Accel& accel_;
+  const LightTracingSettings& settings_;
+  const std::optional<AliasTable>& by_power_;
+  const ChainPass pass_;
+  const bool one_sided_;
+  SplatPlane plane_;
+};
+
+}  // namespace
+
+LightTracer::LightTracer(const Scene& scene, const Accel& accel, const LightTracingSettings& settings)
+    : scene_(scene), accel_(accel), settings_(settings) {
+  if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+}
+
+Result<std::unique_ptr<LightTracer>> LightTracer::make(const Scene& scene, const Accel& accel,
+                                                       const LightTracingSettings& settings) {
+  if (scene.pixel_centres)
+    return Failure{
+        "light cannot render this scene: its camera rays go through the centres of pixels alone (disablepixeljitter), "
+        "where no path from a light arrives"};
+  return std::unique_ptr<LightTracer>(new LightTracer(scene, accel, settings));
+}
+
+std::unique_ptr<Chain> LightTracer::begin(const ChainPass& pass) const {
+  return std::make_unique<LightTracingChain>(scene_, accel_, settings_, by_power_, pass);
+}
+
+}  // namespace montelux

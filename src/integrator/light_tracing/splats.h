@@ -1,0 +1,45 @@
+// A picture to which light is added anywhere, by any thread, in any order: the sum is the same bits.
+#pragma once
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "color/spectrum.h"
+#include "filter/filter.h"
+#include "image/pixel_sample.h"
+#include "math/shared_exact_sum.h"
+
+namespace montelux {
+
+// Pixel j shows the integral of filter(r - centre of j) L(r) over places r of the picture. A camera path draws r by the
+// filter; a splat at r arrives where light leads it, so that every pixel within the filter's reach takes its share,
+// filter(r - centre) (Veach 1997, sec. 10.3.4.3): deterministic, signed where the filter is.
+class SplatPlane {
+ public:
+  SplatPlane(const PixelBounds& bounds, const Filter& filter)
+      : bounds_(bounds), filter_(filter), pixels_(std::size_t(bounds.area())) {}
+
+  // Whether a splat at this place would reach a pixel.
+  template <class F>
+  Mask<F> reaches(Vec2<F> raster) const {
+    const Vec2f r = filter_.radius();
+    return (raster.x >= float(bounds_.x0) - r.x) & (raster.x <= float(bounds_.x1) + r.x) &
+           (raster.y >= float(bounds_.y0) - r.y) & (raster.y <= float(bounds_.y1) + r.y);
+  }
+  // Adds value, the integral of the light over the splat, in pixels. A value that is not finite, or too large for the
+  // sums, spoils the pixels that it reaches: they are not a number.
+  void add(Vec2f raster, const Rgb& value);
+  // What was added to a pixel since the last time. Only while nobody adds.
+  Rgb take(int x, int y);
+
+ private:
+  struct Pixel {
+    SharedExactSum sums[spectrum_size];
+    std::atomic<bool> broken{false};
+  };
+  PixelBounds bounds_;
+  const Filter& filter_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace montelux

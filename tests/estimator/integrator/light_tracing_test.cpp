@@ -1,0 +1,208 @@
+// Light tracing shows what path tracing shows, of whatever the lens sees without a mirror in between.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "integrator/light_tracing/loop.h"
+#include "pass_means.h"
+#include "render_scenes.h"
+#include "statistics.h"
+
+namespace montelux::test {
+namespace {
+
+// A coloured room with lamps of many kinds, a thin lens, surfaces with shading normals, translucent and layered ones,
+// and an opening to the sky; a glass ball that is not in view throws a caustic.
+std::string room(const std::string& camera, const std::string& filter) {
+  return R"(Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+PixelFilter )" +
+         filter + R"(
+LookAt 0 1.2 -1.9  0 0.7 0.5  0 1 0
+)" + camera +
+         R"(
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.3 0.5 0.9 ]
+LightSource "spot" "rgb I" [ 2 0.5 0.3 ] "point3 from" [ -0.8 1.8 -0.5 ] "point3 to" [ 0.3 0 0.8 ] "float coneangle" 40
+LightSource "distant" "rgb L" [ 0.6 0.6 0.2 ] "point3 from" [ 0.3 1 -0.2 ] "point3 to" [ 0 0 0 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 4 2 ] "bool twosided" true
+  Material "diffuse" "rgb reflectance" [ 0.1 0.1 0.1 ]
+  Translate 0.7 1.4 0.9
+  Shape "sphere" "float radius" 0.15
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 2 2 ]
+  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+  Shape "bilinearmesh" "point3 P" [ -0.9 1.7 0.4  -0.5 1.7 0.4  -0.9 1.75 0.8  -0.5 1.75 0.8 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.7 0.5 0.3 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -2  1 0 -2  -1 0 2  1 0 2 ]
+Material "diffuse" "rgb reflectance" [ 0.8 0.1 0.1 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -2  -1 2 -2  -1 0 2  -1 2 2 ]
+Material "coateddiffuse" "rgb reflectance" [ 0.1 0.7 0.2 ] "float roughness" 0.4
+Shape "bilinearmesh" "point3 P" [ 1 0 -2  1 2 -2  1 0 2  1 2 2 ]
+Material "diffusetransmission" "rgb reflectance" [ 0.2 0.2 0.5 ] "rgb transmittance" [ 0.3 0.2 0.2 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 2  1 0 2  -1 2 2  1 2 2 ]
+Material "conductor" "float roughness" 0.5
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ -0.8 0 1.2  0 0 1.5  0 0.9 1.5  -0.8 0.9 1.2 ]
+  "normal N" [ -0.5 0.2 -1  0.5 0.1 -1  0.6 -0.2 -1  -0.4 0.3 -1 ]
+Material "diffuse" "rgb reflectance" [ 0.8 0.8 0.8 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ 0.1 0 0.4  0.7 0 0.6  0.7 0.5 0.6  0.1 0.5 0.4 ]
+  "normal N" [ -1 0.8 -0.5  1 0.8 -0.5  1 0.8 -0.5  -1 0.8 -0.5 ]
+Material "dielectric"
+AttributeBegin
+  Translate -0.3 1.55 -2.6
+  Shape "sphere" "float radius" 0.25
+AttributeEnd
+)";
+}
+const std::string gaussian = "\"gaussian\"", lens = R"(Camera "perspective" "float fov" 60 "float lensradius" 0.05
+  "float focaldistance" 2.5)";
+
+// Passes as they come, each of `per_pass` frames.
+PassMeans measured(const TestScene& scene, const std::string& way, int per_pass, int passes, std::uint32_t seed) {
+  return measure_passes(scene, scene.integrator(way), per_pass, passes, seed);
+}
+// The smallest p-value of the image, the blocks and the colours.
+struct Comparison {
+  double smallest = 1;
+  std::size_t tests = 0;
+  bool differ() const { return smallest < sidak_level(family_level, double(tests)); }
+};
+Comparison compared(const PassMeans& a, const PassMeans& b) {
+  Comparison c;
+  const auto test = [&](const std::vector<double>& x, const std::vector<double>& y) {
+    c.smallest = std::min(c.smallest, welch_test(summarize(x), summarize(y)).p_value), ++c.tests;
+  };
+  EXPECT_EQ(a.values.size(), b.values.size());
+  for (std::size_t i = 0; i < a.values.size(); ++i) test(a.values[i], b.values[i]);
+  for (std::size_t i = 0; i < a.colours.size(); ++i) test(a.colours[i], b.colours[i]);
+  EXPECT_EQ(a.non_finite + b.non_finite, 0u);
+  return c;
+}
+
+// One pass as `light` makes it, by another correction for shading normals.
+template <class Correction>
+PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_t seed) {
+  PassMeans means;
+  const AliasTable by_power = scene.scene().lights.by_power();
+  const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
+  const LightTracingSettings settings;
+  for (int number = 0; number < passes; ++number) {
+    const ChainPass pass{s.bounds,
+                         {s.sampler, s.seed, std::uint32_t(number), std::uint32_t(per_pass), std::uint32_t(s.width),
+                          std::uint32_t(s.height)},
+                         {},
+                         {}};
+    SplatPlane plane(s.bounds, scene.scene().filter);
+    Film film(s.bounds);
+    std::vector<PixelPass> pixels(std::size_t(s.bounds.area()));
+    for (int frame = 0; frame < per_pass; ++frame) {
+      const LightTracingScene<Accel> shared{scene.scene(), scene.accel(),        settings, by_power,
+                                            pass,          std::uint32_t(frame), false,    plane};
+      LightTracingLoop<NativeFloats, Accel, Correction>(shared).run(s.bounds);
+      for (int y = 0, i = 0; y < s.height; ++y)
+        for (int x = 0; x < s.width; ++x, ++i) pixels[std::size_t(i)].add({plane.take(x, y), {}});
+    }
+    film.add_pass(s.bounds, 0, pixels);
+    add_pass(film, {}, means);
+  }
+  return means;
+}
+struct NoCorrection {
+  template <class F>
+  F operator()(const Vec3<F>&, F, const Vec3<F>&, F) const {
+    return F(1.0f);
+  }
+};
+// The cosine at the vertex before the lens twice, or that of the other side of it.
+struct WrongCosine {
+  template <class F>
+  F operator()(const Vec3<F>& in, F ng_in, const Vec3<F>& out, F ng_out) const {
+    return AdjointCorrection()(in, ng_in, out, ng_out) * abs(ng_out) * 1.5f;
+  }
+};
+
+TEST(LightTracing, agrees_with_path_in_a_coloured_room_and_planted_faults_are_found) {
+  const TestScene scene(room(lens, gaussian));
+  const PassMeans path = measured(scene, "path", 16, 40, 1), light = measured(scene, "light", 16, 100, 2);
+  const Comparison c = compared(light, path);
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+  EXPECT_FALSE(compared(by_hand<AdjointCorrection>(scene, 16, 60, 3), path).differ());
+  EXPECT_TRUE(compared(by_hand<NoCorrection>(scene, 16, 60, 3), path).differ());
+  EXPECT_TRUE(compared(by_hand<WrongCosine>(scene, 16, 60, 3), path).differ());
+}
+
+TEST(LightTracing, agrees_with_path_for_every_camera_and_filter) {
+  const std::pair<std::string, std::string> pairs[] = {
+      {"Camera \"orthographic\" \"float screenwindow\" [ -0.9 0.9 -0.6 0.6 ]", "\"box\""},
+      {"Camera \"orthographic\" \"float screenwindow\" [ -0.9 0.9 -0.6 0.6 ] \"float lensradius\" 0.1 \"float "
+       "focaldistance\" 2",
+       "\"mitchell\""},
+      {"Camera \"spherical\" \"string mapping\" \"equirectangular\"", "\"gaussian\""},
+      {"Camera \"spherical\" \"string mapping\" \"equalarea\"", "\"triangle\""},
+      {"Camera \"perspective\" \"float fov\" 90", "\"sinc\""}};
+  for (const auto& [camera, filter] : pairs) {
+    SCOPED_TRACE(camera);
+    std::string text = room(camera, filter);
+    // What is seen through the glass ball has no place here.
+    text.resize(text.find("Material \"dielectric\""));
+    const TestScene scene(text);
+    const PassMeans path = measured(scene, "path", 16, 80, 1), light = measured(scene, "light", 16, 200, 2);
+    const Comparison c = compared(light, path);
+    EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+    PassMeans more = light;
+    for (auto& values : more.values)
+      for (double& x : values) x *= 1.05;
+    EXPECT_TRUE(compared(more, path).differ());
+  }
+}
+
+TEST(LightTracing, agrees_with_path_where_things_move) {
+  std::string text = room(lens, gaussian);
+  text.insert(text.find("LookAt"), "ActiveTransform EndTime\nTranslate 0.3 0 0\nActiveTransform All\n");
+  text.resize(text.find("Material \"dielectric\""));
+  text +=
+      "AttributeBegin\nActiveTransform EndTime\nTranslate 0 0.8 0\nActiveTransform All\nMaterial \"diffuse\"\n"
+      "Translate 0.4 0.2 -0.4\nShape \"sphere\" \"float radius\" 0.2\nAttributeEnd\n";
+  const TestScene scene(text);
+  ASSERT_TRUE(scene.scene().moves());
+  const Comparison c = compared(measured(scene, "light", 16, 60, 2), measured(scene, "path", 16, 40, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(LightTracing, ends_where_maxdepth_says) {
+  const TestScene scene(room(lens, gaussian));
+  for (const int depth : {0, 1, 2}) {
+    const std::string most = ":maxdepth=" + std::to_string(depth);
+    const Comparison c =
+        compared(measured(scene, "light" + most, 16, 40, 2), measured(scene, "path" + most, 16, 40, 1));
+    EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
+  }
+  EXPECT_TRUE(
+      compared(measured(scene, "light:maxdepth=1", 16, 40, 2), measured(scene, "path:maxdepth=2", 16, 40, 1)).differ());
+}
+
+TEST(LightTracing, has_the_same_bits_for_any_number_of_threads_and_lanes) {
+  const TestScene scene(room(lens, gaussian));
+  const auto film = [&](const char* way, int threads) {
+    RenderObserver silent;
+    const ChosenIntegrator chosen = scene.integrator(way);
+    return render(chosen.any(), scene.settings(PointSetKind::blue_noise, {4, 3}, 5, threads), silent).film;
+  };
+  const Film one = film("light", 1);
+  for (const auto& [way, threads] : {std::pair("light", 2), std::pair("light", 5), std::pair("light:lanes=one", 1)}) {
+    const Film other = film(way, threads);
+    for (int y = 0; y < one.bounds().y1; ++y)
+      for (int x = 0; x < one.bounds().x1; ++x)
+        for (int c = 0; c < spectrum_size; ++c) ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way;
+  }
+}
+
+TEST(LightTracing, refuses_scenes_without_a_pixel_filter) {
+  const TestScene scene("Option \"bool disablepixeljitter\" true\n" + room(lens, gaussian));
+  EXPECT_THROW(scene.integrator("light"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace montelux::test
