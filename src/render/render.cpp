@@ -12,6 +12,7 @@
 #include "render/coupled.h"
 #include "render/float_mode.h"
 #include "render/watch.h"
+#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -57,37 +58,13 @@ class Job {
     for (const PixelBounds& tile : tiles) film_.name_tile(tile);
   }
 
-  void work() {
-    FlushDenormals flush;
-    RayCounts rays;
-    Workspace space;
-    try {
-      for (std::uint64_t unit; !stop_ && (unit = next_unit_.fetch_add(1)) < units_;) {
-        rays += do_unit(unit, space);
-        if (time_is_over()) stop_ = true;
-      }
-    } catch (...) {
-      {
-        std::scoped_lock lock(mutex_);
-        if (!failure_) failure_ = std::current_exception();
-        stop_ = true;
-      }
-      drop_.request_stop();
-    }
-    std::scoped_lock lock(mutex_);
-    rays_ += rays;
-    if (--running_ == 0) finished_.notify_all();
-  }
-
   // Watches over the threads; true if the observer stopped them before the work was done.
   bool watch(int threads, RenderObserver& observer) {
-    running_ = threads;
-    std::vector<std::jthread> pool;
-    for (int i = 0; i < threads; ++i) pool.emplace_back([this] { work(); });
+    std::jthread driver([this, threads] { drive(threads); });
     bool interrupted = false;
     std::unique_lock lock(mutex_);
     double requested = 0;  // when the observer wanted to stop
-    while (!finished_.wait_for(lock, next_look(), [this] { return running_ == 0; })) {
+    while (!finished_.wait_for(lock, next_look(), [this] { return ended_; })) {
       lock.unlock();
       if (!interrupted && observer.stop_requested()) {
         stop_ = interrupted = true;
@@ -102,7 +79,7 @@ class Job {
       lock.lock();
     }
     lock.unlock();
-    pool.clear();
+    driver.join();
     if (failure_) std::rethrow_exception(failure_);
     observer.progress(progress(true));
     return interrupted && units_done_ < units_;
@@ -113,7 +90,7 @@ class Job {
  private:
   // A picture has one pass at least: units are taken pass by pass, and those of the first one are done.
   bool time_is_over() const {
-    return settings_.seconds && next_unit_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
+    return settings_.seconds && units_begun_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
   }
   bool first_pass_is_done() const { return first_units_done_ == tiles_.size(); }
   // The error takes two passes of every pixel.
@@ -127,11 +104,42 @@ class Job {
     return std::min(interval, left);
   }
 
-  // What a thread keeps from one unit of work to the next.
+  // What a worker keeps from one unit of work to the next.
   struct Workspace {
+    RayCounts rays;
     std::vector<PixelSample> samples;
     std::vector<ExactRgb> sums;
   };
+
+  // Runs all units, as one stage of the scheduler.
+  void drive(int threads) {
+    RayCounts rays;
+    std::exception_ptr failure;
+    try {
+      Scheduler scheduler(threads);
+      std::vector<Workspace> spaces(std::size_t(scheduler.threads()));
+      const auto run_unit = [&](std::size_t unit, int worker) { run(unit, spaces[std::size_t(worker)]); };
+      scheduler.run(units_, run_unit, {.stop = [this] { return stop_.load(); }});
+      for (const Workspace& space : spaces) rays += space.rays;
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    rays_ = rays, failure_ = failure, ended_ = true;
+    finished_.notify_all();
+  }
+
+  void run(std::uint64_t unit, Workspace& space) {
+    FlushDenormals flush;
+    ++units_begun_;
+    try {
+      space.rays += do_unit(unit, space);
+    } catch (...) {
+      drop_.request_stop();
+      throw;
+    }
+    if (time_is_over()) stop_ = true;
+  }
 
   RayCounts trace(const TilePass& request, Workspace& space) {
     if (!settings_.layers) return integrator_.trace(request, space.samples);
@@ -189,14 +197,14 @@ class Job {
   Film film_;
   std::deque<TileState> tiles_;
   const std::uint64_t units_;
-  std::atomic<std::uint64_t> next_unit_{0}, units_done_{0};
+  std::atomic<std::uint64_t> units_begun_{0}, units_done_{0};
   std::atomic<std::uint64_t> first_units_done_{0}, second_units_done_{0};  // of the first pass, and of the second
   std::atomic<bool> stop_{false};
   StopFlag drop_;
   ErrorWatch error_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable finished_;
-  int running_ = 0;
+  bool ended_ = false;  // the driver
   RayCounts rays_;
   std::exception_ptr failure_;
 };
