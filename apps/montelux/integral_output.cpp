@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -239,6 +240,26 @@ void print_integral_warnings(const std::vector<IntegralRun>& runs) {
     for (const lab::IntegralWarning& warning : run.result.warnings)
       warn(runs.size() == 1 ? warning.message : fmt::format("{}: {}", run.method, warning.message));
   for (const lab::Disagreement& d : disagreements_of(runs)) warn(lab::to_text(d));
+}
+
+void add_output_options(CLI::App& verb, IntegralOutput& output) {
+  verb.add_flag("--json", output.json, "results as one JSON object");
+  verb.add_flag("--csv", output.csv, "results as a table of comma-separated values")->excludes("--json");
+  verb.add_flag("--quiet", output.quiet, "no progress, notes or warnings, and of the results the values alone");
+  verb.add_flag("--strict", output.strict, "exit status 1 where a warning says that a result is less than it claims");
+}
+
+int print_integrals(const IntegralOutput& output, const IntegralOptions& options,
+                    const std::vector<IntegralRun>& runs) {
+  if (output.json)
+    print_integral_json(options, runs);
+  else if (output.csv)
+    print_integral_csv(runs);
+  else
+    print_integral_text(runs, output.quiet);
+  std::fflush(stdout);
+  if (!output.quiet) print_integral_warnings(runs);
+  return output.strict && has_warnings(runs) ? differs : done;
 }
 
 }  // namespace montelux::cli

@@ -1,4 +1,4 @@
-// montelux integrate: a formula becomes a number with its error. montelux merge: several runs become one.
+// montelux integrate: a formula becomes a number with its error.
 #include "api/integrate.h"
 
 #include <fmt/format.h>
@@ -21,17 +21,13 @@ namespace montelux::cli {
 
 namespace {
 
-struct OutputArguments {
-  bool json = false, csv = false, quiet = false, strict = false;
-};
-
 struct IntegrateArguments {
   IntegralOptions integral;
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   int threads = 0;
   std::optional<std::string> save, resume;
-  OutputArguments output;
+  IntegralOutput output;
   bool no_progress = false;
 };
 
@@ -64,29 +60,6 @@ Result<double> parse_confidence(const std::string& text) {
   const double share = value ? (percent ? *value / 100 : *value) : 0;
   if (share > 0 && share < 1) return share;
   return Failure{fmt::format("takes a probability between 0 and 1, as 0.95 or 95%; found \"{}\"", text)};
-}
-
-Setter append_to(std::vector<std::string>& list) {
-  return [&list](const std::string& text) -> Status {
-    list.push_back(text);
-    return Done{};
-  };
-}
-Setter text_into(std::optional<std::string>& target) {
-  return into(target, [](const std::string& text) -> Result<std::string> { return text; });
-}
-
-// Returns the exit status: that of a doubtful result where --strict is given.
-int print_results(const OutputArguments& output, const IntegralOptions& options, const std::vector<IntegralRun>& runs) {
-  if (output.json)
-    print_integral_json(options, runs);
-  else if (output.csv)
-    print_integral_csv(runs);
-  else
-    print_integral_text(runs, output.quiet);
-  std::fflush(stdout);
-  if (!output.quiet) print_integral_warnings(runs);
-  return output.strict && has_warnings(runs) ? differs : done;
 }
 
 // The integral of a file, with the budget that is asked for now, or else what is left of the file's.
@@ -136,11 +109,6 @@ Result<std::vector<IntegralRun>> run_watched(const IntegrateArguments& arguments
   return runs;
 }
 
-int complain_of_all(const std::vector<std::string>& mistakes) {
-  for (const std::string& mistake : mistakes) complain(mistake);
-  return bad_input;
-}
-
 int run_integrate(IntegrateArguments& arguments) {
   if (arguments.save)
     if (Status good = check_output_file(*arguments.save); !good) return complain(good.error());
@@ -178,17 +146,10 @@ int run_integrate(IntegrateArguments& arguments) {
       status = failed;
     }
   }
-  const int doubts = print_results(arguments.output, prepared.integral->options, *runs);
+  const int doubts = print_integrals(arguments.output, prepared.integral->options, *runs);
   if (status == done) status = doubts;
   if (interrupted && !arguments.output.quiet) warn("interrupted; the result is of what was done");
   return status;
-}
-
-void add_output_options(CLI::App& verb, OutputArguments& output) {
-  verb.add_flag("--json", output.json, "results as one JSON object");
-  verb.add_flag("--csv", output.csv, "results as a table of comma-separated values")->excludes("--json");
-  verb.add_flag("--quiet", output.quiet, "no progress, notes or warnings, and of the results the values alone");
-  verb.add_flag("--strict", output.strict, "exit status 1 where a warning says that a result is less than it claims");
 }
 
 // What is integrated, and how.
@@ -248,33 +209,6 @@ void add_budget_options(CLI::App& verb, IntegrateArguments& arguments) {
              into(arguments.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
 }
 
-struct MergeArguments {
-  std::vector<std::string> files;
-  std::optional<std::string> output_file;
-  OutputArguments output;
-};
-
-int run_merge(const MergeArguments& arguments) {
-  if (arguments.output_file)
-    if (Status good = check_output_file(*arguments.output_file); !good) return complain(good.error());
-  std::vector<SavedIntegral> parts;
-  std::vector<std::string> mistakes;
-  for (const std::string& file : arguments.files)
-    if (Result<SavedIntegral> part = load_integral(file))
-      parts.push_back(std::move(*part));
-    else
-      mistakes.push_back(part.error());
-  if (!mistakes.empty()) return complain_of_all(mistakes);
-  const Result<SavedIntegral> total = merge_integrals(parts);
-  if (!total) return complain(total.error());
-  if (arguments.output_file)
-    if (Status written = save_integral(*arguments.output_file, *total); !written) {
-      complain(written.error());
-      return failed;
-    }
-  return print_results(arguments.output, total->options, runs_of(*total));
-}
-
 }  // namespace
 
 void add_integrate(CLI::App& app, Action& chosen) {
@@ -289,19 +223,6 @@ void add_integrate(CLI::App& app, Action& chosen) {
   add_output_options(verb, arguments->output);
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_integrate(*arguments); }; });
-}
-
-void add_merge(CLI::App& app, Action& chosen) {
-  auto arguments = std::make_shared<MergeArguments>();
-  CLI::App& verb = *app.add_subcommand("merge", "Merge saved estimates of one integral, from runs of different seeds");
-  verb.footer(
-      "Examples:\n  montelux integrate '4*x^3' --over x=0:1 --seed 1 --save a.json\n"
-      "  montelux integrate '4*x^3' --over x=0:1 --seed 2 --save b.json\n"
-      "  montelux merge a.json b.json -o both.json\n");
-  verb.add_option("FILES", arguments->files, "what montelux integrate --save wrote")->required()->type_name("FILE");
-  add_option(verb, {"-o,--output", "FILE", "keep the merged estimate"}, text_into(arguments->output_file));
-  add_output_options(verb, arguments->output);
-  verb.callback([arguments, &chosen] { chosen = [arguments] { return run_merge(*arguments); }; });
 }
 
 }  // namespace montelux::cli

@@ -172,6 +172,17 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, std::
 
 std::string alternatives(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, "|")); }
 
+Setter text_into(std::optional<std::string>& target) {
+  return into(target, [](const std::string& text) -> Result<std::string> { return text; });
+}
+
+Setter append_to(std::vector<std::string>& list) {
+  return [&list](const std::string& text) -> Status {
+    list.push_back(text);
+    return Done{};
+  };
+}
+
 void add_option(CLI::App& verb, const OptionText& text, Setter set) {
   // The name that messages show is the long one.
   const std::string shown = text.names.substr(text.names.rfind(',') + 1);

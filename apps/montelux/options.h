@@ -52,6 +52,10 @@ Setter into(T& target, Parse parse) {
   };
 }
 
+// Setters of texts as they are.
+Setter text_into(std::optional<std::string>& target);
+Setter append_to(std::vector<std::string>& list);
+
 // Adds an option that takes one value. `type` stands for the value in help: FILE completes to file names, "a|b" to
 // these words. A repeatable option calls the setter once for each value.
 struct OptionText {

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "api/images.h"
-#include "api/json_text.h"
-#include "display_json.h"
+#include "api/saved_film.h"
 #include "options.h"
+#include "picture_output.h"
 #include "progress.h"
-#include "shortcomings.h"
 #include "signals.h"
 #include "status.h"
 #include "verbs.h"
@@ -22,8 +20,6 @@
 namespace montelux::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct RenderArguments {
   std::string scene;
@@ -34,6 +30,8 @@ struct RenderArguments {
   // Of the first picture of a sequence, for those after it.
   std::shared_ptr<std::optional<ChosenDisplay>> shown = std::make_shared<std::optional<ChosenDisplay>>();
   bool json = false, quiet = false, no_progress = false, half = false;
+  std::optional<std::string> checkpoint, resume;
+  std::optional<double> every;  // seconds between checkpoints
   std::optional<FrameRange> frames;
   std::optional<double> fps;
   std::optional<int> frame;  // the one at hand
@@ -53,179 +51,15 @@ constexpr const char* examples = R"(Examples:
   montelux render walk.glb --frames 0:47 --fps 24 --shutter 0:0.02 -o walk.####.exr
   montelux render flight.pbrt --frames 0:23 --interactive-budget 33ms --integrator restir-di
   montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
+  montelux render room.pbrt --spp 4096 --checkpoint room.film --checkpoint-every 1m
+  montelux render --resume room.film --checkpoint room.film  continues where that was interrupted
+  montelux render --resume room.film --spp 8192 -o room.exr
+  montelux render room.pbrt --spp 4096 --passes 0:7 --checkpoint a.film
+  montelux render room.pbrt --spp 4096 --passes 8:15 --checkpoint b.film
+  montelux merge a.film b.film -o room.film -o room.exr
 
 Ctrl-C (or SIGTERM, SIGHUP) ends the render early and writes what is done; a second one exits at once.
 )";
-
-// The values of one channel each; what is not finite (an error that is not known) is null.
-template <std::size_t n>
-Json to_json(const double (&values)[n]) {
-  Json list = Json::array();
-  for (double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
-  return list;
-}
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json nulls() { return Json::array({nullptr, nullptr, nullptr}); }
-
-constexpr double confidence = 0.95;
-
-// The interval of each channel of the picture's mean, with its confidence; null where there is no error bar.
-Json interval_to_json(const Rendering& rendering) {
-  Json low = Json::array(), high = Json::array();
-  for (int c = 0; c < spectrum_size; ++c) {
-    const std::optional<Interval> interval = rendering.interval_of_mean(c, confidence);
-    if (!interval) return Json();
-    low.push_back(interval->low), high.push_back(interval->high);
-  }
-  return {{"confidence", confidence}, {"low", low}, {"high", high}};
-}
-
-// Of the pixels of the picture, those that have samples; below 1 where time did not allow for all.
-double sampled_share(const Rendering& rendering) {
-  const Film& film = rendering.result.film;
-  const PixelBounds& b = film.bounds();
-  double sampled = 0;
-  for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x) sampled += film.samples(x, y) > 0;
-  return sampled / b.area();
-}
-
-// The mean of each layer over the picture.
-Json layers_to_json(const Rendering& rendering) {
-  const LayerFilm& film = *rendering.result.film.layers();
-  const PixelBounds& b = rendering.result.film.grid().cells();
-  Json json = Json::object();
-  const std::vector<std::string> names = layer_names(*rendering.layers);
-  for (int i = 0; i < film.count(); ++i) {
-    double mean[spectrum_size] = {};
-    for (int c = 0; c < spectrum_size; ++c) {
-      for (int y = b.y0; y < b.y1; ++y)
-        for (int x = b.x0; x < b.x1; ++x) mean[c] += film.layer_mean(x, y, i, c);
-      mean[c] /= double(b.area());
-    }
-    json[names[std::size_t(i)]] = to_json(mean);
-  }
-  return json;
-}
-
-std::string header_text(const Rendering& rendering, std::string_view name) {
-  for (const Attribute& attribute : rendering.header)
-    if (attribute.name == name)
-      if (auto* text = std::get_if<std::string>(&attribute.value)) return *text;
-  return {};
-}
-
-// What a render came to, in numbers.
-struct Outcome {
-  ImageEstimate image;
-  ErrorEstimate error;
-  double samples = 0;  // in all pixels
-  std::uint64_t rays = 0, non_finite = 0;
-};
-
-Outcome outcome_of(const Rendering& rendering) {
-  const RenderResult& result = rendering.result;
-  const PixelBounds& b = result.film.bounds();
-  Outcome outcome{rendering.image, rendering.error, 0, result.rays.all(), result.film.non_finite()};
-  for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x) outcome.samples += result.film.samples(x, y);
-  return outcome;
-}
-
-void print_json(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
-  const double seconds = rendering.result.seconds;
-  const bool known = rendering.has_pixel_error();
-  Json json;
-  json["version"] = version();
-  json["scene"] = arguments.scene;
-  json["files"] = arguments.files;
-  json["interrupted"] = rendering.result.interrupted;
-  json["seed"] = arguments.render.seed.value_or(0);
-  if (arguments.frame) {
-    json["frame"] = *arguments.frame;
-    json["shutter"] = {arguments.render.shutter->open, arguments.render.shutter->close};
-  }
-  json["mean"] = outcome.image.passes > 0 ? to_json(outcome.image.mean) : nulls();
-  json["standard_error"] = rendering.has_error_bar() ? to_json(outcome.image.standard_error) : nulls();
-  json["interval_of_mean"] = interval_to_json(rendering);
-  json["mse"] = known ? number_or_null(outcome.error.mse) : Json();
-  json["relative_mse"] = known ? number_or_null(outcome.error.relative_mse) : Json();
-  json["relative_mse_range"] =
-      known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
-  json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
-  json["unsure_error"] = known && outcome.error.is_unsure();
-  json["sampled_pixels"] = sampled_share(rendering);
-  json["passes"] = outcome.image.passes;
-  json["samples_per_pass"] = rendering.plan.samples_per_pass;
-  json["samples"] = outcome.samples;
-  json["error_bar"] = rendering.has_error_bar();
-  json["seconds"] = seconds;
-  if (arguments.render.budget) {
-    json["budget"] = *arguments.render.budget;
-    json["over_budget"] = arguments.is_late(rendering);
-  }
-  if (arguments.frame) json["history_bytes"] = rendering.history_bytes;
-  json["rays"] = outcome.rays;
-  if (rendering.result.rays.by_depth[0] > 0) json["rays_by_depth"] = rendering.result.rays.by_depth;
-  json["rays_per_second"] = number_or_null(double(outcome.rays) / seconds);
-  json["non_finite"] = outcome.non_finite;
-  if (rendering.layers) json["layers"] = layers_to_json(rendering);
-  json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
-  if (has_display_file(arguments)) json["display"] = display_json<Json>(display_of(arguments, rendering));
-  add_to(json, {rendering.missing, rendering.replaced, rendering.left_out});
-  // A line for each frame of a sequence.
-  fmt::print("{}\n", json_text(std::move(json), arguments.frame ? -1 : 2));
-}
-
-// The mean of the picture with its standard error, and with its interval.
-void print_mean(const Rendering& rendering) {
-  if (rendering.image.passes == 0) {
-    fmt::print("mean     -\n");
-    return;
-  }
-  std::string mean = "mean    ", interval = fmt::format("         {:.0f} %:", 100 * confidence);
-  for (int c = 0; c < spectrum_size; ++c) {
-    mean += fmt::format(" {} {:.6g}", "RGB"[c], rendering.image.mean[c]);
-    if (const auto range = rendering.interval_of_mean(c, confidence)) {
-      mean += fmt::format(" ± {:.2g}", rendering.image.standard_error[c]);
-      interval += fmt::format(" {} {:.6g} to {:.6g}", "RGB"[c], (*range).low, (*range).high);
-    }
-  }
-  fmt::print("{}\n", mean);
-  if (rendering.has_error_bar()) fmt::print("{}\n", interval);
-}
-
-// The error of a pixel; never that of a part of the picture.
-std::string error_line(const Rendering& rendering) {
-  const ErrorEstimate& error = rendering.error;
-  if (rendering.found_no_light) return "not known: no sample found light";
-  if (!rendering.has_pixel_error()) return "not known: it takes two independent passes of every pixel";
-  std::string line = fmt::format("{} of a pixel, root of the mean relative square", error_text(error));
-  if (error.is_unsure())
-    line += fmt::format("; few bright samples decide it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
-                        100 * std::sqrt(error.relative_high));
-  return line;
-}
-
-void print_text(const RenderArguments& arguments, const Rendering& rendering, const Outcome& outcome) {
-  const double seconds = std::max(rendering.result.seconds, 1e-9);
-  const int k = rendering.plan.samples_per_pass, passes = outcome.image.passes;
-  for (const std::string& file : arguments.files) fmt::print("picture  {}\n", file);
-  print_mean(rendering);
-  fmt::print("error    {}\n", error_line(rendering));
-  if (outcome.non_finite > 0) fmt::print("not finite {} samples, which are not in the mean\n", outcome.non_finite);
-  print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
-  const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
-  fmt::print("samples  {:.3g} a pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
-             count_text(outcome.samples));
-  if (share < 1) fmt::print("         {:.3g} % of the pixels have samples\n", 100 * share);
-  fmt::print(
-      "time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),
-      count_text(double(outcome.rays) / seconds, "rays/s"),
-      arguments.is_late(rendering) ? fmt::format(", over the budget of {}", time_text(*arguments.render.budget)) : "");
-}
 
 // How 8-bit pictures show the rendering. All pictures of a sequence are shown like the first.
 const ChosenDisplay& display_of(const RenderArguments& arguments, const Rendering& rendering) {
@@ -263,6 +97,13 @@ Status check_files(const RenderArguments& arguments) {
   return Done{};
 }
 
+std::string interruption_text(const RenderArguments& arguments, const Outcome& outcome) {
+  const std::string goes_on =
+      arguments.checkpoint ? fmt::format("; montelux render --resume {} continues", *arguments.checkpoint) : "";
+  if (outcome.image.passes == 0) return "interrupted in the first pass; parts of the picture are missing" + goes_on;
+  return fmt::format("interrupted after {} passes; the picture is of what was done{}", outcome.image.passes, goes_on);
+}
+
 // One picture: written and told of. A frame that is interrupted is not written.
 int finish_picture(const RenderArguments& arguments, const Result<Rendering>& rendering, const StopSignals& signals) {
   if (!rendering) return complain(rendering.error());
@@ -278,11 +119,12 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
     complain("interrupted before any sample was taken; nothing is written");
     return 128 + signal;
   }
-  const int status = write_files(arguments, *rendering);
-  if (rendering->result.interrupted && !arguments.quiet)
-    warn(outcome.image.passes > 0
-             ? fmt::format("interrupted after {} passes; the picture is of what was done", outcome.image.passes)
-             : "interrupted in the first pass; parts of the picture are missing");
+  int status = write_files(arguments, *rendering);
+  if (!rendering->saved) {
+    complain(rendering->saved.error());
+    status = failed;
+  }
+  if (rendering->result.interrupted && !arguments.quiet) warn(interruption_text(arguments, outcome));
   // Notes are the same for every frame.
   if (!arguments.quiet && (!arguments.frame || *arguments.frame == arguments.frames->first))
     for (const std::string& note : rendering->notes) warn(note);
@@ -292,10 +134,15 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
   if (outcome.non_finite > 0 && !arguments.quiet)
     warn(fmt::format("{} samples were not finite; they are not in the mean", outcome.non_finite));
   if (status != done) return status;
+  PictureReport report{
+      arguments.scene,          arguments.files,        {}, arguments.render.seed.value_or(0), arguments.frame,
+      arguments.render.shutter, arguments.render.budget};
+  if (arguments.checkpoint) report.film = *arguments.checkpoint;
+  if (has_display_file(arguments)) report.display = &display_of(arguments, *rendering);
   if (arguments.json)
-    print_json(arguments, *rendering, outcome);
+    print_picture_json(report, *rendering);
   else
-    print_text(arguments, *rendering, outcome);
+    print_picture_text(report, *rendering);
   flush_results();
   return rendering->result.interrupted ? 128 + signal : done;
 }
@@ -395,7 +242,33 @@ Status check_output(const RenderArguments& arguments) {
   return check_files(*last);
 }
 
+// What the options about saved films say together.
+Status check_saving(const RenderArguments& arguments) {
+  const RenderOptions& render = arguments.render;
+  if (arguments.scene.empty() && !arguments.resume) return Failure{"SCENE is required; see montelux render --help"};
+  if (arguments.every && !arguments.checkpoint) return Failure{"--checkpoint-every needs --checkpoint FILE"};
+  if (render.passes && !arguments.checkpoint && arguments.files.empty())
+    return Failure{"--passes renders a part: --checkpoint FILE saves it, to be merged, or -o FILE is its picture"};
+  return arguments.checkpoint ? check_output_file(*arguments.checkpoint) : Status(Done{});
+}
+
+// The film to be continued, with the scene and the options that it takes.
+Result<SavedFilm> resumed(RenderArguments& arguments) {
+  RenderOptions& render = arguments.render;
+  Result<SavedFilm> film = load_film(*arguments.resume);
+  if (!film) return film;
+  if (!film->wanted && !render.samples && !render.seconds && !render.passes)
+    return Failure{
+        fmt::format("{} was rendered within a time; --time says how much more, or --spp how many samples a "
+                    "pixel there shall be",
+                    *arguments.resume)};
+  if (arguments.scene.empty()) arguments.scene = film->scene.string();
+  take_options(*film, arguments.load, render);
+  return film;
+}
+
 int run_render(RenderArguments& arguments) {
+  if (Status good = check_saving(arguments); !good) return complain(good.error());
   if (arguments.fps && arguments.frames->of)
     return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
   if (arguments.frames) arguments.frames->fps = arguments.fps;
@@ -404,13 +277,25 @@ int run_render(RenderArguments& arguments) {
   if (!arguments.files.empty())
     if (Status good = check_output(arguments); !good) return complain(good.error());
 
+  const bool is_part = arguments.render.passes.has_value();
+  std::optional<SavedFilm> film;
+  if (arguments.resume) {
+    Result<SavedFilm> saved = resumed(arguments);
+    if (!saved) return complain(saved.error());
+    film = *std::move(saved);
+    arguments.render.resume = &*film;
+  }
+  if (arguments.checkpoint)
+    arguments.render.checkpoint =
+        FilmCheckpoint{*arguments.checkpoint, arguments.every.value_or(FilmCheckpoint{}.every)};
+
   arguments.load.threads = arguments.render.threads;
   arguments.load.frames = arguments.frames;
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
   if (!arguments.render.seed) arguments.render.seed = loaded.scene->info().seed;
-  if (arguments.files.empty()) {
+  if (arguments.files.empty() && !is_part) {
     const std::string& by_scene = loaded.scene->info().picture_file;
     arguments.files = {by_scene.empty() ? default_picture(arguments.scene) : by_scene};
     if (Status good = check_output(arguments); !good)
@@ -461,6 +346,43 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
              into(render.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
              into(render.crop, parse_crop));
+}
+
+// "A" or "A:B".
+Result<PassRange> parse_passes(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  constexpr int most = (1 << 24) - 1;
+  const Result<int> first = parse_whole(text.substr(0, colon), 0, most);
+  const Result<int> last = colon == std::string::npos ? first : parse_whole(text.substr(colon + 1), 0, most);
+  if (first && last && *first <= *last) return PassRange{*first, *last};
+  return Failure{fmt::format("takes a range of passes A:B, from 0, with its last pass, as 0:3; found \"{}\"", text)};
+}
+
+// Films in files.
+void add_saving_options(CLI::App& verb, RenderArguments& arguments) {
+  add_option(verb, {"--checkpoint", "FILE", "save the film now and then and at the end, to be resumed or merged"},
+             text_into(arguments.checkpoint));
+  add_option(verb, {"--checkpoint-every", "TIME", "how often (30s, 5m, 1h; default 5m)"},
+             into(arguments.every, parse_time));
+  add_option(
+      verb,
+      {"--resume", "FILE",
+       "continue a saved film, up to --spp samples a pixel in all or for --time more; default: what it lacks. Its "
+       "scene and settings need not be given"},
+      text_into(arguments.resume));
+  add_option(verb,
+             {"--passes", "A:B",
+              "only these of the passes that --spp makes, from 0, with the last one; montelux merge makes one film of "
+              "such parts"},
+             into(arguments.render.passes, parse_passes));
+  add_option(
+      verb,
+      {"--samples-per-pass", "K",
+       "samples a pixel in each pass; default: so that there are from 8 to 32 passes, or as the saved film has it"},
+      into(arguments.render.samples_per_pass, [](const std::string& t) { return parse_whole(t, 1, 1 << 16); }));
+  verb.get_option("--passes")->excludes("--time");
+  for (const char* saving : {"--checkpoint", "--resume", "--passes"})
+    for (const char* other : {"--frames", "--interactive-budget"}) verb.get_option(saving)->excludes(other);
 }
 
 // By what algorithm.
@@ -515,8 +437,10 @@ void add_render(CLI::App& app, Action& chosen) {
         return Done{};
       });
   add_scene_options(verb, arguments->scene, arguments->load);
+  verb.get_option("SCENE")->required(false);
   add_sampling_options(verb, arguments->render);
   add_frame_options(verb, *arguments);
+  add_saving_options(verb, *arguments);
   add_algorithm_options(verb, arguments->render);
   add_display_options(verb, arguments->display);
   verb.add_flag(

@@ -39,6 +39,11 @@ int complain(std::string_view message, int status) {
   return status;
 }
 
+int complain_of_all(const std::vector<std::string>& mistakes) {
+  for (const std::string& mistake : mistakes) complain(mistake);
+  return bad_input;
+}
+
 void warn(std::string_view message) { say("warning", "33", message); }
 
 void print_diagnostics(const Diagnostics& diagnostics, bool quiet) {

@@ -1,7 +1,9 @@
 // Exit statuses, and words to the user on standard error.
 #pragma once
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "api/scene.h"
 
@@ -23,6 +25,8 @@ bool color_on_stderr();
 void print_log(std::string_view text);
 // "montelux: error: message" and returns the status, so that a verb can return it.
 int complain(std::string_view message, int status = bad_input);
+// Of several mistakes.
+int complain_of_all(const std::vector<std::string>& mistakes);
 void warn(std::string_view message);
 
 // Writes out what was printed on standard output. Throws std::system_error where that fails, as printing itself does.

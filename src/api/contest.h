@@ -113,9 +113,11 @@ Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, c
                                  const ContestObserver& observer);
 
 // Changes with the content of the scene's file and of every file beside it or below that its text, or that of a text it
-// includes, names; and with that of an environment that takes the place of the scene's own.
+// includes, names; and with that of an environment that takes the place of the scene's own. Files of the names in
+// `written` are none of the scene: it names the picture that is made of it.
 std::uint64_t scene_fingerprint(const std::filesystem::path& scene,
-                                const std::optional<EnvironmentOptions>& environment = {});
+                                const std::optional<EnvironmentOptions>& environment = {},
+                                const std::vector<std::string>& written = {});
 Status save_contest(const std::filesystem::path& file, const SavedContest& contest);
 // Fails where the file cannot be read, is of another kind or version, or its scene has changed.
 Result<SavedContest> load_contest(const std::filesystem::path& file);

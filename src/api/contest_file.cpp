@@ -13,6 +13,7 @@
 #include "api/contest.h"
 #include "api/render.h"
 #include "api/saved_file.h"
+#include "api/saved_scene.h"
 #include "lab/report/base64.h"
 
 namespace montelux {
@@ -74,9 +75,6 @@ Json options_json(const ContestOptions& o) {
   if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
   return json;
 }
-// Of a picture, in pixels.
-int side_from(const Json& j) { return whole_from(j, 0, 1 << 16); }
-
 ContestOptions options_from(const Json& j) {
   ContestOptions o;
   o.methods = j.at("methods").get<std::vector<std::string>>();
@@ -201,31 +199,10 @@ lab::MethodState method_from(const Json& j, std::size_t pixel_count, int max_pas
   return m;
 }
 
-std::uint64_t fingerprint_from(const std::string& hexadecimal) {
-  std::uint64_t value = 0;
-  const char* const end = hexadecimal.data() + hexadecimal.size();
-  if (std::from_chars(hexadecimal.data(), end, value, 16).ptr != end)
-    throw std::invalid_argument("the fingerprint of its scene is damaged");
-  return value;
-}
-
 SavedContest saved_from(const Json& j) {
   SavedContest saved;
-  saved.scene = j.at("scene").get<std::string>();
-  if (j.contains("scene_bytes")) {
-    const auto bytes = lab::bytes_of_base64(j.at("scene_bytes").get_ref<const std::string&>());
-    if (!bytes) throw std::invalid_argument("the name of its scene is damaged");
-    saved.scene = *bytes;
-  }
-  saved.load.lenient = j.at("lenient");
-  if (const Json& size = j.at("resolution"); !size.is_null())
-    saved.load.resolution = {{side_from(size.at(0)), side_from(size.at(1))}};
-  if (const Json& name = j.at("camera"); !name.is_null()) saved.load.camera = name.get<std::string>();
-  if (const Json& name = j.at("animation"); !name.is_null()) saved.load.animation = name.get<std::string>();
-  if (const Json& times = j.at("shutter"); !times.is_null()) saved.load.shutter = {times.at(0), times.at(1)};
-  if (const auto e = j.find("environment"); e != j.end())
-    saved.load.environment = EnvironmentOptions{e->at("file"), e->at("rotation"), e->at("scale")};
-  saved.fingerprint = fingerprint_from(j.at("scene_fingerprint").get_ref<const std::string&>());
+  const SavedScene scene = scene_from(j);
+  saved.scene = scene.file, saved.load = scene.load, saved.fingerprint = scene.fingerprint;
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
   saved.state.reference = reference_from(j.at("reference"));
@@ -241,28 +218,12 @@ SavedContest saved_from(const Json& j) {
 }  // namespace
 
 Status save_contest(const fs::path& file, const SavedContest& c) {
-  Json json{{"format", saved_format.name},
-            {"version", saved_format.version},
-            {"program", version()},
-            {"scene", c.scene.string()},
-            {"scene_fingerprint", fmt::format("{:016x}", c.fingerprint)},
-            {"lenient", c.load.lenient},
-            {"resolution", Json()},
-            {"camera", Json()},
-            {"animation", Json()},
-            {"shutter", Json()},
-            {"options", options_json(c.options)},
-            {"notes", c.notes},
-            {"reference", reference_json(c.state.reference)},
-            {"methods", Json::array()}};
-  // The name of a file may be any bytes, and this one is to be found again.
-  if (!is_utf8(c.scene.string())) json["scene_bytes"] = lab::base64(c.scene.string());
-  if (c.load.resolution) json["resolution"] = {c.load.resolution->first, c.load.resolution->second};
-  if (c.load.camera) json["camera"] = *c.load.camera;
-  if (c.load.animation) json["animation"] = *c.load.animation;
-  if (c.load.shutter) json["shutter"] = {c.load.shutter->open, c.load.shutter->close};
-  if (const auto& e = c.load.environment)
-    json["environment"] = {{"file", fs::absolute(e->file).string()}, {"rotation", e->rotation}, {"scale", e->scale}};
+  Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
+  add_scene(json, {c.scene, c.load, c.fingerprint});
+  json["options"] = options_json(c.options);
+  json["notes"] = c.notes;
+  json["reference"] = reference_json(c.state.reference);
+  json["methods"] = Json::array();
   for (const lab::MethodState& m : c.state.methods) json["methods"].push_back(method_json(m));
   return save_json(file, std::move(json));
 }

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <string_view>
+#include <vector>
 
 namespace montelux {
 
@@ -50,6 +51,15 @@ Result<LayerRequest> parse_layers(const std::string& text) {
   if (!request.of_light() && (request.errors || !request.motion))
     return Failure{"errors are those of layers: bounces, light-groups, or both are needed as well"};
   return request;
+}
+
+std::string to_text(const LayerRequest& request) {
+  std::vector<std::string> words;
+  if (request.bounces) words.push_back(fmt::format("bounces:{}", *request.bounces));
+  if (request.light_groups) words.emplace_back("light-groups");
+  if (request.errors) words.emplace_back("errors");
+  if (request.motion) words.emplace_back("motion");
+  return fmt::format("{}", fmt::join(words, ","));
 }
 
 }  // namespace montelux

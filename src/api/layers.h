@@ -18,5 +18,7 @@ struct LayerRequest {
 
 // "bounces:3,light-groups,errors,motion". Fails where a word is unknown or nothing is asked for.
 Result<LayerRequest> parse_layers(const std::string& text);
+// The text of a request; empty where nothing is asked for.
+std::string to_text(const LayerRequest& request);
 
 }  // namespace montelux

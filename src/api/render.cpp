@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/contest.h"
+#include "api/film_keeper.h"
 #include "api/parts.h"
 #include "api/shortcomings.h"
 #include "integrator/catalogue.h"
@@ -51,12 +53,50 @@ struct Plan {
   ChosenIntegrator chosen;
   std::vector<Replacement> replaced;
   FilesToWrite files;
-  bool motion = false;     // of a sequence
-  double preparation = 0;  // seconds that the making of the integrator took: pilots, meshes of elements
+  std::string way;                      // the integrator, with its settings
+  std::optional<int> samples_per_pass;  // that are asked for
+  bool motion = false;                  // of a sequence
+  double preparation = 0;               // seconds that the making of the integrator took: pilots, meshes of elements
 };
 
 Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
   return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
+}
+
+// "direct:candidates=4,strategy=ris", whatever the order in which the settings were given.
+std::string way_of(const ChoiceText& choice) {
+  std::vector<std::string> settings;
+  for (const auto& [key, value] : choice.settings) settings.push_back(fmt::format("{}={}", key, value));
+  std::ranges::stable_sort(settings);
+  return choice.name + (settings.empty() ? "" : ":") + fmt::format("{}", fmt::join(settings, ","));
+}
+
+// The plan with passes of so many samples, and of these the ones that are wanted.
+Status plan_passes(const RenderOptions& options, const AnyIntegrator& integrator, RenderSettings& r) {
+  constexpr int endless = 1 << 20;  // time ends it
+  const int samples = r.plan.samples();
+  if (const auto& k = options.samples_per_pass; k && *k != r.plan.samples_per_pass) {
+    if (*k < 1 || *k > most_fixed_samples)
+      return Failure{fmt::format("a pass has from 1 to {} samples a pixel; found {}", most_fixed_samples, *k)};
+    // A saved film has those that it was made with.
+    const bool as_saved = options.resume && !options.samples;
+    if (is_fixed(r.sampler) && !as_saved)
+      return Failure{
+          fmt::format("sampler {} takes all its samples in one pass, and has no others", name_of(r.sampler))};
+    if (integrator.coupled() && *k > integrator.coupled()->frames())
+      return Failure{fmt::format("a pass is a chain of at most {} frames here; found {} samples a pass",
+                                 integrator.coupled()->frames(), *k)};
+    r.plan = {*k, is_fixed(r.sampler) ? 1 : (samples + *k - 1) / *k};
+  }
+  if (options.resume && options.seconds && !is_fixed(r.sampler)) r.plan.passes = endless;
+  if (const auto& range = options.passes) {
+    const bool further = options.resume && !options.samples;  // than the scene's number of samples
+    if (!further && range->last >= r.plan.passes)
+      return Failure{fmt::format("there is no pass {}: {} samples a pixel are {} passes of {}, from 0 to {}",
+                                 range->last, samples, r.plan.passes, r.plan.samples_per_pass, r.plan.passes - 1)};
+    r.first_pass = range->first, r.plan.passes = range->count();
+  }
+  return Done{};
 }
 
 Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
@@ -73,6 +113,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
       parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
+  plan.way = way_of(*choice);
   const Stopwatch since_choice;
   auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
@@ -111,7 +152,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.threads = options.threads;
   if (options.shutter) r.shutter = shutter_for(*options.shutter, picture);
   r.seconds = options.seconds;
-  plan.files = options.files;
+  plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
   if (options.budget && (options.seconds || options.samples || plan.render.layers))
     return Failure{"a time budget takes the place of a number of samples and of a time, and has no layers of light"};
   if (options.budget) r.budget = {*options.budget, 0};
@@ -119,47 +160,42 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
                ? plan_for_budget(plan.chosen.any())
                : plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples),
                              r.sampler);
+  if (Status good = plan_passes(options, plan.chosen.any(), r); !good) return good.failure();
   if (is_fixed(r.sampler) && r.plan.samples_per_pass > most_fixed_samples)
     return Failure{fmt::format("sampler {} takes at most {} samples, all in one pass; found {}", name_of(r.sampler),
                                most_fixed_samples, r.plan.samples_per_pass)};
   return plan;
 }
 
-// What one picture was rendered with.
-struct PicturePlan {
-  const Plan& plan;
-  const RenderSettings& render;
-  const ImageEstimate& image;
-  const ErrorEstimate& error;
-  bool found_no_light = false;
-};
-
-// For a header, which has no lists.
-std::string list_or_none(const std::vector<std::string>& all, std::string_view separator = "; ") {
-  return all.empty() ? std::string("none") : fmt::format("{}", fmt::join(all, separator));
-}
-
-// What a picture is called of which only one pixel in each square of pixels is sampled.
-std::string sparse_text(int stride) {
-  return fmt::format("one pixel of each {0} x {0} is sampled, the others repeat it", stride);
-}
-
 // The plan within the time that is left: the making of the integrator has taken `before`, which grows by what this
 // takes, and in the end the picture is written.
-void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, RenderSettings& settings, double& before,
+void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSettings& settings, double& before,
                 RenderObserver& observer) {
   // Of the time, what is rendered in however long the rest takes.
   constexpr double min_share = 0.1;
   const double all = *settings.seconds;
   const Stopwatch since_start;
   const auto left = [&](double end) { return std::max(end - before - since_start.seconds(), min_share * all); };
-  const FinishTime finish = seconds_to_finish(settings.bounds, files);
+  const FinishTime finish = seconds_to_finish(settings.bounds, plan.files);
   const double end = all - finish.error - finish.encoding;
   if (left(all - finish.encoding) == min_share * all)
     observer.announce(
         fmt::format("to prepare and to write the picture takes about {:.2g} s of its own, in addition to the time",
                     before + finish.encoding));
-  const TimedPlan timed = plan_for_time(integrator, settings, left(end), observer);
+  if (settings.begun) {
+    settings.seconds = left(end);
+    before += since_start.seconds();
+    return;
+  }
+  TimedPlan timed = plan_for_time(integrator, settings, left(end), observer);
+  if (plan.samples_per_pass) timed.plan.samples_per_pass = *plan.samples_per_pass;
+  if (settings.keeping.keep && timed.stride > 1) {
+    observer.announce(
+        fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: a film that is "
+                    "saved has one all the same",
+                    timed.sample_seconds));
+    timed.stride = 1;
+  }
   settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
   if (timed.stride > 1)
     observer.announce(fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: {}",
@@ -172,115 +208,78 @@ void plan_timed(const AnyIntegrator& integrator, const FilesToWrite& files, Rend
   before += since_start.seconds();
 }
 
-// Whether there are samples and each of them is zero. (A mean of zero of values that are not shows in m2.)
-bool is_black(const Film& film) {
-  const PixelBounds& b = film.bounds();
-  bool sampled = false;
-  for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x) {
-      const PixelEstimate& pixel = film.pixel(x, y);
-      sampled |= pixel.passes > 0;
-      for (int c = 0; c < spectrum_size; ++c)
-        if (pixel.mean[c] != 0 || pixel.m2[c] != 0) return false;
-    }
-  return sampled;
+PictureFacts facts_of(const LoadedScene::Parts& parts, const Plan& plan, const RenderSettings& settings) {
+  return {std::filesystem::path(parts.info.file).filename().string(),
+          plan.chosen.name,
+          std::string(name_of(settings.sampler)),
+          settings.seed,
+          settings.plan.samples_per_pass,
+          plan.chosen.biases,
+          plan.chosen.notes,
+          plan.chosen.missing,
+          parts.info.left_out,
+          plan.replaced,
+          plan.chosen.content,
+          parts.info.states_exposure,
+          settings.layers};
 }
 
-std::vector<Attribute> header_of(const LoadedScene::Parts& parts, const PicturePlan& picture,
-                                 const RenderResult& result) {
-  std::vector<Attribute> header;
-  auto add = [&](std::string name, std::variant<std::string, std::int32_t, float, double> value) {
-    header.push_back({"montelux:" + std::move(name), std::move(value)});
-  };
-  add("version", version());
-  add("scene", std::filesystem::path(parts.info.file).filename().string());
-  add("integrator", picture.plan.chosen.name);
-  add("sampler", std::string(name_of(picture.render.sampler)));
-  add("seed", std::int32_t(picture.render.seed));
-  add("samplesPerPass", std::int32_t(picture.render.plan.samples_per_pass));
-  const ImageEstimate& image = picture.image;
-  add("passes", std::int32_t(image.passes));
-  add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
-  add("biasedOptions", list_or_none(picture.plan.chosen.biases, ", "));
-  add("display", std::string(content_names[std::size_t(picture.plan.chosen.content)]));
-  add("exposure", std::string(parts.info.states_exposure ? "stated by the scene" : "not stated"));
-  add("missingLight", list_or_none(picture.plan.chosen.missing));
-  std::vector<std::string> replaced;
-  for (const Replacement& r : picture.plan.replaced) replaced.push_back(to_text(r));
-  add("replaced", list_or_none(replaced));
-  add("leftOut", list_or_none(parts.info.left_out));
-  const bool has_error_bar = image.passes >= 2 && !picture.found_no_light;
-  if (has_error_bar)
-    add("errorBar", fmt::format("over {} independent passes", image.passes));
-  else
-    add("errorBar",
-        std::string(picture.found_no_light ? "none: no sample found light" : "none: it takes two independent passes"));
-  if (result.film.grid().stride > 1) add("sparse", sparse_text(result.film.grid().stride));
-  if (const ErrorEstimate& error = picture.error; error.whole() && !picture.found_no_light) {
-    add("estimatedMSE", error.mse);
-    add("estimatedRelativeMSE", error.relative_mse);
-    add("estimatedRelativeMSELow", error.relative_low);
-    add("estimatedRelativeMSEHigh", error.relative_high);
-    if (error.is_unsure()) add("unsureError", std::string("few bright samples decide the error"));
-  }
-  for (int c = 0; c < spectrum_size; ++c) {
-    add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
-    if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
-  }
-  // A file that must be the same in every run carries no times.
-  if (auto date = date_attribute())
-    header.push_back(*date);
-  else
-    add("renderSeconds", result.seconds);
-  return header;
+// Of the scene, without the files that renders of it write.
+std::uint64_t fingerprint_of(const LoadedScene::Parts& parts, const RenderOptions& options) {
+  std::vector<std::string> written;
+  const auto add = [&](const std::filesystem::path& file) { written.push_back(file.filename().string()); };
+  add(parts.info.picture_file);
+  for (const auto& file : options.files.paths) add(file);
+  if (options.checkpoint) add(options.checkpoint->file);
+  return scene_fingerprint(parts.info.file, parts.load.environment, written);
 }
 
-// One picture, as the plan is but for seed, shutter and memories. What the end of a picture takes goes into the plan.
-Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSettings settings,
-                         RenderObserver& observer) {
+// What the film of a render is of; the film itself is not in it.
+SavedFilm description_of(const LoadedScene::Parts& parts, const Plan& plan, const RenderSettings& r,
+                         const RenderOptions& options) {
+  LoadOptions load = parts.load;
+  load.resolution = {r.width, r.height}, load.resolution_scale.reset();
+  SavedFilm film{std::filesystem::absolute(parts.info.file),
+                 load,
+                 fingerprint_of(parts, options),
+                 {plan.way, std::string(name_of(r.sampler)), options.layers ? to_text(*options.layers) : "", r.seed,
+                  r.plan.samples_per_pass, r.width, r.height, r.bounds},
+                 options,
+                 {},
+                 facts_of(parts, plan, r),
+                 {Film({}), {}, 0}};
+  if (!options.seconds) film.wanted = PassRange{r.first_pass, r.first_pass + r.plan.passes - 1};
+  return film;
+}
+
+// One picture, as the plan is but for seed, shutter and memories. What the end of a picture takes goes into the plan;
+// `film`, where there is one, learns how long passes are, and what the preparation took.
+Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSettings settings, RenderObserver& observer,
+                         SavedFilm* film = nullptr) {
   const AnyIntegrator integrator = plan.chosen.any();
   // The integrator is made once, and that counts for the first picture of a sequence.
   double before = std::exchange(plan.preparation, 0.0);
   if (settings.seconds) {
     // The time includes the making of the integrator, the measurement of its speed, and the writing of the picture.
-    plan_timed(integrator, plan.files, settings, before, observer);
+    plan_timed(integrator, plan, settings, before, observer);
+  }
+  if (film) {
+    film->settings.samples_per_pass = film->facts.samples_per_pass = settings.plan.samples_per_pass;
+    film->begun.seconds = before;
   }
   if (settings.budget) settings.budget->seconds -= before;
   RenderResult result = render(integrator, settings, observer);
   result.seconds += before;
-  const ImageEstimate image = result.film.image();
-  const ErrorEstimate error = result.film.error();
   if (settings.budget) {
     const PixelBounds& b = settings.bounds;
-    const int passes = std::max(image.passes, 1);
+    const int passes = std::max(result.film.image().passes, 1);
     settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
     plan.render.budget->ending = result.ending;
   }
-  const bool found_no_light = plan.chosen.content == Content::light && is_black(result.film);
-  std::vector<Attribute> header = header_of(parts, {plan, settings, image, error, found_no_light}, result);
-  return Rendering{std::move(result),
-                   std::move(header),
-                   plan.chosen.notes,
-                   settings.plan,
-                   settings.layers,
-                   0,
-                   {},
-                   image,
-                   error,
-                   plan.chosen.missing,
-                   plan.replaced,
-                   parts.info.left_out,
-                   plan.chosen.content,
-                   parts.info.states_exposure,
-                   found_no_light};
+  return rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
 }
 
 }  // namespace
-
-std::optional<Interval> Rendering::interval_of_mean(int channel, double confidence) const {
-  if (!has_error_bar()) return std::nullopt;
-  return confidence_interval(image.mean[channel], image.standard_error[channel], image.passes, confidence);
-}
 
 struct PictureSequence::State {
   const LoadedScene::Parts& parts;
@@ -317,7 +316,26 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   Result<Plan> plan = plan_render(scene.parts(), options);
   if (!plan) return plan.failure();
   RenderSettings settings = plan->render;
-  return render_picture(scene.parts(), *plan, std::move(settings), observer);
+  if (!options.checkpoint && !options.resume)
+    return render_picture(scene.parts(), *plan, std::move(settings), observer);
+
+  if (options.budget) return Failure{"a picture within a time budget is not saved, and continues no saved film"};
+  SavedFilm film = description_of(scene.parts(), *plan, settings, options);
+  if (options.resume) {
+    if (Status good = check_continues(*options.resume, film); !good) return good.failure();
+    settings.begun = &options.resume->begun;
+  }
+  Status saved{Done{}};
+  if (options.checkpoint)
+    settings.keeping = {options.checkpoint->every, [&](FilmSnapshot snapshot) {
+                          snapshot.seconds += film.begun.seconds;
+                          const bool was_saved(saved);
+                          saved = save_snapshot(options.checkpoint->file, film, snapshot);
+                          if (!saved && was_saved) observer.announce(saved.error());
+                        }};
+  Rendering rendering = render_picture(scene.parts(), *plan, std::move(settings), observer, &film);
+  rendering.saved = saved;
+  return rendering;
 }
 
 std::vector<std::string> missing_light_of(const LoadedScene& scene) {

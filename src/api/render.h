@@ -17,6 +17,21 @@ struct FilesToWrite {
   bool half = false;  // of an .exr, as write_rendering() has it
 };
 
+struct SavedFilm;  // api/saved_film.h
+
+// Passes by their numbers, the last one included.
+struct PassRange {
+  int first = 0, last = 0;
+  int count() const { return last - first + 1; }
+  bool operator==(const PassRange&) const = default;
+};
+
+// A file in which the film is saved now and then, and at the end.
+struct FilmCheckpoint {
+  std::filesystem::path file;
+  double every = 300;  // seconds
+};
+
 struct RenderOptions {
   std::optional<int> samples;             // a pixel; default: what the file states
   std::optional<double> seconds;          // instead of a number of samples; includes preparation and what follows
@@ -31,6 +46,10 @@ struct RenderOptions {
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
   std::optional<LayerRequest> layers;                         // of an integrator that has them
   std::optional<ShutterTimes> shutter;                        // default: the file's
+  std::optional<int> samples_per_pass;                        // default: by the number of samples
+  std::optional<PassRange> passes;                            // only these, of those that the samples make
+  std::optional<FilmCheckpoint> checkpoint;
+  SavedFilm* resume = nullptr;  // to be continued, with the options that take_options() gives; its film is moved from
 };
 
 // A rendered picture, its error and its layers.
@@ -50,6 +69,7 @@ struct Rendering {
   Content content = Content::light;     // what the colours hold
   bool has_own_exposure = false;        // the scene states one
   bool found_no_light = false;          // a picture of light, and every sample is zero: nothing tells its error
+  Status saved{Done{}};                 // of the checkpoint's last writing
   // Whether a standard error of the mean is known: it takes two independent passes, and light.
   bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
   // Whether the error of the pixels is: it takes two passes of each, and light.

@@ -43,6 +43,12 @@ std::string checksum_of(const Json& json) {
   return std::to_string(checksum(json.dump()));
 }
 
+// Of a value and the bytes that follow it.
+template <class Json>
+std::string checksum_of(const Json& json, std::string_view bytes) {
+  return std::to_string(checksum(bytes, checksum(json.dump())));
+}
+
 // Throws std::invalid_argument where anything in the file is not as it was written. Takes the checksum out.
 template <class Json>
 void check_whole(Json& json) {
@@ -81,37 +87,6 @@ std::string missing_entry(const typename Json::exception& error) {
   return "an entry of it is missing or of another type";
 }
 
-// read(json) of a file of the format; what is wrong with it becomes a failure that names the file.
-template <class Json, class Read>
-auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Read read)
-    -> Result<decltype(read(Json()))> {
-  const std::string what = "the saved " + std::string(format.what) + " '" + file.string() + "' cannot be read: ";
-  const auto text = read_whole_file(file.string());
-  if (!text) return Failure{"the saved " + std::string(format.what) + " cannot be read: " + text.error()};
-  try {
-    Json json = parse_saved<Json>(*text, format);
-    check_format(json, format);
-    check_whole(json);
-    return read(json);
-  } catch (const typename Json::exception& error) {
-    return Failure{what + "it is damaged: " + missing_entry<Json>(error)};
-  } catch (const std::bad_alloc&) {
-    return Failure{what + "it does not fit in memory"};
-  } catch (const std::invalid_argument& error) {
-    return Failure{what + error.what()};
-  } catch (const std::exception&) {
-    return Failure{what + "it is damaged"};
-  }
-}
-
-// Whole or not at all, with a checksum.
-template <class Json>
-Status save_json(const std::filesystem::path& file, Json json) {
-  make_utf8(json);
-  json["checksum"] = checksum_of(json);
-  return write_file(file, json.dump(1) + '\n');
-}
-
 // A whole number in these bounds. Throws std::invalid_argument where a file has something else in its place: a
 // library's conversion of 1e300 to an integer is undefined.
 template <class T, class Json>
@@ -123,6 +98,76 @@ T whole_from(const Json& value, T low, T high) {
     throw std::invalid_argument("it has " + value.dump() + " where a whole number from " + std::to_string(low) +
                                 " to " + std::to_string(high) + " should be");
   return value.template get<T>();
+}
+
+// read(text) of a file of the format; what is wrong with it becomes a failure that names the file.
+template <class Json, class Read>
+auto read_saved(const std::filesystem::path& file, const SavedFormat& format, Read read)
+    -> Result<decltype(read(std::string()))> {
+  const std::string what = "the saved " + std::string(format.what) + " '" + file.string() + "' cannot be read: ";
+  const auto text = read_whole_file(file.string());
+  if (!text) return Failure{"the saved " + std::string(format.what) + " cannot be read: " + text.error()};
+  try {
+    return read(*text);
+  } catch (const typename Json::exception& error) {
+    return Failure{what + "it is damaged: " + missing_entry<Json>(error)};
+  } catch (const std::bad_alloc&) {
+    return Failure{what + "it does not fit in memory"};
+  } catch (const std::invalid_argument& error) {
+    return Failure{what + error.what()};
+  } catch (const std::exception&) {
+    return Failure{what + "it is damaged"};
+  }
+}
+
+// Of a file that is JSON: read(json).
+template <class Json, class Read>
+auto load_saved(const std::filesystem::path& file, const SavedFormat& format, Read read)
+    -> Result<decltype(read(Json()))> {
+  return read_saved<Json>(file, format, [&](const std::string& text) {
+    Json json = parse_saved<Json>(text, format);
+    check_format(json, format);
+    check_whole(json);
+    return read(json);
+  });
+}
+
+// Of a file whose first line is JSON, and bytes follow: read(json, bytes).
+template <class Json, class Read>
+auto load_saved_bytes(const std::filesystem::path& file, const SavedFormat& format, Read read)
+    -> Result<decltype(read(Json(), std::string_view()))> {
+  return read_saved<Json>(file, format, [&](const std::string& text) {
+    const std::size_t line = std::min(text.find('\n'), text.size());
+    Json json = parse_saved<Json>(text.substr(0, line), format);
+    check_format(json, format);
+    const std::string_view bytes = std::string_view(text).substr(std::min(line + 1, text.size()));
+    const auto stated = whole_from<std::uint64_t>(json.at("bytes"), 0, std::uint64_t(1) << 62);
+    if (bytes.size() < stated)
+      throw std::invalid_argument("it is truncated: it has " + std::to_string(bytes.size()) + " bytes of " +
+                                  std::to_string(stated));
+    const Json sum = json.value("checksum", Json());
+    json.erase("checksum");
+    if (bytes.size() != stated || sum != checksum_of(json, bytes))
+      throw std::invalid_argument("it is damaged: its checksum is another");
+    return read(json, bytes);
+  });
+}
+
+// Whole or not at all, with a checksum.
+template <class Json>
+Status save_json(const std::filesystem::path& file, Json json) {
+  make_utf8(json);
+  json["checksum"] = checksum_of(json);
+  return write_file(file, json.dump(1) + '\n');
+}
+
+// The same of JSON in one line and bytes behind it.
+template <class Json>
+Status save_bytes(const std::filesystem::path& file, Json json, std::string_view bytes) {
+  make_utf8(json);
+  json["bytes"] = bytes.size();
+  json["checksum"] = checksum_of(json, bytes);
+  return write_file(file, json.dump() + '\n', bytes);
 }
 
 // Absence is null in the file.

@@ -1,6 +1,7 @@
 // What tells whether a scene is the one that it was.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <set>
 
@@ -13,12 +14,14 @@ namespace montelux {
 
 namespace fs = std::filesystem;
 
-std::uint64_t scene_fingerprint(const fs::path& scene, const std::optional<EnvironmentOptions>& environment) {
+std::uint64_t scene_fingerprint(const fs::path& scene, const std::optional<EnvironmentOptions>& environment,
+                                const std::vector<std::string>& written) {
   std::error_code ignored;
   std::vector<fs::path> around;
   for (const auto& entry : fs::recursive_directory_iterator(fs::absolute(scene, ignored).parent_path(),
                                                             fs::directory_options::skip_permission_denied, ignored)) {
-    if (entry.is_regular_file(ignored)) around.push_back(entry.path());
+    const bool is_written = std::ranges::find(written, entry.path().filename().string()) != written.end();
+    if (!is_written && entry.is_regular_file(ignored)) around.push_back(entry.path());
     if (around.size() > 20000) break;
   }
   std::ranges::sort(around);

@@ -24,7 +24,7 @@ double within(double x, double bound) { return x >= -bound ? std::min(x, bound) 
 bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
 
 // Of the tiles that have passes, the numbers of all these.
-std::vector<int> pass_numbers(const std::map<std::size_t, FilmTile>& tiles) {
+std::vector<int> all_numbers(const std::map<std::size_t, FilmTile>& tiles) {
   std::vector<int> all;
   for (const auto& [index, tile] : tiles) {
     const auto same = [](int pass, const FilmPass& own) { return pass == own.pass; };
@@ -54,6 +54,13 @@ struct TileMean {
 };
 
 }  // namespace
+
+std::vector<PixelBounds> tiles_of(const PixelBounds& b, int side) {
+  std::vector<PixelBounds> tiles;
+  for (int y = b.y0; y < b.y1; y += side)
+    for (int x = b.x0; x < b.x1; x += side) tiles.push_back({x, y, std::min(x + side, b.x1), std::min(y + side, b.y1)});
+  return tiles;
+}
 
 void PixelFeatures::add(const Features& f) {
   samples += 1;
@@ -162,6 +169,14 @@ int Film::passes(const PixelBounds& tile) const {
   return found == tiles_.end() ? 0 : int(found->second.passes.size());
 }
 
+std::vector<int> Film::pass_numbers(const PixelBounds& tile) const {
+  std::vector<int> numbers;
+  const auto found = tiles_.find(index_of_cell(tile.x0, tile.y0));
+  if (found == tiles_.end()) return numbers;
+  for (const FilmPass& pass : found->second.passes) numbers.push_back(pass.pass);
+  return numbers;
+}
+
 bool Film::has(const PixelBounds& tile, int pass) const {
   const auto found = tiles_.find(index_of_cell(tile.x0, tile.y0));
   return found != tiles_.end() && found->second.has(pass);
@@ -250,7 +265,7 @@ ImageEstimate Film::image() const {
   }
   if (cells < cells_.area() || pixels == 0) return image;
   image.passes = fewest;
-  const std::vector<int> numbers = pass_numbers(tiles_);
+  const std::vector<int> numbers = all_numbers(tiles_);
   std::vector<std::array<double, spectrum_size>> deviations(numbers.size());
   auto own = means.begin();
   for (auto tile = tiles_.begin(); tile != tiles_.end(); ++tile, ++own) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "film/layer_film.h"
@@ -14,6 +15,13 @@
 #include "mc/exact_moments.h"
 
 namespace montelux {
+
+// The squares that cover the bounds in row-major order; those at the right and at the bottom may be cut off.
+std::vector<PixelBounds> tiles_of(const PixelBounds& bounds, int side);
+
+// What a film has at most: samples of a pixel, and the number of a pass.
+inline constexpr std::uint32_t max_film_samples = 1u << 24;
+inline constexpr std::uint32_t max_pass_number = 0x7fffffff;
 
 // Mean and spread of one pixel over passes, by channel.
 struct PixelEstimate {
@@ -105,8 +113,9 @@ class Film {
   FilmTile& name_tile(const PixelBounds& cells);
   // All that are named, from top to bottom and from left to right.
   const std::map<std::size_t, FilmTile>& tiles() const { return tiles_; }
-  // How many passes a tile has, and whether it has this one.
+  // How many passes a tile has, which they are, and whether it has this one.
   int passes(const PixelBounds& tile) const;
+  std::vector<int> pass_numbers(const PixelBounds& tile) const;
   bool has(const PixelBounds& tile, int pass) const;
 
   // Adds a pass to a tile, which must not have it: samples in row-major order, those of one pixel consecutive. Tiles
@@ -120,6 +129,12 @@ class Film {
 
   // The film of the passes of both; the same grid, layers and tiles are required, and no tile may have a pass in both.
   void merge(const Film& other);
+
+  // Appends a named tile to the bytes, with all that the film has of it.
+  void write_tile(const PixelBounds& tile, std::string& bytes) const;
+  // Adds a tile that the film does not have yet, from the next bytes. Throws std::invalid_argument where these cannot
+  // be those of such a tile.
+  void read_tile(const PixelBounds& tile, ByteReader& bytes);
 
   // Of a pixel that is not sampled those of the one that stands for its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }

@@ -17,6 +17,10 @@ struct LayerSpread {
   double co_moment[spectrum_size] = {};  // sum of products with the deviations of all light
 };
 
+class ByteReader;
+class ByteWriter;
+struct PixelSums;
+
 class LayerFilm {
  public:
   // `spread`: keep that of each layer, too.
@@ -43,6 +47,10 @@ class LayerFilm {
   LayerSpread spread(int x, int y, int number) const;
   // Variance of a layer's mean, infinite below two passes.
   double variance_of_mean(int x, int y, int number, int channel) const;
+
+  // As Film::write_tile() and Film::read_tile(), of one pixel; `film` is what the film has of it.
+  void write_pixel(int x, int y, ByteWriter& out) const;
+  void read_pixel(int x, int y, const PixelSums& film, ByteReader& in);
 
  private:
   struct Counts {

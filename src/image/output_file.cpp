@@ -34,6 +34,11 @@ class Descriptor {
   int number_;
 };
 
+// In two parts.
+struct Bytes {
+  std::string_view first, second;
+};
+
 Status write_all(int file, std::string_view bytes) {
   constexpr std::size_t piece = std::size_t(1) << 30;
   while (!bytes.empty()) {
@@ -43,6 +48,11 @@ Status write_all(int file, std::string_view bytes) {
     bytes.remove_prefix(std::size_t(written));
   }
   return Done{};
+}
+
+Status write_all(int file, const Bytes& bytes) {
+  const Status first = write_all(file, bytes.first);
+  return first ? write_all(file, bytes.second) : first;
 }
 
 // Some file systems do not support this, which is no error.
@@ -142,14 +152,14 @@ class Temporary {
   Descriptor descriptor_;
 };
 
-Status write_stream(const Target& target, std::string_view bytes) {
+Status write_stream(const Target& target, const Bytes& bytes) {
   const Descriptor stream(target.descriptor ? dup(*target.descriptor)
                                             : open(target.file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
   if (stream.number() < 0) return error_text(errno);
   return write_all(stream.number(), bytes);
 }
 
-Status replace(const Target& target, std::string_view bytes) {
+Status replace(const Target& target, const Bytes& bytes) {
   Result<Temporary> temporary = Temporary::beside(target.file);
   if (!temporary) return temporary.failure();
   if (Status written = write_all(temporary->descriptor(), bytes); !written) return written;
@@ -168,7 +178,7 @@ Status check_rights(const Target& target) {
   return error_text(errno);
 }
 
-Status write_to(const Target& target, std::string_view bytes) {
+Status write_to(const Target& target, const Bytes& bytes) {
   if (target.is_stream()) return write_stream(target, bytes);
   if (Status allowed = check_rights(target); !allowed) return allowed;
   return replace(target, bytes);
@@ -190,9 +200,11 @@ Status named(const fs::path& path, const Status& status) {
 
 }  // namespace
 
-Status write_file(const fs::path& path, std::string_view bytes) {
+Status write_file(const fs::path& path, std::string_view bytes) { return write_file(path, bytes, {}); }
+
+Status write_file(const fs::path& path, std::string_view first, std::string_view second) {
   const Result<Target> target = target_of(path);
-  return named(path, target ? write_to(*target, bytes) : Status(target.failure()));
+  return named(path, target ? write_to(*target, {first, second}) : Status(target.failure()));
 }
 
 Status check_output_file(const fs::path& path) {

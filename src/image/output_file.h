@@ -16,6 +16,8 @@ inline constexpr std::string_view temporary_prefix = ".montelux-";
 // remains. A new file has the mode given by the umask; a replaced one keeps mode and, where possible, owner and group.
 // Symbolic links are followed. A FIFO, a device or an open descriptor (/dev/stdout) is written to directly.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
+// The same of bytes in two parts.
+Status write_file(const std::filesystem::path& path, std::string_view first, std::string_view second);
 
 // Whether write_file() is likely to succeed, for a check before long work: creates the temporary file and removes it.
 // A FIFO or a device is not opened.

@@ -32,10 +32,18 @@ class ChainJob {
       : integrator_(integrator),
         settings_(settings),
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
-        film_(settings.bounds) {
-    for (const PixelBounds& tile : tiles_of(settings.bounds, tile_side))
+        film_(first_film(settings, tile_side)) {
+    for (const PixelBounds& tile : tiles_of(film_))
       tiles_.push_back({tile, std::vector<PixelPass>(std::size_t(tile.area()))});
-    if (settings.plan.passes > 0) begin_chain();
+    skip_passes();
+    passes_begun_ = pass_;
+    if (settings.begun) {
+      rays_ = settings.begun->rays, seconds_before_ = settings.begun->seconds;
+      has_picture_ = film_.passes(tiles_.front().bounds) > 0;
+      samples_before_ = std::uint64_t(film_.samples(settings.bounds.x0, settings.bounds.y0));
+    }
+    over_ = is_whole_ = pass_ == settings.plan.passes;
+    if (!over_) begin_chain();
   }
 
   // True if the observer stopped the work before it was done.
@@ -47,11 +55,13 @@ class ChainJob {
       if (observer.stop_requested()) stop_ = interrupted = true;
       if (time_is_over()) stop_ = true;
       const Progress now = progress(false);
+      if (keeping_.is_due(since_start_.seconds())) keep();
       lock.unlock();
       observer.progress(now);
       lock.lock();
     }
     const Progress last = progress(true);
+    if (!failure_ && !is_kept_) keep();
     lock.unlock();
     driver.join();
     if (failure_) std::rethrow_exception(failure_);
@@ -65,7 +75,8 @@ class ChainJob {
       settings_.memories->resize(std::size_t(pass_));
     const double seconds = since_start_.seconds();
     const double ending = settings_.budget ? seconds - frame_began_ : 0;
-    return {std::move(film_), rays_, seconds, interrupted, ending, warm_up_seconds(seconds), forgotten_};
+    return {std::move(film_),         rays_,     seconds_before_ + seconds, interrupted, ending,
+            warm_up_seconds(seconds), forgotten_};
   }
 
  private:
@@ -77,7 +88,6 @@ class ChainJob {
   // Runs the steps of all chains, one after the other; the tiles of a step are the units of a stage.
   void drive(int threads) {
     std::exception_ptr failure;
-    RayCounts rays;
     try {
       Scheduler scheduler(threads);
       std::vector<Worker> workers(std::size_t(scheduler.threads()));
@@ -89,14 +99,14 @@ class ChainJob {
       while (!over_) {
         scheduler.run(tiles_.size(), run_tile);
         const std::scoped_lock lock(mutex_);
+        for (Worker& worker : workers) rays_ += std::exchange(worker.rays, {});
         finish_step();
       }
-      for (const Worker& worker : workers) rays += worker.rays;
     } catch (...) {
       failure = std::current_exception();
     }
     const std::scoped_lock lock(mutex_);
-    rays_ = rays, failure_ = failure, ended_ = true;
+    failure_ = failure, ended_ = true;
     changed_.notify_all();
   }
 
@@ -132,7 +142,7 @@ class ChainJob {
   double warm_up_seconds(double now) const { return warm_up_ + (is_shown(step_.frame) ? 0 : now - warm_up_began_); }
   // A picture has one shown frame at least.
   bool time_is_over() const {
-    if (!settings_.seconds || shown_frames_ == 0) return false;
+    if (!settings_.seconds || !shows_something()) return false;
     const double now = since_start_.seconds();
     return now - (settings_.warm_up_counts ? 0 : warm_up_seconds(now)) >= *settings_.seconds;
   }
@@ -141,13 +151,18 @@ class ChainJob {
   bool another_frame_fits() {
     if (!settings_.budget) return true;
     const double now = since_start_.seconds(), took = now - std::exchange(frame_began_, now);
-    return shown_frames_ == 0 || now + took + settings_.budget->ending <= settings_.budget->seconds;
+    return !shows_something() || now + took + settings_.budget->ending <= settings_.budget->seconds;
   }
 
   // Whether a chain that is broken off is a pass: much shorter ones would only add noise.
   bool chain_counts() const {
     const int shown = step_.frame - integrator_.warm_up();
-    return shown > 0 && (pass_ == 0 || 2 * shown >= settings_.plan.samples_per_pass);
+    return shown > 0 && (!has_picture_ || 2 * shown >= settings_.plan.samples_per_pass);
+  }
+  bool shows_something() const { return has_picture_ || shown_frames_ > 0; }
+  // Those that the film has.
+  void skip_passes() {
+    while (pass_ < settings_.plan.passes && film_.has(tiles_.front().bounds, settings_.first_pass + pass_)) ++pass_;
   }
 
   void begin_chain() {
@@ -183,17 +198,33 @@ class ChainJob {
   }
   void end_chain() {
     leave_memory();
+    // A chain that is broken off is begun anew where the film goes on.
+    if (step_.frame < frames_) keep(), is_kept_ = true;
     for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, settings_.first_pass + pass_, tile.pixels);
-    ++pass_;
+    ++pass_, has_picture_ = true;
+    skip_passes();
+  }
+
+  // With the mutex held.
+  void keep() {
+    keeping_.keep(since_start_.seconds(), std::uint64_t(film_.passes(tiles_.front().bounds)), [this] {
+      FilmSnapshot snapshot;
+      for (const ChainTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
+      const PixelBounds& first = tiles_.front().bounds;
+      snapshot.tile_side = std::max(first.width(), first.height());
+      snapshot.rays = rays_, snapshot.seconds = seconds_before_ + since_start_.seconds();
+      return snapshot;
+    });
   }
 
   // With the mutex held; the film's errors as of the last chain.
   Progress progress(bool finished) {
     const double frames = double(pass_) * frames_ + (finished ? 0 : step_.frame);
     const auto limit = settings_.budget ? std::optional(settings_.budget->seconds) : settings_.seconds;
-    Progress p =
-        progress_after(since_start_.seconds(), frames / (double(settings_.plan.passes) * frames_), limit, finished);
-    p.samples = std::uint64_t(settings_.bounds.area()) * shown_frames_;
+    const double all = double(settings_.plan.passes) * frames_;
+    const Share share{double(passes_begun_) * frames_ / all, frames / all};
+    Progress p = progress_after(since_start_.seconds(), share, limit, finished, seconds_before_);
+    p.samples = std::uint64_t(settings_.bounds.area()) * (samples_before_ + shown_frames_);
     // It takes time, of which a budget has none.
     if (!settings_.budget) p.error = error_.of(since_start_.seconds(), [&] { return film_.error(); });
     return p;
@@ -211,7 +242,13 @@ class ChainJob {
   std::unique_ptr<Chain> chain_;
   ChainStep step_;
   ErrorWatch error_;
-  int pass_ = 0;  // chains that are in the film
+  int pass_ = 0;  // chains that are in the film, of those that are to be
+  int passes_begun_ = 0;
+  bool has_picture_ = false;  // some chain is in the film
+  bool is_kept_ = false;      // the film is left, without a chain that was broken off
+  std::uint64_t samples_before_ = 0;
+  double seconds_before_ = 0;
+  KeepingWatch keeping_{settings_.keeping};
   std::uint64_t shown_frames_ = 0;
   double frame_began_ = 0;      // seconds since the start
   double warm_up_began_ = 0;    // of the chain at hand, likewise

@@ -49,13 +49,21 @@ struct TileState {
 // The shared state of one render. Work units are numbered pass by pass.
 class Job {
  public:
-  Job(const PixelIntegrator& integrator, const RenderSettings& settings, const std::vector<PixelBounds>& tiles)
+  Job(const PixelIntegrator& integrator, const RenderSettings& settings, int side)
       : integrator_(integrator),
         settings_(settings),
-        film_(settings.bounds, settings.layers, settings.stride),
-        tiles_(tiles.begin(), tiles.end()),
-        units_(std::uint64_t(tiles_.size()) * std::uint64_t(settings.plan.passes)) {
-    for (const PixelBounds& tile : tiles) film_.name_tile(tile);
+        film_(first_film(settings, side)),
+        units_(std::uint64_t(film_.tiles().size()) * std::uint64_t(settings.plan.passes)) {
+    for (const PixelBounds& tile : tiles_of(film_)) {
+      tiles_.emplace_back(tile);
+      const int passes = film_.passes(tile);
+      if (passes > 0) ++tiles_with_one_;
+      if (passes > 1) ++tiles_with_two_;
+      for (int pass : film_.pass_numbers(tile)) units_done_ += is_ours(pass);
+    }
+    units_before_ = units_done_.load();
+    first_units_ = tiles_with_one_ == tiles_.size() ? 0 : tiles_.size();
+    if (settings.begun) rays_ = settings.begun->rays, seconds_before_ = settings.begun->seconds;
   }
 
   // Watches over the threads; true if the observer stopped them before the work was done.
@@ -76,25 +84,46 @@ class Job {
       if (time_is_over() && first_pass_is_done() && since_start_.seconds() > *settings_.seconds + time_grace)
         drop_.request_stop();
       observer.progress(progress(false));
+      if (keeping_.is_due(since_start_.seconds())) keep();
       lock.lock();
     }
     lock.unlock();
     driver.join();
     if (failure_) std::rethrow_exception(failure_);
+    keep();
     observer.progress(progress(true));
     return interrupted && units_done_ < units_;
   }
 
-  RenderResult take_result(bool interrupted) { return {std::move(film_), rays_, since_start_.seconds(), interrupted}; }
+  RenderResult take_result(bool interrupted) {
+    return {std::move(film_), rays_, seconds_before_ + since_start_.seconds(), interrupted};
+  }
 
  private:
   // A picture has one pass at least: units are taken pass by pass, and those of the first one are done.
   bool time_is_over() const {
-    return settings_.seconds && units_begun_ >= tiles_.size() && since_start_.seconds() >= *settings_.seconds;
+    return settings_.seconds && units_begun_ >= first_units_ && since_start_.seconds() >= *settings_.seconds;
   }
-  bool first_pass_is_done() const { return first_units_done_ == tiles_.size(); }
+  bool first_pass_is_done() const { return tiles_with_one_ == tiles_.size(); }
   // The error takes two passes of every pixel.
-  bool has_two_passes() const { return second_units_done_ == tiles_.size(); }
+  bool has_two_passes() const { return tiles_with_two_ == tiles_.size(); }
+  bool is_ours(int pass) const {
+    return pass >= settings_.first_pass && pass - settings_.first_pass < settings_.plan.passes;
+  }
+
+  void keep() {
+    keeping_.keep(since_start_.seconds(), units_done_, [this] {
+      FilmSnapshot snapshot;
+      for (TileState& tile : tiles_) {
+        std::scoped_lock lock(tile.mutex);
+        film_.write_tile(tile.bounds, snapshot.tiles);
+      }
+      snapshot.tile_side = std::max(tiles_.front().bounds.width(), tiles_.front().bounds.height());
+      std::scoped_lock lock(mutex_);
+      snapshot.rays = rays_, snapshot.seconds = seconds_before_ + since_start_.seconds();
+      return snapshot;
+    });
+  }
 
   std::chrono::milliseconds next_look() const {
     const double elapsed = since_start_.seconds();
@@ -106,26 +135,23 @@ class Job {
 
   // What a worker keeps from one unit of work to the next.
   struct Workspace {
-    RayCounts rays;
     std::vector<PixelSample> samples;
     std::vector<ExactRgb> sums;
   };
 
   // Runs all units, as one stage of the scheduler.
   void drive(int threads) {
-    RayCounts rays;
     std::exception_ptr failure;
     try {
       Scheduler scheduler(threads);
       std::vector<Workspace> spaces(std::size_t(scheduler.threads()));
       const auto run_unit = [&](std::size_t unit, int worker) { run(unit, spaces[std::size_t(worker)]); };
       scheduler.run(units_, run_unit, {.stop = [this] { return stop_.load(); }});
-      for (const Workspace& space : spaces) rays += space.rays;
     } catch (...) {
       failure = std::current_exception();
     }
     const std::scoped_lock lock(mutex_);
-    rays_ = rays, failure_ = failure, ended_ = true;
+    failure_ = failure, ended_ = true;
     finished_.notify_all();
   }
 
@@ -133,7 +159,7 @@ class Job {
     FlushDenormals flush;
     ++units_begun_;
     try {
-      space.rays += do_unit(unit, space);
+      do_unit(unit, space);
     } catch (...) {
       drop_.request_stop();
       throw;
@@ -147,9 +173,10 @@ class Job {
     return integrator_.trace_layers(request, *settings_.layers, space.samples, space.sums);
   }
 
-  RayCounts do_unit(std::uint64_t unit, Workspace& space) {
-    const int number = int(unit / tiles_.size()), pass = settings_.first_pass + number;
+  void do_unit(std::uint64_t unit, Workspace& space) {
+    const int pass = settings_.first_pass + int(unit / tiles_.size());
     TileState& tile = tiles_[unit % tiles_.size()];
+    if (is_done(tile, pass)) return;
     const int k = settings_.plan.samples_per_pass;
     space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds,
@@ -158,26 +185,35 @@ class Job {
                      settings_.shutter};
     if (settings_.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
-    RayCounts rays = trace(request, space);
+    const RayCounts rays = trace(request, space);
+    {
+      std::scoped_lock lock(tile.mutex);
+      if (drop_.stop_requested()) return;
+      film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
+      const int passes = film_.passes(tile.bounds);
+      ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
+    }
+    std::scoped_lock lock(mutex_);
+    rays_ += rays;
+  }
+  // Only of a film that was begun before.
+  bool is_done(TileState& tile, int pass) {
+    if (!settings_.begun) return false;
     std::scoped_lock lock(tile.mutex);
-    if (drop_.stop_requested()) return {};
-    film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
-    ++units_done_;
-    if (number == 0) ++first_units_done_;
-    if (number == 1) ++second_units_done_;
-    return rays;
+    return film_.has(tile.bounds, pass);
   }
 
   Progress progress(bool finished) {
-    Progress p =
-        progress_after(since_start_.seconds(), double(units_done_) / double(units_), settings_.seconds, finished);
+    const auto all = double(std::max<std::uint64_t>(units_, 1));
+    const Share share{double(units_before_) / all, double(units_done_) / all};
+    Progress p = progress_after(since_start_.seconds(), share, settings_.seconds, finished, seconds_before_);
     for (TileState& tile : tiles_) {
       std::scoped_lock lock(tile.mutex);
       p.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(film_.passes(tile.bounds)) *
                    std::uint64_t(settings_.plan.samples_per_pass);
     }
     // At the end the film has it.
-    if (!finished && has_two_passes()) p.error = error_.of(p.elapsed, [&] { return error(); });
+    if (!finished && has_two_passes()) p.error = error_.of(since_start_.seconds(), [&] { return error(); });
     return p;
   }
 
@@ -198,10 +234,14 @@ class Job {
   std::deque<TileState> tiles_;
   const std::uint64_t units_;
   std::atomic<std::uint64_t> units_begun_{0}, units_done_{0};
-  std::atomic<std::uint64_t> first_units_done_{0}, second_units_done_{0};  // of the first pass, and of the second
+  // In the film before; and with so many that are begun every tile has a pass.
+  std::uint64_t units_before_ = 0, first_units_ = 0;
+  std::atomic<std::uint64_t> tiles_with_one_{0}, tiles_with_two_{0};  // passes, or more
+  double seconds_before_ = 0;
   std::atomic<bool> stop_{false};
   StopFlag drop_;
   ErrorWatch error_;
+  KeepingWatch keeping_{settings_.keeping};
   std::mutex mutex_;  // guards what follows
   std::condition_variable finished_;
   bool ended_ = false;  // the driver
@@ -287,7 +327,7 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
                         RenderObserver& observer) {
   constexpr int endless = 1 << 20;  // time ends it
   settings.seconds.reset();
-  settings.memories = nullptr;
+  settings.memories = nullptr, settings.begun = nullptr, settings.keeping = {};
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   StopAlone silent(observer);
@@ -324,9 +364,7 @@ RenderResult render(const AnyIntegrator& integrator, const RenderSettings& setti
   if (integrator.coupled()) return render_chains(*integrator.coupled(), settings, observer);
   if (settings.budget) return render_chains(PassesAsChains(*integrator.pixel()), settings, observer);
   int threads = settings.threads > 0 ? settings.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  Job job(*integrator.pixel(), settings,
-          tiles_of(PixelGrid{settings.bounds, settings.stride}.cells(),
-                   tile_side(settings.plan.samples_per_pass, settings.max_unit_samples)));
+  Job job(*integrator.pixel(), settings, tile_side(settings.plan.samples_per_pass, settings.max_unit_samples));
   bool interrupted = job.watch(threads, observer);
   return job.take_result(interrupted);
 }

@@ -1,6 +1,7 @@
 // Spends samples: hands the passes of every tile to threads and adds them up in the film, until a rule says stop.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,28 @@ struct TimeBudget {
 // What the chains of a picture have learned, by their number in the render.
 using ChainMemories = std::vector<std::shared_ptr<const ChainMemory>>;
 
+// A film that a render continues: passes that its tiles have are not done again.
+struct BegunFilm {
+  Film film;
+  RayCounts rays;
+  double seconds = 0;  // that it has taken so far
+};
+
+// A film at one moment, to be kept: its tiles one after the other, as Film::write_tile() has them.
+struct FilmSnapshot {
+  std::string tiles;
+  int tile_side = 0;
+  RayCounts rays;
+  double seconds = 0;
+};
+
+// Where a render leaves its film now and then, and at its end: it holds whole passes of tiles, or whole chains. One
+// without any pass is not left.
+struct FilmKeeping {
+  double every = 300;  // seconds from one snapshot to the next
+  std::function<void(FilmSnapshot)> keep;
+};
+
 struct RenderSettings {
   PixelBounds bounds;         // of the picture, or of the crop; within width x height
   int width = 0, height = 0;  // of the full image
@@ -48,7 +71,9 @@ struct RenderSettings {
   bool warm_up_counts = true;     // in these seconds; no: only the time of frames that are shown does
   std::optional<TimeBudget> budget;  // the same for whole frames, of one chain; not for layers
   int threads = 0;                   // 0: all of the machine
-  int first_pass = 0;                // for a render that continues another
+  int first_pass = 0;                // the passes are this one and those after it
+  BegunFilm* begun = nullptr;        // of these bounds and layers, without a stride; it is moved from
+  FilmKeeping keeping;               // nothing is left where `keep` is empty
   int stride = 1;                    // only one pixel of stride x stride is sampled; not for coupled integrators
   int max_unit_samples = 1 << 16;    // of one unit of work of a thread, as far as a pass allows
   std::optional<LayerPlan> layers;   // of an integrator that has them
@@ -61,6 +86,7 @@ struct RenderSettings {
   std::size_t most_memory = std::size_t(8) << 30;
 };
 
+// Of a film that was begun before, with what it had then.
 struct Progress {
   double fraction = 0;   // of the work, or of the time, in [0, 1]
   double elapsed = 0;    // seconds

@@ -1,30 +1,67 @@
-// What the two kinds of render share: the tiles that threads take, and what an observer receives.
+// What the two kinds of render share: the film that they begin with, what an observer receives, and when to look.
 #pragma once
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "render/render.h"
 
 namespace montelux {
 
-// The squares that cover the bounds in row-major order; those at the right and at the bottom may be cut off.
-inline std::vector<PixelBounds> tiles_of(const PixelBounds& b, int side) {
+// The film that a render adds to, with its tiles named; what was begun is moved out of the settings.
+inline Film first_film(const RenderSettings& settings, int tile_side) {
+  Film film =
+      settings.begun ? std::move(settings.begun->film) : Film(settings.bounds, settings.layers, settings.stride);
+  if (film.tiles().empty())
+    for (const PixelBounds& tile : tiles_of(film.grid().cells(), tile_side)) film.name_tile(tile);
+  return film;
+}
+
+inline std::vector<PixelBounds> tiles_of(const Film& film) {
   std::vector<PixelBounds> tiles;
-  for (int y = b.y0; y < b.y1; y += side)
-    for (int x = b.x0; x < b.x1; x += side) tiles.push_back({x, y, std::min(x + side, b.x1), std::min(y + side, b.y1)});
+  for (const auto& [index, tile] : film.tiles()) tiles.push_back(tile.cells);
   return tiles;
 }
 
-// `share` of the work is done; the time that was set, where one was, may be nearer its end.
-inline Progress progress_after(double elapsed, double share, const std::optional<double>& seconds, bool finished) {
+// How far a render is, as a share of its work, when it begins and now.
+struct Share {
+  double begun = 0, now = 0;
+};
+
+// The time that was set, where one was, may be nearer its end. `elapsed` is since the render began, `before` what the
+// film had taken by then.
+inline Progress progress_after(double elapsed, Share share, const std::optional<double>& seconds, bool finished,
+                               double before = 0) {
   Progress p;
-  p.elapsed = elapsed, p.finished = finished;
-  p.fraction = std::min(seconds ? std::max(share, elapsed / *seconds) : share, 1.0);
-  p.remaining = p.fraction > 0 ? elapsed * (1 - p.fraction) / p.fraction : 0;
+  p.finished = finished, p.elapsed = before + elapsed;
+  p.fraction = std::min(seconds ? std::max(share.now, elapsed / *seconds) : share.now, 1.0);
+  const double begun = seconds ? 0 : share.begun;
+  p.remaining = p.fraction > begun ? elapsed * (1 - p.fraction) / (p.fraction - begun) : 0;
   return p;
 }
+
+// When a film is to be left.
+class KeepingWatch {
+ public:
+  explicit KeepingWatch(const FilmKeeping& keeping) : keeping_(keeping) {}
+  bool is_due(double elapsed) const { return keeping_.keep && elapsed >= next_; }
+  // What `snapshot` returns, of `work` units: none where the film has not grown since.
+  template <class Snapshot>
+  void keep(double elapsed, std::uint64_t work, Snapshot snapshot) {
+    if (!keeping_.keep) return;
+    next_ = elapsed + keeping_.every;
+    if (work == kept_) return;
+    kept_ = work;
+    keeping_.keep(snapshot());
+  }
+
+ private:
+  const FilmKeeping& keeping_;
+  double next_ = keeping_.every;
+  std::uint64_t kept_ = 0;
+};
 
 // Estimates the error of a picture now and then, so that it takes a small part of the time.
 class ErrorWatch {

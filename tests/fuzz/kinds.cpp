@@ -14,6 +14,7 @@
 #include "api/integrate.h"
 #include "api/render.h"
 #include "api/saved_file.h"
+#include "api/saved_film.h"
 #include "gltf_files.h"
 #include "io/ply.h"
 
@@ -270,6 +271,60 @@ void run_comparison(const std::string& input, const fs::path& folder) {
   if (!saved) require(saved.error().find(".") != std::string::npos, "no file in: " + saved.error());
 }
 
+// A film with layers, half of whose passes another one has; in one line of JSON and bytes.
+Examples film_examples(const fs::path& folder) {
+  const fs::path scene = written(folder / "filmed.pbrt", content(own_scenes() / "analytic" / "rectangle-light.pbrt"));
+  LoadOptions load;
+  load.resolution = resolution, load.threads = 1;
+  const LoadResult loaded = load_scene(scene, load);
+  if (!loaded.scene) throw std::runtime_error("the example film has no scene");
+  Examples all;
+  for (const char* layers : {"", "bounces:1,errors"}) {
+    RenderOptions options;
+    options.samples = 4, options.samples_per_pass = 1, options.threads = 1;
+    if (*layers) options.layers = *parse_layers(layers);
+    options.checkpoint = FilmCheckpoint{folder / "example.film"};
+    RenderObserver silent;
+    if (!render_scene(*loaded.scene, options, silent)) throw std::runtime_error("the example film cannot be rendered");
+    all.push_back(content(options.checkpoint->file));
+  }
+  return all;
+}
+
+// The checksum that the damaged film should have.
+std::string with_film_checksum(const std::string& input) {
+  const std::size_t line = std::min(input.find('\n'), input.size());
+  Json json = Json::parse(input.substr(0, line), nullptr, false);
+  if (!json.is_object() || !json.contains("checksum")) return input;
+  json.erase("checksum");
+  const std::string bytes = input.substr(std::min(line + 1, input.size()));
+  try {
+    json["bytes"] = bytes.size();
+    json["checksum"] = checksum_of(json, bytes);
+    return json.dump() + '\n' + bytes;
+  } catch (const Json::exception&) {  // text that is not UTF-8
+    return input;
+  }
+}
+
+void run_film(const std::string& input, const fs::path& folder) {
+  const fs::path file = written(folder / "saved.film", with_film_checksum(input));
+  Result<SavedFilm> film = load_film(file);
+  if (!film) {
+    require(film.error().find("saved.film") != std::string::npos, "no file in: " + film.error());
+    return;
+  }
+  require(bool(save_film(folder / "again.film", *film)), "a film that was read cannot be written");
+  const Result<SavedFilm> again = load_film(folder / "again.film");
+  require(again.has_value(), "a film that was written cannot be read");
+  if (film->begun.film.image().passes > 0) {
+    std::vector<SavedFilm> both{*film, *again};
+    require(!merge_films(std::move(both), {"saved.film", "again.film"}), "a film is merged with itself");
+  }
+  const Rendering rendering = rendering_of(*std::move(film));
+  require(!rendering.header.empty(), "a picture without a header");
+}
+
 // ---- options --------------------------------------------------------------------------------------------------------
 
 // An argument a line.
@@ -283,6 +338,8 @@ Examples option_examples(const fs::path&) {
       "compare\na.pbrt\n-a\npath\n-b\nnaive\n--spp\n64\n--repeats\n8\n--save\nrun.json",
       "tonemap\na.exr\n-o\na.png\n--exposure\n1.5\n--tone\naces\n--layer\nalbedo",
       "merge\na.json\nb.json\n-o\nboth.json",
+      "render\na.pbrt\n--passes\n4:7\n--samples-per-pass\n16\n--checkpoint\na.film\n--checkpoint-every\n30s",
+      "render\n--resume\na.film\n--spp\n64",
       "list\nintegrators\npath",
       "info\nroom.pbrt\n--json"};
 }
@@ -310,7 +367,7 @@ void run_options(const std::string& input, const fs::path&) {
   require(bool(chosen), "options are taken, and no verb is chosen");
 }
 
-constexpr std::array<Kind, 9> all_kinds{{
+constexpr std::array<Kind, 10> all_kinds{{
     {"pbrt", "scenes in pbrt's format, loaded and rendered", pbrt_examples,
      [](const std::string& input, const fs::path& folder) { run_scene(written(folder / "scene.pbrt", input)); }},
     {"gltf", "glTF as text, loaded and rendered", gltf_examples,
@@ -322,6 +379,7 @@ constexpr std::array<Kind, 9> all_kinds{{
     {"integral", "saved integrals", integral_examples, run_integral_file},
     {"formula", "formulas and domains of integrals, integrated", formula_examples, run_formula},
     {"comparison", "saved comparisons", comparison_examples, run_comparison},
+    {"film", "saved films", film_examples, run_film},
     {"options", "arguments of the command line", option_examples, run_options},
 }};
 

@@ -1,0 +1,299 @@
+// Films in files: a line of JSON, which says what the film is of, and the film's bytes (docs/formats.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "api/film_keeper.h"
+#include "api/saved_film.h"
+#include "api/saved_scene.h"
+#include "film/film_bytes.h"
+
+namespace montelux {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Texts = std::vector<std::string>;
+
+constexpr SavedFormat saved_format{"montelux film", 1, "montelux render --checkpoint", "film"};
+
+constexpr int max_tile_side = 32;  // of any render
+
+Json bounds_json(const PixelBounds& b) { return {b.x0, b.y0, b.x1, b.y1}; }
+PixelBounds bounds_from(const Json& j) {
+  return {side_from(j.at(0)), side_from(j.at(1)), side_from(j.at(2)), side_from(j.at(3))};
+}
+
+Json settings_json(const FilmSettings& s) {
+  return {{"integrator", s.integrator},
+          {"sampler", s.sampler},
+          {"seed", s.seed},
+          {"samples_per_pass", s.samples_per_pass},
+          {"resolution", {s.width, s.height}},
+          {"crop", bounds_json(s.crop)},
+          {"layers", s.layers}};
+}
+FilmSettings settings_from(const Json& j) {
+  FilmSettings s;
+  s.integrator = j.at("integrator"), s.sampler = j.at("sampler"), s.layers = j.at("layers");
+  s.seed = whole_from<std::uint32_t>(j.at("seed"), 0, std::numeric_limits<std::uint32_t>::max());
+  s.samples_per_pass = whole_from(j.at("samples_per_pass"), 1, int(max_film_samples));
+  s.width = side_from(j.at("resolution").at(0)), s.height = side_from(j.at("resolution").at(1));
+  s.crop = bounds_from(j.at("crop"));
+  const PixelBounds& b = s.crop;
+  if (!check_resolution(s.width, s.height) || b.x0 >= b.x1 || b.y0 >= b.y1 || b.x1 > s.width || b.y1 > s.height)
+    throw std::invalid_argument("its settings are damaged");
+  return s;
+}
+
+Json options_json(const RenderOptions& o) {
+  return {{"integrator", or_null<Json>(o.integrator)},
+          {"settings", o.settings},
+          {"preset", or_null<Json>(o.preset)},
+          {"sampler", or_null<Json>(o.sampler)},
+          {"crop", o.crop ? bounds_json(*o.crop) : Json()},
+          {"layers", o.layers ? Json(to_text(*o.layers)) : Json()}};
+}
+RenderOptions options_from(const Json& j) {
+  RenderOptions o;
+  o.integrator = optional_at<std::string>(j, "integrator"), o.preset = optional_at<std::string>(j, "preset");
+  o.settings = j.at("settings").get<decltype(o.settings)>(), o.sampler = optional_at<std::string>(j, "sampler");
+  if (const Json& crop = j.at("crop"); !crop.is_null()) o.crop = bounds_from(crop);
+  if (const Json& layers = j.at("layers"); !layers.is_null()) {
+    const Result<LayerRequest> request = parse_layers(layers.get<std::string>());
+    if (!request) throw std::invalid_argument("its layers are damaged");
+    o.layers = *request;
+  }
+  return o;
+}
+
+Json layers_json(const LayerPlan& plan) {
+  return {{"bounces", or_null<Json>(plan.bounces)},
+          {"light_groups", plan.light_groups},
+          {"errors", plan.spread},
+          {"groups", plan.group_names}};
+}
+LayerPlan layers_from(const Json& j) {
+  LayerPlan plan;
+  if (const Json& bounces = j.at("bounces"); !bounces.is_null()) plan.bounces = whole_from(bounces, 0, 1 << 10);
+  plan.light_groups = j.at("light_groups"), plan.spread = j.at("errors");
+  plan.group_names = j.at("groups").get<Texts>();
+  return plan;
+}
+
+Json facts_json(const PictureFacts& f) {
+  Json replaced = Json::array();
+  for (const Replacement& r : f.replaced) replaced.push_back({r.family, r.name, r.by});
+  return {{"scene", f.scene},
+          {"integrator", f.integrator},
+          {"sampler", f.sampler},
+          {"biases", f.biases},
+          {"notes", f.notes},
+          {"missing_light", f.missing},
+          {"left_out", f.left_out},
+          {"replaced", replaced},
+          {"content", content_names[std::size_t(f.content)]},
+          {"states_exposure", f.states_exposure},
+          {"layers", f.layers ? layers_json(*f.layers) : Json()}};
+}
+PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
+  PictureFacts f;
+  f.scene = j.at("scene"), f.integrator = j.at("integrator"), f.sampler = j.at("sampler");
+  f.seed = settings.seed, f.samples_per_pass = settings.samples_per_pass;
+  f.biases = j.at("biases").get<Texts>(), f.notes = j.at("notes").get<Texts>();
+  f.missing = j.at("missing_light").get<Texts>(), f.left_out = j.at("left_out").get<Texts>();
+  for (const Json& r : j.at("replaced")) f.replaced.push_back({r.at(0), r.at(1), r.at(2)});
+  const auto content = std::ranges::find(content_names, j.at("content").get<std::string>());
+  if (content == std::end(content_names)) throw std::invalid_argument("the content of its picture is damaged");
+  f.content = Content(content - std::begin(content_names));
+  f.states_exposure = j.at("states_exposure");
+  if (const Json& layers = j.at("layers"); !layers.is_null()) f.layers = layers_from(layers);
+  return f;
+}
+
+Json rays_json(const RayCounts& r) {
+  return {{"camera", r.camera}, {"scattered", r.scattered}, {"shadow", r.shadow}, {"by_depth", r.by_depth}};
+}
+RayCounts rays_from(const Json& j) {
+  const auto count = [](const Json& n) { return whole_from<std::uint64_t>(n, 0, std::uint64_t(1) << 60); };
+  RayCounts r;
+  r.camera = count(j.at("camera")), r.scattered = count(j.at("scattered")), r.shadow = count(j.at("shadow"));
+  for (std::size_t i = 0; i < r.by_depth.size(); ++i) r.by_depth[i] = count(j.at("by_depth").at(i));
+  return r;
+}
+
+// All but the film itself.
+Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
+  Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
+  add_scene(json, {film.scene, film.load, film.fingerprint});
+  json["settings"] = settings_json(film.settings);
+  json["options"] = options_json(film.options);
+  json["passes"] = film.wanted ? Json{film.wanted->first, film.wanted->last} : Json();
+  json["picture"] = facts_json(film.facts);
+  json["seconds"] = snapshot.seconds;
+  json["rays"] = rays_json(snapshot.rays);
+  json["tile_side"] = snapshot.tile_side;
+  return json;
+}
+
+Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& layers, int tile_side,
+               std::string_view bytes) {
+  const std::vector<PixelBounds> tiles = tiles_of(settings.crop, tile_side);
+  // A tile takes a byte at least: room is not made for a picture that the file cannot hold.
+  if (bytes.size() < tiles.size()) throw std::invalid_argument("its film is damaged");
+  Film film(settings.crop, layers);
+  ByteReader in(bytes);
+  for (const PixelBounds& tile : tiles) film.read_tile(tile, in);
+  if (!in.at_end()) throw std::invalid_argument("it is damaged: more follows its film");
+  return film;
+}
+
+SavedFilm saved_from(const Json& j, std::string_view bytes) {
+  const SavedScene scene = scene_from(j);
+  const FilmSettings settings = settings_from(j.at("settings"));
+  const PictureFacts facts = facts_from(j.at("picture"), settings);
+  std::optional<PassRange> wanted;
+  if (const Json& range = j.at("passes"); !range.is_null()) {
+    wanted =
+        PassRange{whole_from(range.at(0), 0, int(max_film_samples)), whole_from(range.at(1), 0, int(max_film_samples))};
+    if (wanted->last < wanted->first) throw std::invalid_argument("its passes are damaged");
+  }
+  const double seconds = j.at("seconds");
+  if (!(seconds >= 0)) throw std::invalid_argument("its time is damaged");
+  Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side), bytes);
+  return {scene.file,
+          scene.load,
+          scene.fingerprint,
+          settings,
+          options_from(j.at("options")),
+          wanted,
+          facts,
+          {std::move(film), rays_from(j.at("rays")), seconds}};
+}
+
+// Of what the passes of a film depend on, the first that differs: "seed is 1 and 2".
+std::optional<std::string> difference(const Json& a, const Json& b) {
+  for (const auto& [key, value] : a.items()) {
+    const auto other = b.find(key);
+    const Json theirs = other == b.end() ? Json() : *other;
+    if (theirs != value) return fmt::format("{} is {} and {}", key, value.dump(), theirs.dump());
+  }
+  for (const auto& [key, value] : b.items())
+    if (!a.contains(key)) return fmt::format("{} is null and {}", key, value.dump());
+  return std::nullopt;
+}
+
+// As far as options of the reading of the scene decide passes: not where its file is, nor what the resolution was,
+// which is among the settings.
+Json decisive_json(const SavedFilm& film) {
+  Json json;
+  add_scene(json, {film.scene, film.load, film.fingerprint});
+  for (const char* key : {"scene", "scene_bytes", "lenient", "resolution"}) json.erase(key);
+  make_utf8(json);
+  const Json settings = settings_json(film.settings);
+  for (const auto& [key, value] : settings.items()) json[key] = value;
+  return json;
+}
+
+std::optional<int> common_pass(const Film& a, const Film& b) {
+  for (const auto& [index, tile] : b.tiles())
+    for (int pass : b.pass_numbers(tile.cells))
+      if (a.has(tile.cells, pass)) return pass;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_saved_film(const fs::path& file) {
+  std::string begin(64, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), std::streamsize(begin.size()));
+  return begin.find("\"montelux film\"") != std::string::npos;
+}
+
+Result<SavedFilm> load_film(const fs::path& file) { return load_saved_bytes<Json>(file, saved_format, saved_from); }
+
+Status save_film(const fs::path& file, const SavedFilm& film) {
+  const Film& all = film.begun.film;
+  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds};
+  for (const auto& [index, tile] : all.tiles()) {
+    snapshot.tile_side = std::max({snapshot.tile_side, tile.cells.width(), tile.cells.height()});
+    all.write_tile(tile.cells, snapshot.tiles);
+  }
+  return save_snapshot(file, film, snapshot);
+}
+
+Status save_snapshot(const fs::path& file, const SavedFilm& film, const FilmSnapshot& snapshot) {
+  return save_bytes(file, header_json(film, snapshot), snapshot.tiles);
+}
+
+void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& options) {
+  const LoadOptions& l = film.load;
+  const RenderOptions& o = film.options;
+  load.lenient |= l.lenient;
+  if (!load.resolution && !load.resolution_scale) load.resolution = l.resolution;
+  if (!load.camera) load.camera = l.camera;
+  if (!load.animation) load.animation = l.animation;
+  if (!load.shutter) load.shutter = l.shutter;
+  if (!load.environment) load.environment = l.environment;
+  if (!options.integrator && !options.preset && options.settings.empty())
+    options.integrator = o.integrator, options.preset = o.preset, options.settings = o.settings;
+  if (!options.sampler) options.sampler = o.sampler;
+  if (!options.crop) options.crop = o.crop;
+  if (!options.layers) options.layers = o.layers;
+  if (!options.seed) options.seed = film.settings.seed;
+  if (!options.samples_per_pass) options.samples_per_pass = film.settings.samples_per_pass;
+  if (!options.samples && !options.seconds && !options.passes) options.passes = film.wanted;
+}
+
+Status check_continues(const SavedFilm& film, const SavedFilm& now) {
+  if (film.fingerprint != now.fingerprint)
+    return Failure{fmt::format("{} is not the scene that the saved film is of ({}), or it has changed since",
+                               now.scene.string(), film.scene.string())};
+  if (const auto other = difference(decisive_json(film), decisive_json(now)))
+    return Failure{fmt::format("the saved film and this render do not agree: {}", *other)};
+  return Done{};
+}
+
+Result<SavedFilm> merge_films(std::vector<SavedFilm> films, const Texts& names) {
+  if (films.empty()) return Failure{"there is nothing to merge"};
+  SavedFilm total = std::move(films.front());
+  for (std::size_t i = 1; i < films.size(); ++i) {
+    const SavedFilm& part = films[i];
+    if (total.fingerprint != part.fingerprint)
+      return Failure{fmt::format("{} and {} are of different scenes, or of one that has changed", names[0], names[i])};
+    if (const auto other = difference(decisive_json(total), decisive_json(part)))
+      return Failure{fmt::format("{} and {} are not of the same render: {}", names[0], names[i], *other)};
+  }
+  std::vector<const Film*> all{&total.begun.film};
+  for (std::size_t i = 1; i < films.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      if (const auto pass = common_pass(*all[j], films[i].begun.film))
+        return Failure{fmt::format("{} and {} both have pass {}", names[j], names[i], *pass)};
+    all.push_back(&films[i].begun.film);
+  }
+  try {
+    for (std::size_t i = 1; i < films.size(); ++i) {
+      SavedFilm& part = films[i];
+      total.begun.film.merge(part.begun.film);
+      total.begun.rays += part.begun.rays, total.begun.seconds += part.begun.seconds;
+      if (total.wanted && part.wanted)
+        total.wanted = {std::min(total.wanted->first, part.wanted->first),
+                        std::max(total.wanted->last, part.wanted->last)};
+      else
+        total.wanted.reset();
+      part.begun.film = Film({});
+    }
+  } catch (const std::invalid_argument& error) {
+    return Failure{error.what()};
+  }
+  return total;
+}
+
+}  // namespace montelux

@@ -1,0 +1,110 @@
+// What is known of a picture once its film is there: its errors and its header.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "api/film_keeper.h"
+
+namespace montelux {
+
+namespace {
+
+// For a header, which has no lists.
+std::string list_or_none(const std::vector<std::string>& all, std::string_view separator = "; ") {
+  return all.empty() ? std::string("none") : fmt::format("{}", fmt::join(all, separator));
+}
+
+// Whether there are samples and each of them is zero. (A mean of zero of values that are not shows in m2.)
+bool is_black(const Film& film) {
+  const PixelBounds& b = film.bounds();
+  bool sampled = false;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const PixelEstimate& pixel = film.pixel(x, y);
+      sampled |= pixel.passes > 0;
+      for (int c = 0; c < spectrum_size; ++c)
+        if (pixel.mean[c] != 0 || pixel.m2[c] != 0) return false;
+    }
+  return sampled;
+}
+
+std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& rendering) {
+  const RenderResult& result = rendering.result;
+  std::vector<Attribute> header;
+  auto add = [&](std::string name, std::variant<std::string, std::int32_t, float, double> value) {
+    header.push_back({"montelux:" + std::move(name), std::move(value)});
+  };
+  add("version", version());
+  add("scene", facts.scene);
+  add("integrator", facts.integrator);
+  add("sampler", facts.sampler);
+  add("seed", std::int32_t(facts.seed));
+  add("samplesPerPass", std::int32_t(rendering.plan.samples_per_pass));
+  const ImageEstimate& image = rendering.image;
+  add("passes", std::int32_t(image.passes));
+  add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
+  add("biasedOptions", list_or_none(facts.biases, ", "));
+  add("display", std::string(content_names[std::size_t(facts.content)]));
+  add("exposure", std::string(facts.states_exposure ? "stated by the scene" : "not stated"));
+  add("missingLight", list_or_none(facts.missing));
+  std::vector<std::string> replaced;
+  for (const Replacement& r : facts.replaced) replaced.push_back(to_text(r));
+  add("replaced", list_or_none(replaced));
+  add("leftOut", list_or_none(facts.left_out));
+  const bool has_error_bar = rendering.has_error_bar();
+  if (has_error_bar)
+    add("errorBar", fmt::format("over {} independent passes", image.passes));
+  else
+    add("errorBar", std::string(rendering.found_no_light ? "none: no sample found light"
+                                                         : "none: it takes two independent passes"));
+  if (result.film.grid().stride > 1) add("sparse", sparse_text(result.film.grid().stride));
+  if (const ErrorEstimate& error = rendering.error; error.whole() && !rendering.found_no_light) {
+    add("estimatedMSE", error.mse);
+    add("estimatedRelativeMSE", error.relative_mse);
+    add("estimatedRelativeMSELow", error.relative_low);
+    add("estimatedRelativeMSEHigh", error.relative_high);
+    if (error.is_unsure()) add("unsureError", std::string("few bright samples decide the error"));
+  }
+  for (int c = 0; c < spectrum_size; ++c) {
+    add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
+    if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
+  }
+  // A file that must be the same in every run carries no times.
+  if (auto date = date_attribute())
+    header.push_back(*date);
+  else
+    add("renderSeconds", result.seconds);
+  return header;
+}
+
+}  // namespace
+
+std::string sparse_text(int stride) {
+  return fmt::format("one pixel of each {0} x {0} is sampled, the others repeat it", stride);
+}
+
+Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan) {
+  const ImageEstimate image = result.film.image();
+  const ErrorEstimate error = result.film.error();
+  Rendering rendering{std::move(result), {}, facts.notes, plan, facts.layers, 0, {}, image, error};
+  rendering.found_no_light = facts.content == Content::light && is_black(rendering.result.film);
+  rendering.header = header_of(facts, rendering);
+  rendering.missing = std::move(facts.missing), rendering.replaced = std::move(facts.replaced);
+  rendering.left_out = std::move(facts.left_out);
+  rendering.content = facts.content, rendering.has_own_exposure = facts.states_exposure;
+  return rendering;
+}
+
+Rendering rendering_of(SavedFilm film) {
+  BegunFilm& begun = film.begun;
+  RenderResult result{std::move(begun.film), begun.rays, begun.seconds, false};
+  const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
+  return rendering_of(std::move(film.facts), std::move(result), plan);
+}
+
+std::optional<Interval> Rendering::interval_of_mean(int channel, double confidence) const {
+  if (!has_error_bar()) return std::nullopt;
+  return confidence_interval(image.mean[channel], image.standard_error[channel], image.passes, confidence);
+}
+
+}  // namespace montelux

@@ -1,0 +1,46 @@
+// A film as bytes, tile by tile: docs/formats.md describes them.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "math/exact_sum.h"
+
+namespace montelux {
+
+class ByteWriter {
+ public:
+  explicit ByteWriter(std::string& out) : out_(out) {}
+  // In groups of seven bits, the low ones first; every byte but the last one has its high bit set.
+  void count(std::uint64_t x);
+  // The eight bytes of the number, the low ones first.
+  void real(double x);
+  // Without the zeros below and the copies of the sign above.
+  void sum(const ExactSum& x);
+  void sum(const SmallExactSum& x);
+  void sum(const ExactProducts& x);
+
+ private:
+  std::string& out_;
+};
+
+// Reads what a ByteWriter has written; throws std::invalid_argument where the bytes cannot be that.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+  bool at_end() const { return rest_.empty(); }
+  std::uint64_t count(std::uint64_t max);
+  double real();
+  // `terms`: how many numbers below ExactSum::largest were added at most; more than these come to is refused.
+  ExactSum sum(std::uint64_t terms);
+  SmallExactSum small_sum();
+  ExactProducts products();
+
+ private:
+  unsigned char byte();
+  void words(std::span<std::uint64_t> words);
+
+  std::string_view rest_;
+};
+
+}  // namespace montelux
