@@ -158,7 +158,8 @@ TEST(LensDirection, has_densities_of_one_over_each_pixel_and_one_percent_more_is
       EXPECT_FALSE(c.camera.toward_direction(Vec3f{0, 0, 1}, {0.5f, 0.5f}).seen);
       continue;
     }
-    for (const auto& [x, y] : pixels) {
+    for (const auto& pixel : pixels) {
+      const int x = pixel.first, y = pixel.second;
       SCOPED_TRACE(c.name + ", " + std::to_string(x) + ", " + std::to_string(y));
       const auto p_value = [&](double fault) {
         const Moments m = pixels_of_directions(c.camera, x, y, fault);
