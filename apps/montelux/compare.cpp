@@ -38,10 +38,10 @@ constexpr const char* examples = R"(Examples:
   montelux compare room.pbrt -a path -b naive --time 20s --save run.json
   montelux compare --resume run.json --time 60s --save run.json -o report.html
 
-Each method is run in independent repeats, the methods taking turns, so every figure has an error bar. Efficiency is
-1 / (error x seconds), the error by --measure. Where the interval of a ratio holds one, nothing is decided.
---time is for each method, over all of its repeats; pilots, the reference, slopes and attribution take more. After the
-pilots it says how long all is going to take.
+The methods take turns in independent repeats, so every figure has an error bar. Efficiency is
+1 / (error x seconds), with the error by --measure. If the interval of a ratio contains one, it is undecided.
+--time is for each method, over all of its repeats; pilots, the reference, slopes and attribution take additional time.
+After the pilots the total duration is predicted.
 Exit status: 0 compared (decided or not); 1 the reference is not good enough; 2 and above as for render.
 )";
 
@@ -148,7 +148,7 @@ int finish_compare(const CompareArguments& arguments, Contest& contest, const St
   if (!arguments.quiet) {
     for (const std::string& note : contest.notes) warn(note);
     if (!contest.refusal.empty()) warn(contest.refusal);
-    if (contest.result.interrupted) warn("interrupted: the figures are of the repeats that were done");
+    if (contest.result.interrupted) warn("interrupted: the figures are those of the finished repeats");
   }
   if (!written) {
     complain(written.error());
@@ -201,12 +201,13 @@ void add_method_options(CLI::App& verb, ContestOptions& contest) {
     return check_methods(alone);
   };
   const char* help[] = {
-      "first method: an integrator with settings, as --integrator of render takes it; sampler=NAME too; NAME=METHOD "
-      "gives it a name of your own",
+      "first method: an integrator with settings, as for --integrator of render, or sampler=NAME; NAME=METHOD "
+      "sets its name",
       "second method"};
   for (char letter = 'a'; letter <= 'f'; ++letter)
     add_option(verb, {fmt::format("-{}", letter), "METHOD", letter <= 'b' ? help[letter - 'a'] : "and so on"}, add);
-  add_option(verb, {"--set", "key=value", "a setting of all methods that do not have their own; may be repeated", true},
+  add_option(verb,
+             {"--set", "key=value", "a setting for all methods that do not state their own; may be repeated", true},
              [&contest](const std::string& text) -> Status {
                auto setting = parse_setting(text);
                if (!setting) return setting.failure();
@@ -233,17 +234,18 @@ void add_compare(CLI::App& app, Action& chosen) {
   add_option(verb,
              {"--time", "TIME",
               "for each method, over all its repeats (500ms, 30s, 10m); pilots, reference, slopes and attribution take "
-              "more, which is predicted"},
+              "additional time, which is predicted"},
              into(contest.seconds, parse_time));
-  add_option(verb, {"--spp", "N", "samples a pixel in each repeat instead (default 64)"},
+  add_option(verb, {"--spp", "N", "instead: samples per pixel in each repeat (default 64)"},
              into(contest.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 20); }));
   verb.get_option("--time")->excludes("--spp");
   add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8); with --resume: that many more"},
              into(arguments->repeats, [](const std::string& t) { return parse_whole(t, 1, 10000); }));
-  verb.add_flag("--warm-frames", contest.warm_frames,
-                "frames of a sequence: those of a warm-up have been shown anyway, so their time does not count");
+  verb.add_flag(
+      "--warm-frames", contest.warm_frames,
+      "compare frames of a sequence: the warm-up frames have been shown anyway, so their time does not count");
   const std::vector<std::string> clocks{"wall", "processor"};
-  add_option(verb, {"--clock", alternatives(clocks), "processor: time of all threads on processors, for busy machines"},
+  add_option(verb, {"--clock", alternatives(clocks), "processor: processor time of all threads, for busy machines"},
              [&contest, clocks](const std::string& text) -> Status {
                const auto name = parse_choice(text, clocks);
                if (!name) return name.failure();
@@ -252,14 +254,14 @@ void add_compare(CLI::App& app, Action& chosen) {
              });
   add_option(verb,
              {"--reference", "FILE",
-              "picture to hold them against, finite in every pixel; default: made by the most efficient method by the "
+              "reference image, finite in every pixel; default: rendered by the most efficient method by the "
               "measure"},
              [&contest](const std::string& file) -> Status {
                if (file != "auto") contest.reference = file;
                return Done{};
              });
   const std::vector<std::string> measures{"relmse", "mse", "flip"};
-  add_option(verb, {"--measure", alternatives(measures), "of the error that verdicts go by (default relmse)"},
+  add_option(verb, {"--measure", alternatives(measures), "the error that verdicts use (default relmse)"},
              [arguments, measures](const std::string& text) -> Status {
                const auto name = parse_choice(text, measures);
                if (!name) return name.failure();
@@ -268,29 +270,28 @@ void add_compare(CLI::App& app, Action& chosen) {
              });
   add_option(verb, {"--confidence", "C", "of the intervals (default 0.95)"},
              into(contest.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
-  add_option(verb, {"--seed", "S", "number of the realisation (default 0)"},
+  add_option(verb, {"--seed", "S", "seed of all random numbers (default 0)"},
              into(contest.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(contest.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
-  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
+  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are excluded)"},
              into(contest.crop, parse_crop));
-  add_option(verb, {"--save", "FILE", "keep everything that was gathered, to be resumed"},
+  add_option(verb, {"--save", "FILE", "save the state of the comparison, to be resumed"},
              [arguments](const std::string& file) -> Status {
                arguments->save = file;
                return Done{};
              });
-  add_option(verb, {"--resume", "FILE", "continue a saved comparison, by --time or --repeats more"},
+  add_option(verb, {"--resume", "FILE", "continue a saved comparison with more --time or --repeats"},
              [arguments](const std::string& file) -> Status {
                arguments->resume = file;
                return Done{};
              });
   verb.add_flag("--no-attribution", arguments->no_attribution,
-                "do not find which layers of light the variance comes from (saves a fifth of the time)");
-  verb.add_flag("--no-slopes", arguments->no_slopes,
-                "no passes of growing length, which the slopes are fitted over (saves a third of the time)");
-  verb.add_flag("--no-cache", arguments->no_cache, "neither use nor keep a reference of an earlier comparison");
+                "do not attribute the variance to layers of light (saves a fifth of the time)");
+  verb.add_flag("--no-slopes", arguments->no_slopes, "do not measure convergence slopes (saves a third of the time)");
+  verb.add_flag("--no-cache", arguments->no_cache, "do not use or store references in the cache");
   verb.add_flag("--json", arguments->json, "results as one JSON object");
-  verb.add_flag("--csv", arguments->csv, "every repeat as a line of CSV");
+  verb.add_flag("--csv", arguments->csv, "each repeat as one line of CSV");
   verb.add_flag("--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_compare(*arguments); }; });

@@ -135,8 +135,8 @@ void print_attribution(const lab::Attribution& attribution) {
 
 // How often a method's own intervals hold the reference.
 std::string coverage_text(const Measured& m) {
-  return m.count == 0 ? "no 95 % intervals of its own, which take two passes"
-                      : fmt::format("own 95 % intervals hold {:.1f} %", 100 * m.mean);
+  return m.count == 0 ? "no 95 % intervals of its own, which need two passes"
+                      : fmt::format("own 95 % intervals contain it {:.1f} %", 100 * m.mean);
 }
 
 void print_method(const Contest& contest, std::size_t i) {
@@ -157,7 +157,7 @@ void print_method(const Contest& contest, std::size_t i) {
              count_text(m.rays.mean, "rays"));
   fmt::print("   efficiency by {} {}\n", title, text_of(m.efficiency[r.measure]));
   if (!r.warm_up_counts && m.warm_up.mean > 0)
-    fmt::print("   not counted: {} of warm-up in each repeat; with it efficiency {}\n", time_text(m.warm_up.mean),
+    fmt::print("   not counted: {} of warm-up in each repeat; efficiency including it {}\n", time_text(m.warm_up.mean),
                text_of(m.whole_efficiency[r.measure]));
   fmt::print("   slope by samples {}   {}\n", text_of(m.slope_by_samples), coverage_text(m.coverage));
   fmt::print("   {}\n", sentence_of(m.agreement, lab::mean_value(r.reference.mean)));
@@ -168,7 +168,7 @@ void print_method(const Contest& contest, std::size_t i) {
 
 void print_contest_text(const std::string& scene, const Contest& contest) {
   for (const auto& [name, value] : conditions_of(contest, scene)) fmt::print("{}: {}\n", name, value);
-  fmt::print("took: {}, {} were predicted\n\n", time_text(contest.seconds), time_text(contest.forecast.total()));
+  fmt::print("took: {}, predicted {}\n\n", time_text(contest.seconds), time_text(contest.forecast.total()));
   for (std::size_t i = 0; i < contest.result.methods.size(); ++i) print_method(contest, i);
   fmt::print("\n");
   for (const lab::PairVerdict& v : contest.result.verdicts)

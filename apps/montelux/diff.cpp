@@ -33,9 +33,9 @@ constexpr const char* examples = R"(Examples:
   montelux diff a.exr b.exr -o error.png --metric flip
   montelux diff a.exr reference.exr --stderr-b reference.stderr.exr --dof 63 --json
 
-With standard errors of both pictures (layer stderr, or --stderr-a, --stderr-b) a Welch t-test of the image mean, of
-blocks of 8 x 8, 16 x 16, ... pixels and of pixels decides; else whether all values are the same.
-Exit status: 0 equal, or the noise explains the difference; 1 they differ; 2 trouble.
+With standard errors of both images (layer stderr, or --stderr-a, --stderr-b), Welch's t-test of the image mean, of
+blocks of 8 x 8, 16 x 16, ... pixels and of pixels decides; otherwise the images must be identical.
+Exit status: 0 equal, or the noise explains the difference; 1 different; 2 error.
 )";
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -81,9 +81,10 @@ void print_scale(std::string_view name, const WelchScale& scale, double level) {
 void print_power(const PictureDifference& d) {
   const double mean = d.mean_b[std::size_t(d.welch->image.channel)];
   if (!(mean > 0) || !(d.welch->image.detectable > 0)) return;
-  fmt::print("found in half of the cases: {:.3g} % of the mean image, {:.3g} % of it in a block, {:.3g} % in a pixel\n",
-             100 * d.welch->image.detectable / mean, 100 * d.welch->blocks.detectable_median / mean,
-             100 * d.welch->pixels.detectable_median / mean);
+  fmt::print(
+      "detected in half of the cases: {:.3g} % of the image mean, {:.3g} % of it in a block, {:.3g} % in a pixel\n",
+      100 * d.welch->image.detectable / mean, 100 * d.welch->blocks.detectable_median / mean,
+      100 * d.welch->pixels.detectable_median / mean);
 }
 
 void print_text(const DiffArguments& arguments, const PictureDifference& d) {
@@ -94,7 +95,7 @@ void print_text(const DiffArguments& arguments, const PictureDifference& d) {
   for (std::size_t c = 0; c < 3; ++c)
     fmt::print("{} {:.6g} - {:.6g} = {:.3g}{}", "RGB"[c], d.mean_a[c], d.mean_b[c], d.mean_a[c] - d.mean_b[c],
                c < 2 ? ", " : "\n");
-  if (d.measures.non_finite > 0) fmt::print("{} pixels are not finite and left out above\n", d.measures.non_finite);
+  if (d.measures.non_finite > 0) fmt::print("{} pixels are not finite and excluded above\n", d.measures.non_finite);
   if (d.welch) {
     fmt::print("Welch t-test, family-wise level {}; of each scale the most significant test:\n", arguments.level);
     fmt::print("  {:7} {:>8} {:>10} {:>10}  {:>5} {:>14} {:>11} {:>11}\n", "scale", "tests", "p", "below is", "side",
@@ -107,7 +108,7 @@ void print_text(const DiffArguments& arguments, const PictureDifference& d) {
   if (d.equal)
     fmt::print("equal\n");
   else if (!d.welch)
-    fmt::print("different (no error bars of both pictures: noise cannot be separated from error)\n");
+    fmt::print("different (without error bars on both images, noise cannot be separated from error)\n");
   else
     fmt::print("{}\n", d.welch->differs ? "different: more than the noise explains"
                                         : "indistinguishable: the noise explains the difference");
@@ -139,7 +140,7 @@ int run_diff(DiffArguments& arguments) {
 
 void add_diff(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<DiffArguments>();
-  CLI::App& verb = *app.add_subcommand("diff", "Compare two pictures, with their error bars where they have them");
+  CLI::App& verb = *app.add_subcommand("diff", "Compare two images, using their error bars if they have any");
   verb.footer(examples);
   auto file = [&verb](const char* name, std::filesystem::path& target, const char* help) {
     verb.add_option_function<std::string>(
@@ -147,10 +148,10 @@ void add_diff(CLI::App& app, Action& chosen) {
         ->required()
         ->type_name("FILE");
   };
-  file("A", arguments->a.picture, "picture to judge");
-  file("B", arguments->b.picture, "picture to compare with, the reference of relMSE");
+  file("A", arguments->a.picture, "image to test");
+  file("B", arguments->b.picture, "image to compare with, the reference of relMSE");
   auto optional_file = [](const std::string& text) -> Result<std::filesystem::path> { return {text}; };
-  add_option(verb, {"-o,--output", "FILE", "map of the difference; .png in false colours, .exr .hdr .pfm as it is"},
+  add_option(verb, {"-o,--output", "FILE", "map of the difference; .png in false colours, .exr .hdr .pfm as numbers"},
              into(arguments->output, [](const std::string& text) -> Result<std::string> { return text; }));
   const auto metrics = names_of(difference_maps());
   add_option(verb, {"--metric", alternatives(metrics), "what the map shows (default relative)"},
@@ -159,9 +160,9 @@ void add_diff(CLI::App& app, Action& chosen) {
              into(arguments->a.standard_error, optional_file));
   add_option(verb, {"--stderr-b", "FILE", "standard error of B, instead of its layer stderr"},
              into(arguments->b.standard_error, optional_file));
-  add_option(verb,
-             {"--dof", "N", "degrees of freedom of standard errors whose picture does not tell (default: infinite)"},
-             into(arguments->degrees_of_freedom, [](const std::string& text) { return parse_number(text, 1, 1e9); }));
+  add_option(
+      verb, {"--dof", "N", "degrees of freedom of standard errors whose image does not state them (default: infinite)"},
+      into(arguments->degrees_of_freedom, [](const std::string& text) { return parse_number(text, 1, 1e9); }));
   add_option(verb, {"--level", "P", "family-wise level of the tests (default 0.01)"},
              into(arguments->level, [](const std::string& text) { return parse_number(text, 1e-12, 0.5); }));
   verb.add_flag("--json", arguments->json, "results as one JSON object");

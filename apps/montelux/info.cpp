@@ -103,7 +103,7 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
   if (info.max_depth) fmt::print(" up to {} scattering events", *info.max_depth);
   fmt::print("\nshapes    {} triangles", info.triangles);
   if (info.instances > 0)
-    fmt::print(" ({} as rays see them: {} instances of {} objects)", info.instanced_triangles, info.instances,
+    fmt::print(" ({} including instances: {} instances of {} objects)", info.instanced_triangles, info.instances,
                info.objects);
   fmt::print(", {} quadrics, {} patches, {} curve segments\n", info.quadrics, info.patches, info.curve_segments);
   print_choices(info);
@@ -112,7 +112,7 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
   if (!info.texture_names.empty()) fmt::print("          {}\n", first_of(info.texture_names, text_of));
   fmt::print("lights   ");
   for (const auto& [kind, count] : info.lights) fmt::print(" {} {}", count, kind);
-  if (info.lights.empty()) fmt::print(" none: the picture will be black");
+  if (info.lights.empty()) fmt::print(" none: the image will be black");
   if (has_bounds(info))
     fmt::print("\nbounds    {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", info.low[0], info.low[1], info.low[2],
                info.high[0], info.high[1], info.high[2]);
@@ -141,7 +141,7 @@ int run_info(const InfoArguments& arguments) {
 
 void add_info(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App& verb = *app.add_subcommand("info", "Say what is in a scene: counts, names, sizes, lights, memory");
+  CLI::App& verb = *app.add_subcommand("info", "Describe a scene: counts, names, sizes, lights, memory");
   verb.footer("Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n");
   add_scene_options(verb, arguments->scene, arguments->load);
   verb.add_flag("--json", arguments->json, "as one JSON object");

@@ -31,8 +31,8 @@ bool has_interval(const IntegralResult& r) { return std::isfinite(r.interval.low
 
 // Ends of an interval to a tenth of its standard error.
 std::string interval_text(const IntegralResult& r) {
-  if (r.found_nothing) return "not known: no sample found anything";
-  if (!has_interval(r)) return "not known from one pass";
+  if (r.found_nothing) return "unknown: no sample found anything";
+  if (!has_interval(r)) return "unknown from one pass";
   const double width = r.interval.high - r.interval.low;
   const double size = std::max(std::abs(r.interval.low), std::abs(r.interval.high));
   const int digits = width > 0 ? std::clamp(int(std::ceil(std::log10(size / width))) + 3, 3, 16) : 16;
@@ -43,15 +43,15 @@ std::string interval_text(const IntegralResult& r) {
 std::string stop_text(const IntegralResult& r) {
   switch (r.stopped_because) {
     case lab::StopReason::samples:
-      return "the samples were spent";
+      return "the samples were used up";
     case lab::StopReason::seconds:
-      return "the time was over";
+      return "the time was used up";
     case lab::StopReason::target_error:
       return "the target error was reached";
     case lab::StopReason::nothing_found:
-      return "no sample found anything, the target error is out of reach";
+      return "no sample found anything, the target error cannot be reached";
     case lab::StopReason::rounding:
-      return "the error is that of rounding, the target error is out of reach";
+      return "the error is that of rounding, the target error cannot be reached";
     case lab::StopReason::stopped:
       break;
   }
@@ -71,10 +71,10 @@ void print_one(const IntegralRun& run) {
   fmt::print("method       {}\n", method_text(run));
   if (!r.why.empty()) fmt::print("because      {}\n", r.why);
   fmt::print("evaluations  {} in {} passes", r.evaluations, r.passes);
-  if (r.training_evaluations > 0) fmt::print(", {} of them to learn", r.training_evaluations);
+  if (r.training_evaluations > 0) fmt::print(", {} of them for training", r.training_evaluations);
   fmt::print("\nvariance     {:.4g} of one sample\n", r.variance_of_one_sample);
   fmt::print("time         {}, {}\n", time_text(seconds), count_text(double(r.evaluations) / seconds, "evaluations/s"));
-  fmt::print("efficiency   {:.3g}, one over variance and second\n", r.efficiency);
+  fmt::print("efficiency   {:.3g}, 1 / (variance x seconds)\n", r.efficiency);
   fmt::print("passes       chi2/dof {:.3g}, Q {:.2g}\n", r.chi2_per_dof, r.q);
   if (r.acceptance) fmt::print("accepted     {:.3g} % of the points\n", 100 * *r.acceptance);
   if (r.coefficient) fmt::print("coefficient  {:.6g} of the control variate\n", *r.coefficient);

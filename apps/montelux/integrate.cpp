@@ -42,15 +42,15 @@ constexpr const char* examples = R"(Examples:
   montelux integrate --resume run.json --time 1h --save run.json
 
 Expressions: + - * / ^ ( ) < <= > >= == != && || ! and condition ? a : b; montelux list functions.
-Domains: intervals NAME=LOW:HIGH, whose bounds are expressions (pi/2, inf, variables before), and montelux list domains;
---over may be repeated and makes the product. Methods: montelux list methods. An expression that begins with a minus
-goes behind "--". Ctrl-C ends early and tells the result so far.
+Domains: intervals NAME=LOW:HIGH, with expressions as bounds (pi/2, inf, earlier variables), and montelux list domains;
+--over may be repeated: the domain is the product. Methods: montelux list methods. An expression that begins with a minus
+is written after "--". Ctrl-C ends early and prints the result so far.
 )";
 
 // "1000000", "1e6" or "4M".
 Result<std::uint64_t> parse_samples(const std::string& text) {
   if (const auto samples = parse_large_whole(text, 2, 1'000'000'000'000'000)) return samples;
-  return Failure{fmt::format("takes a whole number from 2, as 100000, 1e6 or 4M; found \"{}\"", text)};
+  return Failure{fmt::format("takes a whole number from 2, such as 100000, 1e6 or 4M; found \"{}\"", text)};
 }
 
 // "0.95" or "95%".
@@ -59,7 +59,7 @@ Result<double> parse_confidence(const std::string& text) {
   const Result<double> value = parse_number(percent ? text.substr(0, text.size() - 1) : text, 0, 100);
   const double share = value ? (percent ? *value / 100 : *value) : 0;
   if (share > 0 && share < 1) return share;
-  return Failure{fmt::format("takes a probability between 0 and 1, as 0.95 or 95%; found \"{}\"", text)};
+  return Failure{fmt::format("takes a probability between 0 and 1, such as 0.95 or 95%; found \"{}\"", text)};
 }
 
 // The integral of a file, with the budget that is asked for now, or else what is left of the file's.
@@ -80,7 +80,7 @@ Result<SavedIntegral> resumed(const IntegrateArguments& arguments) {
   }
   const auto rest = rest_of_budget(*saved);
   if (!rest)
-    return Failure{fmt::format("{} has spent its budget; --samples, --time or --target-error say how much more",
+    return Failure{fmt::format("{} has used up its budget; state how much more by --samples, --time or --target-error",
                                *arguments.resume)};
   budget = *rest;
   return saved;
@@ -119,7 +119,7 @@ int run_integrate(IntegrateArguments& arguments) {
     saved = std::move(*loaded);
   } else {
     if (arguments.integral.statement.integrand.empty())
-      return complain("an expression is missing, as in montelux integrate '4*x^3' --over x=0:1");
+      return complain("an expression is missing, for example montelux integrate '4*x^3' --over x=0:1");
     if (arguments.integral.statement.over.empty())
       return complain("a domain is missing: --over x=0:1, --over disk, ...");
     arguments.integral.seed = arguments.seed.value_or(0);
@@ -135,7 +135,7 @@ int run_integrate(IntegrateArguments& arguments) {
   if (!runs) return complain(runs.error());
   const bool interrupted = !runs->empty() && runs->back().result.stopped_because == lab::StopReason::stopped;
   if (interrupted && runs->size() == 1 && runs->front().result.passes == 0) {
-    complain("interrupted before anything was known");
+    complain("interrupted before there was a result");
     return 128 + signals.received();
   }
   int status = interrupted ? 128 + signals.received() : done;
@@ -148,14 +148,14 @@ int run_integrate(IntegrateArguments& arguments) {
   }
   const int doubts = print_integrals(arguments.output, prepared.integral->options, *runs);
   if (status == done) status = doubts;
-  if (interrupted && !arguments.output.quiet) warn("interrupted; the result is of what was done");
+  if (interrupted && !arguments.output.quiet) warn("interrupted; this is the result so far");
   return status;
 }
 
 // What is integrated, and how.
 void add_statement_options(CLI::App& verb, IntegralOptions& integral) {
   lab::IntegralStatement& s = integral.statement;
-  verb.add_option("EXPR", s.integrand, "the integrand, as '4*x^3'")->type_name("EXPR");
+  verb.add_option("EXPR", s.integrand, "the integrand, for example '4*x^3'")->type_name("EXPR");
   add_option(verb, {"--over", "DOMAIN", "x=0:1,y=0:x, or disk, sphere, ...; repeated: their product", true},
              append_to(s.over));
   const std::vector<CatalogueEntry> known = catalogue("methods").value();
@@ -163,17 +163,17 @@ void add_statement_options(CLI::App& verb, IntegralOptions& integral) {
   for (const CatalogueEntry& entry : known) methods.push_back(entry.name);
   add_option(verb,
              {"--method", alternatives(methods),
-              "with settings as NAME:key=value,...; repeated: a table that compares them; default auto", true},
+              "with settings NAME:key=value,...; repeated: a table that compares them; default auto", true},
              append_to(integral.methods));
   add_option(verb,
              {"--pdf", "EXPR",
-              "density to sample from, as '2*x' or '2*x, inverse=sqrt(u)'; other settings: sampling=table|rejection, "
+              "density to sample from: '2*x' or '2*x, inverse=sqrt(u)'; other settings: sampling=table|rejection, "
               "bound=MAXIMUM; may be repeated for mis",
               true},
              append_to(s.densities));
   verb.add_flag("--normalize-pdf", s.normalize_densities, "divide densities by their measured integrals");
   verb.add_flag("--allow-missed", s.allow_missed,
-                "continue where a density is 0 and the integrand is not: biased, and reported as such");
+                "accept a density that is 0 where the integrand is not: biased, and reported as such");
   add_option(verb, {"--control", "EXPR", "control variate for the method control"}, text_into(s.control));
   add_option(verb, {"--control-integral", "VALUE", "its integral over the domain; an expression without variables"},
              text_into(s.control_integral));
@@ -184,22 +184,22 @@ void add_statement_options(CLI::App& verb, IntegralOptions& integral) {
 // How much, and which realisation.
 void add_budget_options(CLI::App& verb, IntegrateArguments& arguments) {
   lab::Budget& budget = arguments.integral.budget;
-  add_option(verb, {"--samples", "N", "samples of each method, as 100000, 1e6 or 4M (default 1048576)"},
+  add_option(verb, {"--samples", "N", "samples of each method: 100000, 1e6 or 4M (default 1048576)"},
              into(budget.samples, parse_samples));
-  add_option(verb, {"--time", "TIME", "for each method, as 500ms, 30s, 10m or 2h"}, into(budget.seconds, parse_time));
-  add_option(
-      verb, {"--target-error", "ERROR", "stop when half the interval is as small: 1e-4, or 0.1% of the value"},
-      [&budget](const std::string& text) -> Status {
-        const bool percent = text.ends_with('%');
-        const auto value = parse_number(percent ? text.substr(0, text.size() - 1) : text, 0, 1e300);
-        if (!value || !(*value > 0))
-          return Failure{fmt::format("takes a number above 0 or a percentage, as 1e-4 or 0.1%; found \"{}\"", text)};
-        budget.target_error = percent ? *value / 100 : *value, budget.target_is_relative = percent;
-        return Done{};
-      });
-  add_option(verb, {"--confidence", "P", "of the interval, as 0.99 or 99% (default 0.95)"},
+  add_option(verb, {"--time", "TIME", "for each method: 500ms, 30s, 10m or 2h"}, into(budget.seconds, parse_time));
+  add_option(verb, {"--target-error", "ERROR", "stop when half the interval is this small: 1e-4, or 0.1% of the value"},
+             [&budget](const std::string& text) -> Status {
+               const bool percent = text.ends_with('%');
+               const auto value = parse_number(percent ? text.substr(0, text.size() - 1) : text, 0, 1e300);
+               if (!value || !(*value > 0))
+                 return Failure{
+                     fmt::format("takes a number above 0 or a percentage, such as 1e-4 or 0.1%; found \"{}\"", text)};
+               budget.target_error = percent ? *value / 100 : *value, budget.target_is_relative = percent;
+               return Done{};
+             });
+  add_option(verb, {"--confidence", "P", "of the interval: 0.99 or 99% (default 0.95)"},
              into(arguments.confidence, parse_confidence));
-  add_option(verb, {"--seed", "S", "number of the realisation; the same seed gives the same bits (default 0)"},
+  add_option(verb, {"--seed", "S", "seed of all random numbers; the same seed gives the same bits (default 0)"},
              into(arguments.seed, [](const std::string& t) -> Result<std::uint64_t> {
                auto seed = parse_whole(t, 0, 0x7fffffff);
                if (!seed) return seed.failure();
@@ -217,8 +217,7 @@ void add_integrate(CLI::App& app, Action& chosen) {
   verb.footer(examples);
   add_statement_options(verb, arguments->integral);
   add_budget_options(verb, *arguments);
-  add_option(verb, {"--save", "FILE", "keep the running estimate, to be resumed or merged"},
-             text_into(arguments->save));
+  add_option(verb, {"--save", "FILE", "save the estimate, to be resumed or merged"}, text_into(arguments->save));
   add_option(verb, {"--resume", "FILE", "continue a saved estimate"}, text_into(arguments->resume));
   add_output_options(verb, arguments->output);
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");

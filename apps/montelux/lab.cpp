@@ -35,8 +35,8 @@ constexpr const char* examples = R"(Examples:
   montelux lab run roulette -o out --fault
 
 Writes report.html (one file, needs no network), report.json, and for each experiment its figures (.svg), its data
-(.csv) and its pictures (.png).
-Exit status: 0 every verdict holds; 1 one does not; 2 trouble.
+(.csv) and its images (.png).
+Exit status: 0 every verdict holds; 1 one does not; 2 error.
 )";
 
 // Formulas as they are typed, without their dollars.
@@ -133,8 +133,8 @@ void print_text(const LabRun& run, const std::string& folder) {
 }
 
 int run_experiments(LabArguments& arguments) {
-  if (arguments.name.empty()) return complain("lab run: which experiment? a name of montelux lab list, or all");
-  if (arguments.output.empty()) return complain("lab run: -o DIR is missing, the folder of the report");
+  if (arguments.name.empty()) return complain("lab run: an experiment is missing: a name of montelux lab list, or all");
+  if (arguments.output.empty()) return complain("lab run: -o DIR is missing, the folder for the report");
   if (Status good = check_output_folder(arguments.output); !good) return complain(good.error());
   if (arguments.name != "all") arguments.options.names = {arguments.name};
   const StopSignals signals;
@@ -163,7 +163,7 @@ void add_lab(CLI::App& app, Action& chosen) {
   CLI::App& verb = *app.add_subcommand("lab", "Run the experiments of the source documents, each with a verdict");
   verb.footer(examples);
   const std::vector<std::string> actions{"list", "run"};
-  add_option(verb, {"ACTION", alternatives(actions), "list what there is, or run"},
+  add_option(verb, {"ACTION", alternatives(actions), "list the experiments, or run them"},
              into(arguments->action, [actions](const std::string& text) { return parse_choice(text, actions); }));
   verb.add_option("NAME", arguments->name, "an experiment, or all")->type_name("NAME");
   verb.add_option("-o,--output", arguments->output, "folder of the report")->type_name("FILE");
@@ -183,8 +183,8 @@ void add_lab(CLI::App& app, Action& chosen) {
                arguments->options.settings[setting->first] = *value;
                return Done{};
              });
-  verb.add_flag("--fault", arguments->options.planted_fault, "plant the mistake that the verdict must find");
-  add_option(verb, {"--threads", "N", "worker threads (default: one a processor)"},
+  verb.add_flag("--fault", arguments->options.planted_fault, "plant the fault that the verdict must detect");
+  add_option(verb, {"--threads", "N", "number of threads; default: one for each processor"},
              into(arguments->options.threads, [](const std::string& text) { return parse_whole(text, 1, 1024); }));
   verb.add_flag("--json", arguments->json, "results as JSON");
   verb.add_flag("-q,--quiet", arguments->quiet, "no progress, notes or warnings");

@@ -32,7 +32,7 @@ void print_lines(const std::vector<std::pair<std::string, std::string>>& lines) 
 // What is not done yet, said behind the meaning.
 std::string with_state(const CatalogueEntry& entry) {
   if (!entry.instead.empty() && entry.instead != entry.name)
-    return fmt::format("{} ({} serves)", entry.meaning, entry.instead);
+    return fmt::format("{} (replaced by {})", entry.meaning, entry.instead);
   return entry.later ? entry.meaning + " (not yet)" : entry.meaning;
 }
 
@@ -104,7 +104,7 @@ void add_list(CLI::App& app, Action& chosen) {
   const std::vector<std::string> topics = names_of(catalogue_topics());
   add_option(verb, {"TOPIC", alternatives(topics), "what to list; default: these topics"},
              into(arguments->topic, [topics](const std::string& text) { return parse_choice(text, topics); }));
-  verb.add_option("NAME", arguments->name, "one of the topic, with its parameters")->type_name("NAME");
+  verb.add_option("NAME", arguments->name, "one entry of the topic, with its parameters")->type_name("NAME");
   verb.add_flag("--json", arguments->json, "as JSON");
   verb.add_flag("--quiet", arguments->quiet, "no notes or warnings (there are none: results and errors stay)");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_list(*arguments); }; });

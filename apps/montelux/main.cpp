@@ -16,7 +16,7 @@ namespace montelux::cli {
 
 namespace {
 
-constexpr const char* description = "Monte Carlo renderer and integrator that says how wrong its answer is.";
+constexpr const char* description = "Monte Carlo renderer and integrator that states how wrong its answer may be.";
 
 constexpr const char* notes = R"(Examples:
   montelux render scene.pbrt -o room.exr --spp 256
@@ -25,9 +25,9 @@ constexpr const char* notes = R"(Examples:
   montelux diff a.exr b.exr
   montelux render --help
 
-Exit status: 0 done; 1 diff found a difference, or with --strict an integral has warnings; 2 options, scene, pictures or
-integral cannot be used; 3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by
-SIGHUP, SIGINT, SIGPIPE or SIGTERM, what was done is written.
+Exit status: 0 done; 1 diff found a difference, or with --strict an integral has warnings; 2 options, scene, images or
+integral are invalid; 3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by
+SIGHUP, SIGINT, SIGPIPE or SIGTERM, finished work is written.
 )";
 
 std::vector<std::string_view> verb_names(const CLI::App& app) {
@@ -71,7 +71,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
       const std::vector<std::string> names = option_names(verb);
       return fmt::format("unknown option \"{}\" of {}; valid: {}{}", argument, verb.get_name(), fmt::join(names, ", "),
                          did_you_mean(argument.substr(0, argument.find('=')), {names.begin(), names.end()})) +
-             (verb.get_name() == "integrate" ? "; an expression that begins with - goes behind --" : "");
+             (verb.get_name() == "integrate" ? "; write an expression that begins with - after --" : "");
     }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())
     return fmt::format("unexpected argument \"{}\"{}", extra.front(), help);

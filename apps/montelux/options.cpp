@@ -84,7 +84,8 @@ Status parse_resolution(const std::string& text, LoadOptions& options) {
       return Done{};
     }
   }
-  return Failure{fmt::format("takes WIDTHxHEIGHT in pixels, as 1280x720, or a percentage, as 50%; found \"{}\"", text)};
+  return Failure{
+      fmt::format("takes WIDTHxHEIGHT in pixels, such as 1280x720, or a percentage, such as 50%; found \"{}\"", text)};
 }
 
 Result<PixelBounds> parse_crop(const std::string& text) {
@@ -94,7 +95,7 @@ Result<PixelBounds> parse_crop(const std::string& text) {
     const std::size_t comma = i < 3 ? rest.find(',') : rest.size();
     auto edge = comma == std::string_view::npos ? std::nullopt : number_in<int>(rest.substr(0, comma));
     if (!edge || *edge < 0)
-      return Failure{fmt::format("takes x0,y0,x1,y1 in pixels (x1 and y1 are just outside); found \"{}\"", text)};
+      return Failure{fmt::format("takes x0,y0,x1,y1 in pixels (x1 and y1 are excluded); found \"{}\"", text)};
     edges[i] = *edge;
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
@@ -215,25 +216,27 @@ void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) 
                options.animation = text;
                return Done{};
              });
-  add_option(verb,
-             {"--shutter", "OPEN:CLOSE",
-              "when the shutter is open, in the scene's unit of time (glTF: seconds), instead of as the file says; "
-              "with --frames, that of frame 0; with --frames A:B/N, that of all frames together; the brightness stays"},
-             into(options.shutter, parse_shutter));
-  add_option(verb,
-             {"--environment", "FILE[:rotation=DEG,scale=S]",
-              "panorama around the scene instead of its own: equirectangular with +y on top, or square and equal-area"},
-             into(options.environment, parse_environment));
-  verb.add_flag("--verbose", options.verbose, "list each warning and note of the scene, not one for all of a kind");
-  verb.add_flag("--lenient", options.lenient, "warn of what is unknown or not yet possible in the scene, and continue");
+  add_option(
+      verb,
+      {"--shutter", "OPEN:CLOSE",
+       "exposure interval in the scene's unit of time (glTF: seconds), overrides that of the file; "
+       "with --frames, that of frame 0; with --frames A:B/N, that of all frames; does not change the brightness"},
+      into(options.shutter, parse_shutter));
+  add_option(
+      verb,
+      {"--environment", "FILE[:rotation=DEG,scale=S]",
+       "environment map instead of the scene's own: equirectangular with +y at the top, or square and equal-area"},
+      into(options.environment, parse_environment));
+  verb.add_flag("--verbose", options.verbose, "list every warning and note of the scene instead of one for each kind");
+  verb.add_flag("--lenient", options.lenient, "warn about unknown and unsupported features of the scene, and continue");
 }
 
 void add_display_options(CLI::App& verb, DisplayRequest& display) {
   add_option(
       verb,
       {"--exposure", "auto|EV",
-       "for 8-bit pictures: multiply by 2^EV; auto: by the picture; default: 0, or auto where the scene states no "
-       "exposure and nearly all of the picture would be black or white"},
+       "for 8-bit images: multiply by 2^EV; auto: automatic exposure; default: 0, or auto if the scene states no "
+       "exposure and nearly all of the image would be black or white"},
       [&display](const std::string& text) -> Status {
         display.automatic_exposure = text == "auto";
         display.exposure.reset();
@@ -243,28 +246,27 @@ void add_display_options(CLI::App& verb, DisplayRequest& display) {
         display.exposure = float(*stops);
         return Done{};
       });
-  add_option(verb, {"--tone", alternatives(names_of(tone_curves())), "for 8-bit pictures: tone curve (default clip)"},
+  add_option(verb, {"--tone", alternatives(names_of(tone_curves())), "for 8-bit images: tone curve (default clip)"},
              into(display.curve, [](const std::string& text) -> Result<ToneCurve> {
                auto name = parse_choice(text, names_of(tone_curves()));
                if (!name) return name.failure();
                return *tone_curve_named(*name);
              }));
-  add_option(
-      verb,
-      {"--range", "auto|LOW:HIGH",
-       "for 8-bit pictures: values from black to white, or over the colours of a map, instead of exposure and tone"},
-      [&display](const std::string& text) -> Status {
-        display.automatic_range = text == "auto";
-        display.range.reset();
-        if (display.automatic_range) return Done{};
-        auto range = parse_range(text);
-        if (!range) return range.failure();
-        display.range = *range;
-        return Done{};
-      });
+  add_option(verb,
+             {"--range", "auto|LOW:HIGH",
+              "for 8-bit images: values from black to white, or from the first to the last colour of a map"},
+             [&display](const std::string& text) -> Status {
+               display.automatic_range = text == "auto";
+               display.range.reset();
+               if (display.automatic_range) return Done{};
+               auto range = parse_range(text);
+               if (!range) return range.failure();
+               display.range = *range;
+               return Done{};
+             });
   add_option(verb,
              {"--colormap", alternatives(names_of(color_maps())),
-              "for 8-bit pictures: false colours (default: viridis for distances, errors and numbers of samples)"},
+              "for 8-bit images: false colours (default: viridis for distances, errors and numbers of samples)"},
              [&display](const std::string& text) -> Status {
                auto name = parse_choice(text, names_of(color_maps()));
                if (!name) return name.failure();

@@ -58,7 +58,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --spp 4096 --passes 8:15 --checkpoint b.film
   montelux merge a.film b.film -o room.film -o room.exr
 
-Ctrl-C (or SIGTERM, SIGHUP) ends the render early and writes what is done; a second one exits at once.
+Ctrl-C (or SIGTERM, SIGHUP) ends the render early and writes what is finished; a second one exits at once.
 )";
 
 // How 8-bit pictures show the rendering. All pictures of a sequence are shown like the first.
@@ -91,9 +91,9 @@ Status check_files(const RenderArguments& arguments) {
     if (Status good = check_picture_file(file); !good) return good;
   const auto is_exr = [](const std::string& file) { return extension_of(file) == ".exr"; };
   if (arguments.render.layers && arguments.render.layers->motion && std::ranges::none_of(arguments.files, is_exr))
-    return Failure{"the layer of motion needs an .exr file: -o PICTURE.exr"};
+    return Failure{"the motion layer needs an .exr file: -o IMAGE.exr"};
   if (arguments.render.layers && !arguments.json && std::ranges::none_of(arguments.files, is_exr))
-    return Failure{"layers need an .exr file: -o PICTURE.exr (or --json for their means)"};
+    return Failure{"layers need an .exr file: -o IMAGE.exr (or --json for their means)"};
   return Done{};
 }
 
@@ -112,7 +112,7 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
   const Outcome outcome = outcome_of(*rendering);
   if (rendering->result.interrupted && arguments.frame) {
     if (!arguments.quiet)
-      warn(fmt::format("interrupted in frame {}, which is not written; the frames before it are", *arguments.frame));
+      warn(fmt::format("interrupted in frame {}, which is not written; earlier frames are", *arguments.frame));
     return 128 + signal;
   }
   if (rendering->result.interrupted && outcome.samples == 0) {
@@ -132,7 +132,7 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
       (!arguments.frame || *arguments.frame == arguments.frames->first))
     if (const std::string text = choice_text(display_of(arguments, *rendering)); !text.empty()) warn(text);
   if (outcome.non_finite > 0 && !arguments.quiet)
-    warn(fmt::format("{} samples were not finite; they are not in the mean", outcome.non_finite));
+    warn(fmt::format("{} samples were not finite; they are excluded from the mean", outcome.non_finite));
   if (status != done) return status;
   PictureReport report{
       arguments.scene,          arguments.files,        {}, arguments.render.seed.value_or(0), arguments.frame,
@@ -182,10 +182,9 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
     const Result<Rendering> rendering =
         sequence->render({*one->render.seed, *one->render.shutter, before, frame == last}, observer);
     if (rendering->result.forgotten > 0 && !all.quiet && frame == first)
-      warn(fmt::format(
-          "chains keep histories of {} in all, and no more: {} of {} start the next frame without a history",
-          count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
-          rendering->result.film.image().passes));
+      warn(fmt::format("histories are limited to {} in all: {} of {} chains start the next frame without a history",
+                       count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
+                       rendering->result.film.image().passes));
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
     // A frame may be over before anybody asks for signals.
@@ -200,7 +199,7 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
 int render_frames(const RenderArguments& all, LoadedScene loaded_first, const StopSignals& signals) {
   std::optional<LoadedScene> scene(std::move(loaded_first));
   if (!scene->info().moves && scene->info().frames_held >= all.frames->count() && !all.quiet)
-    warn("nothing moves in the scene: its frames differ by their seeds alone");
+    warn("nothing moves in the scene: its frames differ only by their seeds");
   ProgressLine observer({!all.quiet && !all.no_progress, !all.quiet}, signals, all.frames->count());
   int late = 0;
   for (int first = all.frames->first; first <= all.frames->last;) {
@@ -211,7 +210,8 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
     first = last + 1;
     if (first > all.frames->last) break;
     // A scene holds so many moments of its motion: what follows is loaded anew, and histories begin again.
-    if (!all.quiet) warn(fmt::format("frames from {} on: the scene is loaded with its next moments", first));
+    if (!all.quiet)
+      warn(fmt::format("frames from {} on: the scene is reloaded for the next part of its animation", first));
     LoadOptions load = all.load;
     load.frames->first = first;
     scene.reset();
@@ -223,7 +223,7 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
     scene.emplace(*std::move(loaded.scene));
   }
   if (late > 0 && !all.quiet)
-    warn(fmt::format("{} of {} pictures took longer than the budget of {}", late, all.frames->count(),
+    warn(fmt::format("{} of {} images took longer than the budget of {}", late, all.frames->count(),
                      time_text(*all.render.budget)));
   return done;
 }
@@ -270,10 +270,10 @@ Result<SavedFilm> resumed(RenderArguments& arguments) {
 int run_render(RenderArguments& arguments) {
   if (Status good = check_saving(arguments); !good) return complain(good.error());
   if (arguments.fps && arguments.frames->of)
-    return complain("--fps and the /N of --frames exclude each other: both say how long a frame lasts");
+    return complain("--fps and the /N of --frames exclude each other: both set the duration of a frame");
   if (arguments.frames) arguments.frames->fps = arguments.fps;
   if (!arguments.frames && arguments.render.layers && arguments.render.layers->motion)
-    return complain("motion is between the pictures of a sequence: --layers motion needs --frames");
+    return complain("motion vectors are between the images of a sequence: --layers motion needs --frames");
   if (!arguments.files.empty())
     if (Status good = check_output(arguments); !good) return complain(good.error());
 
@@ -300,7 +300,7 @@ int run_render(RenderArguments& arguments) {
     arguments.files = {by_scene.empty() ? default_picture(arguments.scene) : by_scene};
     if (Status good = check_output(arguments); !good)
       return complain(by_scene.empty() ? good.error()
-                                       : good.error() + "; the scene's film names this picture, -o names another one");
+                                       : good.error() + "; the scene's film names this file, -o names another one");
   }
 
   arguments.render.files = {{arguments.files.begin(), arguments.files.end()}, arguments.half};
@@ -314,37 +314,38 @@ int run_render(RenderArguments& arguments) {
 void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(verb,
              {"--frames", "A[:B][/N]",
-              "a picture for each of these frames (A: for one), into which the time of the scene's transforms falls in "
+              "one image per frame (A for a single one); the time of the scene's transforms is divided into "
               "equal parts "
-              "(A:B/N: N parts, counted from 0); their number goes to #### or %04d in -o, else before the extension"},
+              "(A:B/N: N parts, counted from 0); the number replaces #### or %04d in -o, or precedes the extension"},
              into(arguments.frames, parse_frames));
-  add_option(verb, {"--fps", "F", "frames in a unit of the scene's time: frame f has the scene's shutter, f / F later"},
+  add_option(verb, {"--fps", "F", "frames per unit of the scene's time: frame f has the scene's shutter, f / F later"},
              into(arguments.fps, [](const std::string& t) { return parse_number(t, 1e-6, 1e6); }));
   verb.get_option("--fps")->needs("--frames");
 }
 
 // How many samples, and which.
 void add_sampling_options(CLI::App& verb, RenderOptions& render) {
-  add_option(verb, {"--spp", "N", "samples a pixel; default: as the scene states"},
+  add_option(verb, {"--spp", "N", "samples per pixel; default: as stated by the scene"},
              into(render.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 24); }));
   add_option(verb,
              {"--time", "TIME",
-              "be done that long after the scene is loaded, with as many samples as fit (500ms, 30s, 10m, 2h)"},
+              "finish this long after the scene is loaded, with as many samples as fit (500ms, 30s, 10m, 2h)"},
              into(render.seconds, parse_time));
   verb.get_option("--time")->excludes("--spp");
-  add_option(verb,
-             {"--interactive-budget", "TIME",
-              "a picture within that time (33ms): as many whole passes of a sample as fit, of restir-di frames of one "
-              "chain, which continues over --frames; at least one"},
-             into(render.budget, parse_time));
+  add_option(
+      verb,
+      {"--interactive-budget", "TIME",
+       "each image within this time (33ms): as many passes of one sample as fit, or with restir-di frames of one "
+       "chain, which continues over --frames; at least one"},
+      into(render.budget, parse_time));
   verb.get_option("--interactive-budget")->excludes("--spp")->excludes("--time");
   add_option(
       verb,
-      {"--seed", "S", "number of the realisation; the same seed gives the same bits; default: the scene's, else 0"},
+      {"--seed", "S", "seed of all random numbers; the same seed gives the same bits; default: the scene's, else 0"},
       into(render.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(render.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
-  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are just outside)"},
+  add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are excluded)"},
              into(render.crop, parse_crop));
 }
 
@@ -393,7 +394,7 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
   const auto integrators = names_of(integrator_names()), samplers = names_of(sampler_names());
   add_option(verb,
              {"--integrator", alternatives(integrators),
-              "algorithm, with settings if need be, as direct:strategy=ris,candidates=32; default: the scene's"},
+              "algorithm, optionally with settings: direct:strategy=ris,candidates=32; default: the scene's"},
              [&render](const std::string& text) -> Status {
                render.integrator = text;
                return check_integrator_text(text);
@@ -408,11 +409,11 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
       verb,
       {"--layers", "bounces[:N],light-groups,errors,motion",
        "layers in the .exr: of light, bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
-       "each \"string group\" of the scene's lights; with errors NAME_stderr, too; motion: the way in pixels from here "
+       "each \"string group\" of the scene's lights; errors: also NAME_stderr; motion: offset in pixels from here "
        "to "
-       "where the same point was in the frame before"},
+       "where the same point was in the previous frame"},
       into(render.layers, parse_layers));
-  add_option(verb, {"--set", "key=value", "a setting of the integrator, as maxdepth=8; may be repeated", true},
+  add_option(verb, {"--set", "key=value", "a setting of the integrator, such as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {
                auto setting = parse_setting(text);
                if (!setting) return setting.failure();
@@ -430,8 +431,7 @@ void add_render(CLI::App& app, Action& chosen) {
   add_option(
       verb,
       {"-o,--output", "FILE",
-       "picture (.exr .hdr .pfm .png .jpg); may be repeated; default: as the scene's film names it, else SCENE.exr",
-       true},
+       "image file (.exr .hdr .pfm .png .jpg); may be repeated; default: as named by the scene, else SCENE.exr", true},
       [arguments](const std::string& file) -> Status {
         arguments->files.push_back(file);
         return Done{};
@@ -445,8 +445,8 @@ void add_render(CLI::App& app, Action& chosen) {
   add_display_options(verb, arguments->display);
   verb.add_flag(
       "--half", arguments->half,
-      "light, albedo and normals of an .exr as 16-bit floats, which halves the file; errors and places stay 32-bit");
-  verb.add_flag("--json", arguments->json, "results as one JSON object (a line for each frame)");
+      "light, albedo and normals of an .exr as 16-bit floats, which halves the file; other layers stay 32-bit");
+  verb.add_flag("--json", arguments->json, "results as one JSON object (one line per frame)");
   verb.add_flag("--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.add_flag("--no-progress", arguments->no_progress, "no progress");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

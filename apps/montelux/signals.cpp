@@ -55,9 +55,8 @@ extern "C" void note_stop(int signal) {
   int before = none;
   if (!stop_signal.compare_exchange_strong(before, signal) && signal != SIGPIPE) {
     remove_temporaries();
-    say(before == unwatched
-            ? "montelux: error: interrupted before anything was done\n"
-            : "montelux: error: interrupted a second time; files that were not finished are as they were\n");
+    say(before == unwatched ? "montelux: error: interrupted before anything was done\n"
+                            : "montelux: error: interrupted a second time; unfinished files keep their old content\n");
     _exit(128 + signal);
   }
   errno = error;

@@ -26,7 +26,7 @@ constexpr const char* examples = R"(Examples:
   montelux tonemap room.exr -o room.png
   montelux tonemap room.exr -o room.jpg --exposure -1 --tone aces
   montelux tonemap lamp.exr -o lamp.png --exposure auto
-  montelux tonemap room.exr -o depth.png --layer Z                        false colours over the range of the picture
+  montelux tonemap room.exr -o depth.png --layer Z                        false colours over the range of the image
   montelux tonemap room.exr -o error.png --layer stderr --range 0:0.1 --colormap magma
 )";
 
@@ -55,11 +55,9 @@ int run_tonemap(const TonemapArguments& arguments) {
 
 void add_tonemap(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<TonemapArguments>();
-  CLI::App& verb = *app.add_subcommand("tonemap", "Turn a linear picture into one for display");
+  CLI::App& verb = *app.add_subcommand("tonemap", "Convert a linear image for display");
   verb.footer(examples);
-  verb.add_option("IN", arguments->picture, "picture (.exr .hdr .pfm, or any other image)")
-      ->required()
-      ->type_name("FILE");
+  verb.add_option("IN", arguments->picture, "image (.exr .hdr .pfm, or any other)")->required()->type_name("FILE");
   verb.add_option("-o,--output", arguments->output, "picture (.png .jpg)")->required()->type_name("FILE");
   verb.add_option("--layer", arguments->layer, "stderr, albedo, N, P, Z, ...; default: the colours")->type_name("NAME");
   add_display_options(verb, arguments->display);

@@ -104,7 +104,7 @@ Result<PictureEstimate> read_estimate(const PictureFiles& files) {
 
 Result<PictureDifference> compare_pictures(const PictureEstimate& a, const PictureEstimate& b, double level) {
   if (a.color.width != b.color.width || a.color.height != b.color.height)
-    return Failure{fmt::format("the pictures differ in size: {} x {} and {} x {} pixels", a.color.width, a.color.height,
+    return Failure{fmt::format("the images differ in size: {} x {} and {} x {} pixels", a.color.width, a.color.height,
                                b.color.width, b.color.height)};
   PictureDifference difference;
   difference.equal = std::equal(a.color.values.begin(), a.color.values.end(), b.color.values.begin(), same);

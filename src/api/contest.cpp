@@ -46,10 +46,10 @@ std::string refusal_of(const lab::ContestResult& result) {
   const double share = result.reference_share[result.measure];
   if (share <= largest_reference_share) return {};
   if (!std::isfinite(share))
-    return "no method's error is above what the reference's own noise explains: it needs many times its samples";
+    return "the noise of the reference explains the errors of all methods: it needs many times more samples";
   return fmt::format(
-      "the reference's own variance is {:.0f} % of the smallest error (at most {:.0f} % is right): it would decide the "
-      "comparison; it needs {:.1f} times its samples",
+      "the variance of the reference is {:.0f} % of the smallest error (limit {:.0f} %): it would decide the "
+      "comparison; it needs {:.1f} times as many samples",
       100 * share, 100 * largest_reference_share, share / largest_reference_share);
 }
 
@@ -66,7 +66,7 @@ std::vector<std::string> notes_of_methods(const Field& field, bool attribution) 
   for (const auto& [bias, names] : by_bias)
     notes.push_back(fmt::format("{} {} biased: {}", listed(names), names.size() > 1 ? "are" : "is", bias));
   for (const auto& [light, names] : by_light)
-    notes.push_back(fmt::format("{} cannot find {}: it is missing from {}, and from a reference that is made {}",
+    notes.push_back(fmt::format("{} cannot find {}: it is missing from {}, and from a reference rendered {}",
                                 listed(names), light, names.size() > 1 ? "their pictures" : "its pictures",
                                 names.size() > 1 ? "by one of them" : "by it"));
   if (!unlayered.empty())
@@ -93,8 +93,7 @@ Status check_warm_up(const std::vector<lab::Contestant>& contestants, const Cont
     return c.integrator.coupled() && c.integrator.coupled()->warm_up() > 0;
   };
   if (!options.warm_frames || std::ranges::any_of(contestants, warms_up)) return Done{};
-  return Failure{
-      "no method has frames of warm-up whose time might not count: restir-di:chain=1,warm-up=12 has, for one"};
+  return Failure{"no method has warm-up frames; for example restir-di:chain=1,warm-up=12 has"};
 }
 
 // Seconds of one repeat of one method; none where that is not known.
@@ -150,7 +149,7 @@ void take_reference(const Work& work, const lab::ReferenceGoal& goal, Contest& c
   work.meter.expect(contest.forecast.reference + contest.forecast.repeats);
   if (work.observer.forecast) work.observer.forecast(contest.forecast);
   if (kept) {
-    contest.saved.notes.push_back("the reference was kept from an earlier comparison: " + file->string());
+    contest.saved.notes.push_back("the reference was stored by an earlier comparison: " + file->string());
     contest.saved.state.reference = *std::move(kept);
     return;
   }
@@ -246,7 +245,7 @@ Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, c
     const std::optional<double> one = seconds_of_repeat(saved.state, *settings);
     if (!one)
       return Failure{
-          "the saved comparison has no repeat that tells how long one takes: give --repeats, and not --time"};
+          "the saved comparison has no finished repeat, so its duration is unknown: use --repeats instead of --time"};
     rounds = int(std::clamp(std::round(*more.seconds / *one), 1.0, 1e6));
   }
   Contest contest;

@@ -211,7 +211,7 @@ SavedContest saved_from(const Json& j) {
   for (const Json& m : j.at("methods"))
     saved.state.methods.push_back(method_from(m, saved.state.reference.mean.pixel_count(), max_passes));
   if (saved.state.methods.size() != saved.options.methods.size())
-    throw std::invalid_argument("what it has gathered does not match its methods");
+    throw std::invalid_argument("its results do not match its methods");
   return saved;
 }
 

@@ -201,7 +201,7 @@ Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant
   if (const auto serve = without_faults(contestants, biases_and_missing); !serve.empty()) return serve;
   if (const auto serve = without_faults(contestants, biases_of); !serve.empty()) return serve;
   return Failure{fmt::format(
-      "every method is biased, and not all in one way: {}; none of them can make a reference that is fair to all: name "
+      "every method is biased, but not all in the same way: {}; none of them can render a fair reference: state "
       "one by --reference, or add a method without bias (path:maxdepth=none)",
       biases_text(contestants))};
 }

@@ -53,7 +53,7 @@ struct Spoken {
 std::string left_out(const Spoken& s) {
   const auto rounds = int(std::min(s.first.repeats.size(), s.second.repeats.size()));
   if (s.ratio().count >= rounds) return {};
-  return fmt::format("; {} of {} repeats are left out, whose error is no more than the reference's noise explains",
+  return fmt::format("; {} of {} repeats are excluded because the noise of the reference explains their error",
                      rounds - s.ratio().count, rounds);
 }
 
@@ -62,10 +62,10 @@ std::string other_measure(const Spoken& s, ErrorMeasure other, int lead) {
   const Measured& ratio = s.verdict.ratio[other];
   const std::string by = fmt::format("; by {} ", lab::title_of(other));
   if (s.contest.result.reference_share[other] > largest_reference_share)
-    return by + "not known, the reference is too noisy for that";
+    return by + "unknown, the reference is too noisy";
   if (ratio.count < 2) return by + "not known";
   const int winner = lab::winner_of(ratio);
-  if (winner == 0) return by + "not decided, " + interval_text(seen_from(ratio, lead >= 0));
+  if (winner == 0) return by + "undecided, " + interval_text(seen_from(ratio, lead >= 0));
   const std::string times = interval_text(seen_from(ratio, winner > 0)) + " times";
   if (winner == lead) return by + times;
   return fmt::format("{}{}{} is {} as efficient", by, lead == 0 ? "" : "the opposite: ", winner > 0 ? s.a() : s.b(),
@@ -78,7 +78,7 @@ std::string biased_text(const Spoken& s) {
     if (m->agreement.differs()) names += (names.empty() ? "" : " and ") + m->contestant.shown_name();
   return names.empty()
              ? ""
-             : fmt::format("; the mean of {} is not the reference's, so this holds for this time alone", names);
+             : fmt::format("; the mean of {} differs from the reference, so this is valid only for this time", names);
 }
 
 // "a is 2.31 (2.10 to 2.55) times as efficient as b by relMSE, at 95 %", or that nothing is decided.
@@ -87,22 +87,21 @@ std::string main_sentence(const Spoken& s) {
   const std::string level = fmt::format("{:g} %", 100 * s.confidence);
   if (!s.contest.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", s.a(), s.b());
   if (std::min(s.first.repeats.size(), s.second.repeats.size()) < 2)
-    return fmt::format("{} and {}: not decided, there are too few repeats", s.a(), s.b());
+    return fmt::format("{} and {}: undecided, there are too few repeats", s.a(), s.b());
   if (s.verdict.likeness == lab::Likeness::settings)
-    return fmt::format("{} and {} are the same method with the same settings: there is nothing to decide", s.a(),
-                       s.b());
-  if (s.ratio().count < 2) return fmt::format("{} and {}: not decided by {}{}", s.a(), s.b(), title, left_out(s));
+    return fmt::format("{} and {} are the same method with the same settings", s.a(), s.b());
+  if (s.ratio().count < 2) return fmt::format("{} and {}: undecided by {}{}", s.a(), s.b(), title, left_out(s));
   const int winner = lab::winner_of(s.ratio());
   const bool first = winner > 0 || (winner == 0 && s.ratio().mean >= 1);
   const std::string same =
       s.verdict.likeness == lab::Likeness::pictures
-          ? fmt::format("{} and {} gave the same pictures, to the bit, and differ in time alone: ", s.a(), s.b())
+          ? fmt::format("{} and {} gave the same images bit for bit and differ only in time: ", s.a(), s.b())
           : "";
   const std::string times = interval_text(seen_from(s.ratio(), first));
   const std::string &better = first ? s.a() : s.b(), &other = first ? s.b() : s.a();
   if (winner == 0)
     return fmt::format(
-        "{}{} and {}: not decided by {}: the ratio of their efficiencies is {} at {}; {} times the time "
+        "{}{} and {}: undecided by {}: the ratio of their efficiencies is {} at {}; {} times the time "
         "may decide it{}",
         same, better, other, title, times, level, times_text(s.verdict.times_longer), left_out(s));
   return fmt::format("{}{} is {} times as efficient as {} by {}, at {}{}", same, better, times, other, title, level,
@@ -116,7 +115,7 @@ std::string warm_up_text(const Spoken& s) {
     if (m->warm_up.mean > 0) warmed += (warmed.empty() ? "" : " and ") + m->contestant.shown_name();
   if (warmed.empty()) return {};
   const bool first = s.ratio().mean >= 1;
-  return fmt::format("; the warm-up of {} is not counted: with it {} times", warmed,
+  return fmt::format("; the warm-up of {} is not counted: {} times including it", warmed,
                      interval_text(seen_from(s.verdict.whole_ratio[s.measure], first)));
 }
 
@@ -162,12 +161,13 @@ std::string sentence_of(const lab::Agreement& a, double reference_mean) {
   using Outcome = lab::Agreement::Outcome;
   const double scale = reference_mean > 0 ? reference_mean : 1;
   const std::string off =
-      fmt::format("{:+.2g} % of the reference's mean, {:+.1f} standard errors", 100 * a.difference / scale, a.t);
+      fmt::format("{:+.2g} % of the mean of the reference, {:+.1f} standard errors", 100 * a.difference / scale, a.t);
   if (a.outcome == Outcome::too_few_repeats)
-    return fmt::format("too few repeats to tell whether its mean is the reference's ({})", off);
+    return fmt::format("too few repeats to tell whether its mean agrees with the reference ({})", off);
   if (a.outcome == Outcome::agrees)
-    return fmt::format("its mean agrees with the reference; a bias of {} of the mean would be found {:.0f} times in 10",
-                       percent(a.detectable / scale), 10 * lab::Agreement::power);
+    return fmt::format(
+        "its mean agrees with the reference; a bias of {} of the mean would be detected {:.0f} times in 10",
+        percent(a.detectable / scale), 10 * lab::Agreement::power);
   if (a.p_value < a.level) return fmt::format("its mean differs from the reference: {}", off);
   return fmt::format(
       "its mean differs from the reference pixel by pixel: the squared bias is {:.1f} standard errors "
@@ -233,11 +233,11 @@ Status write_contest(const std::filesystem::path& file, const Contest& contest, 
     words.shortcomings.push_back(text_of(shortcomings));
   if (!contest.refusal.empty()) words.notes.push_back(contest.refusal);
   if (contest.result.interrupted)
-    words.notes.push_back("it was interrupted: the figures are of the repeats that were done");
+    words.notes.push_back("it was interrupted: the figures are those of the finished repeats");
   if (!contest.result.warm_up_counts)
     words.notes.push_back(
-        "frames of a sequence: where a method has frames of warm-up, these have been shown anyway, and seconds and "
-        "efficiencies are without their time, unless another is said");
+        "frames of a sequence: warm-up frames have been shown anyway, so seconds and "
+        "efficiencies exclude their time unless stated otherwise");
   words.notes.insert(words.notes.end(), contest.notes.begin(), contest.notes.end());
   words.commands = commands;
   Result<std::string> page = lab::to_html(lab::report_of(contest.result, words));

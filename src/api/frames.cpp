@@ -66,7 +66,7 @@ Result<FrameRange> parse_frames(const std::string& text) {
   const auto of = slash == std::string::npos ? std::nullopt : whole(text.substr(slash + 1));
   if (!first || !last || (slash != std::string::npos && !of))
     return Failure{fmt::format(
-        "frames are stated as A:B, or A for one, or A:B/N for those of N, as 0:23, 5 or 12:23/48; found '{}'", text)};
+        "frames are A:B, A for a single one, or A:B/N for a part of N, such as 0:23, 5 or 12:23/48; found '{}'", text)};
   if (*first > *last) return Failure{fmt::format("frames {} end before they begin", text)};
   if (*last >= most_frames || of.value_or(0) > most_frames)
     return Failure{fmt::format("frames must be below {}; found '{}'", most_frames, text)};
@@ -94,7 +94,7 @@ Result<std::string> frame_file(const std::string& pattern, int frame) {
   std::string name = path.filename().string();
   const std::vector<Place> places = places_of(name);
   if (places.size() > 1)
-    return Failure{fmt::format("'{}' has more than one place for the number of the frame", pattern)};
+    return Failure{fmt::format("'{}' has more than one placeholder for the frame number", pattern)};
   std::string number = std::to_string(frame);
   if (places.empty()) {
     number = std::string(4 - std::min<std::size_t>(number.size(), 4), '0') + number;

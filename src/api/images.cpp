@@ -25,7 +25,7 @@ struct NamedCurve {
   std::string_view meaning;
 };
 constexpr std::array<NamedCurve, 3> curves{{
-    {"clip", ToneCurve::clip, "values above one are cut off"},
+    {"clip", ToneCurve::clip, "values above one are clipped"},
     {"hable", ToneCurve::hable, "filmic curve of Hable (2010)"},
     {"aces", ToneCurve::aces, "fit of Narkowicz (2015) to the ACES reference transform"},
 }};
@@ -56,8 +56,8 @@ PictureLayer colors_with_content(Image image) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> color_maps() {
-  return {{"viridis", "dark violet over green to yellow"},
-          {"magma", "black over red to pale yellow"},
+  return {{"viridis", "dark violet through green to yellow"},
+          {"magma", "black through red to pale yellow"},
           {"none", "no false colours"}};
 }
 

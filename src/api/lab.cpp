@@ -103,9 +103,9 @@ Result<LabRun> run_lab(const LabOptions& options, const std::filesystem::path& f
   }
   set.subtitle = fmt::format(
       "Experiments of the source documents, each with its data, its figures and a verdict against the "
-      "closed form; seed {}. A right program fails one of all verdicts in a thousand runs.",
+      "closed form; seed {}. In a correct program one run in a thousand has a verdict that fails.",
       options.seed);
-  if (options.planted_fault) set.subtitle = "With planted faults, which the verdicts must find. " + set.subtitle;
+  if (options.planted_fault) set.subtitle = "With planted faults, which the verdicts must detect. " + set.subtitle;
   Result<lab::WrittenReports> written = lab::write_reports(set, folder);
   if (!written) {
     run.why_not_written = written.error();

@@ -21,8 +21,8 @@ Status read_word(std::string_view word, LayerRequest& request) {
     const char *at = word.data() + counted.size(), *end = word.data() + word.size();
     const auto [next, error] = std::from_chars(at, end, bounces);
     if (error != std::errc{} || next != end || bounces < 0 || bounces > most_bounces)
-      return Failure{
-          fmt::format("bounces takes a whole number from 0 to {}, as bounces:3; found \"{}\"", most_bounces, word)};
+      return Failure{fmt::format("bounces takes a whole number from 0 to {}, such as bounces:3; found \"{}\"",
+                                 most_bounces, word)};
     request.bounces = bounces;
   } else if (word == "light-groups") {
     request.light_groups = true;
@@ -49,7 +49,7 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     if (more) rest = rest.substr(comma + 1);
   }
   if (!request.of_light() && (request.errors || !request.motion))
-    return Failure{"errors are those of layers: bounces, light-groups, or both are needed as well"};
+    return Failure{"errors needs layers: state bounces, light-groups, or both as well"};
   return request;
 }
 

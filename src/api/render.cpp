@@ -33,7 +33,7 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
         std::ranges::any_of(chosen.biases, [](const std::string& bias) { return bias.starts_with("maxcomponent="); });
     if (clamped)
       return Failure{
-          "samples that are scaled down to maxcomponent have no layers; --set maxcomponent=none lifts the bound"};
+          "samples that are scaled down to maxcomponent have no layers; --set maxcomponent=none removes the limit"};
     return Failure{
         fmt::format("the integrator {} has no layers; path, naive, direct and distribution have them", chosen.name)};
   }
@@ -137,7 +137,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
     r.sampler = *kind;
   }
   if (is_fixed(r.sampler) && (options.budget || plan.chosen.coupled))
-    return Failure{fmt::format("sampler {} takes the same points in every pass, and {} needs others in each",
+    return Failure{fmt::format("sampler {} uses the same points in every pass, but {} needs different ones",
                                name_of(r.sampler), options.budget ? "a time budget" : plan.chosen.name)};
   note_sampler(plan.chosen, r.sampler);
   r.width = picture.width, r.height = picture.height;
@@ -154,7 +154,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   r.seconds = options.seconds;
   plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
   if (options.budget && (options.seconds || options.samples || plan.render.layers))
-    return Failure{"a time budget takes the place of a number of samples and of a time, and has no layers of light"};
+    return Failure{"a time budget replaces the number of samples and the time, and does not support layers of light"};
   if (options.budget) r.budget = {*options.budget, 0};
   r.plan = options.budget
                ? plan_for_budget(plan.chosen.any())
@@ -162,7 +162,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
                              r.sampler);
   if (Status good = plan_passes(options, plan.chosen.any(), r); !good) return good.failure();
   if (is_fixed(r.sampler) && r.plan.samples_per_pass > most_fixed_samples)
-    return Failure{fmt::format("sampler {} takes at most {} samples, all in one pass; found {}", name_of(r.sampler),
+    return Failure{fmt::format("sampler {} supports at most {} samples, all in one pass; found {}", name_of(r.sampler),
                                most_fixed_samples, r.plan.samples_per_pass)};
   return plan;
 }
@@ -198,10 +198,10 @@ void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSetting
   }
   settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
   if (timed.stride > 1)
-    observer.announce(fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: {}",
+    observer.announce(fmt::format("one sample per pixel takes about {:.2g} s, more than the time: {}",
                                   timed.sample_seconds, sparse_text(timed.stride)));
   else if (integrator.coupled() && timed.sample_seconds > left(end))
-    observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the picture is one frame",
+    observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the image is one frame",
                                   timed.sample_seconds));
   // The error of a sparse picture is not estimated.
   settings.seconds = left(timed.stride > 1 ? all - finish.encoding : end);

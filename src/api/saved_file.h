@@ -95,7 +95,7 @@ T whole_from(const Json& value, T low, T high) {
                         ? std::in_range<T>(value.template get<std::uint64_t>())
                         : value.is_number_integer() && std::in_range<T>(value.template get<std::int64_t>());
   if (!good || value.template get<T>() < low || value.template get<T>() > high)
-    throw std::invalid_argument("it has " + value.dump() + " where a whole number from " + std::to_string(low) +
+    throw std::invalid_argument("it has " + value.dump() + ", expected a whole number from " + std::to_string(low) +
                                 " to " + std::to_string(high) + " should be");
   return value.template get<T>();
 }

@@ -25,7 +25,7 @@ List lens(List more) {
              true},
             {"fovaxis",
              {string},
-             "what the field of view and the default screen window are of: the shorter side, or always the height; "
+             "the axis of the field of view and of the default screen window: the shorter side, or always the height; "
              "default shorter (Montelux alone)",
              0,
              0,
@@ -39,7 +39,7 @@ List lens(List more) {
              64},
             {"aperturerotation",
              {number},
-             "degrees by which the first corner is turned from the right of the picture upward; default 0 (Montelux "
+             "rotation of the first corner from the right of the image upward, in degrees; default 0 (Montelux "
              "alone)",
              -most,
              most}};

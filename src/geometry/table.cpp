@@ -25,38 +25,38 @@ List with_alpha(List list) {
 }
 
 std::vector<EntitySpec> meshes() {
-  ParameterSpec face_indices = later(array("faceIndices", integer, "numbers of the faces, for ptex"));
+  ParameterSpec face_indices = later(array("faceIndices", integer, "face indices, for ptex"));
   return {
       {"trianglemesh", "triangles",
        with_alpha({array("P", point3, "vertices"),
-                   array("N", normal, "normals, one a vertex"),
-                   later(array("S", vector3, "tangents, one a vertex; they follow uv instead")),
-                   array("uv", point2, "texture coordinates, one a vertex"),
-                   array("indices", integer, "three a triangle; default 0 1 2", 0),
+                   array("N", normal, "normals, one per vertex"),
+                   later(array("S", vector3, "tangents, one per vertex; computed from uv instead")),
+                   array("uv", point2, "texture coordinates, one per vertex"),
+                   array("indices", integer, "three per triangle; default 0 1 2", 0),
                    array("P1", point3,
-                         "vertices at later moments, all of one moment behind all of another, evenly spaced to the end "
+                         "vertices at later times, time by time, evenly spaced to the end "
                          "of TransformTimes (Montelux alone)"),
                    {"onesided",
                     {ParameterType::boolean},
                     "the camera does not see its back, as in glTF; default false (Montelux alone)"},
-                   array("N1", normal, "the normals at the same moments (Montelux alone)"),
+                   array("N1", normal, "the normals at the same times (Montelux alone)"),
                    face_indices})},
       {"plymesh", "triangles and quadrilaterals of a PLY file",
        with_alpha({{"filename", {string}, "the file"},
                    array("filename1", string,
-                         "files with the same vertices at later moments, evenly spaced to the end of TransformTimes "
+                         "files with the same vertices at later times, evenly spaced to the end of TransformTimes "
                          "(Montelux alone)"),
                    later({"displacement", {number, texture}, "height of displacement; default none"}),
                    later({"edgelength", {number}, "edge length of displaced triangles; default 1", positive, most})})},
       {"bilinearmesh", "bilinear patches",
-       with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one a vertex"),
-                   array("uv", point2, "texture coordinates, one a vertex"),
-                   array("indices", integer, "four a patch; default 0 1 2 3", 0), face_indices,
+       with_alpha({array("P", point3, "vertices"), array("N", normal, "normals, one per vertex"),
+                   array("uv", point2, "texture coordinates, one per vertex"),
+                   array("indices", integer, "four per patch; default 0 1 2 3", 0), face_indices,
                    later({"emissionfilename", {string}, "image of the emission over the patch"})})},
       {"loopsubdiv", "Loop's subdivision surface",
        with_alpha({array("P", point3, "control vertices"),
-                   array("indices", integer, "three a triangle", 0),
-                   {"levels", {integer}, "times subdivided; default 3", 0, 10},
+                   array("indices", integer, "three per triangle", 0),
+                   {"levels", {integer}, "levels of subdivision; default 3", 0, 10},
                    {"scheme", {string}, "default loop", 0, 0, {"loop"}}})},
   };
 }
@@ -69,7 +69,7 @@ std::vector<EntitySpec> quadrics_and_curves() {
                    {"zmin", {number}, "default -radius"},
                    {"zmax", {number}, "default radius"},
                    sweep})},
-      {"disk", "a disk or ring across the z axis",
+      {"disk", "a disk or ring orthogonal to the z axis",
        with_alpha({{"radius", {number}, "default 1", positive, most},
                    {"innerradius", {number}, "default 0", 0, most},
                    {"height", {number}, "its z; default 0"},
@@ -88,7 +88,7 @@ std::vector<EntitySpec> quadrics_and_curves() {
                    {"width", {number}, "default 1", 0, most},
                    {"width0", {number}, "at the start; default width", 0, most},
                    {"width1", {number}, "at the end; default width", 0, most},
-                   later({"splitdepth", {integer}, "times split for the kernel; default 3", 0, 20})})},
+                   later({"splitdepth", {integer}, "levels of splitting for the kernel; default 3", 0, 20})})},
   };
 }
 

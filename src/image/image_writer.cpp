@@ -166,17 +166,17 @@ Result<std::string> encode(const PixelBuffer& image, const std::string& extensio
   if (extension == ".exr") return encode_exr(image, options);
   if (extension == ".hdr") return encode_hdr(image);
   if (extension == ".pfm") return encode_pfm(image);
-  return Failure{"linear values go to .exr, .hdr or .pfm files"};
+  return Failure{"linear values need an .exr, .hdr or .pfm file"};
 }
 
 Result<std::string> encode(const DisplayImage& image, const std::string& extension) {
   if (image.width <= 0 || image.height <= 0 || image.values.empty()) return Failure{"the image is empty"};
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (!jpeg && extension != ".png") return Failure{"8-bit pictures go to .png or .jpg files"};
+  if (!jpeg && extension != ".png") return Failure{"8-bit images need a .png or .jpg file"};
   // The library ends the process if it cannot write an image.
   constexpr int max_jpeg_side = 65500;
   if (jpeg && std::max(image.width, image.height) > max_jpeg_side)
-    return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels a side"};
+    return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels per side"};
   return encode_by_module("image" + extension,
                           {image.width, image.height, image.channel_count, nullptr, image.values.data()});
 }

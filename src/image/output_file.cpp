@@ -215,7 +215,7 @@ Status check_output_file(const fs::path& path) {
 Status check_output_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return Failure{"cannot make the folder '" + folder.string() + "': " + error.message()};
+  if (error) return Failure{"cannot create the folder '" + folder.string() + "': " + error.message()};
   const Result<Temporary> temporary = Temporary::beside(folder / "file");
   return temporary ? Status(Done{})
                    : Failure{"cannot write to the folder '" + folder.string() + "': " + temporary.error()};

@@ -47,7 +47,7 @@ Status check_png(std::string_view bytes) {
     if (name == "IEND") return Done{};
     rest.remove_prefix(frame + length);
   }
-  return Failure{"it is cut off"};
+  return Failure{"it is truncated"};
 }
 
 }  // namespace montelux

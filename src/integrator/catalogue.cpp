@@ -49,7 +49,7 @@ void note_masked(ChosenIntegrator& chosen, const Scene& scene, std::string_view 
   chosen.biases.push_back(fmt::format("{} with masked emitters", setting));
   chosen.missing.push_back("direct light of emitters with an alpha mask");
   chosen.notes.push_back(
-      fmt::format("emitters with an alpha mask are found by directions alone, which {} does without: the picture is "
+      fmt::format("emitters with an alpha mask are found only by directions, which {} does not sample: the picture is "
                   "biased by their light",
                   setting));
 }
@@ -80,7 +80,7 @@ Made make_path(const Request& r) {
 Made make_direct(const Request& r) {
   const DirectSettings settings = direct_settings(r.list);
   ChosenIntegrator chosen = made("direct", std::make_unique<DirectIntegrator>(r.scene, r.accel, settings));
-  chosen.biases.push_back("direct light alone");
+  chosen.biases.push_back("direct light only");
   using enum DirectStrategy;
   const std::string strategy = fmt::format("strategy={}", direct_strategy_names[std::size_t(settings.strategy)]);
   if (settings.strategy == light_area || settings.strategy == light_solid_angle || settings.strategy == ris)
@@ -90,7 +90,7 @@ Made make_direct(const Request& r) {
   if (fixed) chosen.biases.push_back("fixed shadow rays");
   if (fixed)
     chosen.notes.push_back(
-        "the shadow rays go to the same places in every pass: the picture is biased, and its error bar leaves that "
+        "the shadow rays go to the same places in every pass: the picture is biased, and its error bar does not show "
         "out");
   return chosen;
 }
@@ -126,7 +126,8 @@ Made make_restir(const Request& r) {
   if (settings->direct && settings->bsdf_candidate && !settings->visibility_reuse && r.scene.geometry.has_half_open()) {
     settings->visibility_reuse = true;
     note =
-        "visibility-reuse is on, as surfaces here have alpha masks or are mixed with interfaces (with bsdf=off it may "
+        "visibility-reuse is on, because surfaces here have alpha masks or are mixed with interfaces (with bsdf=off it "
+        "may "
         "be off)";
   }
   ChosenIntegrator chosen{name, {}, {}, {}, std::make_unique<RestirIntegrator>(r.scene, r.accel, *settings)};
@@ -152,7 +153,7 @@ Made make_radiosity(const Request& r) {
   ChosenIntegrator chosen{"radiosity", {}, {}, {}, *std::move(integrator)};
   chosen.biases.push_back(fmt::format("elementsize={:.4g}", settings.element_size));
   chosen.notes.push_back(
-      "irradiance is even over each element: the picture is biased by their size (--set elementsize=... makes them "
+      "irradiance is constant on each element: the picture is biased by their size (--set elementsize=... makes them "
       "smaller)");
   return chosen;
 }
@@ -271,7 +272,7 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
   if (!is_fixed(kind)) return;
   chosen.biases.push_back(fmt::format("sampler={}", name_of(kind)));
   chosen.notes.push_back(
-      fmt::format("sampler {} takes the same points in every pixel and every pass: the picture is biased, and nothing "
+      fmt::format("sampler {} uses the same points in every pixel and every pass: the picture is biased, and nothing "
                   "states its error",
                   name_of(kind)));
 }
@@ -308,7 +309,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   if (scene.pixel_centres) {
     result->biases.push_back("disablepixeljitter");
     result->notes.push_back(
-        "all camera rays go through the centres of pixels, as the scene's disablepixeljitter states: the picture is "
+        "all camera rays go through the centres of pixels (disablepixeljitter of the scene): the picture is "
         "biased, without the pixel filter, depth of field and motion blur");
   }
   result->search = row->search, result->content = row->content;

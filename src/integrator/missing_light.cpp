@@ -217,7 +217,7 @@ std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, 
       missing.push_back(*light);
   if (misses(PathClass::ldde) && has_indirect_light(scene, accel, width, height))
     missing.push_back({"light that was scattered more than once",
-                       "light that was scattered more than once is missing: this integrator looks for one scattering "
+                       "light that was scattered more than once is missing: this integrator computes one scattering "
                        "event (path finds it)"});
   return missing;
 }

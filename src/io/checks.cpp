@@ -112,7 +112,7 @@ std::string range_of(const ParameterSpec& spec, double value) {
     return spec.low == 0                      ? "not be negative"
            : spec.low > 0 && spec.low < 1e-20 ? "be positive"
                                               : "be at least " + shortest(spec.low);
-  return spec.high > open_end ? "be of a sensible size" : "be at most " + shortest(spec.high);
+  return spec.high > open_end ? "have a sensible magnitude" : "be at most " + shortest(spec.high);
 }
 
 // Checks one parameter against its row.
@@ -149,7 +149,7 @@ class RangeCheck {
   bool all(const std::vector<T>& values, Check check) {
     if (!spec_.array && values.size() != 1) {
       report_.error(parameter_.where,
-                    "'" + std::string(spec_.name) + "' takes one value; there are " + std::to_string(values.size()));
+                    "'" + std::string(spec_.name) + "' takes one value; found " + std::to_string(values.size()));
       return false;
     }
     return std::all_of(values.begin(), values.end(), check);
@@ -175,7 +175,7 @@ class RangeCheck {
   bool is_choice(const std::string& value) {
     if (spec_.choices.empty() || std::find(spec_.choices.begin(), spec_.choices.end(), value) != spec_.choices.end())
       return true;
-    report_.error(parameter_.where, "'" + printable(value) + "' is no value of '" + std::string(spec_.name) + "'",
+    report_.error(parameter_.where, "'" + printable(value) + "' is not a value of '" + std::string(spec_.name) + "'",
                   hint_for(value, spec_.choices));
     return false;
   }

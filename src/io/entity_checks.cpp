@@ -54,7 +54,7 @@ void check_camera(const Entity& camera, Reporter& report) {
   float open = camera.parameters.number("shutteropen", 0), close = camera.parameters.number("shutterclose", 1);
   if (open > close) report.error(place_of(camera, "shutterclose"), "the shutter closes before it opens");
   if (open == close)
-    report.error(place_of(camera, "shutterclose"), "the shutter closes when it opens, so that every picture is black");
+    report.error(place_of(camera, "shutterclose"), "the shutter closes when it opens, so every image is black");
 }
 
 void check_material(const Entity& material, Reporter& report) {
@@ -109,8 +109,7 @@ void check_curve(const Entity& curve, Reporter& report) {
   std::size_t segments = bspline ? points - std::min(points, degree) : (points - 1) / degree;
   if (good && ribbon && normals != segments + 1)
     report.error(place_of(curve, "N"), "a ribbon of " + std::to_string(segments) + " segments takes " +
-                                           std::to_string(segments + 1) + " normals; there are " +
-                                           std::to_string(normals));
+                                           std::to_string(segments + 1) + " normals; found " + std::to_string(normals));
 }
 
 void check_shape(const Entity& shape, Reporter& report) {
@@ -124,7 +123,7 @@ void check_shape(const Entity& shape, Reporter& report) {
   float end = is_sphere ? p.number("radius", 1) : 1.0f;
   float low = p.number("zmin", -end), high = p.number("zmax", end);
   if (low == high)
-    report.error(place_of(shape, "zmax"), "'zmin' and 'zmax' are equal: nothing is left of the " + shape.type);
+    report.error(place_of(shape, "zmax"), "'zmin' and 'zmax' are equal: there is nothing left of the " + shape.type);
   if (is_sphere && (std::min(low, high) >= end || std::max(low, high) <= -end))
     report.error(place_of(shape, "zmin"), "nothing is left of the sphere between 'zmin' and 'zmax'");
 }
@@ -138,7 +137,7 @@ void check_texture(const Entity& tex, Reporter& report) {
   auto exponent = value.starts_with("gamma ") ? to_float(std::string_view(value).substr(6)) : std::nullopt;
   bool good = value == "sRGB" || value == "linear" || (exponent && *exponent > 0);
   if (!good)
-    report.error(encoding->where, "'" + printable(value) + "' is no encoding",
+    report.error(encoding->where, "'" + printable(value) + "' is not an encoding",
                  "valid: sRGB, linear, gamma 2.2 (or another exponent)");
 }
 
@@ -152,7 +151,7 @@ void check_files(const Entity& entity, const CheckContext& context) {
         context.report.error(p->where, "'" + std::string(name) + "' is empty");
       else if (!is_regular_file(resolve_path(context.folder, file)))
         context.report.error(p->where, "there is no file '" + printable(file) + "'",
-                             "it is looked for as '" + printable(resolve_path(context.folder, file)) + "'");
+                             "its path is '" + printable(resolve_path(context.folder, file)) + "'");
     }
   }
 }

@@ -22,7 +22,7 @@ void replace_environment(const Environment& environment, SceneDesc& scene, Diagn
   const std::size_t replaced =
       std::erase_if(scene.lights, [](const LightDesc& l) { return l.entity.type == "infinite"; });
   if (replaced > 0)
-    diagnostics.note(where, "this environment takes the place of the scene's " +
+    diagnostics.note(where, "this environment replaces the scene's " +
                                 (replaced == 1 ? std::string("own one") : std::to_string(replaced) + " own ones"));
   Entity e{"infinite", {}, where};
   // Paths of the description are relative to its folder; an absolute one stays.

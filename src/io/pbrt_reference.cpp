@@ -32,8 +32,8 @@ std::string valid_text(const ParameterSpec& spec) {
 
 std::string entity_text(const EntitySpec& entity) {
   std::string text = "### " + std::string(entity.name) + "\n\n" + std::string(entity.meaning) + ".";
-  if (entity.later) text += " Comes later: an error, unless reading is lenient.";
-  if (!entity.instead.empty()) text += " Served by `" + std::string(entity.instead) + "`.";
+  if (entity.later) text += " Not supported yet: an error, unless reading is lenient.";
+  if (!entity.instead.empty()) text += " Replaced by `" + std::string(entity.instead) + "`.";
   text += "\n\n";
   if (entity.parameters.empty()) return text;
   text += "| parameter | type | valid | meaning |\n| --- | --- | --- | --- |\n";

@@ -133,13 +133,13 @@ class BodyReader {
     std::size_t least = 0;
     for (const Property& p : element.properties) least += Source::least_size(p.is_list ? p.count_type : p.type);
     if (element.count == 0 || (least > 0 && element.count <= source_.left() / least)) return true;
-    body_.problem = "it promises " + std::to_string(element.count) + " of element '" + printable(element.name) +
-                    "', more than its bytes can hold";
+    body_.problem = "it states " + std::to_string(element.count) + " of element '" + printable(element.name) +
+                    "', more than its bytes can contain";
     return false;
   }
 
   void cut_short(const Element& element, std::size_t done) {
-    body_.problem = "it ends, or is no number, in element '" + printable(element.name) + "' number " +
+    body_.problem = "it ends, or has an invalid number, in element '" + printable(element.name) + "' number " +
                     std::to_string(done) + " of " + std::to_string(element.count);
   }
 
@@ -169,7 +169,7 @@ class BodyReader {
     std::vector<int> slots = vertex_slots(element);
     auto has = [&](int slot) { return std::find(slots.begin(), slots.end(), slot) != slots.end(); };
     if (!has(0) || !has(1) || !has(2)) {
-      body_.problem = "its vertices lack x, y or z";
+      body_.problem = "its vertices have no x, y or z";
       return;
     }
     bool normals = has(3) && has(4) && has(5), uvs = has(6) && has(7);
@@ -319,7 +319,7 @@ std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& na
   bytes = without_byte_order_mark(bytes);
   auto header = read_header(bytes);
   if (!header) {
-    diagnostics.error(used_at, "'" + name + "' is no valid PLY file: " + header.error());
+    diagnostics.error(used_at, "'" + name + "' is not a valid PLY file: " + header.error());
     return std::nullopt;
   }
   Body body = read_body(bytes.substr(header->size), *header);
@@ -331,9 +331,9 @@ std::optional<Mesh> read_ply_bytes(std::string_view bytes, const std::string& na
   if (body.polygons > 0)
     diagnostics.add({Severity::note,
                      used_at,
-                     std::to_string(body.polygons) + " polygons of '" + name + "' were cut into triangles",
+                     std::to_string(body.polygons) + " polygons of '" + name + "' were split into triangles",
                      {},
-                     {"{n} meshes have polygons, {sum} in all, which were cut into triangles", body.polygons}});
+                     {"{n} meshes have polygons, {sum} in all, which were split into triangles", body.polygons}});
   std::size_t dropped = body.points_and_edges + drop_degenerate_faces(body.mesh).total();
   if (dropped > 0) diagnostics.add(dropped_faces_warning(dropped, name, used_at));
   return std::move(body.mesh);

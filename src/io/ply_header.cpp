@@ -67,7 +67,7 @@ Status take_element(const Words& words, Header& header) {
   if (words.size() < 3) return Failure{"an element without a name or count"};
   auto [end, error] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), count);
   if (error != std::errc() || end != words[2].data() + words[2].size())
-    return Failure{"'" + printable(words[2]) + "' is no count of elements"};
+    return Failure{"'" + printable(words[2]) + "' is not an element count"};
   header.elements.push_back({std::string(words[1]), count, {}});
   return Done{};
 }
@@ -107,7 +107,7 @@ Result<Header> read_header(std::string_view bytes) {
     }
     if (!words.empty() && words[0] == "end_header") {
       header.size = at;
-      if (!has_format) return Failure{"its header names no format"};
+      if (!has_format) return Failure{"its header states no format"};
       return header;
     }
     has_format |= !words.empty() && words[0] == "format";

@@ -65,8 +65,9 @@ static ReadResult read_scene_alone(const std::string& path, const ReadOptions& o
   if (ending == ".gz") ending = std::filesystem::path(path).stem().extension().string() + ending;
   const std::string_view nearest = nearest_name(ending, all_extensions());
   result.diagnostics.error({std::make_shared<std::string>(printable(path)), 0, 0},
-                           ending.empty() ? "the name of a scene file must end in " + valid
-                                          : "'" + printable(ending) + "' is no ending of a scene file; valid: " + valid,
+                           ending.empty()
+                               ? "the name of a scene file must end in " + valid
+                               : "'" + printable(ending) + "' is not an extension of a scene file; valid: " + valid,
                            nearest.empty() ? std::string() : "did you mean '" + std::string(nearest) + "'?");
   return result;
 }

@@ -36,7 +36,7 @@ struct EndInflate {
 Result<std::string> unpack(const std::string& packed, const std::string& path) {
   z_stream stream{};
   constexpr int gzip_window = 15 + 16;
-  if (inflateInit2(&stream, gzip_window) != Z_OK) return Failure{"cannot start to unpack '" + path + "'"};
+  if (inflateInit2(&stream, gzip_window) != Z_OK) return Failure{"cannot start to decompress '" + path + "'"};
   std::unique_ptr<z_stream, EndInflate> guard(&stream);
   const std::size_t limit = max_unpacked(packed.size());
   std::string text;
@@ -55,8 +55,8 @@ Result<std::string> unpack(const std::string& packed, const std::string& path) {
     std::size_t produced = chunk.size() - stream.avail_out;
     text.append(chunk.data(), produced);
     if (text.size() > limit)
-      return Failure{"'" + path + "' unpacks to more than " + std::to_string(limit >> 20) +
-                     " MiB, which is beyond all reason for its " + std::to_string(packed.size()) + " bytes"};
+      return Failure{"'" + path + "' decompresses to more than " + std::to_string(limit >> 20) +
+                     " MiB, which is implausible for its " + std::to_string(packed.size()) + " bytes"};
     if (status == Z_STREAM_END) {
       bool another = packed.size() - consumed > 2 && packed.compare(consumed, 2, "\x1f\x8b") == 0;
       if (!another) return text;
@@ -64,7 +64,7 @@ Result<std::string> unpack(const std::string& packed, const std::string& path) {
       continue;
     }
     if (status != Z_OK || (produced == 0 && consumed == packed.size()))
-      return Failure{"'" + path + "' is no complete gzip file"};
+      return Failure{"'" + path + "' is not a complete gzip file"};
   }
 }
 

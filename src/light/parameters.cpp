@@ -111,10 +111,11 @@ std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read
   if (!image) return std::nullopt;
   const bool by_angles = mapping == "latlong" || (mapping == "auto" && image->width == 2 * image->height);
   if (mapping == "auto" && !by_angles && image->width != image->height) {
-    read.diagnostics.error(read.light.where,
-                           "an environment is square (equal-area) or twice as wide as high (longitude by latitude); "
-                           "the image has " +
-                               std::to_string(image->width) + " x " + std::to_string(image->height) + " pixels");
+    read.diagnostics.error(
+        read.light.where,
+        "an environment must be square (equal-area) or twice as wide as high (longitude by latitude); "
+        "the image has " +
+            std::to_string(image->width) + " x " + std::to_string(image->height) + " pixels");
     return std::nullopt;
   }
   if (by_angles) image = std::make_shared<const LightImage>(equal_area_image(*image));
@@ -160,7 +161,7 @@ std::string light_group(const Entity& light, Diagnostics& diagnostics) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
   if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), plain)) return name;
-  diagnostics.error(light.where, "\"" + name + "\" cannot name a group of lights",
+  diagnostics.error(light.where, "\"" + name + "\" is not a valid name of a light group",
                     "use up to 64 letters of the English alphabet, digits, _ and -");
   return "default";
 }

@@ -11,10 +11,10 @@ constexpr double most = 1e30;
 
 ParameterSpec scale() { return {"scale", {number}, "factor of the emission; default 1", 0, most}; }
 ParameterSpec group() {
-  return {"group", {string}, "lights of one name share a layer (--layers); default \"default\""};
+  return {"group", {string}, "lights with the same name share a layer (--layers); default \"default\""};
 }
 ParameterSpec power() {
-  return {"power", {number}, "total power in watts that the light is scaled to; default: not", -1, most};
+  return {"power", {number}, "total power in watts to which the light is scaled; default: none", -1, most};
 }
 ParameterSpec illuminance(const char* meaning) { return {"illuminance", {number}, meaning, -1, most}; }
 ParameterSpec intensity() { return {"I", {spectrum}, "radiant intensity; default 1", 0, most}; }
@@ -33,12 +33,12 @@ std::vector<EntitySpec> lights() {
        "a cone with a soft edge",
        {intensity(),
         {"from", {point3}, "position; default 0 0 0"},
-        {"to", {point3}, "where it points; default 0 0 1"},
+        {"to", {point3}, "target point; default 0 0 1"},
         {"coneangle", {number}, "half-angle in degrees; default 30", 1e-3, 180},
         {"conedeltaangle", {number}, "width of the edge in degrees; default 5", 0, 180},
         {"falloff",
          {string},
-         "across the edge: a smooth step of the cosine, or its square, as glTF has it; default smooth (Montelux alone)",
+         "falloff: a smooth step of the cosine, or its square as in glTF; default smooth (Montelux alone)",
          0,
          0,
          {"smooth", "squared"}},
@@ -47,14 +47,14 @@ std::vector<EntitySpec> lights() {
         group()}},
       {"distant",
        "parallel rays",
-       {{"L", {spectrum}, "radiance, that is irradiance at normal incidence; default 1", 0, most},
+       {{"L", {spectrum}, "radiance, which here is irradiance at normal incidence; default 1", 0, most},
         {"from", {point3}, "the direction is from `from` to `to`; default 0 0 0"},
         {"to", {point3}, "default 0 0 1"},
-        illuminance("illuminance at normal incidence in lux that the light is scaled to; default: not"),
+        illuminance("illuminance at normal incidence in lux to which the light is scaled; default: none"),
         scale(),
         group()}},
       {"goniometric",
-       "an intensity that an image gives by direction",
+       "an intensity by direction, given by an image",
        {intensity(), {"filename", {string}, "square equal-area image; default constant"}, power(), scale(), group()}},
       {"projection",
        "a slide projector along +z",
@@ -70,12 +70,12 @@ std::vector<EntitySpec> lights() {
         {"filename", {string}, "image of the sphere, instead of L"},
         {"mapping",
          {string},
-         "of the image: a square equal-area one, or longitude by latitude with the light's +z on top, which is sampled "
-         "anew; auto: by the image's shape; default equalarea (Montelux alone)",
+         "the image: square and equal-area, or longitude by latitude with the light's +z at the top, which is resampled"
+         "; auto: by the aspect ratio; default equalarea (Montelux alone)",
          0,
          0,
          {"equalarea", "latlong", "auto"}},
-        illuminance("illuminance of the upward plane in lux that the light is scaled to; default: not"),
+        illuminance("illuminance of the upward plane in lux to which the light is scaled; default: none"),
         scale(),
         group(),
         portal()}},

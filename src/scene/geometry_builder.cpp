@@ -132,8 +132,7 @@ void GeometryBuilder::add_instance(const InstanceDesc& instance) {
   // The usual range of rays in the world.
   constexpr float usual_coordinate = 1e9f;
   if (!(ray_reach(instance.object_to_world) >= usual_coordinate)) {
-    diagnostics_.warning(instance.where, "an object that is scaled down so far, or stands so far away, cannot be seen",
-                         "it is left out");
+    diagnostics_.warning(instance.where, "an object that is so small or so far away cannot be seen", "it is omitted");
     return;
   }
   const ObjectParts& parts = objects_[std::size_t(instance.object)];
@@ -211,7 +210,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
     return;
   }
   if (shape.area_light && !in_world)
-    diagnostics_.warning(shape.area_light->where, "area lights on shapes of an object that is instanced do not shine",
+    diagnostics_.warning(shape.area_light->where, "area lights on shapes of an instanced object do not emit",
                          "place the shape outside ObjectBegin and ObjectEnd");
   std::optional<Emission> emission;
   if (shape.area_light && in_world) emission = inputs_.emission(*shape.area_light);
@@ -337,7 +336,7 @@ void GeometryBuilder::add_curves(const ShapeDesc& shape, const GeometryRow& like
   }
   CurveSet curves = to_world(*made, shape.object_to_world, shape.reverse_orientation);
   if (shape.area_light)
-    diagnostics_.warning(shape.area_light->where, "area lights on curves do not shine",
+    diagnostics_.warning(shape.area_light->where, "area lights on curves do not emit",
                          "put the light on a mesh or a quadric");
   row.kind = GeometryKind::curves;
   if (curves.type != CurveType::ribbon) row.flags |= GeometryRow::turns_to_ray;

@@ -27,7 +27,7 @@ PixelBounds crop_of(const Entity& film, int width, int height, bool resized, Dia
   else if (window.size() == 4)
     crop = {cut(width, window[0]), cut(height, window[2]), cut(width, window[1]), cut(height, window[3])};
   if (crop.x0 < crop.x1 && crop.y0 < crop.y1) return crop;
-  diagnostics.error(film.where, "the film's window holds no pixel");
+  diagnostics.error(film.where, "the film's window contains no pixel");
   return all;
 }
 
@@ -75,7 +75,7 @@ void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& 
   if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 0);
   std::string selection = p.string("lightsampler", "bvh");
   if (selection == "exhaustive")
-    diagnostics.note(integrator.where, "light sampler \"exhaustive\" is served by \"bvh\"");
+    diagnostics.note(integrator.where, "light sampler \"exhaustive\" is replaced by \"bvh\"");
   s.light_selection = selection == "uniform" ? LightSelection::uniform
                       : selection == "power" ? LightSelection::power
                                              : LightSelection::bvh;

@@ -22,9 +22,9 @@ List film_parameters(List more = {}) {
       {"cropwindow", {number}, "x0 x1 y0 y1 of the part to render, in [0, 1]; default all", 0, 1, {}, true},
       {"pixelbounds", {integer}, "x0 x1 y0 y1 of the part to render, in pixels; default all", 0, 65536, {}, true},
       later({"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, most}),
-      {"filename", {string}, "picture to write unless -o names another; default: the name of the scene"},
+      {"filename", {string}, "output file unless stated by -o; default: the name of the scene"},
       later({"savefp16", {boolean}, "write half floats; default true"}),
-      {"iso", {number}, "sensitivity: scales the picture with the exposure time; default 100", 1e-6, most},
+      {"iso", {number}, "sensitivity: scales the image with the exposure time; default 100", 1e-6, most},
       later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, most}),
       later({"sensor", {string}, "camera sensor; default cie1931"}),
       {"maxcomponentvalue", {number}, "clamp of a sample's components (biased); default none", 0, most}};
@@ -33,7 +33,7 @@ List film_parameters(List more = {}) {
 }
 
 List sampler_parameters(List more = {}) {
-  List list{{"pixelsamples", {integer}, "samples a pixel; default 16", 1, 1 << 24},
+  List list{{"pixelsamples", {integer}, "samples per pixel; default 16", 1, 1 << 24},
             {"seed", {integer}, "default 0", -most_integer, most_integer}};
   list.insert(list.end(), more.begin(), more.end());
   return list;
@@ -68,22 +68,22 @@ std::vector<EntitySpec> camera_integrators() {
       {"volpath", "path tracing with media", path_parameters(), false, "path", true},
       {"simplepath", "path tracing, its techniques one by one",
        integrator_parameters(
-           {later({"samplebsdf", {boolean}, "draw directions by the BSDF; default true"}),
-            {"samplelights", {boolean}, "draw points of lights; default true; without, `naive` serves instead"}}),
+           {later({"samplebsdf", {boolean}, "sample directions by the BSDF; default true"}),
+            {"samplelights", {boolean}, "sample points of lights; default true; otherwise replaced by `naive`"}}),
        false, "path"},
       {"simplevolpath", "path tracing with media, without light sampling", integrator_parameters(), false, "path"},
       {"randomwalk", "path tracing with uniform directions", integrator_parameters(), false, "path"},
       {"ambientocclusion",
        "the share of open directions",
-       {{"cossample", {boolean}, "draw directions by the cosine; default true"},
-        {"maxdistance", {number}, "farther things do not occlude; default infinite", 1e-6, most}},
+       {{"cossample", {boolean}, "cosine-weighted directions; default true"},
+        {"maxdistance", {number}, "maximum distance of occluders; default infinite", 1e-6, most}},
        false,
        "ao",
        true},
       {"ao",
        "the share of open directions, the short name",
-       {{"cossample", {boolean}, "draw directions by the cosine; default true"},
-        {"maxdistance", {number}, "farther things do not occlude; default infinite", 1e-6, most}}},
+       {{"cossample", {boolean}, "cosine-weighted directions; default true"},
+        {"maxdistance", {number}, "maximum distance of occluders; default infinite", 1e-6, most}}},
   };
 }
 
@@ -92,7 +92,7 @@ std::vector<EntitySpec> bidirectional_integrators() {
       {"bdpt", "bidirectional path tracing",
        integrator_parameters({later({"regularize", {boolean}, "blurs narrow lobes (biased); default false"}),
                               {"lightsampler", {string}, "how a light is chosen; default bvh", 0, 0, light_samplers()},
-                              later({"visualizestrategies", {boolean}, "one picture a technique; default false"}),
+                              later({"visualizestrategies", {boolean}, "one image per technique; default false"}),
                               later({"visualizeweights", {boolean}, "with the weights; default false"})}),
        false, "path"},
       {"mlt", "Metropolis light transport",
@@ -104,12 +104,12 @@ std::vector<EntitySpec> bidirectional_integrators() {
                               later({"regularize", {boolean}, "default false"})}),
        false, "path"},
       {"sppm", "stochastic progressive photon mapping",
-       integrator_parameters({later({"photonsperiteration", {integer}, "default one a pixel", -1, most_integer}),
+       integrator_parameters({later({"photonsperiteration", {integer}, "default one per pixel", -1, most_integer}),
                               later({"radius", {number}, "first search radius; default 1", 1e-30, most}),
                               later({"seed", {integer}, "default 0", -most_integer, most_integer}),
                               later({"regularize", {boolean}, "default false"})}),
        false, "path"},
-      {"lightpath", "paths from the lights alone", integrator_parameters(), false, "path"},
+      {"lightpath", "paths only from the lights", integrator_parameters(), false, "path"},
       {"function",
        "the integral of a test function",
        {{"function", {string}, "which"}, {"skipbad", {boolean}, "default true"}},
@@ -140,11 +140,11 @@ std::vector<EntitySpec> samplers() {
 
 std::span<const EntitySpec> film_table() {
   static const std::vector<EntitySpec> table{
-      {"rgb", "a picture in a colour space", film_parameters()},
-      {"gbuffer", "a picture with the geometry behind it",
+      {"rgb", "an image in a colour space", film_parameters()},
+      {"gbuffer", "an image with geometry layers",
        film_parameters({later({"coordinatesystem", {string}, "default camera", 0, 0, {"camera", "world"}})}), false,
        "rgb"},
-      {"spectral", "a picture in buckets of wavelength",
+      {"spectral", "an image in wavelength buckets",
        film_parameters({later({"nbuckets", {integer}, "default 16", 1, 4096}),
                         later({"lambdamin", {number}, "nm; default 360", 1, most}),
                         later({"lambdamax", {number}, "nm; default 830", 1, most})}),
@@ -177,7 +177,7 @@ std::span<const EntitySpec> accelerator_table() {
        "a k-d tree",
        {later({"intersectcost", {integer}, "of the cost model"}), later({"traversalcost", {integer}, "likewise"}),
         later({"emptybonus", {number}, "likewise"}), later({"maxprims", {integer}, "primitives in a leaf"}),
-        later({"maxdepth", {integer}, "levels at most"})},
+        later({"maxdepth", {integer}, "maximum depth"})},
        false,
        "bvh"},
   };
@@ -196,7 +196,7 @@ std::span<const EntitySpec> medium_table() {
 const EntitySpec& option_spec() {
   static const EntitySpec spec{
       "Option",
-      "settings of the whole",
+      "global settings",
       {{"seed", {integer}, "seed of all randomness; default 0", -most_integer, most_integer},
        {"disablepixeljitter",
         {boolean},
@@ -205,7 +205,7 @@ const EntitySpec& option_spec() {
        later({"disablewavelengthjitter", {boolean}, "default false"}),
        later({"displacementedgescale", {number}, "default 1", 0, most}),
        later({"forcediffuse", {boolean}, "all materials diffuse; default false"}),
-       later({"msereferenceimage", {string}, "picture to compare with"}),
+       later({"msereferenceimage", {string}, "image to compare with"}),
        later({"msereferenceout", {string}, "where to write the comparison"}),
        later({"pixelstats", {boolean}, "default false"}),
        later({"rendercoordsys", {string}, "default cameraworld", 0, 0, {"camera", "cameraworld", "world"}}),

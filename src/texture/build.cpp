@@ -84,8 +84,8 @@ std::optional<TextureId<V>> TextureBuilder::if_stated(const Entity& entity, std:
     const bool other_kind =
         std::is_same_v<V, float> ? find_spectrum(link->name).has_value() : find_number(link->name).has_value();
     diagnostics_.error(
-        stated->where, in_quotes(link->name) + " is not the name of a " + kind + " texture that was stated before",
-        other_kind ? "the texture of this name is of the other kind" : std::string(nearest_name(link->name, known)));
+        stated->where, in_quotes(link->name) + " is not the name of a " + kind + " texture stated before",
+        other_kind ? "the texture with this name is of the other kind" : std::string(nearest_name(link->name, known)));
   } else if (std::optional<V> x = value<V>(*stated)) {
     return constant(*x);
   } else {
@@ -172,7 +172,7 @@ std::optional<ImageTexture> TextureBuilder::build_image(const Entity& entity, co
   const bool prefiltered = filter == "trilinear" || filter == "ewa";
   if (prefiltered && !told_of_filter_) {
     told_of_filter_ = true;
-    diagnostics_.note(entity.where, "the texture filter " + filter + " is taken as bilinear at full resolution",
+    diagnostics_.note(entity.where, "the texture filter " + filter + " is replaced by bilinear at full resolution",
                       "the samples of a pixel average the texture without the bias of a prefilter");
   }
   if (!prefiltered && filter != "bilinear" && filter != "point")

@@ -290,7 +290,7 @@ class Bounds(FilesTest):
         packer = zlib.compressobj(9, zlib.DEFLATED, 31)
         data = b"".join(packer.compress(b" " * (1 << 20)) for _ in range(1024)) + packer.flush()
         (self.folder / "bomb.pbrt.gz").write_bytes(data)
-        self.assert_quick("info", "bomb.pbrt.gz", word="unpacks to more than")
+        self.assert_quick("info", "bomb.pbrt.gz", word="decompresses to more than")
         # A regular scene is packed as well as that of a real one: below the bound.
         lines = "".join(f'AttributeBegin Translate {i} 0 0 Shape "sphere" AttributeEnd\n' for i in range(20000))
         (self.folder / "many.pbrt.gz").write_bytes(gzip.compress(b"WorldBegin\n" + lines.encode(), 9))

@@ -107,7 +107,7 @@ class Files(IntegrateTest):
 
     def test_a_spent_budget_and_a_changed_integral_are_refused(self):
         self.integrate("x", "--over", "x=0:1", "--method", "uniform", "--save", "a.json")
-        self.assert_refused(["--resume", "a.json"], "has spent its budget")
+        self.assert_refused(["--resume", "a.json"], "has used up its budget")
         self.assert_refused(["x^2", "--resume", "a.json", "--samples", "100"], "only the budget")
         self.assert_refused(["x", "--over", "x=0:1", "--save", "none/a.json"], "none/a.json", "no such folder")
         self.assert_refused(["--resume", "none.json"], "none.json", "cannot be read")
@@ -244,7 +244,7 @@ class Mistakes(IntegrateTest):
         self.assert_refused(["x", "--over", "x=0:1", "--method", "control"], "--control-integral")
         self.assert_refused(["x", "--over", "x=0:1", "--control", "x"], "--control-integral")
         self.assert_refused(["x", "--over", "x=0:1", "--method", "importance"], "--pdf")
-        self.assert_refused(["-x^2", "--over", "x=0:1"], "behind --")
+        self.assert_refused(["-x^2", "--over", "x=0:1"], "after --")
 
     def test_a_value_out_of_range_is_refused(self):
         for option, value in [("--samples", "1"), ("--samples", "many"), ("--time", "long"), ("--confidence", "1"),

@@ -34,7 +34,7 @@ class LabTest(ProgramTest):
     def test_bad_input_is_explained_and_makes_the_exit_status_2(self):
         for arguments, words in ((("run", "circel", "-o", "out"), "did you mean \"circle\""),
                                  (("run", "circle"), "-o DIR"),
-                                 (("run",), "which experiment"),
+                                 (("run",), "an experiment is missing"),
                                  (("jog", "circle"), "list"),
                                  (("run", "circle", "-o", "out", "--set", "sample=3"), "samples"),
                                  (("run", "all", "-o", "out", "--set", "samples=3"), "single experiment"),

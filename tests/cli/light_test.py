@@ -157,7 +157,7 @@ class Light(ProgramTest):
     def test_a_scene_without_light_warns(self):
         scene = self.scene(world="", ball=MATT)
         told, _, messages = self.rendered(scene)
-        self.assertIn("the scene has no light: the picture is black", messages)
+        self.assertIn("the scene has no light: the image is black", messages)
         self.assertEqual(told["mean"], [0, 0, 0])
         for integrator in "ao", "normal", "albedo", "depth":
             self.assertNotIn("no light", self.rendered(scene, "--integrator", integrator)[2])
@@ -181,7 +181,7 @@ class Light(ProgramTest):
                 self.assertEqual(attributes["montelux:errorBar"], "none: no sample found light")
                 self.assertFalse([name for name in self.header_names() if b"estimated" in name or b"StandardError" in name])
             text = self.run_program("render", scene, "--spp", "8", "-o", "out.exr").stdout
-            self.assertIn("error    not known: no sample found light\n", text)
+            self.assertIn("error    unknown: no sample found light\n", text)
             self.assertNotIn("±", text)
             self.assertNotIn("95 %", text)
 

@@ -78,7 +78,7 @@ class Render(ProgramTest):
         for name, word in ("shown.tga", "extension must be one of .exr"), ("none/shown.exr", "no such folder"):
             scene = self.write_scene(f'Film "rgb" "string filename" "{name}"')
             result = self.render("--time", "1h", scene=scene, status=2)
-            for part in word, name, "the scene's film names this picture, -o":
+            for part in word, name, "the scene's film names this file, -o":
                 self.assertIn(part, result.stderr)
             self.render("--spp", "1", "-o", "mine.pfm", scene=scene)
 
@@ -183,7 +183,7 @@ class Render(ProgramTest):
 
     def test_an_error_that_few_bright_samples_decide_has_a_range(self):
         result = self.render("--spp", "16")
-        self.assertIn("few bright samples decide it", result.stdout)
+        self.assertIn("few bright samples determine it", result.stdout)
         told = json.loads(self.render("--spp", "16", "--json").stdout)
         self.assertTrue(told["unsure_error"])
         low, high = told["relative_mse_range"]
@@ -229,7 +229,7 @@ class Render(ProgramTest):
         for options, reason in (
             (["--layers", "bounce"], 'no layers "bounce"; valid: bounces'),
             (["--layers", "bounces:x"], "whole number from 0 to 64"),
-            (["--layers", "errors"], "are needed as well"),
+            (["--layers", "errors"], "or both as well"),
             (["--layers", "bounces", "-o", "room.png"], "need an .exr file"),
             (["--layers", "bounces", "--integrator", "tracepath"], "the integrator tracepath has no layers"),
             (["--layers", "bounces", "--set", "maxcomponent=2"], "maxcomponent=none"),
@@ -296,7 +296,7 @@ class Signals(ProgramTest):
             self.assertFalse(self.header_has(name), name)
         self.assertTrue(self.header_has(b"errorBar"))
         text = self.interrupted_after(0.6)
-        self.assertIn("error    not known: it takes two independent passes of every pixel\n", text)
+        self.assertIn("error    unknown: it takes two independent passes of every pixel\n", text)
         self.assertNotIn("±", text)
         self.assertFalse(self.header_has(b"estimatedRelativeMSE"))
 

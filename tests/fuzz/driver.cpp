@@ -153,7 +153,7 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::error_code error;
   fs::create_directories(options.keep, error);
-  if (error) return fail("cannot make the folder " + options.keep + ": " + error.message());
+  if (error) return fail("cannot create the folder " + options.keep + ": " + error.message());
   guard_process(std::size_t(4) << 30);
   Fuzzer fuzzer(options);
   if (!options.replay.empty()) return replay(fuzzer, options);

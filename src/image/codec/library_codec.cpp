@@ -50,7 +50,7 @@ std::string size_complaint(const OIIO::ImageSpec& spec) {
   std::uint64_t samples = std::uint64_t(spec.width) * std::uint64_t(spec.height);
   if (samples > largest_sample_count || samples * std::uint64_t(spec.nchannels) > largest_sample_count)
     return "its size of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
-           std::to_string(spec.nchannels) + " samples is beyond all reason";
+           std::to_string(spec.nchannels) + " samples exceeds the limit";
   return {};
 }
 
@@ -84,7 +84,7 @@ Result<PixelBuffer> read_part(const Source& source, int part) {
   std::string complaint = size_complaint(spec);
   if (!complaint.empty()) return Failure{complaint};
   if (!is_plausible(input, spec, source.size))
-    return Failure{"its header promises " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+    return Failure{"its header states " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                    " pixels, which do not fit in " + std::to_string(source.size) + " bytes: it is damaged"};
   PixelBuffer pixels{spec.width, spec.height, spec.channelnames, {}};
   pixels.values.resize(pixels.pixel_count() * spec.channelnames.size());
@@ -102,7 +102,7 @@ Status read_further_parts(const Source& source, StoredImage& image) {
     OIIO::ImageSpec spec = input.spec(part);
     if (spec.width != width || spec.height != height) continue;
     total += std::size_t(width) * std::size_t(height) * std::size_t(std::max(spec.nchannels, 0));
-    if (total > largest_sample_count) return Failure{"its parts together are beyond all reason"};
+    if (total > largest_sample_count) return Failure{"its parts together exceed the limit"};
     Result<PixelBuffer> added = read_part(source, part);
     if (!added) return added.failure();
     image.part_names.emplace_back(spec.get_string_attribute("oiio:subimagename", "part" + std::to_string(part)));

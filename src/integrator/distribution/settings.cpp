@@ -14,7 +14,7 @@ namespace {
 Result<std::vector<int>> read_counts(std::string_view name, const std::string& text, int low) {
   const auto wrong = [&] {
     return Failure{
-        fmt::format("{} takes whole numbers from {} to 4096 by depth, as 16/4/1; found \"{}\"", name, low, text)};
+        fmt::format("{} takes whole numbers from {} to 4096 by depth, such as 16/4/1; found \"{}\"", name, low, text)};
   };
   std::vector<int> counts;
   const char *at = text.data(), *end = at + text.size();

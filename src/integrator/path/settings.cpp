@@ -27,8 +27,8 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
     const char *at = text.data() + fixed.size(), *end = text.data() + text.size();
     const auto [next, error] = std::from_chars(at, end, settings.fixed_survival);
     if (error != std::errc{} || next != end || !(settings.fixed_survival > 0 && settings.fixed_survival < 1))
-      return Failure{
-          fmt::format("roulette fixed takes a survival probability between 0 and 1, as fixed:0.5; found \"{}\"", text)};
+      return Failure{fmt::format(
+          "roulette fixed takes a survival probability between 0 and 1, such as fixed:0.5; found \"{}\"", text)};
   } else {
     return Failure{
         fmt::format("roulette takes throughput, proportional, efficiency, fixed:PROBABILITY or off; found \"{}\"{}",
@@ -49,7 +49,7 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
     const auto [next, error] = std::from_chars(at, end, settings.candidates);
     if (error != std::errc{} || next != end || settings.candidates < 1 || settings.candidates > 4096)
       return Failure{fmt::format(
-          "light-selection ris takes a number of candidates from 1 to 4096, as ris:32; found \"{}\"", text)};
+          "light-selection ris takes a number of candidates from 1 to 4096, such as ris:32; found \"{}\"", text)};
     if (!settings.nee) return Failure{"light-selection=ris chooses lights for next-event estimation: nee must be on"};
     settings.light_selection = LightSelection::bvh;
     return Done{};
@@ -122,7 +122,7 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
   for (const Fields<PathSettings>& fields : {light_fields(), common_fields()})
     if (Status read = fields.read(list, s); !read) return read.failure();
   if (s.roulette == PathRoulette::off && !s.max_depth)
-    return Failure{"without roulette paths may never end: maxdepth must be set, too"};
+    return Failure{"without roulette paths may never end: maxdepth must also be set"};
   return s;
 }
 

@@ -53,12 +53,12 @@ float longest_line(const Shape& shape, bool along_u) {
 Result<ElementMesh> ElementMesh::cut(const Scene& scene, float edge) {
   const GeometryStore& store = scene.geometry;
   if (!store.instances.empty())
-    return Failure{"radiosity cuts every surface into elements of its own, and takes no object instances"};
+    return Failure{"radiosity divides every surface into elements and does not support object instances"};
   ElementMesh mesh(store);
   for (std::uint32_t row = 0; row < store.rows.size(); ++row) {
     mesh.first_primitive_.push_back(std::uint32_t(mesh.primitives_.size()));
     if (store.rows[row].kind == GeometryKind::curves)
-      return Failure{"radiosity takes triangle meshes, quadrics and bilinear patches, but no curves"};
+      return Failure{"radiosity supports triangle meshes, quadrics and bilinear patches, but no curves"};
     if (store.rows[row].kind == GeometryKind::triangles)
       mesh.add_triangles(row, edge);
     else

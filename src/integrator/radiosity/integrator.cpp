@@ -205,9 +205,9 @@ Result<std::unique_ptr<RadiosityIntegrator>> RadiosityIntegrator::make(const Sce
                                                                        const RadiositySettings& settings) {
   if (const auto reason = not_diffuse(scene))
     return Failure{
-        fmt::format("radiosity is for scenes of diffuse surfaces, and here {}; \"path\" takes any", *reason)};
+        fmt::format("radiosity is only for scenes of diffuse surfaces, but {}; \"path\" supports all", *reason)};
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
-  if (scene.geometry.moves()) return Failure{"radiosity is for scenes whose surfaces stand still; \"path\" takes any"};
+  if (scene.geometry.moves()) return Failure{"radiosity is only for scenes without motion; \"path\" supports all"};
   auto mesh = ElementMesh::cut(scene, settings.element_size * diagonal);
   if (!mesh) return mesh.failure();
   return std::unique_ptr<RadiosityIntegrator>(new RadiosityIntegrator(scene, accel, settings, *std::move(mesh)));

@@ -21,7 +21,7 @@ Fields<RadiositySettings> radiosity_fields() {
 
 EntitySpec radiosity_spec() {
   return {"radiosity",
-          "light between diffuse surfaces that are cut into elements of even irradiance (Lambertian scenes; biased by "
+          "light between diffuse surfaces divided into elements of constant irradiance (Lambertian scenes; biased by "
           "the elements' size)",
           radiosity_fields().specs({})};
 }

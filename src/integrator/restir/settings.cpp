@@ -126,14 +126,14 @@ Status refuse_idle(std::string_view name, const ParameterList& list, const Resti
   const Need needs[] = {
       {"m-cap", s.temporal, "temporal=on"},
       {"carry", s.temporal || !s.carry, "temporal=on"},
-      {"warm-up", s.temporal || s.warm_up == 0, "temporal=on, without which frames teach nothing"},
+      {"warm-up", s.temporal || s.warm_up == 0, "temporal=on, without which frames share nothing"},
       {"radius", spatial, "at least one round and one neighbour"},
       {"similar", spatial, "at least one round and one neighbour"},
-      {"footprint", s.indirect.joins, "shift=reconnection or shift=hybrid: others join no paths"},
-      {"replayed", s.indirect.most_replayed > 0, "shift=replay or shift=hybrid: others scatter nothing again"}};
+      {"footprint", s.indirect.joins, "shift=reconnection or shift=hybrid: others connect no paths"},
+      {"replayed", s.indirect.most_replayed > 0, "shift=replay or shift=hybrid: others replay nothing"}};
   for (const Need& need : needs)
     if (list.find(need.setting) != nullptr && !need.is_met)
-      return Failure{fmt::format("{}: {} decides nothing here: it needs {}", name, need.setting, need.needs)};
+      return Failure{fmt::format("{}: {} has no effect here: it needs {}", name, need.setting, need.needs)};
   return Done{};
 }
 

@@ -63,7 +63,7 @@ std::optional<ComponentType> component_type(const Element& element) {
   if (!code) return std::nullopt;
   for (const ComponentType& type : component_types)
     if (std::uint64_t(type.code) == *code) return type;
-  element.error(std::to_string(*code) + " is no type of component; valid: 5120, 5121, 5122, 5123, 5125, 5126");
+  element.error(std::to_string(*code) + " is not a component type; valid: 5120, 5121, 5122, 5123, 5125, 5126");
   return std::nullopt;
 }
 

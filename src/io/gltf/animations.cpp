@@ -45,9 +45,9 @@ std::optional<std::vector<double>> read_times(Document& document, const Element&
   }
   for (std::size_t i = 0; i < times.size(); ++i)
     if (times[i] < 0 || (i > 0 && !(times[i] > times[i - 1]))) {
-      input.error("the times of keys must not be negative, and must rise: key " + std::to_string(i) + " is at " +
+      input.error("the times of keys must not be negative, and must increase: key " + std::to_string(i) + " is at " +
                   std::to_string(times[i]) + " s" +
-                  (i > 0 ? ", the one before it at " + std::to_string(times[i - 1]) + " s" : ""));
+                  (i > 0 ? ", the previous one at " + std::to_string(times[i - 1]) + " s" : ""));
       return std::nullopt;
     }
   return times;
@@ -92,8 +92,7 @@ std::optional<Track> read_track(Document& document, const NodeTree& tree, const 
   const bool is_free = track.path == AnimatedPath::weights;
   if (is_free ? values->count == 0 || values->count % keys != 0 : values->count != keys) {
     sampler["output"].error("has " + std::to_string(values->count) + " values for " + std::to_string(times->size()) +
-                            " keys" +
-                            (track.interpolation == Interpolation::cubic ? ", of which each takes three" : ""));
+                            " keys" + (track.interpolation == Interpolation::cubic ? ", which need three each" : ""));
     return std::nullopt;
   }
   if (!is_free && tree.nodes[*node].pose.fixed) {
@@ -186,7 +185,7 @@ std::optional<Animation> read_animation(Document& document, const NodeTree& tree
   if (list.size() == 0) return std::nullopt;
   if (!number && list.size() > 1)
     document.report().note(document.whole(),
-                           "the file has " + std::to_string(list.size()) + " animations; the first one is taken" +
+                           "the file has " + std::to_string(list.size()) + " animations; the first one is used" +
                                (names[0].empty() ? std::string() : ", '" + printable(names[0]) + "'"));
   const Element element = list[number.value_or(0)], channels = element.required("channels");
   const Element samplers = element.required("samplers");

@@ -94,18 +94,18 @@ bool Document::read_binary(const std::string& bytes, std::string_view& text) {
     report().error(whole(), std::move(message));
     return false;
   };
-  if (bytes.size() < 20) return fail("the file ends in its header: it is no binary glTF");
+  if (bytes.size() < 20) return fail("the file ends within its header: it is not binary glTF");
   if (const std::uint32_t version = word_at(bytes, 4); version != 2)
-    return fail("binary glTF of version " + std::to_string(version) + "; version 2 is read");
+    return fail("binary glTF of version " + std::to_string(version) + "; only version 2 is supported");
   const std::size_t length = word_at(bytes, 8);
   if (length > bytes.size())
-    return fail("the file is cut off: " + std::to_string(bytes.size()) + " bytes of " + std::to_string(length));
+    return fail("the file is truncated: " + std::to_string(bytes.size()) + " bytes of " + std::to_string(length));
   bool has_json = false;
   for (std::size_t at = 12; at + 8 <= length;) {
     const std::size_t size = word_at(bytes, at);
     const std::uint32_t kind = word_at(bytes, at + 4);
     if (size > length - at - 8) return fail("a chunk of the file reaches beyond its end");
-    if (!has_json && kind != json_chunk) return fail("the first chunk of the file is not its JSON");
+    if (!has_json && kind != json_chunk) return fail("the first chunk of the file is not JSON");
     if (!has_json) {
       text = std::string_view(bytes).substr(at + 8, size);
       has_json = true;
@@ -122,7 +122,7 @@ bool Document::read_binary(const std::string& bytes, std::string_view& text) {
 void Document::check_asset() const {
   const Element asset = root().required("asset");
   if (const auto version = asset.required("version").text(); version && !version->starts_with("2."))
-    asset["version"].error("glTF of version " + printable(*version) + "; version 2 is read");
+    asset["version"].error("glTF of version " + printable(*version) + "; only version 2 is supported");
   const std::vector<std::string_view> known(known_extensions.begin(), known_extensions.end());
   const auto is_known = [&](const std::string& name) {
     return std::find(known.begin(), known.end(), name) != known.end();
@@ -135,13 +135,14 @@ void Document::check_asset() const {
     required.insert(*name);
     if (is_known(*name)) continue;
     const std::string_view nearest = nearest_name(*name, known);
-    needed[i].tolerable("the file requires the extension \"" + printable(*name) + "\", which is not read",
-                        nearest.empty() ? std::string() : "the nearest that is: \"" + std::string(nearest) + "\"");
+    needed[i].tolerable(
+        "the file requires the extension \"" + printable(*name) + "\", which is not supported",
+        nearest.empty() ? std::string() : "the closest supported one: \"" + std::string(nearest) + "\"");
   }
   const Element used = list("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i)
     if (const auto name = used[i].text(); name && !is_known(*name) && !required.count(*name))
-      used[i].warning("the extension \"" + printable(*name) + "\" is not read: the scene is shown without it");
+      used[i].warning("the extension \"" + printable(*name) + "\" is not supported: the scene is shown without it");
 }
 
 std::optional<Document::Link> Document::link(const Element& uri) const {
@@ -159,7 +160,7 @@ std::optional<Document::Link> Document::link(const Element& uri) const {
     return std::nullopt;
   }
   if (text->find("://") != std::string::npos) {
-    uri.error("only files beside the scene are read, not \"" + printable(*text) + "\"");
+    uri.error("only local files are read, not \"" + printable(*text) + "\"");
     return std::nullopt;
   }
   const std::string file = without_escapes(*text);
@@ -193,7 +194,7 @@ std::optional<std::string> Document::load_buffer(const Element& buffer, std::siz
   }
   if (bytes.size() < *length) {
     buffer.error("has a byteLength of " + std::to_string(*length) + ", but only " + std::to_string(bytes.size()) +
-                 " bytes are there");
+                 " bytes exist");
     return std::nullopt;
   }
   return bytes;

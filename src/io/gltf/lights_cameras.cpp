@@ -154,7 +154,7 @@ std::optional<LightDesc> light_of(Document& document, std::size_t light, const M
   if (*type == "spot") state_spot(element["spot"], e);
   const auto placed = from_matrix(rigid(node_to_world));
   if (placed) return LightDesc{std::move(e), *placed};
-  element.warning("the node of the light leaves it no direction: it is left out");
+  element.warning("the node of the light leaves it no direction: it is omitted");
   return std::nullopt;
 }
 

@@ -37,8 +37,8 @@ void MaterialReader::note_uv_set(const std::optional<TextureUse>& use, const Ele
   if (!use) return;
   if (!uv_set_) uv_set_ = use->uv_set;
   if (*uv_set_ != use->uv_set)
-    material.warning("textures with different sets of texture coordinates: set " + std::to_string(*uv_set_) +
-                     " is taken for all");
+    material.warning("textures use different sets of texture coordinates: set " + std::to_string(*uv_set_) +
+                     " is used for all");
 }
 
 void MaterialReader::put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning) {
@@ -192,7 +192,7 @@ MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& m
   // Reported once, for any number of materials.
   if (base.type == "coatedmetallicroughness" && !std::exchange(has_lost_coat_, true))
     transmission.warning(
-        "glass that transmits is shown without its clear coat and its grain, here and in all materials like this one");
+        "transmissive glass is shown without its clear coat and its grain, here and in all such materials");
   for (const char* part : {base_normals.texture, base_normals.scale})
     if (const Parameter* map = base.parameters.find(part)) glass.parameters.add(*map);
   const MaterialDescId through = add(std::move(glass), name.empty() ? "glass" : name + " glass");

@@ -62,13 +62,13 @@ std::optional<SkinBinding> read_skin(Document& document, const Element& attribut
   const Element joints = attributes["JOINTS_0"], weights = attributes["WEIGHTS_0"];
   if (!joints && !weights) return std::nullopt;
   if (!joints || !weights) {
-    attributes.error("JOINTS_0 and WEIGHTS_0 go together");
+    attributes.error("JOINTS_0 and WEIGHTS_0 must be used together");
     return std::nullopt;
   }
   const auto j = attribute(document, joints, {{"VEC4"}, true}, count);
   const auto w = attribute(document, weights, {{"VEC4"}}, count);
   if (!j || !w) return std::nullopt;
-  if (attributes["JOINTS_1"]) attributes.warning("more than four joints a vertex: those of JOINTS_0 are taken");
+  if (attributes["JOINTS_1"]) attributes.warning("more than four joints per vertex: those of JOINTS_0 are used");
   SkinBinding skin;
   for (std::size_t i = 0; i < count; ++i) {
     std::array<float, 4> share{};
@@ -108,7 +108,7 @@ void check_colors(Document& document, const Element& attributes, std::size_t cou
   const auto numbers = attribute(document, colors, {{"VEC3", "VEC4"}}, count);
   if (!numbers) return;
   if (!std::all_of(numbers->values.begin(), numbers->values.end(), [](float x) { return x >= 1; }))
-    colors.warning("colours of vertices are not applied");
+    colors.warning("vertex colours are not applied");
 }
 
 class PrimitiveReader {

@@ -133,13 +133,13 @@ std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::
     result[k] = turn > tolerance;
     if (!result[k] || std::exchange(is_reported, true)) continue;
     const std::string& name = tree.nodes[off.node].name;
-    document.report().tolerable(
-        document.whole(),
-        "node " + std::to_string(off.node) + (name.empty() ? std::string() : " '" + printable(name) + "'") +
-            " turns or jumps too fast for its way to be followed while the shutter is open, at " +
-            time_text(fine.start) + " to " + time_text(fine.end) + " s",
-        "a step of its way is off by " + std::to_string(turn) +
-            " of the distance from its axis; a shorter exposure or more frames a second are followed");
+    document.report().tolerable(document.whole(),
+                                "node " + std::to_string(off.node) +
+                                    (name.empty() ? std::string() : " '" + printable(name) + "'") +
+                                    " rotates or jumps too fast to be followed while the shutter is open, at " +
+                                    time_text(fine.start) + " to " + time_text(fine.end) + " s",
+                                "a step of its motion has an error of " + std::to_string(turn) +
+                                    " of the distance from its axis; use a shorter exposure or more frames per second");
   }
   return result;
 }
@@ -192,7 +192,7 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
   if (intervals > most_steps && exposure + 1 > most_steps)
     document.report().tolerable(document.whole(),
                                 "the shutter is open over more than " + std::to_string(most_steps - 1) + " frames",
-                                "a shorter exposure, or fewer frames a second");
+                                "use a shorter exposure, or fewer frames per second");
   std::vector<bool> is_given_up;
   for (int n = most;;) {
     int chords = 1;

@@ -51,7 +51,7 @@ void link_parents(std::vector<Node>& nodes) {
     std::vector<std::size_t> kept;
     for (std::size_t child : nodes[i].children)
       if (nodes[child].parent) {
-        nodes[i].element["children"].error("node " + std::to_string(child) + " has another parent already, node " +
+        nodes[i].element["children"].error("node " + std::to_string(child) + " already has another parent, node " +
                                            std::to_string(*nodes[child].parent));
       } else {
         nodes[child].parent = i;
@@ -88,7 +88,7 @@ std::vector<std::size_t> roots_of(Document& document, NodeTree& tree) {
     const auto node = list[i].index_of(nodes, "a node");
     if (!node) continue;
     if (tree.nodes[*node].parent)
-      list[i].error("node " + std::to_string(*node) + " is no root: it is a child of node " +
+      list[i].error("node " + std::to_string(*node) + " is not a root: it is a child of node " +
                     std::to_string(*tree.nodes[*node].parent));
     else if (seen.insert(*node).second)
       roots.push_back(*node);
@@ -141,7 +141,8 @@ NodeTree read_nodes(Document& document) {
     std::vector<bool> reached(tree.nodes.size());
     for (std::size_t i : tree.ordered_) reached[i] = true;
     const std::size_t first = std::size_t(std::find(reached.begin(), reached.end(), false) - reached.begin());
-    list[first]["children"].error("node " + std::to_string(first) + " is its own descendant, or that of one that is");
+    list[first]["children"].error("node " + std::to_string(first) +
+                                  " is its own descendant, or a descendant of such a node");
   }
   tree.shown = order_from(tree.nodes, roots_of(document, tree));
   return tree;

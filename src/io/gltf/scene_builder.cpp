@@ -68,8 +68,8 @@ void SceneBuilder::read_meshes() {
 }
 
 void SceneBuilder::report_moves(const Element& where, std::string_view what) {
-  where.tolerable(std::string(what) + " moves; only cameras and surfaces that do not shine can",
-                  document_.report().lenient() ? "it stays where it is at first" : "lenient reading leaves it there");
+  where.tolerable(std::string(what) + " moves; only cameras and surfaces without emission can",
+                  document_.report().lenient() ? "it stays at its first position" : "lenient reading leaves it there");
 }
 
 std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) {
@@ -77,7 +77,7 @@ std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) 
   const std::string name = shown_name(tree_.nodes[node], node);
   const auto first = from_matrix(moments_.world.front()[node]);
   if (!first) {
-    element.warning(name + " is flattened to nothing by its scale: it is not shown");
+    element.warning(name + " has a scale of zero: it is not shown");
     return std::nullopt;
   }
   Placing placing{*first, {}, first->swaps_handedness()};
@@ -85,8 +85,8 @@ std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) 
   for (std::size_t k = 1; k < moments_.count(); ++k) {
     const auto next = from_matrix(moments_.world[k][node]);
     if (!next || next->swaps_handedness() != placing.mirrored) {
-      element.tolerable(name + " turns into its mirror image on its way, or is flattened to nothing",
-                        "lenient reading leaves it where it starts");
+      element.tolerable(name + " is mirrored during its motion, or its scale becomes zero",
+                        "lenient reading leaves it at its start");
       placing.later.clear();
       return placing;
     }
@@ -130,7 +130,7 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
     return std::min(uv.x, uv.y) < -1e-3f || std::max(uv.x, uv.y) > 1 + 1e-3f;
   };
   if (material.repeats_emission && std::any_of(uvs.begin(), uvs.end(), is_beyond))
-    primitive.where.warning("texture coordinates go beyond [0, 1], where a texture that shines is that of its edge");
+    primitive.where.warning("texture coordinates are outside [0, 1], where an emissive texture is clamped to its edge");
   shape.mesh = primitive.mesh;
   return shape;
 }
@@ -163,8 +163,9 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   if (n.skin && primitive.skin && !skin) return;
   const std::size_t bytes = moments_.count() * primitive.mesh->positions.size() * 2 * sizeof(Vec3f);
   if (bytes > most_pose_bytes) {
-    primitive.where.error("takes more than 8 GiB in the " + std::to_string(moments_.count()) + " moments of its form",
-                          "render fewer frames at a time");
+    primitive.where.error(
+        "takes more than 8 GiB in the " + std::to_string(moments_.count()) + " poses of its deformation",
+        "render fewer frames at once");
     return;
   }
   auto mesh = std::make_shared<Mesh>(*primitive.mesh);
@@ -180,7 +181,7 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
     changes = changes || !same(pose, {mesh->positions, mesh->normals});
     mesh->later.push_back(std::move(pose));
   }
-  if (changes && shines(primitive)) report_moves(n.element, "a surface that shines");
+  if (changes && shines(primitive)) report_moves(n.element, "an emitting surface");
   if (!changes || shines(primitive)) mesh->later.clear();
   drop_degenerate_faces(*mesh);
   if (mesh->triangles.empty()) return;
@@ -217,7 +218,7 @@ void SceneBuilder::place_mesh(std::size_t node) {
     shape.object_to_world = placing->first;
     shape.object_to_world_later = placing->later;
     if (shines(primitive) && !placing->later.empty()) {
-      report_moves(n.element, "a surface that shines");
+      report_moves(n.element, "an emitting surface");
       shape.object_to_world_later.clear();
     }
     scene_.shapes.push_back(std::move(shape));
@@ -242,7 +243,7 @@ void SceneBuilder::place_lights() {
   const bool shines = std::any_of(scene_.shapes.begin(), scene_.shapes.end(),
                                   [](const ShapeDesc& shape) { return shape.area_light.has_value(); });
   if (!scene_.lights.empty() || shines) return;
-  document_.report().note(document_.whole(), "the scene has no light: a sky of radiance 1 all round lights it");
+  document_.report().note(document_.whole(), "the scene has no light: a uniform sky of radiance 1 is used");
   Entity sky{"infinite", {}, document_.whole()};
   put_rgb(sky, "L", gray(1.0f));
   scene_.lights.push_back({std::move(sky), {}});
@@ -252,7 +253,7 @@ void SceneBuilder::place_camera() {
   const std::optional<std::size_t> node = choose_camera(document_, tree_, options_.camera);
   if (!node) {
     if (!options_.camera)
-      document_.report().note(document_.whole(), "the scene has no camera: one that shows all of it stands in");
+      document_.report().note(document_.whole(), "the scene has no camera: one that shows all of it is used");
     state_default_camera(bounds_, scene_);
     return;
   }

@@ -76,7 +76,7 @@ std::optional<TextureUse> TextureReader::use(const Element& info) {
   if (const auto sampler = texture["sampler"].index_of(document_.list("samplers"), "a sampler"))
     read_sampler(document_.list("samplers")[*sampler], use);
   if (!texture["source"]) {
-    texture.warning("the texture has no image that is read: it is left out");
+    texture.warning("the texture has no supported image: it is omitted");
     return std::nullopt;
   }
   const auto image = texture["source"].index_of(images, "an image");

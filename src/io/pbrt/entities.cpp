@@ -12,12 +12,12 @@ const EntitySpec* Parser::stand_in(Family family, const EntitySpec& spec, const 
   std::string name = std::string(name_of(family)) + " '" + std::string(spec.name) + "'";
   std::string instead(spec.instead);
   if (spec.later) {
-    report_.tolerable(where, name + " comes later",
-                      instead.empty() ? "" : "lenient reading takes '" + instead + "' instead");
+    report_.tolerable(where, name + " is not supported yet",
+                      instead.empty() ? "" : "lenient reading uses '" + instead + "' instead");
     return report_.lenient() && !instead.empty() ? find_entity(table_of(family), instead) : nullptr;
   }
   bool says_so = family == Family::integrator || family == Family::film;
-  if (says_so && !instead.empty() && !spec.same) report_.note(where, name + " is served by '" + instead + "'");
+  if (says_so && !instead.empty() && !spec.same) report_.note(where, name + " is replaced by '" + instead + "'");
   return &spec;
 }
 
@@ -95,7 +95,7 @@ void Parser::directive_camera() {
 void Parser::directive_option() {
   ParameterList stated = parameters();
   if (!is_in_world(false)) return;
-  if (stated.all().empty()) return report_.error(here(), "Option takes a parameter, as \"integer seed\" 1");
+  if (stated.all().empty()) return report_.error(here(), "Option takes a parameter, such as \"integer seed\" 1");
   CheckContext context{report_, scene_.folder, spelling};
   ParameterList good = checked_parameters(Family::option, table_of(Family::option)[0], stated, context);
   expect_uses(good, option_spec());
@@ -125,7 +125,7 @@ void Parser::directive_world_begin() {
 }
 
 void Parser::directive_world_end() {
-  report_.tolerable(here(), "WorldEnd is no directive of pbrt-v4", "remove it: the world ends with the file");
+  report_.tolerable(here(), "WorldEnd is not a directive of pbrt-v4", "remove it: the world ends with the file");
 }
 
 void Parser::directive_attribute_begin() {
@@ -136,7 +136,7 @@ void Parser::directive_attribute_end() {
   if (!is_in_world(true)) return;
   // An End that closes an object would leave its shapes without owner; the object stays open for its own End.
   if (!blocks_.empty() && blocks_.back().begin == "ObjectBegin")
-    return report_.error(here(), "AttributeEnd without AttributeBegin inside of ObjectBegin");
+    return report_.error(here(), "AttributeEnd without AttributeBegin inside ObjectBegin");
   if (auto block = close_block("AttributeBegin", "AttributeEnd")) state_ = std::move(block->state);
 }
 
@@ -154,8 +154,8 @@ void Parser::directive_attribute() {
   if (!target) return;
   ParameterList stated = parameters();
   if (*target == "medium")
-    return report_.tolerable(here(), "attributes of participating media come later",
-                             report_.lenient() ? "they are left out" : "lenient reading leaves them out");
+    return report_.tolerable(here(), "attributes of participating media are not supported yet",
+                             report_.lenient() ? "they are omitted" : "lenient reading omits them");
   for (const Target& t : targets) {
     if (t.name != *target) continue;
     ParameterList& defaults = state_.attributes[t.family];

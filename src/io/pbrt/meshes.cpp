@@ -41,7 +41,7 @@ std::optional<std::vector<std::uint32_t>> face_indices(const Entity& shape, std:
   SourceLocation where = place_of(shape, "indices");
   if (indices.size() % corners != 0) {
     report.error(where,
-                 "'indices' takes " + std::to_string(corners) + " a face; there are " + std::to_string(indices.size()));
+                 "'indices' takes " + std::to_string(corners) + " per face; found " + std::to_string(indices.size()));
     return std::nullopt;
   }
   for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -61,13 +61,13 @@ bool take_later_poses(const Entity& shape, Mesh& mesh, Reporter& report) {
   if (p.empty() && n.empty()) return true;
   if (p.empty() || p.size() % vertices != 0 || poses > most_poses) {
     report.error(place_of(shape, p.empty() ? "N1" : "P1"),
-                 "'P1' takes the " + std::to_string(vertices) + " vertices once for each later moment (at most " +
+                 "'P1' takes the " + std::to_string(vertices) + " vertices once for each later time (at most " +
                      std::to_string(most_poses) + "); there are " + std::to_string(p.size()) + " values");
     return false;
   }
   if (n.size() != (mesh.normals.empty() ? 0 : p.size())) {
     report.error(place_of(shape, n.empty() ? "P1" : "N1"),
-                 "'N1' takes a normal for each vertex of 'P1' where there is 'N', and none else; there are " +
+                 "'N1' takes a normal for each vertex of 'P1' if there is 'N', and none otherwise; found " +
                      std::to_string(n.size()) + " for " + std::to_string(p.size()));
     return false;
   }
@@ -95,7 +95,7 @@ bool subdivision_is_sensible(const Entity& shape, std::size_t triangles, Reporte
   auto levels = static_cast<std::size_t>(shape.parameters.integer("levels", 3));
   if ((triangles << (2 * levels)) <= most) return true;
   report.error(place_of(shape, "levels"),
-               std::to_string(levels) + " levels make more than 2^28 triangles of " + std::to_string(triangles));
+               std::to_string(levels) + " levels give more than 2^28 triangles for " + std::to_string(triangles));
   return false;
 }
 

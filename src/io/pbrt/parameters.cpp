@@ -121,12 +121,12 @@ bool ValueReader::each(Take take) {
       break;
     }
     if (token.kind == TokenKind::unclosed_quote) {
-      fail(lexer.next(), "a quote is opened and not closed on its line");
+      fail(lexer.next(), "a quoted string has no end on its line");
       return false;
     }
     if (!is_value || (!may_be_quoted() && looks_like_header(token))) {
       if (bracketed)
-        fail(first, "the '[' of '" + name_ + "' is not closed; it meets " + describe(token));
+        fail(first, "the '[' of '" + name_ + "' is not closed; it is followed by " + describe(token));
       else
         fail(header_, "'" + name_ + "' has no value; " + describe(token) + " follows");
       if (token.kind == TokenKind::open) lexer.next();
@@ -214,7 +214,7 @@ std::optional<Values> ValueReader::read_sampled() {
   });
   if (!whole || !good_) return std::nullopt;
   if (!values.empty() && !pairs.empty()) {
-    fail(header_, "'" + name_ + "' takes either names of spectra or pairs of numbers, not both");
+    fail(header_, "'" + name_ + "' takes names of spectra or pairs of numbers, not both");
     return std::nullopt;
   }
   if (!values.empty()) return Values(std::move(values));
@@ -266,7 +266,7 @@ std::optional<Values> ValueReader::read() {
       auto names = parsed<std::string>("the quoted name of a texture", string_of);
       if (!names) return std::nullopt;
       if (names->size() != 1) {
-        fail(header_, "'" + name_ + "' takes the name of one texture; there are " + std::to_string(names->size()));
+        fail(header_, "'" + name_ + "' takes the name of one texture; found " + std::to_string(names->size()));
         return std::nullopt;
       }
       return Values(TextureName{names->front()});
@@ -332,7 +332,7 @@ ParameterList read_parameters(const ParameterContext& context) {
         context.report.error(where, "a parameter is stated as \"type name\" value; found " + describe(header));
       } else {
         std::string_view near = nearest_name(words->type, words_of_types());
-        context.report.error(where, "'" + printable(words->type) + "' is no type of a parameter",
+        context.report.error(where, "'" + printable(words->type) + "' is not a parameter type",
                              near.empty()
                                  ? "types are float, integer, bool, string, rgb, spectrum, texture, point3, ..."
                                  : "did you mean '" + std::string(near) + "'?");

@@ -98,7 +98,7 @@ void Parser::parse_file(const std::string& path) {
   for (const fs::path& open : open_files_)
     if (open == canonical) return report_.error(where, "'" + printable(path) + "' includes itself");
   if (open_files_.size() >= most_depth || ++files_read_ > most_files)
-    return report_.error(where, "too many files include each other; '" + printable(path) + "' is left out");
+    return report_.error(where, "includes are nested too deeply; '" + printable(path) + "' is omitted");
   auto bytes = read_whole_file(path);
   if (!bytes) return report_.error(where, bytes.error());
   const std::string_view text = without_byte_order_mark(*bytes);
@@ -134,11 +134,11 @@ void Parser::parse_directive() {
     if (const DirectiveRow* row = find_directive(directive_.text)) return (this->*row->action)();
   if (directive_.kind == TokenKind::word) {
     std::string_view near = nearest_name(directive_.text, directive_names());
-    report_.error(
-        here(), "there is no directive " + describe(directive_),
-        near.empty() ? "directives are as Shape, Material, Translate" : "did you mean " + std::string(near) + "?");
+    report_.error(here(), "there is no directive " + describe(directive_),
+                  near.empty() ? "examples of directives: Shape, Material, Translate"
+                               : "did you mean " + std::string(near) + "?");
   } else if (directive_.kind == TokenKind::unclosed_quote) {
-    report_.error(here(), "a quote is opened and not closed on its line");
+    report_.error(here(), "a quoted string has no end on its line");
   } else {
     report_.error(here(), "a directive is expected here; found " + describe(directive_));
   }
@@ -249,7 +249,7 @@ bool Parser::is_in_world(bool wanted) {
   if (in_world_ == wanted) return true;
   if (!std::exchange(told_of_world_, true))
     report_.error(here(), std::string(directive_.text) + " must stand " + (wanted ? "after" : "before") + " WorldBegin",
-                  "others that are out of place are not reported again");
+                  "further misplaced directives are not reported");
   return false;
 }
 

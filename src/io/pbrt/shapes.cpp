@@ -36,7 +36,7 @@ std::shared_ptr<const Mesh> Parser::one_ply_mesh(const std::string& file, const 
 std::shared_ptr<const Mesh> Parser::posed_ply_mesh(const Mesh& first, const Parameter& later) {
   auto mesh = std::make_shared<Mesh>(first);
   if (!mesh->quads.empty())
-    report_.note(later.where, "the quadrilaterals of a mesh that changes its form are split into triangles");
+    report_.note(later.where, "the quadrilaterals of a deforming mesh are split into triangles");
   split_quads(*mesh);
   const auto& files = std::get<std::vector<std::string>>(later.values);
   constexpr std::size_t most_poses = 128;
@@ -92,8 +92,8 @@ void Parser::directive_shape() {
     // A mesh that has lost all its faces is not a shape.
     if (!shape.mesh || (shape.mesh->triangles.empty() && shape.mesh->quads.empty())) return;
     if (shines && !shape.mesh->later.empty()) {
-      report_.tolerable(here(), "this shape, which emits light, changes its form; only shapes that emit none can",
-                        report_.lenient() ? "it keeps its first form" : "lenient reading keeps its first form");
+      report_.tolerable(here(), "this shape emits light and deforms; only shapes without emission can",
+                        report_.lenient() ? "it keeps its first pose" : "lenient reading keeps its first pose");
       auto first_form = std::make_shared<Mesh>(*shape.mesh);
       first_form->later.clear();
       shape.mesh = std::move(first_form);
@@ -104,7 +104,7 @@ void Parser::directive_shape() {
     return;
   }
   if (shape.area_light) {
-    report_.warning(here(), "a shape of an object cannot emit light; its area light is left out");
+    report_.warning(here(), "a shape of an object cannot emit light; its area light is omitted");
     shape.area_light.reset();
   }
   scene_.objects[static_cast<std::size_t>(*open_object_)].shapes.push_back(std::move(shape));
@@ -113,7 +113,7 @@ void Parser::directive_shape() {
 void Parser::directive_object_begin() {
   auto name = quoted_argument("a name");
   if (!name || !is_in_world(true)) return;
-  if (open_object_) report_.error(here(), "ObjectBegin inside of ObjectBegin");
+  if (open_object_) report_.error(here(), "ObjectBegin inside ObjectBegin");
   open_block("ObjectBegin");
   if (open_object_) return;
   auto id = static_cast<ObjectDescId>(scene_.objects.size());
@@ -141,7 +141,7 @@ void Parser::directive_object_instance() {
   SourceLocation where = lexer_->where(lexer_->peek());
   auto name = quoted_argument("the name of an object");
   if (!name || !is_in_world(true)) return;
-  if (open_object_) return report_.error(here(), "ObjectInstance inside of ObjectBegin");
+  if (open_object_) return report_.error(here(), "ObjectInstance inside ObjectBegin");
   scene_.instances.push_back({ObjectDescId{}, state_.transform.start, here(), transform_at_end("instance")});
   instance_uses_.push_back({std::move(*name), where});
 }

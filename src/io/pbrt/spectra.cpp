@@ -12,14 +12,14 @@ namespace montelux::pbrt {
 std::optional<SampledValue> sampled_from_pairs(const std::vector<float>& pairs, const SourceLocation& where,
                                                Reporter& report) {
   if (pairs.empty() || pairs.size() % 2 != 0) {
-    report.error(where, "a sampled spectrum takes pairs of wavelength and value; there are " +
+    report.error(where, "a sampled spectrum takes pairs of wavelength and value; found " +
                             std::to_string(pairs.size()) + " numbers");
     return std::nullopt;
   }
   SampledValue sampled;
   for (std::size_t i = 0; i < pairs.size(); i += 2) {
     if (i > 0 && pairs[i] <= pairs[i - 2]) {
-      report.error(where, "wavelengths must rise; " + shortest(pairs[i]) + " nm follows " + shortest(pairs[i - 2]));
+      report.error(where, "wavelengths must increase; " + shortest(pairs[i]) + " nm follows " + shortest(pairs[i - 2]));
       return std::nullopt;
     }
     sampled.wavelengths.push_back(pairs[i]);
@@ -66,7 +66,7 @@ std::optional<SpectrumValue> named_spectrum(const std::string& name, const std::
   if (is_regular_file(path)) return read_spectrum_file(path, where, report);
   std::string_view near = nearest_name(name, names);
   report.error(where, "'" + printable(name) + "' is neither a named spectrum nor a file",
-               near.empty() ? "named spectra are as metal-Cu-eta, glass-BK7, stdillum-D65"
+               near.empty() ? "examples of named spectra: metal-Cu-eta, glass-BK7, stdillum-D65"
                             : "did you mean '" + std::string(near) + "'?");
   return std::nullopt;
 }

@@ -125,8 +125,8 @@ void Parser::directive_make_named_medium() {
   parameters();
   if (!media_.emplace(*name, here()).second)
     return report_.error(here(), "medium '" + printable(*name) + "' is defined twice");
-  report_.tolerable(here(), "medium '" + printable(*name) + "': participating media come later",
-                    report_.lenient() ? "it is left out" : "lenient reading leaves it out");
+  report_.tolerable(here(), "medium '" + printable(*name) + "': participating media are not supported yet",
+                    report_.lenient() ? "it is omitted" : "lenient reading omits it");
 }
 
 void Parser::directive_medium_interface() {

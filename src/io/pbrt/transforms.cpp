@@ -25,7 +25,7 @@ void Parser::set_transform(const Transform& transform, bool concatenate) {
   Transform start = concatenate ? current.start * transform : transform;
   Transform end = concatenate ? current.end * transform : transform;
   if (!is_usable(state_.change_start ? start : end))
-    return report_.error(here(), "the transform cannot be inverted: it leaves the range of numbers");
+    return report_.error(here(), "the transform cannot be inverted: it exceeds the range of numbers");
   if (state_.change_start) current.start = start;
   if (state_.change_end) current.end = end;
 }
@@ -34,7 +34,7 @@ void Parser::set_transform(const Transform& transform, bool concatenate) {
 Transform Parser::still_transform(std::string_view owner) {
   if (state_.transform.moves())
     report_.tolerable(here(), "this " + std::string(owner) + " moves; only cameras, shapes and instances can",
-                      report_.lenient() ? "it stays where it starts" : "lenient reading leaves it where it starts");
+                      report_.lenient() ? "it stays at its start" : "lenient reading leaves it at its start");
   return state_.transform.start;
 }
 
@@ -43,7 +43,7 @@ std::vector<Transform> Parser::transform_at_end(std::string_view owner) {
   const MovingTransform& t = state_.transform;
   if (!t.moves()) return {};
   if (t.start.swaps_handedness() != t.end.swaps_handedness()) {
-    report_.error(here(), "this " + std::string(owner) + " turns into its mirror image on its way",
+    report_.error(here(), "this " + std::string(owner) + " is mirrored during its motion",
                   "the transform mirrors at one end and not at the other");
     return {};
   }

@@ -55,7 +55,7 @@ Reference make_reference(const std::vector<Contestant>& contestants, const Refer
       excess = std::max(excess, variance_by(by, reference) / goal.variance[by]);
     more = excess > 1 ? more_passes(passes, excess) : 0;
   }
-  reference.origin = fmt::format("{}, {} samples a pixel; of the pilots it was the most efficient by {}",
+  reference.origin = fmt::format("{}, {} samples per pixel; the most efficient method of the pilots by {}",
                                  method.shown_name(), passes * samples_per_pass, title_of(settings.measure));
   return reference;
 }

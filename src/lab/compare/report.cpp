@@ -13,7 +13,7 @@ namespace {
 
 const std::string& name_of(const MethodResult& m) { return m.contestant.shown_name(); }
 
-constexpr const char* seconds_note = " Seconds are those of frames that are shown.";
+constexpr const char* seconds_note = " Seconds are those of the frames that are shown.";
 
 Table table_of_methods(const ContestResult& result) {
   const std::string by(title_of(result.measure));
@@ -61,9 +61,9 @@ Table table_of_truth(const ContestResult& result) {
       "truth",
       fmt::format("Is the mean of all repeats that of the reference? Tests of the image mean and of the squared "
                   "bias over pixels, at a level of 1 % for all of them together. A bias of the image mean of at "
-                  "least the size in the third column would be found {:.0f} times in 10.",
+                  "least the size in the third column would be detected {:.0f} times in 10.",
                   10 * Agreement::power),
-      {"method", "mean", "bias that would be found", "off by", "standard errors", "squared bias of pixels"},
+      {"method", "mean", "detectable bias", "off by", "standard errors", "squared bias of pixels"},
       {}};
   const double mean = mean_value(result.reference.mean);
   for (const MethodResult& m : result.methods) {
@@ -78,8 +78,8 @@ Table table_of_bars(const ContestResult& result) {
   Table table{
       "bars",
       "What each method states of its own error: the variance of a pixel's mean, which is its MSE where it has no "
-      "bias, and how often a pixel's own 95 % interval holds the reference.",
-      {"method", "its own variance", "MSE", "intervals that hold"},
+      "bias, and how often a pixel's own 95 % interval contains the reference.",
+      {"method", "its own variance", "MSE", "intervals that contain it"},
       {}};
   for (const MethodResult& m : result.methods)
     table.rows.push_back({name_of(m), text_of(m.variance), text_of(m.mse),
@@ -94,8 +94,8 @@ std::string ratio_text(const Measured& m) {
 Table table_of_ratios(const ContestResult& result) {
   Table table{
       "ratios",
-      "How many times as efficient the first is as the second, with intervals, by each measure. The verdict goes "
-      "by the first of the measures.",
+      "The ratio of the efficiencies of the first and the second, with intervals, by each measure. The verdict uses "
+      "the first of the measures.",
       {"first", "second"},
       {}};
   std::vector<ErrorMeasure> order{result.measure};
@@ -103,7 +103,7 @@ Table table_of_ratios(const ContestResult& result) {
     if (m != result.measure) order.push_back(m);
   for (ErrorMeasure m : order) table.columns.push_back(fmt::format("by {}", title_of(m)));
   table.columns.push_back("decided");
-  if (!result.warm_up_counts) table.columns.push_back("with the time of warm-up");
+  if (!result.warm_up_counts) table.columns.push_back("including the warm-up");
   for (const PairVerdict& v : result.verdicts) {
     std::vector<Cell>& row = table.rows.emplace_back();
     row.emplace_back(name_of(result.methods[v.first])), row.emplace_back(name_of(result.methods[v.second]));
@@ -149,8 +149,8 @@ Figure repeats(const ContestResult& result) {
   Figure figure;
   figure.name = "repeats";
   figure.caption = fmt::format(
-      "The efficiency by {} of each repeat, in the order of the rounds: a machine that drifts "
-      "shows here.",
+      "The efficiency by {} of each repeat, in the order of the rounds: changes in the speed of the machine "
+      "are visible here.",
       title_of(result.measure));
   figure.x = {"round", false, {}, {}};
   figure.y = {"efficiency", true, {}, {}};
@@ -189,9 +189,9 @@ void add_shares(const ContestResult& result, std::size_t values, Comparison& com
 
 Comparison pictures(const ContestResult& result) {
   Comparison comparison{"pictures",
-                        "The reference, and the mean of all repeats of each method. Under the pointer: values with "
+                        "The reference, and the mean of all repeats of each method. At the pointer: values with "
                         "standard errors, and the luminance's running mean over the repeats with its 95 % band; the "
-                        "dashed line is the reference. Where a method has layers of light, `show` has the share of "
+                        "dashed line is the reference. If a method has layers of light, `show` has the share of "
                         "each in the variance around a pixel, white for all of it.",
                         {}};
   const Reference& reference = result.reference;
@@ -223,7 +223,7 @@ Figure shares(const ContestResult& result, std::size_t family) {
   const FamilyShares& first = methods.front()->attribution->families[family];
   figure.name = "variance-by-" + first.name;
   std::ranges::replace(figure.name, ' ', '-');
-  figure.caption = "Shares of the picture's variance by " + first.name + ", with 95 % bars over the repeats.";
+  figure.caption = "Shares of the variance of the image by " + first.name + ", with 95 % bars over the repeats.";
   figure.x.label = first.name;
   figure.y.label = "share of the variance";
   for (const LayerShare& layer : first.layers) figure.x.names.push_back(layer.name);
@@ -257,22 +257,21 @@ void add_attribution(const ContestResult& result, Report& report) {
                 "Shorrocks 1982, Inequality Decomposition by Factor Components"});
     report.sections.push_back(Text{
         "The light of a pass is the sum of layers, and this is the share of each in the variance of that sum, over "
-        "all pixels and channels. A share below zero takes noise away from the others."});
+        "all pixels and channels. A layer with a negative share reduces the noise of the others."});
     // One group of lights alone has all of it.
     for (std::size_t family = 0; family < any->attribution->families.size(); ++family)
       if (any->attribution->families[family].layers.size() > 1) report.sections.push_back(shares(result, family));
   }
   if (!without.empty())
-    report.sections.push_back(
-        Text{"Not attributed, since the method does not split its light into layers, or it was not wanted: " + without +
-             "."});
+    report.sections.push_back(Text{
+        "Not attributed, because the method does not split its light into layers, or by request: " + without + "."});
 }
 
 }  // namespace
 
 ReportSet report_of(const ContestResult& result, const ContestWords& words) {
   Report report;
-  report.name = "comparison", report.title = "Which method is better, and how sure that is";
+  report.name = "comparison", report.title = "Which method is better, and with what confidence";
   report.sections.push_back(Facts{words.conditions});
   for (const std::string& sentence : words.sentences) report.sections.push_back(Text{sentence + "."});
   for (std::size_t i = 0; i < words.agreement.size(); ++i)

@@ -31,7 +31,7 @@ class Reader {
     for (const DomainFactor& f : factors_) dimension += std::visit([](const auto& x) { return x.dimension(); }, f);
     if (mistakes_.empty() && dimension > most_dimensions)
       complain(0, text_.size(),
-               fmt::format("the domain has {} dimensions; {} are the most", dimension, most_dimensions));
+               fmt::format("the domain has {} dimensions; the maximum is {}", dimension, most_dimensions));
     ParsedDomain result{std::nullopt, std::move(mistakes_)};
     if (result.mistakes.empty()) result.domain.emplace(std::move(factors_));
     return result;
@@ -64,7 +64,7 @@ class Reader {
     for (const TextPart& part : parts) {
       if (factors_.size() + mistakes_.size() >= most_dimensions)
         return complain(trimmed(part), factors_.size() < most_dimensions
-                                           ? "there are too many mistakes to continue"
+                                           ? "there are too many errors to continue"
                                            : fmt::format("the domain has more than {} dimensions", most_dimensions));
       read_side(trimmed(part));
     }
@@ -74,16 +74,16 @@ class Reader {
   void read_side(TextPart part) {
     const std::vector<TextPart> halves = split(part, '=', 2);
     if (halves.size() < 2 && find_entity(domain_table(), split(part, ':').front().text))
-      return complain(part, "a shape stands in an --over of its own; several make their product");
-    if (halves.size() < 2) return complain(part, "an interval is written name=low:high, as x=0:1");
+      return complain(part, "a named domain needs a separate --over; several give their product");
+    if (halves.size() < 2) return complain(part, "an interval is written name=low:high, for example x=0:1");
     const TextPart name = trimmed(halves[0]);
     if (!valid_variable(name.text))
       return complain(name,
                       fmt::format("\"{}\" cannot be a variable: names start with a letter, followed by letters and "
-                                  "digits, and are no function or constant",
+                                  "digits, and must not be a function or constant",
                                   name.text));
     const std::vector<TextPart> bounds = split(halves[1], ':');
-    if (bounds.size() != 2) return complain(trimmed(halves[1]), "bounds are written low:high, as 0:1");
+    if (bounds.size() != 2) return complain(trimmed(halves[1]), "bounds are written low:high, for example 0:1");
     const std::size_t before = mistakes_.size();
     auto low = read_expression(trimmed(bounds[0]), names_), high = read_expression(trimmed(bounds[1]), names_);
     if (!low || !high) return keep_name(name);
@@ -106,8 +106,8 @@ class Reader {
     const auto a = fixed(side.low), b = fixed(side.high);
     side.from_minus_infinity = a && std::isinf(*a) && *a < 0;
     side.to_infinity = b && std::isinf(*b) && *b > 0;
-    if (a && (std::isnan(*a) || (std::isinf(*a) && *a > 0))) complain(low, "a lower bound is finite or -inf");
-    if (b && (std::isnan(*b) || (std::isinf(*b) && *b < 0))) complain(high, "an upper bound is finite or inf");
+    if (a && (std::isnan(*a) || (std::isinf(*a) && *a > 0))) complain(low, "a lower bound must be finite or -inf");
+    if (b && (std::isnan(*b) || (std::isinf(*b) && *b < 0))) complain(high, "an upper bound must be finite or inf");
     if (!a || !b) return;
     if (*a >= *b)
       complain(low.begin, high.begin + high.text.size() - low.begin, "the lower bound is not below the upper one");
@@ -162,7 +162,7 @@ class Reader {
     const TextPart* part = setting(name);
     if (!part) return otherwise;
     const auto value = number(*part);
-    if (value && *value <= 0) complain(*part, fmt::format("the {} is above 0", name));
+    if (value && *value <= 0) complain(*part, fmt::format("the {} must be above 0", name));
     return value.value_or(otherwise);
   }
 
@@ -172,7 +172,7 @@ class Reader {
     const auto value = number(*part);
     if (value && *value >= 1 && *value <= double(most_dimensions) && *value == std::floor(*value))
       return std::size_t(*value);
-    if (value) complain(*part, fmt::format("the dimension is a whole number from 1 to {}", most_dimensions));
+    if (value) complain(*part, fmt::format("the dimension must be a whole number from 1 to {}", most_dimensions));
     return otherwise;
   }
 
@@ -200,8 +200,8 @@ class Reader {
     for (std::size_t k = 0; k < 3; ++k)
       if (const std::size_t n = corner(names[k], t.corners[k])) least = std::min(least, n), most = std::max(most, n);
     t.in_space = most == 3;
-    if (most > least) complain(0, text_.size(), "all corners have two coordinates, or all have three");
-    if (!(*t.volume() > 0)) complain(0, text_.size(), "the corners lie on one line");
+    if (most > least) complain(0, text_.size(), "all corners must have two coordinates, or all three");
+    if (!(*t.volume() > 0)) complain(0, text_.size(), "the corners are collinear");
     return t;
   }
 

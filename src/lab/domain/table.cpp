@@ -13,7 +13,7 @@ std::span<const EntitySpec> domain_table() {
         {"c", {point3}, "corner; default (0, 1)"}}},
       {"sphere",
        "the unit sphere of directions; variables x, y, z, theta (from z), phi; solid angle",
-       {{"radius", {number}, "default 1; with another one the measure is area"}}},
+       {{"radius", {number}, "default 1; with another radius the measure is area"}}},
       {"hemisphere",
        "directions with z >= 0; variables x, y, z, theta (from z), phi",
        {{"measure", {string}, "default solid-angle", -1e30, 1e30, {"solid-angle", "projected"}}}},

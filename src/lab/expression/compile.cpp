@@ -161,7 +161,7 @@ TextMistake mistake_of(const mu::ParserError& error, std::string_view text) {
     case mu::ecUNEXPECTED_EOF:
       return {text.size(), 1, "the expression ends too early"};
     case mu::ecUNEXPECTED_OPERATOR:
-      return at(fmt::format("there is nothing before \"{}\" that it could work on", token));
+      return at(fmt::format("\"{}\" has no left operand", token));
     case mu::ecTOO_MANY_PARAMS:
     case mu::ecTOO_FEW_PARAMS:
       return {position, 1, arguments_text(token)};
@@ -169,11 +169,11 @@ TextMistake mistake_of(const mu::ParserError& error, std::string_view text) {
       return {text.find('?') == std::string_view::npos ? 0 : text.find('?'), 1,
               "the other value is missing: condition ? value : other value"};
     case mu::ecMISPLACED_COLON:
-      return at("a colon belongs to condition ? value : other value");
+      return at("a colon is only valid in condition ? value : other value");
     case mu::ecEXPRESSION_TOO_LONG:
       return {0, 1, "the expression is too long"};
     default:
-      return at(token.empty() ? "this cannot be understood" : fmt::format("\"{}\" is not expected here", token));
+      return at(token.empty() ? "this is not a valid expression" : fmt::format("\"{}\" is not expected here", token));
   }
 }
 
@@ -193,14 +193,14 @@ CompiledExpression compile(std::string_view text, const std::vector<std::string>
     parser.Eval(results);
     if (results != 1) {
       const std::size_t comma = text.rfind(',');
-      result.mistakes.push_back({comma, 1, "one value is expected; commas stand between arguments only"});
+      result.mistakes.push_back({comma, 1, "one value is expected; commas are only valid between arguments"});
       return result;
     }
     result.expression = Expression(std::string(text), Translator(values).translate(parser.GetByteCode()));
   } catch (const mu::ParserError& error) {
     result.mistakes.push_back(mistake_of(error, text));
   } catch (const NotTranslated&) {
-    result.mistakes.push_back({0, text.size(), "this cannot be understood"});
+    result.mistakes.push_back({0, text.size(), "this is not a valid expression"});
   }
   return result;
 }

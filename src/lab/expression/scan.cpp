@@ -85,7 +85,7 @@ class Scanner {
       complain(i, 2, "powers are written with ^");
       length = 2;
     } else if (length == 1 && text_[i] == '=') {
-      complain(i, 1, "there is nothing to assign to; equality is written ==");
+      complain(i, 1, "assignment is not supported; equality is written ==");
     } else if (length == 1 && (text_[i] == '&' || text_[i] == '|')) {
       complain(i, 1, fmt::format("write {0}{0}", text_[i]));
     } else if (length == 1 && std::string_view("+-*/^()<>!?:,").find(text_[i]) == std::string_view::npos) {
@@ -102,7 +102,7 @@ class Scanner {
     const bool variable = std::ranges::find(variables_, word(t)) != variables_.end();
     if (variable || find_constant(word(t))) {
       if (called)
-        complain(t.begin, t.length, fmt::format("\"{0}\" is no function; a product is written {0}*(...)", word(t)));
+        complain(t.begin, t.length, fmt::format("\"{0}\" is not a function; a product is written {0}*(...)", word(t)));
     } else if (find_function(word(t))) {
       if (!called) complain(t.begin, t.length, fmt::format("the function {0} is written {0}(...)", word(t)));
     } else {
@@ -140,11 +140,11 @@ class Scanner {
       if (t.kind == Kind::open) open.push_back(t.begin);
       if (t.kind != Kind::close) continue;
       if (open.empty())
-        complain(t.begin, 1, "this bracket was never opened");
+        complain(t.begin, 1, "this bracket has no opening bracket");
       else
         open.pop_back();
     }
-    for (std::size_t position : open) complain(position, 1, "this bracket is never closed");
+    for (std::size_t position : open) complain(position, 1, "this bracket has no closing bracket");
   }
 
   std::string_view text_;

@@ -132,7 +132,7 @@ double lattice_bonus(std::size_t dimension, bool mapped) {
 std::string explain(const std::vector<Pilot>& pilots, const Pilot& best, double gain) {
   std::string text = gain == 1 ? "an adaptive map finds nothing to adapt to; "
                                : fmt::format("an adaptive map divides the variance of a sample by {:.2g}; ", gain);
-  if (pilots.size() < 2) return text + fmt::format("{} is best as a rule", to_text(best.method));
+  if (pilots.size() < 2) return text + fmt::format("{} is usually best", to_text(best.method));
   std::vector<std::string> items;
   for (const Pilot& p : pilots)
     items.push_back(
@@ -198,7 +198,7 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
   // So few samples teach a map nothing.
   const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
                        problem.densities.empty();
-  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples to try anything"};
+  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples for pilots"};
   // Error bars of quasi-Monte Carlo points rest on how near the nearest came to a singularity; boxes with many
   // independent samples each are the better there.
   const TailProbe probe = probe_tail(problem.integrand, seed, std::min(samples, max_samples_to_probe) / 32);

@@ -66,7 +66,7 @@ void DensitySampler::tabulate() {
   double sum = 0;
   cumulated_.push_back(0);
   for (std::size_t i = 0; i < total; ++i) cumulated_.push_back(sum += std::max(mass[i], least[i]));
-  if (!(sum > 0)) throw std::invalid_argument("a density is 0 wherever it was tried");
+  if (!(sum > 0)) throw std::invalid_argument("a density is 0 at all tested points");
   for (double& c : cumulated_) c /= sum;
 }
 
@@ -99,7 +99,7 @@ void DensitySampler::find_bound() {
   std::vector<double> top(dimension_);
   for (std::size_t d = 0; d < dimension_; ++d) top[d] = points[d * tried + best];
   const double largest = std::max(values[best], climb(std::move(top)));
-  if (!(largest > 0)) throw std::invalid_argument("a density is 0 wherever it was tried");
+  if (!(largest > 0)) throw std::invalid_argument("a density is 0 at all tested points");
   bound_ = user_.bound.value_or(1.2 * largest);
 }
 

@@ -127,21 +127,19 @@ std::vector<IntegralWarning> warnings_of(const IntegralResult& r) {
   };
   using enum IntegralWarning::Kind;
   if (r.non_finite > 0)
-    warn(non_finite, fmt::format("{} of {} values are not finite and count as 0: the result is not to be trusted",
+    warn(non_finite, fmt::format("{} of {} values are not finite and count as 0: the result is not reliable",
                                  r.non_finite, r.evaluations));
   if (r.found_nothing)
     warn(nothing_found,
-         fmt::format("no sample found anything: all of {} values are 0, and nothing is known of the error",
-                     r.evaluations));
+         fmt::format("no sample found anything: all of {} values are 0, and the error is unknown", r.evaluations));
   if (r.tail.may_not_exist)
     warn(may_not_exist, fmt::format("the integral may not exist ({})", tail_text(r.tail)));
   else if (r.tail.heavy)
-    warn(heavy_tail,
-         fmt::format("the terms have a heavy tail ({}): the error bar is not to be trusted", tail_text(r.tail)));
+    warn(heavy_tail, fmt::format("the terms have a heavy tail ({}): the error bar is not reliable", tail_text(r.tail)));
   if (const auto& o = r.outside_map;
       o && o->missed && std::abs(o->by_uniform - o->by_map) > notable_share * std::abs(r.mean))
     warn(outside_map,
-         fmt::format("uniform points find {:.3g} +- {:.1g} of the integral outside of the adaptive map, which finds "
+         fmt::format("uniform points find {:.3g} +- {:.1g} of the integral outside the adaptive map, which finds "
                      "{:.3g} there: the value includes it, other parts may be missed",
                      o->by_uniform, o->uniform_error, o->by_map));
   if (r.map_worth && *r.map_worth < doubtful_map_worth)

@@ -26,7 +26,7 @@ void check(const Problem& problem, const Budget& budget) {
   if (budget.samples && *budget.samples < 2) fail("at least two samples are needed");
   if (budget.seconds && !(*budget.seconds > 0)) fail("the time must be positive");
   if (budget.target_error && !(*budget.target_error > 0)) fail("the target error must be positive");
-  if (!(budget.confidence > 0 && budget.confidence < 1)) fail("the confidence must lie between 0 and 1");
+  if (!(budget.confidence > 0 && budget.confidence < 1)) fail("the confidence must be between 0 and 1");
 }
 
 // How many samples the run will have, as far as that is known before it.
@@ -125,9 +125,8 @@ MissedRegion measure_missed(const Integrand& integrand, const BatchFunction& sup
 
 IntegralWarning warning_of(const MissedRegion& region) {
   return {IntegralWarning::Kind::missed_region,
-          fmt::format(
-              "the integrand is not 0 where the density it is sampled by is: the result lacks about {:.3g} +- {:.1g}",
-              region.integral, region.standard_error)};
+          fmt::format("the integrand is not 0 where its sampling density is: the result misses about {:.3g} +- {:.1g}",
+                      region.integral, region.standard_error)};
 }
 
 }  // namespace

@@ -23,8 +23,11 @@ std::vector<std::string_view> heuristic_names() {
 }
 
 std::vector<ParameterSpec> with_passes(std::vector<ParameterSpec> list = {}) {
-  list.push_back(
-      {"passes", {integer}, "independent randomisations that give the error bar; default by the method", 2, 1e6});
+  list.push_back({"passes",
+                  {integer},
+                  "independent randomisations that give the error bar; default depends on the method",
+                  2,
+                  1e6});
   return list;
 }
 
@@ -39,10 +42,11 @@ std::vector<EntitySpec> make_table() {
                      1e30,
                      {strata_names.begin(), strata_names.end()}}})},
       {"antithetic", "each point with its mirror image in the centre of the cube", with_passes()},
-      {"control", "uniform points, less a control variate whose integral is known",
-       with_passes(
-           {{"coefficient", {number}, "of the control variate; default the best, fitted on the other passes"}})},
-      {"importance", "points of the density that is given", with_passes()},
+      {"control", "uniform points, with a control variate whose integral is known",
+       with_passes({{"coefficient",
+                     {number},
+                     "coefficient of the control variate; default the best, fitted on the other passes"}})},
+      {"importance", "points of a given density", with_passes()},
       {"mis", "points of several densities, weighted by a heuristic",
        with_passes({{"heuristic", {string}, "default balance", -1e30, 1e30, heuristic_names()}})},
       {"qmc", "randomised quasi-Monte Carlo",

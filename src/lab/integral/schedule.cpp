@@ -70,7 +70,7 @@ std::string_view Schedule::note() const {
   if (found_nothing(state_)) return "no sample has found anything yet";
   if (!budget_.target_error || !budget_.target_is_relative) return {};
   const PassEstimate e = estimate_of(state_);
-  return e.reach(confidence_) >= std::abs(e.mean) ? "the value may be 0, a relative error may be out of reach"
+  return e.reach(confidence_) >= std::abs(e.mean) ? "the value may be 0, so a relative error may be impossible to reach"
                                                   : std::string_view();
 }
 

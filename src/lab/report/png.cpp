@@ -23,7 +23,8 @@ void append_chunk(std::string& png, const std::string& type, const std::string& 
 
 std::string to_png(const Picture& picture) {
   const auto width = std::size_t(picture.width), height = std::size_t(picture.height);
-  if (picture.rgb.size() != 3 * width * height) throw std::invalid_argument("a picture has not the pixels of its size");
+  if (picture.rgb.size() != 3 * width * height)
+    throw std::invalid_argument("the number of pixels does not match the size of an image");
   // Each row behind the number of its filter: differences to the row above ("Up"), which suit smooth pictures.
   std::string rows;
   for (std::size_t y = 0; y < height; ++y) {
@@ -35,7 +36,7 @@ std::string to_png(const Picture& picture) {
   uLongf size = uLongf(packed.size());
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
                 uLong(rows.size()), 9) != Z_OK)
-    throw std::runtime_error("a picture cannot be compressed");
+    throw std::runtime_error("an image cannot be compressed");
   packed.resize(size);
 
   std::string header, png = "\x89PNG\r\n\x1a\n";

@@ -23,7 +23,7 @@ class Folder {
     const std::filesystem::path path = folder_ / name;
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
-    if (error) return Failure{"cannot make the folder " + path.parent_path().string() + ": " + error.message()};
+    if (error) return Failure{"cannot create the folder " + path.parent_path().string() + ": " + error.message()};
     written_.files.push_back(name);
     return write_file(path, content);
   }
@@ -54,7 +54,7 @@ Result<std::string> to_html(const ReportSet& set) {
   const Page built = page();
   if (built.html.empty()) return Failure{std::string(built.why)};
   const std::size_t mark = built.html.find(page_data_mark);
-  if (mark == std::string_view::npos) return Failure{"the page has no place for a report"};
+  if (mark == std::string_view::npos) return Failure{"the page has no slot for a report"};
   return std::string(built.html.substr(0, mark)) + inside_script(to_json(set)) +
          std::string(built.html.substr(mark + page_data_mark.size()));
 }

@@ -90,7 +90,7 @@ class Reader {
     if (name.text == "inverse" && !value.text.empty()) return read_inverse(density, value, text);
     if (name.text == "bound" && !value.text.empty()) {
       const auto e = expression("--pdf", value, text, {});
-      if (e && !((*e)({}) > 0)) wrong(value, "the bound of a density is above 0");
+      if (e && !((*e)({}) > 0)) wrong(value, "the bound of a density must be above 0");
       if (e) density.bound = (*e)({});
     } else if (name.text == "sampling" && !value.text.empty()) {
       if (value.text == "table")
@@ -134,7 +134,7 @@ class Reader {
   void read_control() {
     const auto& text = statement_.control;
     const auto& value = statement_.control_integral;
-    if (value && !text) complain("--control-integral is given, and --control EXPR is not");
+    if (value && !text) complain("--control-integral is given without --control EXPR");
     if (text && !value) complain("--control needs its integral over the domain: --control-integral VALUE");
     std::optional<Expression> control, integral;
     if (text) control = expression("--control", {*text, 0}, *text, variables());
@@ -191,7 +191,7 @@ class Reader {
     const ControlCheck check = check_control(*stated_.problem.control, domain_->dimension());
     if (!check.contradicts) return;
     complain(
-        fmt::format("--control-integral {}: samples of --control \"{}\" give {}, which rules it out at the level {:g}",
+        fmt::format("--control-integral {}: samples of --control \"{}\" give {}, which excludes it at the level {:g}",
                     *statement_.control_integral, *statement_.control,
                     value_with_error(check.integral, check.standard_error), ControlCheck::level));
   }
@@ -214,7 +214,7 @@ class Reader {
     if (statement_.allow_missed)
       reading_.notes.push_back(message);
     else
-      complain(message + " (--allow-missed takes that bias)");
+      complain(message + " (--allow-missed accepts that bias)");
   }
 
   void check_methods() {

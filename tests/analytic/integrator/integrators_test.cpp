@@ -27,7 +27,7 @@ std::vector<Expected> expected_means() {
   return all;
 }
 
-// Scenes that direct light alone fills: rough surfaces that see the lamp or the sky, and nothing else.
+// Scenes with direct light only: rough surfaces that see the lamp or the sky, and nothing else.
 const std::vector<std::string> direct_scenes{
     "alpha-shadow.pbrt",       "cylinder-around.pbrt",      "disk-light-aside.pbrt",       "disk-light-axis.pbrt",
     "distant-light.pbrt",      "goniometric-light.pbrt",    "instance-shadow.pbrt",        "kinds-of-lights.pbrt",
@@ -160,7 +160,7 @@ TEST(LightTracing, finds_the_closed_form_of_every_scene_that_it_sees_whole) {
 TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
   const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
   EXPECT_EQ(scene.integrator("direct:pattern=fixed").biases,
-            (std::vector<std::string>{"direct light alone", "fixed shadow rays"}));
+            (std::vector<std::string>{"direct light only", "fixed shadow rays"}));
   double value = 0;
   for (const Expected& e : expected_means())
     if (e.scene == "rectangle-light-near.pbrt") value = e.value;

@@ -232,7 +232,7 @@ TEST_F(ImageFile, a_header_that_promises_more_than_the_file_can_hold_is_refused)
 TEST_F(ImageFile, a_picture_that_is_too_wide_for_jpeg_is_a_failure) {
   const Status written = write_image(folder / "a.jpg", DisplayImage{65501, 1, 1, std::vector<std::uint8_t>(65501)});
   ASSERT_FALSE(written);
-  EXPECT_NE(written.error().find("at most 65500 pixels a side"), std::string::npos) << written.error();
+  EXPECT_NE(written.error().find("at most 65500 pixels per side"), std::string::npos) << written.error();
   EXPECT_TRUE(write_image(folder / "a.jpg", DisplayImage{65500, 1, 1, std::vector<std::uint8_t>(65500)}));
 }
 

@@ -245,7 +245,7 @@ TEST(GltfAnimation, names_the_keys_that_are_wrong) {
       {animated({0, 1, 1}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "the one before it at 1.0"},
       {animated({-1, 2}, {0, 0, 0, 1, 0, 0}, "translation"), "key 0 is at -1.0"},
       {animated({0, 2}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "has 3 values for 2 keys"},
-      {animated({0, 2}, {0, 0, 0, 1, 0, 0}, "translation", "CUBICSPLINE"), "of which each takes three"},
+      {animated({0, 2}, {0, 0, 0, 1, 0, 0}, "translation", "CUBICSPLINE"), "which need three each"},
       {animated({0, 2}, {0, 0, 0, 1, 0, 0, 0, 0}, "rotation"), "the rotation of key 1 has length zero"},
       {animated({0, 2}, {0, 0, 0, 1, 0, 0}, "translation", "LINEAR",
                 R"("mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])"),

@@ -203,7 +203,7 @@ TEST(GltfMaterial, of_glass_is_as_rough_as_stated) {
 TEST(GltfExtension, that_is_not_read_is_warned_of) {
   const ReadResult result = with_material(R"("extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}})",
                                           R"("mesh": 0)", R"(, "extensionsUsed": ["KHR_materials_sheen"])");
-  EXPECT_NE(render(result.diagnostics).find("\"KHR_materials_sheen\" is not read: the scene is shown without it"),
+  EXPECT_NE(render(result.diagnostics).find("\"KHR_materials_sheen\" is not supported: the scene is shown without it"),
             std::string::npos);
 }
 

@@ -106,7 +106,7 @@ TEST(Ply, a_lying_header_allocates_nothing) {
     std::size_t end = lie.find('\n', at);
     Outcome outcome = read(lie.replace(at, end - at, count));
     EXPECT_FALSE(outcome.mesh);
-    EXPECT_NE(outcome.diagnostics.all().front().message.find("more than its bytes can hold"), std::string::npos);
+    EXPECT_NE(outcome.diagnostics.all().front().message.find("more than its bytes can contain"), std::string::npos);
   }
 }
 TEST(Ply, damage_is_named) {
@@ -117,12 +117,12 @@ TEST(Ply, damage_is_named) {
   for (const Case& c : std::vector<Case>{{"ply\n", "plz\n", "does not begin"},
                                          {"ascii", "binary", "unknown format"},
                                          {"float x", "flout x", "unknown type"},
-                                         {"float x", "float w", "lack x, y or z"},
+                                         {"float x", "float w", "have no x, y or z"},
                                          {"vertex_indices", "corners", "lack the list"},
                                          {"3 0 1 2 0", "3 0 1 3 0", "names vertex 3 of 3"},
                                          {"3 0 1 2 0", "3 0 1 -2 0", "names vertex -1 of 3"},
                                          {"1 0 0 0 1 0", "nan 0 0 0 1 0", "not finite"},
-                                         {"1 0 0 0 1 0", "one 0 0 0 1 0", "no number"},
+                                         {"1 0 0 0 1 0", "one 0 0 0 1 0", "invalid number"},
                                          {"end_header", "and_header", "unknown word"}}) {
     std::string damaged = text;
     damaged.replace(damaged.find(c.from), c.from.size(), c.to);

@@ -28,13 +28,13 @@ bool is_part(const fs::path& path) {
   std::string name = path.stem().string();
   return name == "geometry" || name == "geometry-gray" || name == "herd";
 }
-// What comes later, by the words that its error must hold.
+// What is not supported yet, by the words that its error must hold.
 std::string expected_error(const std::string& name) {
-  if (name == "furball") return "'hair' comes later";
-  if (name == "testball-subsurface") return "'subsurface' comes later";
+  if (name == "furball") return "'hair' is not supported yet";
+  if (name == "testball-subsurface") return "'subsurface' is not supported yet";
   if (name == "colored-smoke" || name.starts_with("plume") || name == "volumetric-caustic" ||
       name.starts_with("staircase2"))
-    return "media come later";
+    return "media are not supported yet";
   return {};
 }
 
