@@ -52,7 +52,7 @@ std::optional<Entity> Description::entity(Family family, const Model& model, con
     return std::nullopt;
   }
   if (spec->later) {
-    report_.error(where, std::string(name_of(family)) + " '" + model.name + "' comes later");
+    report_.error(where, std::string(name_of(family)) + " '" + model.name + "' is not supported yet");
     return std::nullopt;
   }
   const CheckContext context{report_, folder_, name_of_type, kind};

@@ -156,7 +156,7 @@ TEST(SceneInCode, reports_all_that_is_wrong_at_once) {
                            "'roughness' of material 'conductor' must be double or TextureId, not a string",
                            "did you mean 'metal-Cu-eta'",
                            "material 3: error: 'reflectance' takes a texture of the same scene",
-                           "material 'hair' comes later",
+                           "material 'hair' is not supported yet",
                            "texture 0 is one of numbers",
                            "material 6: error: 'eta' takes finite numbers",
                            "light 0: error: 'L' must not be negative",
