@@ -1,4 +1,4 @@
-// montelux compare: methods take turns on a scene, and the better one is named, with how sure that is.
+// montelux compare: methods take turns on a scene; the better one is named, with the confidence of the verdict.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -45,7 +45,7 @@ After the pilots the total duration is predicted.
 Exit status: 0 compared (decided or not); 1 the reference is not good enough; 2 and above as for render.
 )";
 
-// The command line that makes the comparison again.
+// The command line that repeats the comparison.
 std::string repeat_command(const CompareArguments& arguments, std::size_t repeats) {
   const ContestOptions& c = arguments.contest;
   std::string line = fmt::format("montelux compare {}", arguments.scene);
@@ -74,7 +74,7 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
   return line + fmt::format(" --repeats {} --seed {} -o {}", repeats, c.seed, *arguments.report);
 }
 
-// The comparison of a file, to be continued: everything but the budget and the measure of the verdict is the file's.
+// The comparison in a file, to be continued: everything except the budget and the measure comes from the file.
 Result<SavedContest> resumed(CompareArguments& arguments) {
   ContestOptions& now = arguments.contest;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
@@ -94,7 +94,7 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
   return saved;
 }
 
-// What was typed makes a comparison, as far as that shows without the scene.
+// Checks the options of a new comparison, as far as possible without the scene.
 Status check_new(CompareArguments& arguments) {
   if (arguments.scene.empty()) return Failure{"a scene is missing: montelux compare SCENE -a METHOD -b METHOD"};
   if (arguments.contest.methods.size() < 2)
@@ -110,7 +110,7 @@ Status check_new(CompareArguments& arguments) {
   return Done{};
 }
 
-// Says how long it is going to take, and then how it gets on.
+// Prints the predicted duration, and then the progress.
 ContestObserver observer_of(const CompareArguments& arguments, const StopSignals& signals, StatusLine& line) {
   ContestObserver observer;
   observer.stop = [&signals] { return signals.received() != 0; };
@@ -142,7 +142,7 @@ Status write_results(const CompareArguments& arguments, Contest& contest) {
                        {repeat_command(arguments, contest.result.methods.front().repeats.size())});
 }
 
-// Notes and results of a comparison; the exit status.
+// Prints notes and results of a comparison; returns the exit status.
 int finish_compare(const CompareArguments& arguments, Contest& contest, const StopSignals& signals) {
   const Status written = write_results(arguments, contest);
   if (!arguments.quiet) {

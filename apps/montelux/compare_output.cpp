@@ -117,7 +117,7 @@ Json to_json(const lab::PairVerdict& v, const Contest& contest) {
           {"sentence", sentence_of(contest, v, contest.saved.options.confidence)}};
 }
 
-// "variance by bounces: bounce1 62.0 ± 3.1 %, ..."; what has less than half a percent is left out.
+// "variance by bounces: bounce1 62.0 ± 3.1 %, ..."; shares below half a percent are omitted.
 void print_attribution(const lab::Attribution& attribution) {
   for (const lab::FamilyShares& family : attribution.families) {
     if (family.layers.size() < 2) continue;
@@ -133,7 +133,7 @@ void print_attribution(const lab::Attribution& attribution) {
   }
 }
 
-// How often a method's own intervals hold the reference.
+// How often a method's own intervals contain the reference.
 std::string coverage_text(const Measured& m) {
   return m.count == 0 ? "no 95 % intervals of its own, which need two passes"
                       : fmt::format("own 95 % intervals contain it {:.1f} %", 100 * m.mean);
@@ -145,7 +145,7 @@ void print_method(const Contest& contest, std::size_t i) {
   const ContestOptions& options = contest.saved.options;
   const auto title = lab::title_of(r.measure);
   fmt::print("{}\n", m.contestant.shown_name());
-  // What the reading of the scene left out is no matter of a method: it is among the conditions.
+  // What reading the scene omitted does not depend on the method: it is among the conditions.
   print_text(Shortcomings{contest.shortcomings[i].missing, contest.shortcomings[i].replaced, {}}, 9, "   ");
   if (m.repeats.empty()) {
     fmt::print("   no repeat was done\n");
@@ -213,7 +213,7 @@ void print_contest_csv(const Contest& contest) {
   if (!contest.result.warm_up_counts) fmt::print(",warm_up_seconds");
   for (const std::string& name : layers) fmt::print(",share_{}", name);
   fmt::print("\n");
-  // What is not known has an empty cell.
+  // Unknown values have an empty cell.
   const auto cell = [](double value) {
     return std::isfinite(value) ? fmt::format(",{:.9g}", value) : std::string(",");
   };

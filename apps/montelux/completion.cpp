@@ -1,4 +1,4 @@
-// montelux completion: scripts for shells, made from the description of the command line itself.
+// montelux completion: shell scripts, generated from the description of the command line.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@ namespace montelux::cli {
 
 namespace {
 
-// What follows an option, or stands at a place of its own.
+// The value of an option, or a positional argument.
 struct Value {
   std::vector<std::string> choices;
   bool file = false;
@@ -38,7 +38,7 @@ Value value_of(const std::string& type) {
   for (std::size_t begin = 0; begin <= type.size();) {
     const std::size_t end = std::min(type.find('|', begin), type.size());
     const std::string word = type.substr(begin, end - begin);
-    // NAME and N stand for what nobody can know here.
+    // NAME and N stand for values that cannot be listed here.
     if (std::ranges::any_of(word, [](char c) { return c < 'A' || c > 'Z'; })) value.choices.push_back(word);
     begin = end + 1;
   }
@@ -67,7 +67,7 @@ std::vector<std::string> all_names(const VerbWords& verb) {
   return names;
 }
 
-// The words to choose from at a place, as shells take them; no words for any other text.
+// The choices of an argument in shell syntax; none for arbitrary text.
 std::string bash_reply(const Value& value) {
   if (value.file) return "_montelux_files";
   return fmt::format("_montelux_words \"{}\"", fmt::join(value.choices, " "));
@@ -83,7 +83,7 @@ std::string bash_script(const std::vector<VerbWords>& verbs) {
           values += fmt::format("    '{} {}') {}; return ;;\n", verb.name, name, bash_reply(*option.value));
     places += fmt::format("    {})\n      if [[ $current == -* ]]; then _montelux_words \"{}\"; return; fi\n",
                           verb.name, fmt::join(all_names(verb), " "));
-    // A place of choices comes before a place of any text; files may be at every place.
+    // A positional argument with choices comes before one with arbitrary text; files are valid everywhere.
     const bool any_file = std::any_of(verb.places.begin(), verb.places.end(), [](const Value& v) { return v.file; });
     if (any_file)
       places += "      _montelux_files ;;\n";
@@ -112,7 +112,7 @@ complete -F _montelux montelux
                      names, values, places);
 }
 
-// Text between single quotes, with the characters escaped that zsh's _arguments reads as its own.
+// Text between single quotes, with the special characters of zsh's _arguments escaped.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (char c : text) {

@@ -1,4 +1,4 @@
-// montelux diff: how two pictures differ, and whether their noise explains it.
+// montelux diff: how two images differ, and whether their noise explains it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -77,7 +77,7 @@ void print_scale(std::string_view name, const WelchScale& scale, double level) {
              scale.differs ? "differs" : "");
 }
 
-// The power of the tests, as shares of the mean of B.
+// The power of the tests, relative to the mean of B.
 void print_power(const PictureDifference& d) {
   const double mean = d.mean_b[std::size_t(d.welch->image.channel)];
   if (!(mean > 0) || !(d.welch->image.detectable > 0)) return;

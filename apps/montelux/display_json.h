@@ -1,11 +1,11 @@
-// How a picture was shown, as results state it.
+// How an image was shown, as stated in results.
 #pragma once
 #include "api/images.h"
 
 namespace montelux::cli {
 
 // {"content": "light", "exposure": -12.3, "range": null, "colormap": null, "automatic": true}: exposure in stops, null
-// where a range shows the values; automatic: exposure or range was chosen by the picture.
+// if a range shows the values; automatic: exposure or range was chosen automatically.
 template <class Json>
 Json display_json(const ChosenDisplay& chosen) {
   const DisplayTransform& t = chosen.transform;

@@ -1,4 +1,4 @@
-// montelux info: what is in a scene.
+// montelux info: the contents of a scene.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -36,7 +36,7 @@ Json to_json(const std::vector<NamedThing>& things) {
   return list;
 }
 
-// The first of a list, and how many more there are: "floor (diffuse), ball (conductor) and 12 more".
+// The first entries of a list, and the number of further ones: "floor (diffuse), ball (conductor) and 12 more".
 template <class List, class Text>
 std::string first_of(const List& list, Text text) {
   constexpr std::size_t shown = 8;
@@ -50,7 +50,7 @@ std::string text_of(const NamedThing& thing) {
   return fmt::format("{} ({})", thing.name.empty() ? "-" : thing.name, thing.kind);
 }
 
-// Cameras and animations of a file that may have several.
+// Cameras and animations of a file with several.
 void print_choices(const SceneInfo& info) {
   const auto name = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
   if (!info.cameras.empty()) fmt::print("cameras   {}: {}\n", info.cameras.size(), first_of(info.cameras, name));

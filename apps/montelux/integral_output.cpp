@@ -29,7 +29,7 @@ Json or_null(const std::optional<T>& value) {
 
 bool has_interval(const IntegralResult& r) { return std::isfinite(r.interval.low) && std::isfinite(r.interval.high); }
 
-// Ends of an interval to a tenth of its standard error.
+// The ends of an interval, to a tenth of its standard error.
 std::string interval_text(const IntegralResult& r) {
   if (r.found_nothing) return "unknown: no sample found anything";
   if (!has_interval(r)) return "unknown from one pass";
@@ -86,7 +86,7 @@ void print_one(const IntegralRun& run) {
   fmt::print("ended        {}\n", stop_text(r));
 }
 
-// Columns as wide as their longest cell; the first to the left, the others to the right.
+// Columns as wide as their longest cell; the first aligned left, the others right.
 void print_table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
@@ -99,7 +99,7 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
 }
 
 void print_comparison(const std::vector<IntegralRun>& runs) {
-  // Efficiencies as multiples of the first method's.
+  // Efficiencies as multiples of that of the first method.
   const double first = runs.front().result.efficiency;
   std::vector<std::vector<std::string>> rows{
       {"method", "value", "variance", "evaluations", "passes", "time", "chi2/dof", "Q", "efficiency", "of first"}};

@@ -1,4 +1,4 @@
-// What an integral came to, for people and for programs.
+// The results of an integral, for people and for programs.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,11 +11,11 @@ class App;
 
 namespace montelux::cli {
 
-// One value with its interval, cost and checks; or a table where several methods ran. `brief`: the values alone.
+// One value with its interval, cost and checks; or a table for several methods. `brief`: only the values.
 void print_integral_text(const std::vector<IntegralRun>& runs, bool brief);
-// An object; with several methods it has them in the array "results".
+// An object; with several methods an array "results" in it.
 void print_integral_json(const IntegralOptions& options, const std::vector<IntegralRun>& runs);
-// A header and a row for each method.
+// A header and one row per method.
 void print_integral_csv(const std::vector<IntegralRun>& runs);
 // How results of integrals are printed, and whether doubtful ones are an error.
 struct IntegralOutput {

@@ -92,7 +92,7 @@ std::string progress_text(const lab::IntegralProgress& p, const std::string& met
                      count_text(speed, "evaluations/s"), p.mean, p.standard_error, p.note.empty() ? "" : "  ", p.note);
 }
 
-// The runs; their number is below that of the methods where a signal came.
+// The runs; after a signal there are fewer than methods.
 Result<std::vector<IntegralRun>> run_watched(const IntegrateArguments& arguments, const PreparedIntegral& integral,
                                              const SavedIntegral* resume, const StopSignals& signals) {
   StatusLine line(!arguments.output.quiet && !arguments.no_progress);
@@ -181,7 +181,7 @@ void add_statement_options(CLI::App& verb, IntegralOptions& integral) {
              text_into(s.target));
 }
 
-// How much, and which realisation.
+// The budget, and the realisation.
 void add_budget_options(CLI::App& verb, IntegrateArguments& arguments) {
   lab::Budget& budget = arguments.integral.budget;
   add_option(verb, {"--samples", "N", "samples of each method: 100000, 1e6 or 4M (default 1048576)"},

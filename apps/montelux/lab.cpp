@@ -39,7 +39,7 @@ Writes report.html (one file, needs no network), report.json, and for each exper
 Exit status: 0 every verdict holds; 1 one does not; 2 error.
 )";
 
-// Formulas as they are typed, without their dollars.
+// Formulas without their dollar signs.
 std::string plain(std::string text) {
   std::erase(text, '$');
   return text;

@@ -1,4 +1,4 @@
-// montelux list: what Montelux knows by name.
+// montelux list: everything that Montelux knows by name.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ void print_lines(const std::vector<std::pair<std::string, std::string>>& lines) 
   for (const auto& [name, meaning] : lines) fmt::print("{:{}}  {}\n", name, width, meaning);
 }
 
-// What is not done yet, said behind the meaning.
+// Appends the state of unsupported entries to their meaning.
 std::string with_state(const CatalogueEntry& entry) {
   if (!entry.instead.empty() && entry.instead != entry.name)
     return fmt::format("{} (replaced by {})", entry.meaning, entry.instead);
@@ -53,7 +53,7 @@ Json to_json(const CatalogueEntry& entry) {
   return json;
 }
 
-// The entries of a topic, or the one of that name.
+// The entries of a topic, or the one with that name.
 Json list_json(const std::vector<CatalogueEntry>& entries, const std::string& name) {
   Json list = Json::array();
   for (const CatalogueEntry& entry : entries) {

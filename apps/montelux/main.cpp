@@ -1,4 +1,4 @@
-// The program: reads the command line and does what its verb says.
+// The program: reads the command line and runs its verb.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,7 +51,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
   return near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near);
 }
 
-// What is wrong with the command line, in one sentence. An argument that means nothing explains more than what is
+// What is wrong with the command line, in one sentence. An unknown argument is reported before what is
 // missing because of it.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = const_cast<CLI::App&>(app).get_subcommands();
@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    // Help or version of something that there is not.
+    // Help or version of something that does not exist.
     if (app.get_subcommands().empty() && !app.remaining().empty()) return complain(explain(app, success));
     std::ostringstream text, none;
     const int status = app.exit(success, text, none);

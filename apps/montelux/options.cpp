@@ -14,7 +14,7 @@ namespace montelux::cli {
 
 namespace {
 
-// The whole text as a number; nothing where anything else is in it.
+// The whole text as a number; nothing if it contains anything else.
 template <class T>
 std::optional<T> number_in(std::string_view text) {
   T value{};
@@ -30,7 +30,7 @@ Result<std::uint64_t> parse_large_whole(const std::string& text, std::uint64_t l
   double unit = 1;
   for (auto [name, size] : {std::pair{'k', 1e3}, {'M', 1e6}, {'G', 1e9}})
     if (digits.ends_with(name)) digits.remove_suffix(1), unit = size;
-  // Up to 2^53 a double holds every whole number.
+  // A double represents every integer up to 2^53.
   const auto value = number_in<double>(digits);
   const double whole = value.value_or(-1) * unit;
   if (whole >= double(low) && whole <= std::min(double(high), 0x1p53) && whole == std::floor(whole))
@@ -51,7 +51,7 @@ Result<double> parse_number(const std::string& text, double low, double high) {
 }
 
 Result<double> parse_time(const std::string& text) {
-  const std::size_t end = text.find_last_of("0123456789.") + 1;  // 0 where there is none
+  const std::size_t end = text.find_last_of("0123456789.") + 1;  // 0 if there is none
   const std::string unit = text.substr(end);
   static constexpr std::array<std::pair<std::string_view, double>, 5> units{
       {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}}};
@@ -137,7 +137,7 @@ Result<ValueRange> parse_range(const std::string& text) {
 }
 
 Result<EnvironmentOptions> parse_environment(const std::string& text) {
-  // A file's name may have colons of its own: settings have an = behind the last one.
+  // A file name may contain colons: settings have an = after the last one.
   const std::size_t colon = text.rfind(':');
   const bool has_settings = colon != std::string::npos && text.find('=', colon) != std::string::npos;
   EnvironmentOptions environment{has_settings ? text.substr(0, colon) : text};
@@ -185,7 +185,7 @@ Setter append_to(std::vector<std::string>& list) {
 }
 
 void add_option(CLI::App& verb, const OptionText& text, Setter set) {
-  // The name that messages show is the long one.
+  // Messages use the long name.
   const std::string shown = text.names.substr(text.names.rfind(',') + 1);
   CLI::Option* option = verb.add_option(
       text.names,

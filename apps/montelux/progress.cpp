@@ -18,7 +18,7 @@ int terminal_columns() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// What is known, without the bar: speed and error of the picture, times of all.
+// The known figures without the bar: speed and error of the image, times of all.
 std::string numbers(const Progress& p, double elapsed, std::optional<double> left) {
   const double speed = p.elapsed > 0 ? double(p.samples) / p.elapsed : 0;
   return fmt::format("{}  left {}  {}  error {}", time_text(elapsed), left ? time_text(*left) : "-",

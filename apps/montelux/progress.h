@@ -1,4 +1,4 @@
-// Showing how a render gets on, on standard error.
+// The progress of a render, on standard error.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -9,13 +9,13 @@
 
 namespace montelux::cli {
 
-// A line with a bar that is redrawn in place on a terminal; elsewhere a line after a second and then every ten.
+// A line with a bar that is updated in place on a terminal; elsewhere a line after one second and then every ten.
 class StatusLine {
  public:
   explicit StatusLine(bool visible);
-  // Draws the line where it is due, and at once where another phase begins; `text` is made only then.
+  // Draws the line when it is due, and immediately when a new phase begins; `text` is called only then.
   void show(double fraction, double elapsed, const std::function<std::string()>& text, std::string_view phase = {});
-  // Takes the line away: the results say the same for good.
+  // Removes the line: the results contain the same information.
   void finish();
 
  private:
@@ -24,18 +24,18 @@ class StatusLine {
   std::string phase_;
 };
 
-// The progress of a render as a status line; and it passes on the request of a signal to stop.
+// The progress of a render as a status line; also forwards the request of a signal to stop.
 class ProgressLine final : public RenderObserver {
  public:
-  // What a user wants to see while the work runs.
+  // What to show during the work.
   struct Shows {
     bool line = true, notes = true;
   };
-  // Of `parts` pictures that take about as long each: bar, time and time left are those of all of them.
+  // For `parts` images of about equal duration: bar, time and remaining time are those of all of them.
   ProgressLine(Shows shows, const StopSignals& signals, int parts = 1)
       : signals_(signals), line_(shows.line), notes_(shows.notes), parts_(parts) {}
 
-  // Which picture is at hand; `name` stands before the numbers.
+  // Selects the current image; `name` precedes the figures.
   void begin(int part, std::string name) { part_ = part, name_ = std::move(name); }
 
   void progress(const Progress& progress) override;
@@ -55,7 +55,7 @@ class ProgressLine final : public RenderObserver {
 std::string time_text(double seconds);
 // "1.23 k", "45.6 Mrays/s": three digits, a decimal prefix and the unit.
 std::string count_text(double count, std::string_view unit = "");
-// The root of a relative mean squared error as "1.23 %"; "-" where it is not known of every pixel yet.
+// The root of a relative mean squared error as "1.23 %"; "-" until it is known for every pixel.
 std::string error_text(const ErrorEstimate& error);
 
 }  // namespace montelux::cli

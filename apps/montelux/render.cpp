@@ -1,4 +1,4 @@
-// montelux render: a scene becomes pictures.
+// montelux render: renders a scene to images.
 #include "api/render.h"
 
 #include <fmt/format.h>
@@ -27,15 +27,15 @@ struct RenderArguments {
   LoadOptions load;
   RenderOptions render;
   DisplayRequest display;
-  // Of the first picture of a sequence, for those after it.
+  // The display of the first image of a sequence, used for all.
   std::shared_ptr<std::optional<ChosenDisplay>> shown = std::make_shared<std::optional<ChosenDisplay>>();
   bool json = false, quiet = false, no_progress = false, half = false;
   std::optional<std::string> checkpoint, resume;
   std::optional<double> every;  // seconds between checkpoints
   std::optional<FrameRange> frames;
   std::optional<double> fps;
-  std::optional<int> frame;  // the one at hand
-  // Whether a picture took longer than its budget.
+  std::optional<int> frame;  // the current one
+  // Whether an image took longer than its budget.
   bool is_late(const Rendering& rendering) const { return render.budget && rendering.result.seconds > *render.budget; }
 };
 
@@ -71,7 +71,7 @@ bool has_display_file(const RenderArguments& arguments) {
   return std::ranges::any_of(arguments.files, is_display_file);
 }
 
-// Writes every file, also when one of them fails.
+// Writes every file, even if one of them fails.
 int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   int status = done;
   for (const std::string& file : arguments.files) {
@@ -85,7 +85,7 @@ int write_files(const RenderArguments& arguments, const Rendering& rendering) {
   return status;
 }
 
-// Pictures that cannot be written are found out before the render.
+// Detects files that cannot be written before the render.
 Status check_files(const RenderArguments& arguments) {
   for (const std::string& file : arguments.files)
     if (Status good = check_picture_file(file); !good) return good;
@@ -147,7 +147,7 @@ int finish_picture(const RenderArguments& arguments, const Result<Rendering>& re
   return rendering->result.interrupted ? 128 + signal : done;
 }
 
-// What one frame is rendered with; fails where a pattern of names has no good place for its number.
+// The arguments of one frame; fails if a file name has no valid placeholder for the number.
 Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const SceneInfo& scene, int frame) {
   RenderArguments one = all;
   one.frame = frame;
@@ -161,13 +161,13 @@ Result<RenderArguments> arguments_of_frame(const RenderArguments& all, const Sce
   return one;
 }
 
-// What came of some frames of a sequence.
+// The outcome of some frames of a sequence.
 struct FramesOutcome {
   int status = done;
   int late = 0;
 };
 
-// The frames from `first` to `last`, which the scene has motion for.
+// Renders the frames from `first` to `last`, for which the scene contains motion.
 FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, const StopSignals& signals,
                           ProgressLine& observer, int first, int last) {
   Result<PictureSequence> sequence = PictureSequence::prepare(scene, all.render);
@@ -187,7 +187,7 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
                        rendering->result.film.image().passes));
     late += one->is_late(*rendering);
     if (const int status = finish_picture(*one, rendering, signals); status != done) return {status, late};
-    // A frame may be over before anybody asks for signals.
+    // A frame may be finished before signals are checked.
     if (const int signal = signals.received(); signal != 0 && frame < all.frames->last) {
       if (!all.quiet) warn(fmt::format("interrupted after frame {}", frame));
       return {128 + signal, late};
@@ -209,7 +209,7 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
     if (part.status != done) return part.status;
     first = last + 1;
     if (first > all.frames->last) break;
-    // A scene holds so many moments of its motion: what follows is loaded anew, and histories begin again.
+    // A scene contains a limited number of poses: the next part is loaded again, and histories restart.
     if (!all.quiet)
       warn(fmt::format("frames from {} on: the scene is reloaded for the next part of its animation", first));
     LoadOptions load = all.load;
@@ -228,13 +228,13 @@ int render_frames(const RenderArguments& all, LoadedScene loaded_first, const St
   return done;
 }
 
-// room.exr of room.pbrt and of room.pbrt.gz.
+// room.exr for room.pbrt and room.pbrt.gz.
 std::string default_picture(std::filesystem::path scene) {
   if (extension_of(scene) == ".gz") scene = scene.stem();
   return scene.stem().string() + ".exr";
 }
 
-// The pictures of all frames: only their numbers differ.
+// Checks the images of all frames: only their numbers differ.
 Status check_output(const RenderArguments& arguments) {
   if (!arguments.frames) return check_files(arguments);
   const Result<RenderArguments> last = arguments_of_frame(arguments, {}, arguments.frames->last);
@@ -310,7 +310,7 @@ int run_render(RenderArguments& arguments) {
   return finish_picture(arguments, render_scene(*loaded.scene, arguments.render, observer), signals);
 }
 
-// A sequence of pictures.
+// Options of a sequence of images.
 void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(verb,
              {"--frames", "A[:B][/N]",
@@ -323,7 +323,7 @@ void add_frame_options(CLI::App& verb, RenderArguments& arguments) {
   verb.get_option("--fps")->needs("--frames");
 }
 
-// How many samples, and which.
+// Options of the number and the seed of samples.
 void add_sampling_options(CLI::App& verb, RenderOptions& render) {
   add_option(verb, {"--spp", "N", "samples per pixel; default: as stated by the scene"},
              into(render.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 24); }));

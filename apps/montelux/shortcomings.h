@@ -1,4 +1,4 @@
-// What a picture lacks of what its scene file names, as results state it.
+// What an image lacks in comparison with its scene file, as stated in results.
 #pragma once
 #include <string_view>
 
@@ -6,14 +6,14 @@
 
 namespace montelux::cli {
 
-// What the picture of a scene lacks of what its file names.
+// What the image of a scene lacks in comparison with its file.
 struct Shortcomings {
   const std::vector<std::string>& missing;  // light
   const std::vector<Replacement>& replaced;
   const std::vector<std::string>& left_out;
 };
 
-// A line for each on standard output, where there are any; the words before them are `width` wide and stand behind
+// Prints one line for each entry on standard output, if there are any; the leading words are `width` wide and follow
 // `indent`.
 void print_text(const Shortcomings& s, int width, std::string_view indent = "");
 

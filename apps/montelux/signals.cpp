@@ -16,15 +16,15 @@ namespace {
 
 constexpr int unwatched = -1, none = 0;
 
-// What StopSignals knows: unwatched, none, or the signal that came. The handler runs on any thread and is read from
-// others: a lock-free atomic serves both.
+// The state of StopSignals: unwatched, none, or the received signal. The handler runs on any thread and other threads
+// read the value: a lock-free atomic serves both.
 std::atomic<int> stop_signal = unwatched;
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// What follows runs in the handler: system calls and memory of its own, nothing else (signal-safety(7)).
+// The following runs in the handler: only system calls and its own memory (signal-safety(7)).
 
 void say(std::string_view text) {
-  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody to tell
+  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is reading
 }
 
 // "/proc/self/fd/12" for 12.
@@ -37,7 +37,7 @@ struct DescriptorName {
   }
 };
 
-// Temporary files are open as long as they exist: the table of open files is the list of them.
+// Temporary files are open as long as they exist: the table of open files lists them.
 void remove_temporaries() {
   constexpr int max_descriptors = 4096;
   for (int i = 0; i < max_descriptors; ++i) {

@@ -1,4 +1,4 @@
-// montelux tonemap: a linear picture for the eye.
+// montelux tonemap: converts a linear image for display.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

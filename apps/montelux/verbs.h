@@ -1,4 +1,4 @@
-// The verbs. Each adds itself to the parser: its options, its help, and what it does when it was chosen.
+// The verbs. Each adds itself to the parser: its options, its help, and its action.
 #pragma once
 #include <functional>
 
@@ -8,7 +8,7 @@ class App;
 
 namespace montelux::cli {
 
-// What the chosen verb does once all options are read; returns the exit status.
+// The action of the selected verb once all options are read; returns the exit status.
 using Action = std::function<int()>;
 
 void add_render(CLI::App& app, Action& chosen);
