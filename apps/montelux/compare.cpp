@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "api/images.h"
 #include "api/render.h"
 #include "compare_output.h"
@@ -21,7 +21,7 @@ namespace {
 struct CompareArguments {
   std::string scene;
   LoadOptions load;
-  ContestOptions contest;
+  ComparisonOptions comparison;
   std::optional<std::string> report, save, resume;
   std::optional<int> repeats;  // as typed
   std::optional<lab::ErrorMeasure> measure;
@@ -47,7 +47,7 @@ Exit status: 0 compared (decided or not); 1 the reference is not good enough; 2 
 
 // The command line that repeats the comparison.
 std::string repeat_command(const CompareArguments& arguments, std::size_t repeats) {
-  const ContestOptions& c = arguments.contest;
+  const ComparisonOptions& c = arguments.comparison;
   std::string line = fmt::format("montelux compare {}", arguments.scene);
   for (std::size_t i = 0; i < c.methods.size(); ++i) line += fmt::format(" -{} '{}'", char('a' + int(i)), c.methods[i]);
   if (c.seconds) line += fmt::format(" --time {}s", *c.seconds * double(repeats) / c.repeats);
@@ -65,8 +65,8 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
     line += fmt::format(" --environment '{}:rotation={},scale={}'", e->file, e->rotation, e->scale);
   if (arguments.load.lenient) line += " --lenient";
   for (const auto& [key, value] : c.settings) line += fmt::format(" --set '{}={}'", key, value);
-  if (c.measure != ContestOptions{}.measure) line += fmt::format(" --measure {}", lab::key_of(c.measure));
-  if (c.confidence != ContestOptions{}.confidence) line += fmt::format(" --confidence {}", c.confidence);
+  if (c.measure != ComparisonOptions{}.measure) line += fmt::format(" --measure {}", lab::key_of(c.measure));
+  if (c.confidence != ComparisonOptions{}.confidence) line += fmt::format(" --confidence {}", c.confidence);
   if (c.warm_frames) line += " --warm-frames";
   if (c.processor_time) line += " --clock processor";
   if (!c.slopes) line += " --no-slopes";
@@ -75,17 +75,17 @@ std::string repeat_command(const CompareArguments& arguments, std::size_t repeat
 }
 
 // The comparison in a file, to be continued: everything except the budget and the measure comes from the file.
-Result<SavedContest> resumed(CompareArguments& arguments) {
-  ContestOptions& now = arguments.contest;
+Result<SavedComparison> resumed(CompareArguments& arguments) {
+  ComparisonOptions& now = arguments.comparison;
   if (!arguments.scene.empty() || !now.methods.empty() || now.samples || now.reference || now.crop || now.seed != 0 ||
       arguments.load.resolution || arguments.load.resolution_scale || arguments.load.lenient || arguments.load.camera ||
       arguments.load.animation || arguments.load.shutter || arguments.load.environment || arguments.no_cache ||
-      now.confidence != ContestOptions{}.confidence || arguments.no_attribution || arguments.no_slopes ||
+      now.confidence != ComparisonOptions{}.confidence || arguments.no_attribution || arguments.no_slopes ||
       now.warm_frames || now.processor_time || !now.settings.empty())
     return Failure{
         "--resume takes the scene, the methods, the seed and all settings from the file; only the budget (--time or "
         "--repeats) and --measure may be given"};
-  Result<SavedContest> saved = load_contest(*arguments.resume);
+  Result<SavedComparison> saved = load_comparison(*arguments.resume);
   if (!saved) return saved;
   saved->options.threads = now.threads;
   saved->options.measure = arguments.measure.value_or(saved->options.measure);
@@ -97,32 +97,32 @@ Result<SavedContest> resumed(CompareArguments& arguments) {
 // Checks the options of a new comparison, as far as possible without the scene.
 Status check_new(CompareArguments& arguments) {
   if (arguments.scene.empty()) return Failure{"a scene is missing: montelux compare SCENE -a METHOD -b METHOD"};
-  if (arguments.contest.methods.size() < 2)
+  if (arguments.comparison.methods.size() < 2)
     return Failure{"at least two methods are needed: -a METHOD -b METHOD; montelux list integrators names them"};
-  if (Status known = check_methods(arguments.contest); !known) return known;
+  if (Status known = check_methods(arguments.comparison); !known) return known;
   if (arguments.repeats && *arguments.repeats < 2) return Failure{"at least two repeats are needed: --repeats 2"};
-  arguments.contest.repeats = arguments.repeats.value_or(arguments.contest.repeats);
-  arguments.contest.measure = arguments.measure.value_or(arguments.contest.measure);
-  arguments.contest.cache = !arguments.no_cache;
-  arguments.contest.attribution = !arguments.no_attribution;
-  arguments.contest.slopes = !arguments.no_slopes;
-  arguments.load.threads = arguments.contest.threads;
+  arguments.comparison.repeats = arguments.repeats.value_or(arguments.comparison.repeats);
+  arguments.comparison.measure = arguments.measure.value_or(arguments.comparison.measure);
+  arguments.comparison.cache = !arguments.no_cache;
+  arguments.comparison.attribution = !arguments.no_attribution;
+  arguments.comparison.slopes = !arguments.no_slopes;
+  arguments.load.threads = arguments.comparison.threads;
   return Done{};
 }
 
 // Prints the predicted duration, and then the progress.
-ContestObserver observer_of(const CompareArguments& arguments, const StopSignals& signals, StatusLine& line) {
-  ContestObserver observer;
+ComparisonObserver observer_of(const CompareArguments& arguments, const StopSignals& signals, StatusLine& line) {
+  ComparisonObserver observer;
   observer.stop = [&signals] { return signals.received() != 0; };
-  const std::size_t methods = arguments.contest.methods.size();
+  const std::size_t methods = arguments.comparison.methods.size();
   const int repeats =
-      arguments.resume ? arguments.repeats.value_or(arguments.contest.repeats) : arguments.contest.repeats;
+      arguments.resume ? arguments.repeats.value_or(arguments.comparison.repeats) : arguments.comparison.repeats;
   if (!arguments.quiet)
-    observer.forecast = [&line, methods, repeats](const ContestForecast& forecast) {
+    observer.forecast = [&line, methods, repeats](const ComparisonForecast& forecast) {
       line.finish();
       fmt::print(stderr, "{}\n", forecast_text(forecast, repeats, methods));
     };
-  observer.progress = [&line](const ContestProgress& p) {
+  observer.progress = [&line](const ComparisonProgress& p) {
     line.show(
         p.fraction, p.elapsed,
         [&p] { return fmt::format("{}  left {}  {}", time_text(p.elapsed), time_text(p.remaining), p.what); }, p.what);
@@ -130,51 +130,51 @@ ContestObserver observer_of(const CompareArguments& arguments, const StopSignals
   return observer;
 }
 
-Status write_results(const CompareArguments& arguments, Contest& contest) {
+Status write_results(const CompareArguments& arguments, Comparison& comparison) {
   if (arguments.save) {
-    contest.saved.scene = std::filesystem::absolute(arguments.scene);
-    contest.saved.load = arguments.load;
-    contest.saved.fingerprint = scene_fingerprint(arguments.scene, arguments.load.environment);
-    if (Status written = save_contest(*arguments.save, contest.saved); !written) return written;
+    comparison.saved.scene = std::filesystem::absolute(arguments.scene);
+    comparison.saved.load = arguments.load;
+    comparison.saved.fingerprint = scene_fingerprint(arguments.scene, arguments.load.environment);
+    if (Status written = save_comparison(*arguments.save, comparison.saved); !written) return written;
   }
   if (!arguments.report) return Done{};
-  return write_contest(*arguments.report, contest, arguments.scene, arguments.contest.confidence,
-                       {repeat_command(arguments, contest.result.methods.front().repeats.size())});
+  return write_comparison(*arguments.report, comparison, arguments.scene, arguments.comparison.confidence,
+                          {repeat_command(arguments, comparison.result.methods.front().repeats.size())});
 }
 
 // Prints notes and results of a comparison; returns the exit status.
-int finish_compare(const CompareArguments& arguments, Contest& contest, const StopSignals& signals) {
-  const Status written = write_results(arguments, contest);
+int finish_compare(const CompareArguments& arguments, Comparison& comparison, const StopSignals& signals) {
+  const Status written = write_results(arguments, comparison);
   if (!arguments.quiet) {
-    for (const std::string& note : contest.notes) warn(note);
-    if (!contest.refusal.empty()) warn(contest.refusal);
-    if (contest.result.interrupted) warn("interrupted: the figures are those of the finished repeats");
+    for (const std::string& note : comparison.notes) warn(note);
+    if (!comparison.refusal.empty()) warn(comparison.refusal);
+    if (comparison.result.interrupted) warn("interrupted: the figures are those of the finished repeats");
   }
   if (!written) {
     complain(written.error());
     return failed;
   }
   if (arguments.json)
-    print_contest_json(arguments.scene, contest);
+    print_comparison_json(arguments.scene, comparison);
   else if (arguments.csv)
-    print_contest_csv(contest);
+    print_comparison_csv(comparison);
   else
-    print_contest_text(arguments.scene, contest);
-  if (contest.result.interrupted) return 128 + signals.received();
-  return contest.refusal.empty() ? done : differs;
+    print_comparison_text(arguments.scene, comparison);
+  if (comparison.result.interrupted) return 128 + signals.received();
+  return comparison.refusal.empty() ? done : differs;
 }
 
 int run_compare(CompareArguments& arguments) {
   for (const auto& file : {arguments.save, arguments.report})
     if (file)
       if (Status good = check_output_file(*file); !good) return complain(good.error());
-  std::optional<SavedContest> saved;
-  const ContestBudget more{arguments.repeats, arguments.contest.seconds};
+  std::optional<SavedComparison> saved;
+  const ComparisonBudget more{arguments.repeats, arguments.comparison.seconds};
   if (arguments.resume) {
-    Result<SavedContest> found = resumed(arguments);
+    Result<SavedComparison> found = resumed(arguments);
     if (!found) return complain(found.error());
     saved = *std::move(found);
-    arguments.contest = saved->options;
+    arguments.comparison = saved->options;
   } else if (Status good = check_new(arguments); !good) {
     return complain(good.error());
   }
@@ -184,20 +184,20 @@ int run_compare(CompareArguments& arguments) {
 
   StopSignals signals;
   StatusLine line(!arguments.quiet && !arguments.no_progress);
-  const ContestObserver observer = observer_of(arguments, signals, line);
-  Result<Contest> contest = saved ? continue_contest(*loaded.scene, *std::move(saved), more, observer)
-                                  : compare_methods(*loaded.scene, arguments.contest, observer);
+  const ComparisonObserver observer = observer_of(arguments, signals, line);
+  Result<Comparison> comparison = saved ? continue_comparison(*loaded.scene, *std::move(saved), more, observer)
+                                        : compare_methods(*loaded.scene, arguments.comparison, observer);
   line.finish();
-  if (contest) return finish_compare(arguments, *contest, signals);
-  complain(contest.error());
+  if (comparison) return finish_compare(arguments, *comparison, signals);
+  complain(comparison.error());
   return signals.received() != 0 ? 128 + signals.received() : bad_input;
 }
 
-void add_method_options(CLI::App& verb, ContestOptions& contest) {
-  const auto add = [&contest](const std::string& text) -> Status {
-    ContestOptions alone;
+void add_method_options(CLI::App& verb, ComparisonOptions& comparison) {
+  const auto add = [&comparison](const std::string& text) -> Status {
+    ComparisonOptions alone;
     alone.methods = {text};
-    contest.methods.push_back(text);
+    comparison.methods.push_back(text);
     return check_methods(alone);
   };
   const char* help[] = {
@@ -208,10 +208,10 @@ void add_method_options(CLI::App& verb, ContestOptions& contest) {
     add_option(verb, {fmt::format("-{}", letter), "METHOD", letter <= 'b' ? help[letter - 'a'] : "and so on"}, add);
   add_option(verb,
              {"--set", "key=value", "a setting for all methods that do not state their own; may be repeated", true},
-             [&contest](const std::string& text) -> Status {
+             [&comparison](const std::string& text) -> Status {
                auto setting = parse_setting(text);
                if (!setting) return setting.failure();
-               contest.settings.push_back(*setting);
+               comparison.settings.push_back(*setting);
                return Done{};
              });
 }
@@ -220,12 +220,12 @@ void add_method_options(CLI::App& verb, ContestOptions& contest) {
 
 void add_compare(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<CompareArguments>();
-  ContestOptions& contest = arguments->contest;
+  ComparisonOptions& comparison = arguments->comparison;
   CLI::App& verb = *app.add_subcommand("compare", "Compare integrators on a scene at equal time, with error bars");
   verb.footer(examples);
   add_scene_options(verb, arguments->scene, arguments->load);
   verb.get_option("SCENE")->required(false);
-  add_method_options(verb, contest);
+  add_method_options(verb, comparison);
   add_option(verb, {"-o,--output", "FILE", "write the report, one HTML page that needs no network"},
              [arguments](const std::string& file) -> Status {
                arguments->report = file;
@@ -235,29 +235,29 @@ void add_compare(CLI::App& app, Action& chosen) {
              {"--time", "TIME",
               "for each method, over all its repeats (500ms, 30s, 10m); pilots, reference, slopes and attribution take "
               "additional time, which is predicted"},
-             into(contest.seconds, parse_time));
+             into(comparison.seconds, parse_time));
   add_option(verb, {"--spp", "N", "instead: samples per pixel in each repeat (default 64)"},
-             into(contest.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 20); }));
+             into(comparison.samples, [](const std::string& t) { return parse_whole(t, 1, 1 << 20); }));
   verb.get_option("--time")->excludes("--spp");
   add_option(verb, {"--repeats", "R", "independent repeats of each method (default 8); with --resume: that many more"},
              into(arguments->repeats, [](const std::string& t) { return parse_whole(t, 1, 10000); }));
   verb.add_flag(
-      "--warm-frames", contest.warm_frames,
+      "--warm-frames", comparison.warm_frames,
       "compare frames of a sequence: the warm-up frames have been shown anyway, so their time does not count");
   const std::vector<std::string> clocks{"wall", "processor"};
   add_option(verb, {"--clock", alternatives(clocks), "processor: processor time of all threads, for busy machines"},
-             [&contest, clocks](const std::string& text) -> Status {
+             [&comparison, clocks](const std::string& text) -> Status {
                const auto name = parse_choice(text, clocks);
                if (!name) return name.failure();
-               contest.processor_time = *name == "processor";
+               comparison.processor_time = *name == "processor";
                return Done{};
              });
   add_option(verb,
              {"--reference", "FILE",
               "reference image, finite in every pixel; default: rendered by the most efficient method by the "
               "measure"},
-             [&contest](const std::string& file) -> Status {
-               if (file != "auto") contest.reference = file;
+             [&comparison](const std::string& file) -> Status {
+               if (file != "auto") comparison.reference = file;
                return Done{};
              });
   const std::vector<std::string> measures{"relmse", "mse", "flip"};
@@ -269,13 +269,13 @@ void add_compare(CLI::App& app, Action& chosen) {
                return Done{};
              });
   add_option(verb, {"--confidence", "C", "of the intervals (default 0.95)"},
-             into(contest.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
+             into(comparison.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
   add_option(verb, {"--seed", "S", "seed of all random numbers (default 0)"},
-             into(contest.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
+             into(comparison.seed, [](const std::string& t) { return parse_whole(t, 0, 0x7fffffff); }));
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
-             into(contest.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
+             into(comparison.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are excluded)"},
-             into(contest.crop, parse_crop));
+             into(comparison.crop, parse_crop));
   add_option(verb, {"--save", "FILE", "save the state of the comparison, to be resumed"},
              [arguments](const std::string& file) -> Status {
                arguments->save = file;

@@ -62,11 +62,11 @@ Json to_json(const lab::Attribution& attribution) {
 
 Json to_json(const MethodResult& m, const MethodShortcomings& lacks, const std::vector<std::string>& left_out) {
   Json json;
-  json["label"] = m.contestant.label;
-  json["name"] = m.contestant.shown_name();
-  json["method"] = m.contestant.text;
-  json["sampler"] = name_of(m.contestant.sampler);
-  json["biases"] = m.contestant.biases;
+  json["label"] = m.compared_method.label;
+  json["name"] = m.compared_method.shown_name();
+  json["method"] = m.compared_method.text;
+  json["sampler"] = name_of(m.compared_method.sampler);
+  json["biases"] = m.compared_method.biases;
   json["repeats"] = m.repeats.size();
   json["mse"] = to_json(m.mse);
   json["relative_mse"] = to_json(m.relative_mse);
@@ -95,11 +95,11 @@ Json to_json(const MethodResult& m, const MethodShortcomings& lacks, const std::
   return json;
 }
 
-Json to_json(const lab::PairVerdict& v, const Contest& contest) {
-  const lab::ContestResult& r = contest.result;
-  const std::string &first = r.methods[v.first].contestant.shown_name(),
-                    &second = r.methods[v.second].contestant.shown_name();
-  const bool decided = v.decided && contest.refusal.empty();
+Json to_json(const lab::PairVerdict& v, const Comparison& comparison) {
+  const lab::ComparisonResult& r = comparison.result;
+  const std::string &first = r.methods[v.first].compared_method.shown_name(),
+                    &second = r.methods[v.second].compared_method.shown_name();
+  const bool decided = v.decided && comparison.refusal.empty();
   const int winner = decided ? lab::winner_of(v.ratio[r.measure]) : 0;
   Json opposite = Json::array();
   for (lab::ErrorMeasure m : lab::error_measures)
@@ -114,7 +114,7 @@ Json to_json(const lab::PairVerdict& v, const Contest& contest) {
           {"efficiency_ratio_with_warm_up", to_json(v.whole_ratio)},
           {"times_longer_to_decide", number(v.times_longer)},
           {"alike", likeness[std::size_t(v.likeness)]},
-          {"sentence", sentence_of(contest, v, contest.saved.options.confidence)}};
+          {"sentence", sentence_of(comparison, v, comparison.saved.options.confidence)}};
 }
 
 // "variance by bounces: bounce1 62.0 ± 3.1 %, ..."; shares below half a percent are omitted.
@@ -139,14 +139,14 @@ std::string coverage_text(const Measured& m) {
                       : fmt::format("own 95 % intervals contain it {:.1f} %", 100 * m.mean);
 }
 
-void print_method(const Contest& contest, std::size_t i) {
-  const lab::ContestResult& r = contest.result;
+void print_method(const Comparison& comparison, std::size_t i) {
+  const lab::ComparisonResult& r = comparison.result;
   const MethodResult& m = r.methods[i];
-  const ContestOptions& options = contest.saved.options;
+  const ComparisonOptions& options = comparison.saved.options;
   const auto title = lab::title_of(r.measure);
-  fmt::print("{}\n", m.contestant.shown_name());
+  fmt::print("{}\n", m.compared_method.shown_name());
   // What reading the scene omitted does not depend on the method: it is among the conditions.
-  print_text(Shortcomings{contest.shortcomings[i].missing, contest.shortcomings[i].replaced, {}}, 9, "   ");
+  print_text(Shortcomings{comparison.shortcomings[i].missing, comparison.shortcomings[i].replaced, {}}, 9, "   ");
   if (m.repeats.empty()) {
     fmt::print("   no repeat was done\n");
     return;
@@ -166,18 +166,18 @@ void print_method(const Contest& contest, std::size_t i) {
 
 }  // namespace
 
-void print_contest_text(const std::string& scene, const Contest& contest) {
-  for (const auto& [name, value] : conditions_of(contest, scene)) fmt::print("{}: {}\n", name, value);
-  fmt::print("took: {}, predicted {}\n\n", time_text(contest.seconds), time_text(contest.forecast.total()));
-  for (std::size_t i = 0; i < contest.result.methods.size(); ++i) print_method(contest, i);
+void print_comparison_text(const std::string& scene, const Comparison& comparison) {
+  for (const auto& [name, value] : conditions_of(comparison, scene)) fmt::print("{}: {}\n", name, value);
+  fmt::print("took: {}, predicted {}\n\n", time_text(comparison.seconds), time_text(comparison.forecast.total()));
+  for (std::size_t i = 0; i < comparison.result.methods.size(); ++i) print_method(comparison, i);
   fmt::print("\n");
-  for (const lab::PairVerdict& v : contest.result.verdicts)
-    fmt::print("{}\n", sentence_of(contest, v, contest.saved.options.confidence));
+  for (const lab::PairVerdict& v : comparison.result.verdicts)
+    fmt::print("{}\n", sentence_of(comparison, v, comparison.saved.options.confidence));
 }
 
-void print_contest_json(const std::string& scene, const Contest& contest) {
-  const lab::ContestResult& r = contest.result;
-  const ContestOptions& options = contest.saved.options;
+void print_comparison_json(const std::string& scene, const Comparison& comparison) {
+  const lab::ComparisonResult& r = comparison.result;
+  const ComparisonOptions& options = comparison.saved.options;
   Json json;
   json["version"] = version();
   json["scene"] = scene;
@@ -190,42 +190,42 @@ void print_contest_json(const std::string& scene, const Contest& contest) {
   Json shares = Json::object();
   for (lab::ErrorMeasure m : lab::error_measures) shares[std::string(lab::key_of(m))] = number(r.reference_share[m]);
   json["reference"] = {{"origin", r.reference.origin}, {"share_of_smallest_error", shares}};
-  json["refused"] = contest.refusal.empty() ? Json() : Json(contest.refusal);
+  json["refused"] = comparison.refusal.empty() ? Json() : Json(comparison.refusal);
   json["interrupted"] = r.interrupted;
   json["warm_up_counts"] = r.warm_up_counts;
   json["clock"] = options.processor_time ? "processor" : "wall";
-  json["predicted_seconds"] = number(contest.forecast.total());
-  json["seconds"] = contest.seconds;
+  json["predicted_seconds"] = number(comparison.forecast.total());
+  json["seconds"] = comparison.seconds;
   json["methods"] = Json::array();
   for (std::size_t i = 0; i < r.methods.size(); ++i)
-    json["methods"].push_back(to_json(r.methods[i], contest.shortcomings[i], contest.left_out));
+    json["methods"].push_back(to_json(r.methods[i], comparison.shortcomings[i], comparison.left_out));
   json["verdicts"] = Json::array();
-  for (const lab::PairVerdict& v : r.verdicts) json["verdicts"].push_back(to_json(v, contest));
+  for (const lab::PairVerdict& v : r.verdicts) json["verdicts"].push_back(to_json(v, comparison));
   fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
-void print_contest_csv(const Contest& contest) {
+void print_comparison_csv(const Comparison& comparison) {
   fmt::print("name,method,repeat,seconds,samples,rays,mse,relative_mse,flip,variance,coverage");
   // The layers are those of the scene, so all methods that have them have the same.
   std::vector<std::string> layers;
-  for (const MethodResult& m : contest.result.methods)
-    if (layers.empty() && m.contestant.layers) layers = layer_names(*m.contestant.layers);
-  if (!contest.result.warm_up_counts) fmt::print(",warm_up_seconds");
+  for (const MethodResult& m : comparison.result.methods)
+    if (layers.empty() && m.compared_method.layers) layers = layer_names(*m.compared_method.layers);
+  if (!comparison.result.warm_up_counts) fmt::print(",warm_up_seconds");
   for (const std::string& name : layers) fmt::print(",share_{}", name);
   fmt::print("\n");
   // Unknown values have an empty cell.
   const auto cell = [](double value) {
     return std::isfinite(value) ? fmt::format(",{:.9g}", value) : std::string(",");
   };
-  for (std::size_t k = 0; k < contest.result.methods.size(); ++k) {
-    const MethodResult& m = contest.result.methods[k];
-    const std::vector<lab::AttributionRound>& attribution = contest.saved.state.methods[k].attribution;
+  for (std::size_t k = 0; k < comparison.result.methods.size(); ++k) {
+    const MethodResult& m = comparison.result.methods[k];
+    const std::vector<lab::AttributionRound>& attribution = comparison.saved.state.methods[k].attribution;
     for (std::size_t i = 0; i < m.repeats.size(); ++i) {
       const lab::Repeat& r = m.repeats[i];
-      std::string line = fmt::format("\"{}\",\"{}\",{}", m.contestant.shown_name(), m.contestant.text, i);
+      std::string line = fmt::format("\"{}\",\"{}\",{}", m.compared_method.shown_name(), m.compared_method.text, i);
       for (double value : {r.seconds, r.samples, r.rays, r.mse, r.relative_mse, r.flip, r.variance, r.coverage})
         line += cell(value);
-      if (!contest.result.warm_up_counts) line += cell(r.warm_up);
+      if (!comparison.result.warm_up_counts) line += cell(r.warm_up);
       for (std::size_t layer = 0; layer < layers.size(); ++layer)
         line += attribution.empty() ? "," : cell(attribution[i].layers[layer] / attribution[i].all);
       fmt::print("{}\n", line);
@@ -233,7 +233,7 @@ void print_contest_csv(const Contest& contest) {
   }
 }
 
-std::string forecast_text(const ContestForecast& forecast, int repeats, std::size_t methods) {
+std::string forecast_text(const ComparisonForecast& forecast, int repeats, std::size_t methods) {
   std::string text = fmt::format("about {}: ", time_text(forecast.total()));
   if (forecast.pilots > 0) text += fmt::format("pilots {}, ", time_text(forecast.pilots));
   if (forecast.reference > 0) text += fmt::format("reference {}, ", time_text(forecast.reference));

@@ -1,4 +1,6 @@
 // montelux diff: how two images differ, and whether their noise explains it.
+#include "api/diff.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "api/compare.h"
 #include "api/json_text.h"
 #include "options.h"
 #include "status.h"

@@ -12,7 +12,7 @@ namespace montelux {
 
 namespace {
 
-constexpr int most_frames = 1000000;
+constexpr int max_frames = 1000000;
 
 // A number of digits alone.
 std::optional<int> whole(std::string_view text) {
@@ -68,8 +68,8 @@ Result<FrameRange> parse_frames(const std::string& text) {
     return Failure{fmt::format(
         "frames are A:B, A for a single one, or A:B/N for a part of N, such as 0:23, 5 or 12:23/48; found '{}'", text)};
   if (*first > *last) return Failure{fmt::format("frames {} end before they begin", text)};
-  if (*last >= most_frames || of.value_or(0) > most_frames)
-    return Failure{fmt::format("frames must be below {}; found '{}'", most_frames, text)};
+  if (*last >= max_frames || of.value_or(0) > max_frames)
+    return Failure{fmt::format("frames must be below {}; found '{}'", max_frames, text)};
   if (of && *last >= *of)
     return Failure{fmt::format("there is no frame {} of {}: they are counted from 0 to {}", *last, *of, *of - 1)};
   return FrameRange{*first, *last, of, std::nullopt};

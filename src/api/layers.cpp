@@ -10,7 +10,7 @@ namespace montelux {
 
 namespace {
 
-constexpr int default_bounces = 4, most_bounces = 64;
+constexpr int default_bounces = 4, max_bounces = 64;
 
 Status read_word(std::string_view word, LayerRequest& request) {
   constexpr std::string_view counted = "bounces:";
@@ -20,9 +20,9 @@ Status read_word(std::string_view word, LayerRequest& request) {
     int bounces = 0;
     const char *at = word.data() + counted.size(), *end = word.data() + word.size();
     const auto [next, error] = std::from_chars(at, end, bounces);
-    if (error != std::errc{} || next != end || bounces < 0 || bounces > most_bounces)
-      return Failure{fmt::format("bounces takes a whole number from 0 to {}, such as bounces:3; found \"{}\"",
-                                 most_bounces, word)};
+    if (error != std::errc{} || next != end || bounces < 0 || bounces > max_bounces)
+      return Failure{
+          fmt::format("bounces takes a whole number from 0 to {}, such as bounces:3; found \"{}\"", max_bounces, word)};
     request.bounces = bounces;
   } else if (word == "light-groups") {
     request.light_groups = true;

@@ -163,7 +163,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
   if (Status good = plan_passes(options, plan.chosen.any(), r); !good) return good.failure();
   if (is_fixed(r.sampler) && r.plan.samples_per_pass > most_fixed_samples)
     return Failure{fmt::format("sampler {} supports at most {} samples, all in one pass; found {}", name_of(r.sampler),
-                               most_fixed_samples, r.plan.samples_per_pass)};
+                               max_fixed_samples, r.plan.samples_per_pass)};
   return plan;
 }
 
@@ -301,7 +301,7 @@ Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver
   const LoadedScene::Parts& parts = state_->parts;
   RenderSettings settings = state_->plan.render;
   settings.seed = picture.seed, settings.memories = &state_->memories;
-  if (picture.is_last) settings.most_memory = 0;
+  if (picture.is_last) settings.max_memory = 0;
   settings.shutter = shutter_for(picture.shutter, parts.picture);
   const MotionRequest motion{settings.bounds, *settings.shutter, shutter_for(picture.before, parts.picture),
                              settings.threads};

@@ -39,13 +39,13 @@ ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F>
     const F u_take = stream.next();
     const LightSample<F> light = draw(u_choice, u);
     const Mask<F> asks = on & light.valid;
-    const Spectrum<F> brings = value(light, asks);
-    const F target = select(asks, average(brings), F(0.0f));
+    const Spectrum<F> contribution = value(light, asks);
+    const F target = select(asks, average(contribution), F(0.0f));
     const F weight = select(target > F(0.0f), target / light.density.value, F(0.0f));
     sum = sum + weight;
     const Mask<F> taken = u_take * sum < weight;
     chosen = {select(taken, light.wi, chosen.wi), select(taken, light.distance, chosen.distance),
-              select(taken, brings, chosen.value), select(taken, target, chosen.target),
+              select(taken, contribution, chosen.value), select(taken, target, chosen.target),
               select(taken, u_choice, chosen.u_choice)};
   }
   const F factor = resampling_weight(sum, F(float(candidates)), chosen.target);

@@ -66,7 +66,7 @@ class BinaryBody {
     return value;
   }
   bool ok() const { return ok_; }
-  static constexpr std::size_t least_size(Type type) { return size_of(type); }
+  static constexpr std::size_t min_size(Type type) { return size_of(type); }
   std::size_t left() const { return std::size_t(end_ - at_); }
 
  private:
@@ -92,7 +92,7 @@ class TextBody {
     return value;
   }
   bool ok() const { return ok_; }
-  static constexpr std::size_t least_size(Type) { return 1; }
+  static constexpr std::size_t min_size(Type) { return 1; }
   std::size_t left() const { return std::size_t(end_ - at_); }
 
  private:
@@ -131,7 +131,7 @@ class BodyReader {
   // A header must not state more than the bytes can contain.
   bool fits(const Element& element) {
     std::size_t least = 0;
-    for (const Property& p : element.properties) least += Source::least_size(p.is_list ? p.count_type : p.type);
+    for (const Property& p : element.properties) least += Source::min_size(p.is_list ? p.count_type : p.type);
     if (element.count == 0 || (least > 0 && element.count <= source_.left() / least)) return true;
     body_.problem = "it states " + std::to_string(element.count) + " of element '" + printable(element.name) +
                     "', more than its bytes can contain";
@@ -147,7 +147,7 @@ class BodyReader {
   std::optional<std::size_t> list_size(const Property& p) {
     double count = source_.next(p.count_type);
     if (!source_.ok() || !(count >= 0) || count != std::floor(count)) return std::nullopt;
-    if (count > static_cast<double>(source_.left() / Source::least_size(p.type))) return std::nullopt;
+    if (count > static_cast<double>(source_.left() / Source::min_size(p.type))) return std::nullopt;
     return static_cast<std::size_t>(count);
   }
   bool skip_list(const Property& p) {

@@ -8,7 +8,7 @@ void Reporter::add(Diagnostic diagnostic) {
   std::string file = diagnostic.where.file ? *diagnostic.where.file : std::string();
   Count& count = counts_[{std::move(file), diagnostic.severity}];
   if (count.reported == 0) count.first = diagnostic.where;
-  if (count.reported == most_per_file) {
+  if (count.reported == max_per_file) {
     ++count.left_out;
     return;
   }

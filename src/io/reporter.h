@@ -6,11 +6,11 @@
 
 namespace montelux {
 
-// Adds to a list of diagnostics, at most `most_per_file` per severity and file; finish() reports how many were
+// Adds to a list of diagnostics, at most `max_per_file` per severity and file; finish() reports how many were
 // omitted. Those with a summary are not counted.
 class Reporter {
  public:
-  static constexpr int most_per_file = 50;
+  static constexpr int max_per_file = 50;
 
   Reporter(Diagnostics& out, bool lenient) : out_(&out), lenient_(lenient) {}
 

@@ -118,8 +118,8 @@ struct LightBvh::Builder {
   // Where to split items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.
   std::size_t split(std::size_t begin, std::size_t end, int depth) {
     if (end - begin == 2) return begin + 1;
-    constexpr int most_slices = 12;
-    const int slices = int(std::min<std::size_t>(most_slices, end - begin));
+    constexpr int max_slices = 12;
+    const int slices = int(std::min<std::size_t>(max_slices, end - begin));
     Box middles, box;
     for (std::size_t i = begin; i < end; ++i) {
       middles.add(items[i].middle, items[i].middle);
@@ -136,7 +136,7 @@ struct LightBvh::Builder {
     bool room = depth + int(std::bit_width(end - begin)) < 31;
     for (int dim = 0; dim < 3 && room; ++dim) {
       if (!(component(extent, dim) > 0)) continue;
-      Cluster slice[most_slices], above[most_slices];
+      Cluster slice[max_slices], above[max_slices];
       for (std::size_t i = begin; i < end; ++i)
         slice[slice_of(items[i], dim)].add(*bounds[items[i].light], items[i].axis);
       above[slices - 1] = slice[slices - 1];

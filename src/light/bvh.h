@@ -16,7 +16,7 @@ namespace light_bvh {
 // Rounding must not turn a small importance into zero, so cosines near zero are increased by this much.
 inline constexpr float slack = 1e-3f;
 // The minimum probability of a child that is not dark: negligible in cost, yet a turn leaves half of the 24 bits of u.
-inline constexpr float least_share = 0x1p-12f;
+inline constexpr float min_share = 0x1p-12f;
 
 }  // namespace light_bvh
 
@@ -101,12 +101,12 @@ class LightBvh {
   F importance(At node, Vec3<F> p, Vec3<F> n) const;
   // Sets of few lights are scanned instead of descended: the choice is then exactly proportional to each light's
   // importance.
-  static constexpr std::size_t most_scanned = 16;
-  bool is_scanned() const { return leaves_.size() <= most_scanned; }
+  static constexpr std::size_t max_scanned = 16;
+  bool is_scanned() const { return leaves_.size() <= max_scanned; }
   // The importances of all leaves, summed in their order.
   template <class F>
   struct Scan {
-    F importance[most_scanned];
+    F importance[max_scanned];
     F sum;
   };
   template <class F>
@@ -133,8 +133,8 @@ class LightBvh {
     F b = importance<F>(Uint<F>(first_child + Uint<F>(1u)), p, n);
     F sum = a + b, first = a / max(sum, F(1e-37f));
     // A child that can send light keeps a share that u can hit, however large the other's importance is.
-    first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::least_share)), first);
-    first = select(a > F(0.0f), max(first, F(light_bvh::least_share)), first);
+    first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::min_share)), first);
+    first = select(a > F(0.0f), max(first, F(light_bvh::min_share)), first);
     return {first, sum > F(0.0f)};
   }
 

@@ -6,7 +6,7 @@ namespace montelux {
 
 // Flat surfaces are sampled by solid angle between these bounds, in steradians, and by area outside them: small
 // surfaces are equivalent in both, and the spherical shapes degenerate when they fill the view.
-inline constexpr float least_spherical = 1e-4f, most_spherical = 6.0f;
+inline constexpr float min_spherical = 1e-4f, max_spherical = 6.0f;
 
 // The density at `from` of a point p, seen along wi, that is uniform over a plane area with unit normal n.
 template <class F>
@@ -58,7 +58,7 @@ MONTELUX_INLINE Mask<F> meets_lit_side(const LightRows<F>& rows, Vec3<F> n, Vec3
 // Which lanes of a flat surface are sampled by solid angle.
 template <class F>
 MONTELUX_INLINE Mask<F> is_spherical(F solid_angle) {
-  return (solid_angle > F(least_spherical)) & (solid_angle < F(most_spherical));
+  return (solid_angle > F(min_spherical)) & (solid_angle < F(max_spherical));
 }
 
 }  // namespace montelux

@@ -6,7 +6,7 @@
 namespace montelux {
 namespace {
 
-constexpr double damping = 0.3, least_share = 0.1, growth = 0.7;
+constexpr double damping = 0.3, min_share = 0.1, growth = 0.7;
 constexpr std::size_t guide_cells = 256;
 
 // Averages each sum with its neighbours (Lepage 2021, equation 19).
@@ -129,7 +129,7 @@ void AdaptiveMap::refine(std::span<const double> sums, std::size_t new_bins) {
     std::vector<double> weights = smoothed(sums.subspan(d * bins_, bins_));
     double total = 0;
     for (double& w : weights) total += w = std::pow(std::max(0.0, w), damping);
-    const double floor = total > 0 ? least_share * total / double(bins_) : 1.0;
+    const double floor = total > 0 ? min_share * total / double(bins_) : 1.0;
     for (double& w : weights) w = std::max(w, floor);
     grade(weights, x);
     total = 0;

@@ -80,7 +80,7 @@ void AliasTable::list_parts() {
       before += bin == i ? double(share_[bin]) : 1 - double(share_[bin]);
     }
     first_part_.push_back(std::uint32_t(part_bin_.size()));
-    most_parts_ = std::max(most_parts_, first_part_[i + 1] - first_part_[i]);
+    max_parts_ = std::max(max_parts_, first_part_[i + 1] - first_part_[i]);
   }
 }
 

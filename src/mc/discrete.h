@@ -94,7 +94,7 @@ class AliasTable {
   template <class F>
   F invert(Uint<F> index, F v) const {
     const Uint<F> first = gather(first_part_.data(), index), end = gather(first_part_.data() + 1, index);
-    const Uint<F> part = first + find_interval<F>(part_start_.data(), first, end - first, most_parts_, v);
+    const Uint<F> part = first + find_interval<F>(part_start_.data(), first, end - first, max_parts_, v);
     const Uint<F> bin = gather(part_bin_.data(), part);
     const Mask<F> own = bin == index;
     const F share = gather(share_.data(), bin), n = float(size());
@@ -117,7 +117,7 @@ class AliasTable {
   // is the share of its mass in the preceding bins.
   std::vector<std::uint32_t> first_part_, part_bin_;
   std::vector<float> part_start_;
-  std::uint32_t most_parts_ = 0;  // maximum number of parts of one element
+  std::uint32_t max_parts_ = 0;  // maximum number of parts of one element
 };
 
 }  // namespace montelux

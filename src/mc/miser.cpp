@@ -68,11 +68,11 @@ struct Miser {
   RegionEstimate integrate(const Box& box, std::uint64_t samples, std::uint64_t node) const {
     const std::size_t dimension = box.low.size();
     const CubeKey own = key.fork(std::uint32_t(node)).fork(std::uint32_t(node >> 32));
-    if (samples < settings.least_to_cut * dimension || node >> 62 != 0) return plain(box, samples, own);
+    if (samples < settings.min_to_cut * dimension || node >> 62 != 0) return plain(box, samples, own);
 
     std::vector<Moments> lower(dimension), upper(dimension);
     const auto exploring =
-        std::max(settings.least_explored * dimension, std::uint64_t(settings.explored * double(samples)));
+        std::max(settings.min_explored * dimension, std::uint64_t(settings.explored * double(samples)));
     RegionEstimate result;
     result.non_finite =
         sample_box(f, box, exploring, own, [&](std::span<const double> points, std::span<const double> values) {

@@ -18,10 +18,10 @@ struct RegionEstimate {
 };
 
 struct MiserSettings {
-  double explored = 0.1;                 // share of a region's samples that decides where to split it
-  std::uint64_t least_explored = 16;     // samples per dimension
-  std::uint64_t least_to_cut = 32 * 16;  // a region with fewer samples per dimension is not split
-  double exponent = 2;                   // rate of decline of the error that the shares of the halves assume
+  double explored = 0.1;               // share of a region's samples that decides where to split it
+  std::uint64_t min_explored = 16;     // samples per dimension
+  std::uint64_t min_to_cut = 32 * 16;  // a region with fewer samples per dimension is not split
+  double exponent = 2;                 // rate of decline of the error that the shares of the halves assume
 };
 
 // The integral of f over the unit cube with `samples` >= 2 samples. Unbiased: samples that explore do not count.

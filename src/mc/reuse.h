@@ -173,7 +173,7 @@ constexpr bool shares_sum_to_one(ReuseWeights weights) {
 }
 
 // For combine(): the default `each`, which does nothing.
-struct NothingElse {};
+struct NoEach {};
 
 // Combines the reservoirs of all domains to one for the first domain. T as for WeightedReservoir. Lanes that are off
 // return the first reservoir.
@@ -182,11 +182,11 @@ struct NothingElse {};
 // with less variance than the one sample that is chosen: its mean over the choice (Rao and Blackwell). For such sums
 // each.own(w, on) receives the weight of the first domain's own sample, and each.other(image, w, on) those of the
 // others with the results of domains.shift().
-template <class T, class F, class Domains, class Each = NothingElse>
+template <class T, class F, class Domains, class Each = NoEach>
 Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains,
                         RandomStream<F>& stream, Mask<F> on,
                         [[maybe_unused]] Each&& each = {}) requires ReuseDomains<Domains, T, F> {
-  constexpr bool tells = !std::is_same_v<std::remove_cvref_t<Each>, NothingElse>;
+  constexpr bool tells = !std::is_same_v<std::remove_cvref_t<Each>, NoEach>;
   const ReuseShares<T, F, Domains> shares(weights, inputs, domains);
   const Reservoir<T, F>& first = inputs[0];
   WeightedReservoir<T, F> chosen;

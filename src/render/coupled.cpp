@@ -186,10 +186,10 @@ class ChainJob {
     if (!settings_.memories) return;
     const auto chain = std::size_t(pass_);
     if (settings_.memories->size() <= chain) settings_.memories->resize(chain + 1);
-    if (settings_.most_memory == 0) return;
+    if (settings_.max_memory == 0) return;
     std::shared_ptr<const ChainMemory> memory = chain_->remember(step_.frame);
     const std::size_t bytes = memory ? memory->bytes() : 0;
-    if (remembered_ + bytes > settings_.most_memory) {
+    if (remembered_ + bytes > settings_.max_memory) {
       ++forgotten_;
       return;
     }

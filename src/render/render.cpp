@@ -270,11 +270,11 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
 }
 
 // Fewer chains would have no error bar to speak of.
-constexpr int least_chains = 4;
+constexpr int min_chains = 4;
 
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind) {
   if (!integrator.coupled()) return plan_passes(samples, kind);
-  const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / least_chains));
+  const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / min_chains));
   return {frames, (std::max(samples, 1) + frames - 1) / frames};
 }
 
@@ -317,7 +317,7 @@ int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
 PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, const RenderSettings& settings, double affordable) {
   constexpr int endless = 1 << 20;  // time ends it
   const int warm_up = settings.warm_up_counts ? coupled.warm_up() : 0;
-  const int frames = int(affordable) * (1 + warm_up) / least_chains - warm_up;
+  const int frames = int(affordable) * (1 + warm_up) / min_chains - warm_up;
   return {std::clamp(frames, 1, coupled.frames()), endless};
 }
 
@@ -331,7 +331,7 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
   settings.plan = {1, 1};
   settings.first_pass = 1 << 30;  // a pass that the render itself will never take
   StopAlone silent(observer);
-  const double most = is_fixed(settings.sampler) ? most_fixed_samples : 1e6;
+  const double most = is_fixed(settings.sampler) ? max_fixed_samples : 1e6;
   TimedPlan timed{{1, 1}, 1, settings.max_unit_samples, 0};
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
     const RenderResult one = render(*coupled, settings, silent);
@@ -356,8 +356,8 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
 }
 
 PassPlan plan_for_budget(const AnyIntegrator& integrator) {
-  constexpr int longest_chain = 1024, most_passes = 1 << 20;
-  return integrator.coupled() ? PassPlan{longest_chain, 1} : PassPlan{1, most_passes};
+  constexpr int longest_chain = 1024, max_passes = 1 << 20;
+  return integrator.coupled() ? PassPlan{longest_chain, 1} : PassPlan{1, max_passes};
 }
 
 RenderResult render(const AnyIntegrator& integrator, const RenderSettings& settings, RenderObserver& observer) {

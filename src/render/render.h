@@ -21,7 +21,7 @@ struct PassPlan {
 };
 
 // Points that are fixed are one pass, of so many samples at most.
-inline constexpr int most_fixed_samples = 1 << 16;
+inline constexpr int max_fixed_samples = 1 << 16;
 
 // The plan for at least `samples` samples a pixel. Passes are replicates: more of them make the error bar surer, fewer
 // make each point set longer and so the picture better; docs/error-bars.md has the measurement behind the choice.
@@ -83,7 +83,7 @@ struct RenderSettings {
   // has learned. Null: chains begin with nothing.
   ChainMemories* memories = nullptr;
   // Bytes that they leave there in all, at most: a chain beyond leaves nothing. 0: none does, as none goes on.
-  std::size_t most_memory = std::size_t(8) << 30;
+  std::size_t max_memory = std::size_t(8) << 30;
 };
 
 // Of a film that was begun before, with what it had then.

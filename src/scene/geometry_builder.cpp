@@ -339,7 +339,7 @@ void GeometryBuilder::add_curves(const ShapeDesc& shape, const GeometryRow& like
     diagnostics_.warning(shape.area_light->where, "area lights on curves do not emit",
                          "put the light on a mesh or a quadric");
   row.kind = GeometryKind::curves;
-  if (curves.type != CurveType::ribbon) row.flags |= GeometryRow::turns_to_ray;
+  if (curves.type != CurveType::ribbon) row.flags |= GeometryRow::ray_facing;
   row.first = std::uint32_t(store_.curves.size());
   row.count = std::uint32_t(curves.first.size());
   Bounds3 box;

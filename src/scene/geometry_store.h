@@ -32,7 +32,7 @@ struct alignas(64) GeometryRow {
   std::uint32_t unused[4] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
-                                 turns_to_ray = 16, open_to_some_shadow_rays = 32;
+                                 ray_facing = 16, open_to_some_shadow_rays = 32;
   static constexpr std::uint32_t one_sided = 64;  // of triangles: the camera does not see their back
 };
 static_assert(sizeof(GeometryRow) == 64);

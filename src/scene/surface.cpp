@@ -261,9 +261,9 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
   U first_light = gather(words + RowWord::first_light, row);
   s.light = select(on & (first_light != U(0u)), first_light + hit.primitive, U(0u));
   s.object = gather(words + RowWord::object, row);
-  s.turns_to_ray = Mask<F>(false);
+  s.ray_facing = Mask<F>(false);
   if (!store.curves.empty())
-    s.turns_to_ray = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::turns_to_ray)) != U(0u));
+    s.ray_facing = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::ray_facing)) != U(0u));
   return s;
 }
 

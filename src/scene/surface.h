@@ -13,7 +13,7 @@ struct SurfaceHit {
   Uint<F> light;   // 1 + number of the light; 0: emits nothing
   Uint<F> object;  // number of the object, from 1
   // The surface faces the incident ray, like curves do: for another ray it is a different surface.
-  Mask<F> turns_to_ray;
+  Mask<F> ray_facing;
 };
 
 // The surface where rays hit the scene, at their time.

@@ -8,7 +8,7 @@ using enum ParameterType;
 using List = std::vector<ParameterSpec>;
 
 constexpr double most = 1e30;
-constexpr double most_integer = 2147483647;
+constexpr double max_integer = 2147483647;
 
 ParameterSpec later(ParameterSpec spec) {
   spec.later = true;
@@ -34,7 +34,7 @@ List film_parameters(List more = {}) {
 
 List sampler_parameters(List more = {}) {
   List list{{"pixelsamples", {integer}, "samples per pixel; default 16", 1, 1 << 24},
-            {"seed", {integer}, "default 0", -most_integer, most_integer}};
+            {"seed", {integer}, "default 0", -max_integer, max_integer}};
   list.insert(list.end(), more.begin(), more.end());
   return list;
 }
@@ -96,17 +96,17 @@ std::vector<EntitySpec> bidirectional_integrators() {
                               later({"visualizeweights", {boolean}, "with the weights; default false"})}),
        false, "path"},
       {"mlt", "Metropolis light transport",
-       integrator_parameters({later({"bootstrapsamples", {integer}, "default 100000", 1, most_integer}),
-                              later({"chains", {integer}, "default 1000", 1, most_integer}),
-                              later({"mutationsperpixel", {integer}, "default 100", 1, most_integer}),
+       integrator_parameters({later({"bootstrapsamples", {integer}, "default 100000", 1, max_integer}),
+                              later({"chains", {integer}, "default 1000", 1, max_integer}),
+                              later({"mutationsperpixel", {integer}, "default 100", 1, max_integer}),
                               later({"largestepprobability", {number}, "default 0.3", 0, 1}),
                               later({"sigma", {number}, "size of a small step; default 0.01", 1e-9, most}),
                               later({"regularize", {boolean}, "default false"})}),
        false, "path"},
       {"sppm", "stochastic progressive photon mapping",
-       integrator_parameters({later({"photonsperiteration", {integer}, "default one per pixel", -1, most_integer}),
+       integrator_parameters({later({"photonsperiteration", {integer}, "default one per pixel", -1, max_integer}),
                               later({"radius", {number}, "first search radius; default 1", 1e-30, most}),
-                              later({"seed", {integer}, "default 0", -most_integer, most_integer}),
+                              later({"seed", {integer}, "default 0", -max_integer, max_integer}),
                               later({"regularize", {boolean}, "default false"})}),
        false, "path"},
       {"lightpath", "paths only from the lights", integrator_parameters(), false, "path"},
@@ -197,7 +197,7 @@ const EntitySpec& option_spec() {
   static const EntitySpec spec{
       "Option",
       "global settings",
-      {{"seed", {integer}, "seed of all randomness; default 0", -most_integer, most_integer},
+      {{"seed", {integer}, "seed of all randomness; default 0", -max_integer, max_integer},
        {"disablepixeljitter",
         {boolean},
         "all samples at the pixel's centre, in the middle of lens and shutter (biased); default false"},

@@ -107,9 +107,9 @@ class FullDisk(FilesTest):
         for seed in 1, 2:
             self.run_program(*integral, "--seed", seed, "--save", f"{seed}.json")
         self.assert_old_file_stays("both.json", "merge", "1.json", "2.json", "--quiet", "-o", "both.json")
-        contest = ["compare", SCENE, *SMALL, "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2", "--no-cache",
+        comparison = ["compare", SCENE, *SMALL, "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2", "--no-cache",
                    "--no-slopes", "--no-attribution"]
-        self.assert_old_file_stays("run.json", *contest, "--save", "run.json")
+        self.assert_old_file_stays("run.json", *comparison, "--save", "run.json")
 
     def test_the_files_of_a_report_are_checked(self):
         # Its status was 2 as for input that cannot be used; that the disk is full is found out after the work.
@@ -207,10 +207,10 @@ class Outputs(FilesTest):
             folder.chmod(0o500)
             names.append("closed/a")
         long_integral = ["integrate", "x", "--over", "x=0:1", "--time", "1h", "--save"]
-        contest = ["compare", SCENE, "-a", "path", "-b", "naive", "--time", "1h", "--no-cache"]
+        comparison = ["compare", SCENE, "-a", "path", "-b", "naive", "--time", "1h", "--no-cache"]
         for name in names:
             with self.subTest(name=name):
-                for arguments in (long_integral + [name], contest + ["--save", name], contest + ["-o", name],
+                for arguments in (long_integral + [name], comparison + ["--save", name], comparison + ["-o", name],
                                   ["merge", "none.json", "-o", name], ["lab", "run", "all", "-o", name],
                                   ["render", SCENE, "--time", "1h", "-o", name + ".png"]):
                     if arguments[0] == "lab" and name == "none/a":
@@ -244,9 +244,9 @@ class Names(FilesTest):
 
     def test_a_comparison_of_such_a_scene_is_saved_and_resumed(self):
         scene = self.scene()
-        contest = [*SMALL, "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2", "--no-cache", "--no-slopes",
+        comparison = [*SMALL, "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2", "--no-cache", "--no-slopes",
                    "--no-attribution"]
-        self.run_with("compare", scene, *contest, "--save", "run.json", "-o", "page.html", "--json", status=0)
+        self.run_with("compare", scene, *comparison, "--save", "run.json", "-o", "page.html", "--json", status=0)
         result = self.run_with("compare", "--resume", "run.json", "--repeats", "1", "--quiet", "--json", status=0)
         self.assertEqual(json.loads(result.stdout)["methods"][0]["repeats"], 3)
 

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "../../apps/montelux/verbs.h"
-#include "api/compare.h"
-#include "api/contest.h"
+#include "api/comparison.h"
+#include "api/diff.h"
 #include "api/integrate.h"
 #include "api/render.h"
 #include "api/saved_file.h"
@@ -27,7 +27,7 @@ using Examples = std::vector<std::string>;
 
 constexpr std::pair<int, int> resolution{8, 6};
 // The longest that a render of a few pixels may take before it is asked to stop.
-constexpr double most_seconds = 2;
+constexpr double max_seconds = 2;
 
 void require(bool holds, const std::string& rule) {
   if (!holds) throw Finding(rule);
@@ -53,7 +53,7 @@ fs::path own_scenes() { return fs::path(MONTELUX_SOURCE_DIR) / "scenes"; }
 class ImpatientObserver final : public RenderObserver {
  public:
   bool stop_requested() override {
-    return std::chrono::steady_clock::now() - start_ > std::chrono::duration<double>(most_seconds);
+    return std::chrono::steady_clock::now() - start_ > std::chrono::duration<double>(max_seconds);
   }
 
  private:
@@ -253,21 +253,21 @@ Examples comparison_examples(const fs::path& folder) {
   load.resolution = resolution, load.threads = 1;
   const LoadResult loaded = load_scene(scene, load);
   if (!loaded.scene) throw std::runtime_error("the example comparison has no scene");
-  ContestOptions options;
+  ComparisonOptions options;
   options.methods = {"path", "direct"}, options.samples = 4, options.repeats = 2, options.cache = false;
   options.threads = 1, options.slopes = false;
-  auto contest = compare_methods(*loaded.scene, options, {});
-  if (!contest) throw std::runtime_error(contest.error());
-  contest->saved.scene = scene, contest->saved.load = load;
-  contest->saved.fingerprint = scene_fingerprint(scene);
+  auto comparison = compare_methods(*loaded.scene, options, {});
+  if (!comparison) throw std::runtime_error(comparison.error());
+  comparison->saved.scene = scene, comparison->saved.load = load;
+  comparison->saved.fingerprint = scene_fingerprint(scene);
   const fs::path file = folder / "comparison.json";
-  if (!save_contest(file, contest->saved)) throw std::runtime_error("the example comparison cannot be saved");
+  if (!save_comparison(file, comparison->saved)) throw std::runtime_error("the example comparison cannot be saved");
   return {content(file)};
 }
 
 void run_comparison(const std::string& input, const fs::path& folder) {
   const fs::path file = written(folder / "saved.json", with_checksum(input));
-  const Result<SavedContest> saved = load_contest(file);
+  const Result<SavedComparison> saved = load_comparison(file);
   if (!saved) require(saved.error().find(".") != std::string::npos, "no file in: " + saved.error());
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "api/compare.h"
+#include "api/diff.h"
 #include "api/render.h"
 #include "temporary_folder.h"
 

@@ -12,7 +12,7 @@ namespace montelux {
 
 namespace {
 
-constexpr std::size_t most_elements = std::size_t(1) << 24;
+constexpr std::size_t max_elements = std::size_t(1) << 24;
 
 std::uint32_t parts(float length, float edge) {
   return std::uint32_t(std::clamp(std::ceil(double(length) / double(edge)), 1.0, 4096.0));
@@ -63,9 +63,9 @@ Result<ElementMesh> ElementMesh::cut(const Scene& scene, float edge) {
       mesh.add_triangles(row, edge);
     else
       mesh.add_shape(row, edge);
-    if (mesh.size_ > most_elements)
+    if (mesh.size_ > max_elements)
       return Failure{
-          fmt::format("elements of edge {:.3g} exceed the maximum of {}: choose a larger edge", edge, most_elements)};
+          fmt::format("elements of edge {:.3g} exceed the maximum of {}: choose a larger edge", edge, max_elements)};
   }
   return mesh;
 }
@@ -74,7 +74,7 @@ void ElementMesh::append(Primitive primitive, bool is_triangle) {
   const std::uint32_t cells = primitive.nu * primitive.nv;
   primitive.first = std::uint32_t(size_);
   size_ += cells;
-  if (size_ > most_elements) return;
+  if (size_ > max_elements) return;
   primitive_of_.insert(primitive_of_.end(), cells, std::uint32_t(primitives_.size()));
   if (is_triangle) areas_.insert(areas_.end(), cells, 0.0f);
   primitives_.push_back(primitive);
@@ -96,7 +96,7 @@ void ElementMesh::add_shape(std::uint32_t row, float edge) {
   const Shape& shape = store_->shapes[store_->rows[row].first];
   const Primitive p{row, 0, 0, parts(longest_line(shape, true), edge), parts(longest_line(shape, false), edge)};
   append(p, false);
-  if (size_ > most_elements) return;
+  if (size_ > max_elements) return;
   const double du = 1 / double(p.nu), dv = 1 / double(p.nv);
   for (std::uint32_t cell = 0; cell < p.nu * p.nv; ++cell) {
     const double u = du * double(cell % p.nu), v = dv * double(cell / p.nu);

@@ -77,7 +77,7 @@ class ReuseChain final : public Chain {
   }
 
   // What FirstStage tells.
-  struct Finds {
+  struct FirstStageSink {
     ReuseChain& chain;
     int frame;
     PixelBounds tile;
@@ -113,8 +113,8 @@ class ReuseChain final : public Chain {
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
-    Finds finds{*this, frame, tile};
-    FirstStage<F, Rays, Finds> stage(shared_, request, out, finds);
+    FirstStageSink finds{*this, frame, tile};
+    FirstStage<F, Rays, FirstStageSink> stage(shared_, request, out, finds);
     const RayCounts counts = stage.run();
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t first, std::size_t n) {
       std::copy_n(out.begin() + std::ptrdiff_t(first), n, frame_.begin() + std::ptrdiff_t(pixel));
@@ -143,20 +143,20 @@ class ReuseChain final : public Chain {
     });
   }
 
-  PixelHoldings after(int frame, int step, std::size_t pixel) {
+  PixelState after(int frame, int step, std::size_t pixel) {
     return {vertices(frame)[pixel], lights_.after(step)[pixel], reuses_paths() ? &paths_.after(step)[pixel] : nullptr};
   }
-  PixelHoldings before(int frame, int step, std::size_t pixel) {
+  PixelState before(int frame, int step, std::size_t pixel) {
     return {vertices(frame)[pixel], lights_.before(step)[pixel],
             reuses_paths() ? &paths_.before(step)[pixel] : nullptr};
   }
   // What a pixel held at the end of the frame before: the same pixel within a picture.
-  std::optional<PixelHoldings> past(int frame, std::size_t pixel) {
+  std::optional<PixelState> past(int frame, std::size_t pixel) {
     if (frame == 0) {
       const std::optional<std::size_t> earlier = earlier_[pixel];
       if (!earlier) return std::nullopt;
-      return PixelHoldings{before_->vertices[*earlier], before_->lights[*earlier],
-                           keeps_paths() ? &before_->paths[*earlier] : nullptr};
+      return PixelState{before_->vertices[*earlier], before_->lights[*earlier],
+                        keeps_paths() ? &before_->paths[*earlier] : nullptr};
     }
     if (vertices(frame - 1)[pixel].exists == 0) return std::nullopt;
     return before(frame - 1, step_number(frame, 0), pixel);
@@ -183,7 +183,7 @@ class ReuseChain final : public Chain {
   }
 
   // Where targets know what is in the way, all reservoirs of the last round can be shown, and not the chosen one alone.
-  ShownSums shows_all() const {
+  ImageSums shows_all() const {
     const bool all = settings().rounds > 0 && (settings().groups || shares_sum_to_one(settings().weights));
     return {all && settings().direct && settings().visibility_reuse, all && reuses_paths()};
   }
@@ -203,7 +203,7 @@ class ReuseChain final : public Chain {
     RayCounts counts;
     copy_frame(tile, out);
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
-    const ShownSums sums = shows ? shows_all() : ShownSums{};
+    const ImageSums sums = shows ? shows_all() : ImageSums{};
     const std::size_t others = reuses ? std::size_t(settings().neighbours) : 0;
     const int writes = step_number(step.frame, reuses ? step.stage : 1);
     ReuseInputs<F> inputs(1 + others, reuses_paths());
@@ -238,7 +238,7 @@ class ReuseChain final : public Chain {
   RayCounts share_in_groups(const ChainStep& step, const PixelBounds& tile) {
     RayCounts counts;
     const bool last = step.stage == settings().rounds;
-    const ShownSums sums = last ? shows_all() : ShownSums{};
+    const ImageSums sums = last ? shows_all() : ImageSums{};
     const int writes = step_number(step.frame, step.stage);
     const PixelGroups groups = groups_at(step, tile);
     ReuseInputs<F> inputs(groups.size, reuses_paths());
@@ -296,7 +296,7 @@ class ReuseChain final : public Chain {
   RayCounts show_frame(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
     copy_frame(tile, out);
-    const ShownSums sums = shows_all();
+    const ImageSums sums = shows_all();
     if (sums.lights && (sums.paths || !reuses_paths())) return counts;
     const int writes = step_number(step.frame, settings().rounds);
     ReuseInputs<F> inputs(1, reuses_paths());
@@ -315,7 +315,7 @@ class ReuseChain final : public Chain {
     });
   }
   // Those kinds of samples of the first input that are not shown as sums.
-  void show_chosen(const ReuseInputs<F>& inputs, const ShownSums& sums, const LanePixels<F>& at,
+  void show_chosen(const ReuseInputs<F>& inputs, const ImageSums& sums, const LanePixels<F>& at,
                    std::span<PixelSample> out, RayCounts& counts) const {
     if (!sums.lights) show(inputs.vertices[0], inputs.lights[0], at, out, counts);
     if (reuses_paths() && !sums.paths) show(inputs.vertices[0], inputs.paths[0], at, out);
@@ -338,7 +338,7 @@ class ReuseChain final : public Chain {
             std::span<PixelSample> out, RayCounts& counts) const {
     const M lit = at.on & (reservoir.weight > F(0.0f));
     if (!any(lit)) return;
-    const Connection<F> way = connect(shared_.lights.by_hierarchy, vertex, reservoir.value, lit);
+    const Connection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
     const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
     // Where targets know what is in the way, the pixel sees whatever it holds.
     const M asks = lit & (way.target > F(0.0f));
@@ -352,7 +352,7 @@ class ReuseChain final : public Chain {
   // Targets of paths know what is in the way.
   void show(const ReuseVertex<F>& vertex, const PathReservoir<F>& reservoir, const LanePixels<F>& at,
             std::span<PixelSample> out) const {
-    const Spectrum<F> light = vertex.throughput * reservoir.value.brings * reservoir.weight;
+    const Spectrum<F> light = vertex.throughput * reservoir.value.contribution * reservoir.weight;
     add_light(light, at, at.on & (reservoir.weight > F(0.0f)), out);
   }
 

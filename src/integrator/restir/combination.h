@@ -9,7 +9,7 @@ namespace montelux {
 
 // Which kinds of samples are shown as the sum over all that are combined, and not as the chosen one alone: those whose
 // targets know what is in the way, where shares sum to one for each sample.
-struct ShownSums {
+struct ImageSums {
   bool lights = false, paths = false;
 };
 
@@ -19,7 +19,7 @@ Spectrum<F> light_of(const ShiftedLight<F>& image) {
 }
 template <class F>
 Spectrum<F> light_of(const Shifted<PathSample<F>, F>& image) {
-  return image.value.brings;
+  return image.value.contribution;
 }
 
 template <class F, class Rays>
@@ -30,13 +30,13 @@ class ReuseCombination {
   ReuseCombination(const RestirScene<Rays>& shared, ReuseInputs<F>& inputs, RayCounts& counts)
       : settings_(shared.settings),
         inputs_(inputs),
-        lights_{shared.lights.by_hierarchy, shared.rays, inputs.vertices, settings_.visibility_reuse, counts},
+        lights_{shared.lights.bvh, shared.rays, inputs.vertices, settings_.visibility_reuse, counts},
         scene_(shared.paths()),
         paths_{scene_, inputs.vertices, counts} {}
 
   // The first input becomes the combination of all. Gives the light that its pixel has of those kinds that `sums`
   // names.
-  Spectrum<F> into_first(const RandomStream<F>& numbers, M on, const ShownSums& sums) {
+  Spectrum<F> into_first(const RandomStream<F>& numbers, M on, const ImageSums& sums) {
     Spectrum<F> light = gray(F(0.0f));
     if (settings_.direct) light += into_first(inputs_.lights, lights_, numbers, on, sums.lights);
     if (settings_.indirect.on) light += into_first(inputs_.paths, paths_, of_paths(numbers), on, sums.paths);
@@ -44,7 +44,7 @@ class ReuseCombination {
   }
 
   // Every input becomes the combination of all in its own place. Gives the light of each, likewise.
-  std::vector<Spectrum<F>> into_each(const RandomStream<F>& numbers, M on, const ShownSums& sums) {
+  std::vector<Spectrum<F>> into_each(const RandomStream<F>& numbers, M on, const ImageSums& sums) {
     std::vector<Spectrum<F>> light(inputs_.vertices.size(), gray(F(0.0f)));
     if (settings_.direct) into_each(inputs_.lights, lights_, numbers, on, sums.lights, light);
     if (settings_.indirect.on) into_each(inputs_.paths, paths_, of_paths(numbers), on, sums.paths, light);

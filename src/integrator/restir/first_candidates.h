@@ -8,11 +8,10 @@ namespace montelux {
 
 // The ways to draw a light.
 struct LightTechniques {
-  LightSet by_hierarchy;
+  LightSet bvh;
   std::optional<LightSet> by_power;  // none: not used
 
-  LightTechniques(const LightSet& lights, const RestirSettings& settings)
-      : by_hierarchy(lights.with({LightSelection::bvh})) {
+  LightTechniques(const LightSet& lights, const RestirSettings& settings) : bvh(lights.with({LightSelection::bvh})) {
     if (settings.power_candidates > 0) by_power = lights.with({LightSelection::power});
   }
 };
@@ -45,8 +44,8 @@ class FirstCandidates {
       : lights_(lights), rays_(rays), settings_(settings), vertex_(vertex), counts_(counts) {}
 
   void draw_lights(RandomStream<F>& stream, Mask<F> on) {
-    const bool has_beyond = lights_.by_hierarchy.has_beyond();
-    Winner placed, beyond;
+    const bool has_beyond = lights_.bvh.has_beyond();
+    StreamChoice placed, beyond;
     const int all = settings_.candidates + settings_.power_candidates;
     for (int i = 0; i < all; ++i) {
       const bool is_power = i >= settings_.candidates;
@@ -56,20 +55,20 @@ class FirstCandidates {
       const F u_choice = min((stream.next() + float(place)) * (1.0f / float(among)), F(one_minus_epsilon));
       const Vec2<F> u = stream.next2();
       const F u_take = stream.next();
-      const LightSet& technique = is_power ? *lights_.by_power : lights_.by_hierarchy;
+      const LightSet& technique = is_power ? *lights_.by_power : lights_.bvh;
       const LightChoice<F> choice = technique.choose(vertex_.p, vertex_.light_normal, u_choice, on);
       const Mask<F> asks = on & choice.valid;
       const LightPointDraw<F> draw =
-          lights_.by_hierarchy.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, asks);
+          lights_.bvh.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, asks);
       const Mask<F> good = asks & draw.valid;
-      const Connection<F> to = connect(lights_.by_hierarchy, vertex_, draw.point, good);
+      const Connection<F> to = connect(lights_.bvh, vertex_, draw.point, good);
       const F product = draw.density.value * products_of_choice(choice, is_power, good);
       const F w = weight(to, product, good);
       if (!has_beyond) {
         placed.add(draw.point, to, product, w, u_take);
         continue;
       }
-      const Mask<F> far = good & lights_.by_hierarchy.template is_beyond<F>(choice.light, good);
+      const Mask<F> far = good & lights_.bvh.template is_beyond<F>(choice.light, good);
       placed.add(draw.point, to, product, select(far, F(0.0f), w), u_take);
       beyond.add(draw.point, to, product, select(far, w, F(0.0f)), u_take);
     }
@@ -81,8 +80,8 @@ class FirstCandidates {
   // `stream` belongs to this surface alone.
   void add_hit(const SurfaceHit<F>& x, const Vec3<F>& d, const RandomStream<F>& stream, Mask<F> on) {
     const Uint<F> light = select(on, x.light - Uint<F>(1u), Uint<F>(0u));
-    const LightHit<F> hit = lights_.by_hierarchy.template hit<F>(light, vertex_.p, vertex_.light_normal, x.point.p,
-                                                                 x.point.ng, x.point.uv, d, on);
+    const LightHit<F> hit =
+        lights_.bvh.template hit<F>(light, vertex_.p, vertex_.light_normal, x.point.p, x.point.ng, x.point.uv, d, on);
     const Mask<F> shines = on & !is_black(hit.radiance);
     F product = hit.density.value * float(settings_.candidates);
     if (lights_.by_power)
@@ -91,12 +90,12 @@ class FirstCandidates {
                                                             ->template hit<F>(light, vertex_.p, vertex_.light_normal,
                                                                               x.point.p, x.point.ng, x.point.uv, d, on)
                                                             .density.value;
-    add_met(lights_.by_hierarchy.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), product,
+    add_met(lights_.bvh.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), product,
             stream.at(Uint<F>(0u)), shines);
   }
   // The lights beyond the scene, where d meets nothing.
   void add_sky(const Vec3<F>& d, const RandomStream<F>& stream, Mask<F> on) {
-    const LightSet& lights = lights_.by_hierarchy;
+    const LightSet& lights = lights_.bvh;
     for (int i = 0; i < lights.infinite_count() && any(on); ++i) {
       const LightHit<F> sky = lights.template escaped<F>(i, vertex_.p, vertex_.light_normal, d, on);
       F product = sky.density.value * float(settings_.candidates);
@@ -120,12 +119,12 @@ class FirstCandidates {
 
  private:
   // What a stream of points on lights has chosen.
-  struct Winner {
+  struct StreamChoice {
     WeightedReservoir<Candidate<F>, F> chosen;
     Connection<F> way{};
     F by_light = 0.0f;  // the products of its techniques
 
-    Winner() { chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f); }
+    StreamChoice() { chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f); }
     void add(const LightPoint<F>& point, const Connection<F>& to, F product, F w, F u) {
       const Mask<F> taken = chosen.add({point, to.target}, w, u);
       way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
@@ -134,7 +133,7 @@ class FirstCandidates {
     }
   };
   // Joins a stream's winner to the rest, with the share that the BSDF leaves.
-  void end_stream(const Winner& winner, RandomStream<F>& stream, Mask<F> on) {
+  void end_stream(const StreamChoice& winner, RandomStream<F>& stream, Mask<F> on) {
     const Mask<F> found = on & (winner.chosen.weight_sum > F(0.0f));
     F share = 1.0f;
     if (settings_.bsdf_candidate || settings_.visibility_reuse) {
@@ -146,7 +145,7 @@ class FirstCandidates {
   }
   void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
     if (!any(on)) return;
-    const Connection<F> to = connect(lights_.by_hierarchy, vertex_, point, on);
+    const Connection<F> to = connect(lights_.bvh, vertex_, point, on);
     all_.add({point, to.target}, weight(to, product + to.by_bsdf, on), u);
   }
   // Numbers of samples times probabilities of the choice, over the lights' techniques.
@@ -156,7 +155,7 @@ class FirstCandidates {
                     : technique.choice_mass(choice.light, vertex_.p, vertex_.light_normal, on).value;
     };
     F sum = 0.0f;
-    if (settings_.candidates > 0) sum = float(settings_.candidates) * mass(lights_.by_hierarchy, !is_power);
+    if (settings_.candidates > 0) sum = float(settings_.candidates) * mass(lights_.bvh, !is_power);
     if (lights_.by_power) sum = sum + float(settings_.power_candidates) * mass(*lights_.by_power, is_power);
     return sum;
   }
@@ -174,7 +173,7 @@ class FirstCandidates {
   const RestirSettings& settings_;
   const ReuseVertex<F>& vertex_;
   RayCounts& counts_;
-  WeightedReservoir<Candidate<F>, F> all_ = Winner().chosen;
+  WeightedReservoir<Candidate<F>, F> all_ = StreamChoice().chosen;
   Mask<F> broken_ = Mask<F>(false);
 };
 

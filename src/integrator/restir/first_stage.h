@@ -21,7 +21,7 @@ struct RestirScene {
   std::uint32_t max_events() const {
     return settings.path.max_depth ? std::uint32_t(*settings.path.max_depth) : 0x7fffffffu;
   }
-  PathScene<Rays> paths() const { return {scene, lights.by_hierarchy, rays, settings.indirect, max_events()}; }
+  PathScene<Rays> paths() const { return {scene, lights.bvh, rays, settings.indirect, max_events()}; }
 };
 
 // Streams of one pixel in one frame, told apart.
@@ -65,7 +65,7 @@ class FirstStage {
       return counts_;
     }
     std::vector<PixelSample> results(continuations_.count());
-    counts_ += run_paths<F>(shared_.scene, shared_.lights.by_hierarchy, shared_.rays, shared_.settings.path, pass_,
+    counts_ += run_paths<F>(shared_.scene, shared_.lights.bvh, shared_.rays, shared_.settings.path, pass_,
                             std::span(results), continuations_, no_tally);
     continuations_.add_results(results, out_);
     return counts_;

@@ -9,7 +9,7 @@
 namespace montelux {
 
 // What a pixel holds.
-struct PixelHoldings {
+struct PixelState {
   const ReuseVertex<float>& vertex;
   const LightReservoir<float>& light;
   const PathReservoir<float>* path;  // null: paths are not reused
@@ -35,7 +35,7 @@ struct ReuseInputs {
     if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, most);
   }
   // The pixel becomes lane k of input i.
-  void put_pixel(std::size_t i, int k, const PixelHoldings& pixel) {
+  void put_pixel(std::size_t i, int k, const PixelState& pixel) {
     set_lane_words(vertices[i], k, pixel.vertex);
     put(lights[i], k, pixel.light);
     if (pixel.path != nullptr) put(paths[i], k, *pixel.path);

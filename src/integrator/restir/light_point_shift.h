@@ -4,7 +4,7 @@
 #pragma once
 #include <memory>
 
-#include "integrator/restir/side_by_side.h"
+#include "integrator/restir/shadow_ray_batch.h"
 #include "integrator/restir/vertex.h"
 
 namespace montelux {

@@ -65,7 +65,7 @@ class PathCandidates {
       if (!any(on)) return;
       const M ended = step(on);
       if (!any(ended)) continue;
-      const F target = usable_weight(average(chosen_.value.brings));
+      const F target = usable_weight(average(chosen_.value.contribution));
       const M found = ended & (chosen_.weight_sum > F(0.0f)) & (target > F(0.0f));
       const PathReservoir<F> reservoir{chosen_.value,
                                        select(found, usable_weight<F>(chosen_.weight_sum / target), F(0.0f)), F(1.0f),
@@ -168,14 +168,14 @@ class PathCandidates {
     const M met = counts & !joined & is_delta, point_of_light = counts & !joined & !is_delta;
     PathSample<F> sample = sample_so_far(w.events);
     sample.light = w.tail * hit.radiance * select(straight, F(1.0f), share);
-    sample.brings = w.until * sample.light;
+    sample.contribution = w.until * sample.light;
     sample.end = select(met, U(path_end::met), select(point_of_light, U(path_end::light), sample.end));
     sample.replayed = select(joined, sample.replayed, select(met, w.events, w.events - U(1u)));
     sample.point = point;
-    sample.brings = select(met, contribution, sample.brings);
+    sample.contribution = select(met, contribution, sample.contribution);
     if (any(point_of_light)) {
       const Connection<F> to = connect(shared_.lights, w.from, point, point_of_light);
-      sample.brings = select(point_of_light, w.before * to.value, sample.brings);
+      sample.contribution = select(point_of_light, w.before * to.value, sample.contribution);
     }
     // Scattered again, a delta would meet with all emitters on its way at once.
     offer(sample, contribution, counts & !(met & on_the_way), u);
@@ -201,19 +201,19 @@ class PathCandidates {
     const M joined = lit & (w.joined != U(0u));
     const M joins = lit & !joined & may_join(leg, to.scattered.density.value);
     PathSample<F> sample = sample_so_far(w.events + U(1u));
-    sample.light = w.tail * estimate, sample.brings = w.until * sample.light;
+    sample.light = w.tail * estimate, sample.contribution = w.until * sample.light;
     if (any(joins)) {
       sample.at = select_words(joins, surface_of(vertex), sample.at);
       sample.wi = select(joins, to.wi, sample.wi);
       sample.light = select(joins, to.arriving, sample.light);
-      sample.brings =
-          select(joins, w.leaving * to.scattered.f_cos * to.arriving * geometry_of(leg, vertex), sample.brings);
+      sample.contribution =
+          select(joins, w.leaving * to.scattered.f_cos * to.arriving * geometry_of(leg, vertex), sample.contribution);
     }
     const M point_of_light = lit & !joined & !joins;
     sample.end = select(point_of_light, U(path_end::light), sample.end);
     sample.replayed = select(joined, sample.replayed, select(joins, w.events - U(1u), w.events));
     sample.point = draw.point;
-    sample.brings = select(point_of_light, w.weight * to.value, sample.brings);
+    sample.contribution = select(point_of_light, w.weight * to.value, sample.contribution);
     offer(sample, w.weight * estimate, lit, numbers.choice(0));
   }
 
@@ -227,10 +227,10 @@ class PathCandidates {
 
   // Where no other pixel could scatter so often again, the light is this pixel's alone.
   void offer(const PathSample<F>& sample, const Spectrum<F>& contribution, M on, F u) {
-    const M shared = on & (sample.replayed <= U(std::uint32_t(shared_.reuse.most_replayed)));
+    const M shared = on & (sample.replayed <= U(std::uint32_t(shared_.reuse.max_replayed)));
     const M known = is_finite(average(contribution));
     if (const M alone = on & !(shared & known); any(alone)) add_plain(contribution, alone);
-    const M counts = shared & known & (usable_weight(average(sample.brings)) > F(0.0f));
+    const M counts = shared & known & (usable_weight(average(sample.contribution)) > F(0.0f));
     chosen_.add(sample, select(counts, usable_weight(average(contribution)), F(0.0f)), u);
   }
   void add_plain(const Spectrum<F>& light, M on) { walk_.plain += select(on, light, gray(F(0.0f))); }
@@ -260,7 +260,7 @@ class PathCandidates {
 
     const M behind = goes_on & (w.joined != U(0u));
     const M joins = goes_on & (w.joined == U(0u)) & may_join(leg, event.density) &
-                    (w.events <= U(std::uint32_t(shared_.reuse.most_replayed) + 1));
+                    (w.events <= U(std::uint32_t(shared_.reuse.max_replayed) + 1));
     if (any(joins)) {
       w.at = select_words(joins, surface_of(vertex), w.at);
       w.wi = select(joins, event.wi, w.wi);
@@ -283,7 +283,7 @@ class PathCandidates {
   // Roulette spares what is scattered again: other pixels would have to play with other throughputs.
   M lives_on(const EventNumbers<F>& numbers, M on) {
     PathWalk<F>& w = walk_;
-    const M kept = (w.joined != U(0u)) | (w.events > U(std::uint32_t(shared_.reuse.most_replayed) + 1));
+    const M kept = (w.joined != U(0u)) | (w.events > U(std::uint32_t(shared_.reuse.max_replayed) + 1));
     const M plays = on & kept & (w.from.events + w.events > U(std::uint32_t(settings_.roulette_depth)));
     if (!any(plays)) return on;
     PathState<F> path{};

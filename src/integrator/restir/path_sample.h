@@ -47,9 +47,9 @@ struct PathSample {
   JoinedSurface<F> at;      // path_end::surface: the surface, the direction from there, and what comes along it
   Vec3<F> wi;
   Spectrum<F> light;
-  LightPoint<F> point;  // path_end::light
-  F time;               // at which all its rays are traced
-  Spectrum<F> brings;   // to the vertex of the pixel that has it, which the target is the mean of
+  LightPoint<F> point;       // path_end::light
+  F time;                    // at which all its rays are traced
+  Spectrum<F> contribution;  // to the vertex of the pixel that has it, which the target is the mean of
 };
 
 // As for WeightedReservoir, in lanes.
@@ -126,7 +126,7 @@ Leg<F> leg_between(const Vec3<F>& p, const Vec3<F>& to, const Vec3<F>& ng, const
 // To a surface that turns to the ray there is no leg that could be joined: other pixels would meet another surface.
 template <class F>
 Leg<F> leg_between(const Vec3<F>& p, const SurfaceHit<F>& to, const Vec3<F>& d, F density, F pixels) {
-  return leg_between<F>(p, to.point.p, to.point.ng, d, select(to.turns_to_ray, F(0.0f), density), pixels);
+  return leg_between<F>(p, to.point.p, to.point.ng, d, select(to.ray_facing, F(0.0f), density), pixels);
 }
 
 }  // namespace montelux

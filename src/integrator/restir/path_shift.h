@@ -37,7 +37,7 @@ class PathReplay {
         alive_(on) {}
 
   // What the path brings to the first vertex, per unit of the shared measure; black where it is no path of this vertex.
-  Spectrum<F> brings() {
+  Spectrum<F> contribution() {
     const M met = sample_.end == U(path_end::met);
     Spectrum<F> light = gray(F(0.0f));
     for (std::uint32_t event = 0;; ++event) {
@@ -142,12 +142,12 @@ struct PathDomains {
     return image(from, 0, value, on);
   }
   Shifted<PathSample<F>, F> own(int, const PathSample<F>& value, Mask<F>) const {
-    return {value, F(1.0f), usable_weight(average(value.brings))};
+    return {value, F(1.0f), usable_weight(average(value.contribution))};
   }
   Shifted<PathSample<F>, F> image(int, int to, const PathSample<F>& value, Mask<F> on) const {
     PathSample<F> there = value;
-    there.brings = brought(to, value, on);
-    return {there, F(1.0f), usable_weight(average(there.brings))};
+    there.contribution = brought(to, value, on);
+    return {there, F(1.0f), usable_weight(average(there.contribution))};
   }
   F target_at(int to, const PathSample<F>& value, Mask<F> on) const {
     return usable_weight(average(brought(to, value, on)));
@@ -160,7 +160,7 @@ struct PathDomains {
     const Mask<F> fits = on & ((value.time == first.time) | Mask<F>(!shared.scene.geometry.moves())) &
                          (first.events + value.events <= Uint<F>(shared.max_events));
     if (!any(fits)) return gray(F(0.0f));
-    return PathReplay<F, Rays>(shared, first, value, fits, counts).brings();
+    return PathReplay<F, Rays>(shared, first, value, fits, counts).contribution();
   }
 };
 

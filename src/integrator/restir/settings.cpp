@@ -19,7 +19,7 @@ RestirSettings defaults_of(std::string_view name, bool groups) {
   if (name == "restir-di") return s;
   s.temporal = false;
   s.indirect.on = true;
-  if (name == "restir-pt") s.indirect.most_replayed = 4;
+  if (name == "restir-pt") s.indirect.max_replayed = 4;
   if (groups)
     s.neighbours = 7, s.rounds = 3, s.radius = 4;
   else
@@ -130,7 +130,7 @@ Status refuse_idle(std::string_view name, const ParameterList& list, const Resti
       {"radius", spatial, "at least one round and one neighbour"},
       {"similar", spatial, "at least one round and one neighbour"},
       {"footprint", s.indirect.joins, "shift=reconnection or shift=hybrid: others connect no paths"},
-      {"replayed", s.indirect.most_replayed > 0, "shift=replay or shift=hybrid: others replay nothing"}};
+      {"replayed", s.indirect.max_replayed > 0, "shift=replay or shift=hybrid: others replay nothing"}};
   for (const Need& need : needs)
     if (list.find(need.setting) != nullptr && !need.is_met)
       return Failure{fmt::format("{}: {} has no effect here: it needs {}", name, need.setting, need.needs)};

@@ -11,7 +11,7 @@ namespace montelux {
 struct PathReuse {
   bool on = false;
   // Events that another pixel may scatter again before its path is joined to what was found.
-  int most_replayed = 0;
+  int max_replayed = 0;
   // Paths are joined to surfaces; no: to points of lights alone.
   bool joins = true;
   // Squared distance that the lobes of a joint must cover, over that of the pixel's vertex from the camera.

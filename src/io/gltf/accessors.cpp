@@ -127,7 +127,7 @@ bool apply_sparse(Document& document, const Element& sparse, std::uint64_t count
 }  // namespace
 
 std::optional<Numbers> read_accessor(Document& document, const Element& user, const AccessorUse& use) {
-  constexpr std::uint64_t most_without_bytes = 1 << 24;
+  constexpr std::uint64_t max_without_bytes = 1 << 24;
   const Element accessors = document.list("accessors");
   const auto number = user.index_of(accessors, "an accessor");
   if (!number) return std::nullopt;
@@ -153,7 +153,7 @@ std::optional<Numbers> read_accessor(Document& document, const Element& user, co
   if (accessor["bufferView"]) {
     range = range_of(document, accessor, *count, size);
     if (!range) return std::nullopt;
-  } else if (*count > most_without_bytes) {
+  } else if (*count > max_without_bytes) {
     accessor.error("has " + std::to_string(*count) + " elements and no buffer view");
     return std::nullopt;
   }

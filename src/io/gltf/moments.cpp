@@ -11,7 +11,7 @@ namespace montelux::gltf {
 
 namespace {
 
-constexpr int most_steps = 128;  // per moving object, in the ray-tracing kernel
+constexpr int max_steps = 128;  // per moving object, in the ray-tracing kernel
 constexpr double aim = 1.3e-5, tolerance = 7.6e-5, aim_of_ways = 1e-3;
 
 struct Pose {
@@ -120,14 +120,14 @@ std::vector<double> largest_turns(const ChordErrors& errors, std::size_t n, cons
 
 // Reports the intervals between times that not even this many chords approximate.
 std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
-                           const Moments& moments, const ChordErrors& errors, int most_chords) {
+                           const Moments& moments, const ChordErrors& errors, int max_chords) {
   std::vector<bool> result(errors.turns.size(), false);
   const double step = (moments.end - moments.start) / double(errors.turns.size());
   bool is_reported = false;
   for (std::size_t k = 0; k < result.size(); ++k) {
     if (errors.turns[k] <= tolerance) continue;
     Moments fine{moments.start + double(k) * step, moments.start + double(k + 1) * step, {}, {}};
-    fill(fine, tree, animation, most_chords);
+    fill(fine, tree, animation, max_chords);
     const ChordErrors off = chord_errors(tree, fine, animation);
     const double turn = std::ranges::max(off.turns);
     result[k] = turn > tolerance;
@@ -151,7 +151,7 @@ int longest_part(const std::vector<double>& turns, int chords, int least) {
   int longest = least;
   for (int n = 1; n < int(turns.size()); ++n) {
     needed = std::max(needed, chords * std::sqrt(turns[std::size_t(n - 1)] / tolerance));
-    if (std::bit_floor(unsigned(most_steps / n)) >= needed) longest = std::max(longest, n);
+    if (std::bit_floor(unsigned(max_steps / n)) >= needed) longest = std::max(longest, n);
   }
   return longest;
 }
@@ -182,26 +182,26 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
     moments.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
     fill(moments, tree, animation, n * chords);
   };
-  const int most = std::min(intervals, most_steps);
+  const int most = std::min(intervals, max_steps);
   if (!window.open) {
     take(most, 1);
     return moments;
   }
   // The times of the first frames, if all are too many; the rest becomes another scene. The minimum is one frame.
   const int least = std::min(most, 1 + int(std::ceil(exposure - 1e-9)));
-  if (intervals > most_steps && exposure + 1 > most_steps)
+  if (intervals > max_steps && exposure + 1 > max_steps)
     document.report().tolerable(document.whole(),
-                                "the shutter is open over more than " + std::to_string(most_steps - 1) + " frames",
+                                "the shutter is open over more than " + std::to_string(max_steps - 1) + " frames",
                                 "use a shorter exposure, or fewer frames per second");
   std::vector<bool> is_given_up;
   for (int n = most;;) {
     int chords = 1;
     take(n, chords);
     ChordErrors errors = chord_errors(tree, moments, animation);
-    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, moments, errors, most_steps / least);
+    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, moments, errors, max_steps / least);
     const auto turns = [&] { return largest_turns(errors, std::size_t(n), is_given_up); };
     const auto is_rough = [&] { return std::ranges::max(turns()) > aim || errors.way > aim_of_ways; };
-    while (2 * chords * n <= most_steps && is_rough()) {
+    while (2 * chords * n <= max_steps && is_rough()) {
       chords *= 2;
       take(n, chords);
       errors = chord_errors(tree, moments, animation);

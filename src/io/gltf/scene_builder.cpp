@@ -15,7 +15,7 @@ namespace {
 // Meshes with at least this many triangles that are shown more than once are stored once.
 constexpr std::size_t fewest_to_instance = 256;
 // Maximum size of all poses of a deforming mesh, in bytes.
-constexpr std::size_t most_pose_bytes = std::size_t(8) << 30;
+constexpr std::size_t max_pose_bytes = std::size_t(8) << 30;
 
 std::string shown_name(const Node& node, std::size_t number) {
   return node.name.empty() ? "node " + std::to_string(number) : "node '" + printable(node.name) + "'";
@@ -162,7 +162,7 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   const Skin* skin = skin_of(n, primitive);
   if (n.skin && primitive.skin && !skin) return;
   const std::size_t bytes = moments_.count() * primitive.mesh->positions.size() * 2 * sizeof(Vec3f);
-  if (bytes > most_pose_bytes) {
+  if (bytes > max_pose_bytes) {
     primitive.where.error(
         "takes more than 8 GiB in the " + std::to_string(moments_.count()) + " poses of its deformation",
         "render fewer frames at once");

@@ -55,14 +55,14 @@ std::optional<std::vector<std::uint32_t>> face_indices(const Entity& shape, std:
 
 // The later poses of a mesh, from arrays that contain them consecutively; false after an error.
 bool take_later_poses(const Entity& shape, Mesh& mesh, Reporter& report) {
-  constexpr std::size_t most_poses = 128;  // after the first: the limit of the ray-tracing kernel
+  constexpr std::size_t max_poses = 128;  // after the first: the limit of the ray-tracing kernel
   const std::vector<Vec3f>&p = shape.parameters.array<Vec3f>("P1"), &n = shape.parameters.array<Vec3f>("N1");
   const std::size_t vertices = mesh.positions.size(), poses = p.size() / vertices;
   if (p.empty() && n.empty()) return true;
-  if (p.empty() || p.size() % vertices != 0 || poses > most_poses) {
+  if (p.empty() || p.size() % vertices != 0 || poses > max_poses) {
     report.error(place_of(shape, p.empty() ? "N1" : "P1"),
                  "'P1' takes the " + std::to_string(vertices) + " vertices once for each later time (at most " +
-                     std::to_string(most_poses) + "); there are " + std::to_string(p.size()) + " values");
+                     std::to_string(max_poses) + "); there are " + std::to_string(p.size()) + " values");
     return false;
   }
   if (n.size() != (mesh.normals.empty() ? 0 : p.size())) {

@@ -89,15 +89,15 @@ static std::string_view other_format(std::string_view text) {
 
 void Parser::parse_file(const std::string& path) {
   namespace fs = std::filesystem;
-  constexpr int most_files = 20000;
-  constexpr std::size_t most_depth = 200;
+  constexpr int max_files = 20000;
+  constexpr std::size_t max_depth = 200;
   SourceLocation where = lexer_ ? here() : SourceLocation{std::make_shared<const std::string>(path), 0, 0};
   std::error_code problem;
   fs::path canonical = fs::canonical(path, problem);
   if (problem) return report_.error(where, "there is no file '" + printable(path) + "'");
   for (const fs::path& open : open_files_)
     if (open == canonical) return report_.error(where, "'" + printable(path) + "' includes itself");
-  if (open_files_.size() >= most_depth || ++files_read_ > most_files)
+  if (open_files_.size() >= max_depth || ++files_read_ > max_files)
     return report_.error(where, "includes are nested too deeply; '" + printable(path) + "' is omitted");
   auto bytes = read_whole_file(path);
   if (!bytes) return report_.error(where, bytes.error());
@@ -176,9 +176,9 @@ void Parser::include_file(bool keep_state) {
 }
 
 void Parser::open_block(std::string_view begin) {
-  constexpr std::size_t most_depth = 10000;
-  if (blocks_.size() == most_depth) report_.error(here(), "blocks are nested more than 10000 deep");
-  if (blocks_.size() >= most_depth) return;
+  constexpr std::size_t max_depth = 10000;
+  if (blocks_.size() == max_depth) report_.error(here(), "blocks are nested more than 10000 deep");
+  if (blocks_.size() >= max_depth) return;
   blocks_.push_back({begin, here(), state_});
 }
 

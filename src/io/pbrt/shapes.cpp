@@ -39,9 +39,9 @@ std::shared_ptr<const Mesh> Parser::posed_ply_mesh(const Mesh& first, const Para
     report_.note(later.where, "the quadrilaterals of a deforming mesh are split into triangles");
   split_quads(*mesh);
   const auto& files = std::get<std::vector<std::string>>(later.values);
-  constexpr std::size_t most_poses = 128;
-  if (files.size() > most_poses) {
-    report_.error(later.where, "'filename1' takes at most " + std::to_string(most_poses) + " files");
+  constexpr std::size_t max_poses = 128;
+  if (files.size() > max_poses) {
+    report_.error(later.where, "'filename1' takes at most " + std::to_string(max_poses) + " files");
     return nullptr;
   }
   for (const std::string& file : files) {

@@ -1,6 +1,6 @@
 // Holding films against a reference.
 #pragma once
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 
 namespace montelux::lab {
 

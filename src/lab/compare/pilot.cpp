@@ -16,22 +16,22 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Passes of one half of a pilot: of both together as many as a repeat has, and enough for a variance.
-int half_passes(const PassPlan& plan, const ContestSettings& settings, double sample_seconds) {
+int half_passes(const PassPlan& plan, const ComparisonSettings& settings, double sample_seconds) {
   constexpr int min_passes = 4, max_passes = 64;
   double passes = plan.passes;
   if (settings.seconds) passes = *settings.seconds / settings.repeats / (plan.samples_per_pass * sample_seconds);
   return int(std::clamp(std::ceil(passes / 2), double(min_passes), double(max_passes)));
 }
 
-Pilot take_pilot(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+Pilot take_pilot(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
                  const PieceProgress& piece) {
   Pilot pilot;
   const Stopwatch wall;
   for (int h = 0; h < 2; ++h) {
-    RenderSettings s = settings_for(contestant, settings);
+    RenderSettings s = settings_for(compared_method, settings);
     s.plan = plan, s.first_pass = pilot_pass + h * plan.passes;
     PartOfPiece part(piece, 0.5 * h, 0.5 * h + 0.5);
-    const RenderResult r = render(contestant.integrator, s, part);
+    const RenderResult r = render(compared_method.integrator, s, part);
     pilot.halves[std::size_t(h)] = {mean_of(r.film), variance_of(r.film)};
     pilot.all_seconds += r.seconds;
   }
@@ -85,24 +85,24 @@ double error_of(const Pilot::Half& half, const PixelBuffer& truth, ErrorMeasure 
 
 }  // namespace
 
-std::vector<double> time_methods(const std::vector<Contestant>& contestants, const ContestState& state,
-                                 const ContestSettings& settings, const ContestWatch& watch) {
+std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                                 const ComparisonSettings& settings, const ComparisonWatch& watch) {
   std::vector<double> sample_seconds;
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
-    RenderSettings s = settings_for(contestants[i], settings);
+  for (std::size_t i = 0; i < compared_methods.size(); ++i) {
+    RenderSettings s = settings_for(compared_methods[i], settings);
     s.plan = {1, 1}, s.first_pass = timing_pass;
-    const PieceProgress piece(watch, {"timing of " + contestants[i].shown_name(), 0});
+    const PieceProgress piece(watch, {"timing of " + compared_methods[i].shown_name(), 0});
     PartOfPiece part(piece, 0, 1);
     // Of a few short ones the shortest: the first one meets cold caches, and any the work of others.
     double one = infinite;
     const Stopwatch all;
     for (int k = 0; k < 5 && all.seconds() < 0.05; ++k) {
       const Stopwatch wall;
-      (void)render(contestants[i].integrator, s, part);
+      (void)render(compared_methods[i].integrator, s, part);
       one = std::min(one, std::max(wall.seconds(), 1e-6));
     }
     // A chain has its warm-up once for all of its frames.
-    if (const CoupledIntegrator* coupled = contestants[i].integrator.coupled()) {
+    if (const CoupledIntegrator* coupled = compared_methods[i].integrator.coupled()) {
       const double warm_up = coupled->warm_up(), frames = state.methods[i].plan.samples_per_pass;
       one *= (warm_up + frames) / (warm_up + 1) / frames;
     }
@@ -111,16 +111,16 @@ std::vector<double> time_methods(const std::vector<Contestant>& contestants, con
   return sample_seconds;
 }
 
-std::vector<Pilot> run_pilots(const std::vector<Contestant>& contestants, const ContestState& state,
-                              const std::vector<double>& sample_seconds, const ContestSettings& settings,
-                              const ContestWatch& watch) {
+std::vector<Pilot> run_pilots(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                              const std::vector<double>& sample_seconds, const ComparisonSettings& settings,
+                              const ComparisonWatch& watch) {
   std::vector<Pilot> pilots;
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
+  for (std::size_t i = 0; i < compared_methods.size(); ++i) {
     PassPlan plan = state.methods[i].plan;
     plan.passes = half_passes(plan, settings, sample_seconds[i]);
     const PieceProgress piece(watch,
-                              {"pilot of " + contestants[i].shown_name(), 2 * plan.samples() * sample_seconds[i]});
-    pilots.push_back(take_pilot(contestants[i], settings, plan, piece));
+                              {"pilot of " + compared_methods[i].shown_name(), 2 * plan.samples() * sample_seconds[i]});
+    pilots.push_back(take_pilot(compared_methods[i], settings, plan, piece));
     if (watch.stopped()) break;
   }
   return pilots;

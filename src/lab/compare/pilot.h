@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 
 namespace montelux::lab {
 
@@ -21,13 +21,13 @@ struct Pilot {
 
 // Seconds of the machine's clock that a sample of the whole picture is going to take, by one pass of each method; the
 // plans are those of the state.
-std::vector<double> time_methods(const std::vector<Contestant>& contestants, const ContestState& state,
-                                 const ContestSettings& settings, const ContestWatch& watch);
+std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                                 const ComparisonSettings& settings, const ComparisonWatch& watch);
 
 // One of each method, cut short where it was stopped.
-std::vector<Pilot> run_pilots(const std::vector<Contestant>& contestants, const ContestState& state,
-                              const std::vector<double>& sample_seconds, const ContestSettings& settings,
-                              const ContestWatch& watch);
+std::vector<Pilot> run_pilots(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                              const std::vector<double>& sample_seconds, const ComparisonSettings& settings,
+                              const ComparisonWatch& watch);
 
 // The error by the measure that each pilot would have as a whole, in the form of squared_error_by(). `trusted` are the
 // methods whose means the errors may be held against.
@@ -47,7 +47,7 @@ ReferenceGoal plan_reference(const std::vector<Pilot>& pilots, const std::vector
                              const std::vector<double>& samples_of_repeat, ErrorMeasure measure, double share);
 
 // Ends at the goal's variance, or at a million samples a pixel.
-Reference make_reference(const std::vector<Contestant>& contestants, const ReferenceGoal& goal,
-                         const ContestSettings& settings, const ContestWatch& watch);
+Reference make_reference(const std::vector<ComparedMethod>& compared_methods, const ReferenceGoal& goal,
+                         const ComparisonSettings& settings, const ComparisonWatch& watch);
 
 }  // namespace montelux::lab

@@ -33,9 +33,9 @@ int more_passes(int passes, double excess) {
 
 }  // namespace
 
-Reference make_reference(const std::vector<Contestant>& contestants, const ReferenceGoal& goal,
-                         const ContestSettings& settings, const ContestWatch& watch) {
-  const Contestant& method = contestants[goal.method];
+Reference make_reference(const std::vector<ComparedMethod>& compared_methods, const ReferenceGoal& goal,
+                         const ComparisonSettings& settings, const ComparisonWatch& watch) {
+  const ComparedMethod& method = compared_methods[goal.method];
   RenderSettings s = settings_for(method, settings);
   s.seed = mix_bits(settings.render.seed ^ 0x5bd1e995u);
   const PieceProgress piece(watch, {"reference by " + method.shown_name(), goal.seconds});

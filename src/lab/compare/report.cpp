@@ -11,11 +11,11 @@ namespace montelux::lab {
 
 namespace {
 
-const std::string& name_of(const MethodResult& m) { return m.contestant.shown_name(); }
+const std::string& name_of(const MethodResult& m) { return m.compared_method.shown_name(); }
 
 constexpr const char* seconds_note = " Seconds are those of the frames that are shown.";
 
-Table table_of_methods(const ContestResult& result) {
+Table table_of_methods(const ComparisonResult& result) {
   const std::string by(title_of(result.measure));
   Table table{
       "methods",
@@ -30,7 +30,7 @@ Table table_of_methods(const ContestResult& result) {
   return table;
 }
 
-Table table_of_costs(const ContestResult& result) {
+Table table_of_costs(const ComparisonResult& result) {
   Table table{"costs",
               fmt::format("What one repeat took.{}", result.warm_up_counts ? "" : seconds_note),
               {"method", "seconds", "samples a pixel", "rays"},
@@ -56,7 +56,7 @@ std::string outcome_text(const Agreement& a) {
   return a.outcome == Outcome::agrees ? "agrees" : a.outcome == Outcome::differs ? "differs" : "too few repeats";
 }
 
-Table table_of_truth(const ContestResult& result) {
+Table table_of_truth(const ComparisonResult& result) {
   Table table{
       "truth",
       fmt::format("Is the mean of all repeats that of the reference? Tests of the image mean and of the squared "
@@ -74,7 +74,7 @@ Table table_of_truth(const ContestResult& result) {
   return table;
 }
 
-Table table_of_bars(const ContestResult& result) {
+Table table_of_bars(const ComparisonResult& result) {
   Table table{
       "bars",
       "What each method states of its own error: the variance of a pixel's mean, which is its MSE where it has no "
@@ -91,7 +91,7 @@ std::string ratio_text(const Measured& m) {
   return m.count < 2 ? "not known" : value_in_interval(m.mean, m.low, m.high);
 }
 
-Table table_of_ratios(const ContestResult& result) {
+Table table_of_ratios(const ComparisonResult& result) {
   Table table{
       "ratios",
       "The ratio of the efficiencies of the first and the second, with intervals, by each measure. The verdict uses "
@@ -115,7 +115,7 @@ Table table_of_ratios(const ContestResult& result) {
 }
 
 // Squared error against samples, or seconds, of single passes.
-Figure convergence(const ContestResult& result, bool by_time) {
+Figure convergence(const ComparisonResult& result, bool by_time) {
   Figure figure;
   figure.name = by_time ? "by-time" : "by-samples";
   figure.caption = "Mean squared error of single passes of 1, 2, 4, … samples, with 95 % bars over the repeats.";
@@ -141,11 +141,11 @@ Figure convergence(const ContestResult& result, bool by_time) {
   return figure;
 }
 
-bool has_slopes(const ContestResult& result) {
+bool has_slopes(const ComparisonResult& result) {
   return std::ranges::any_of(result.methods, [](const MethodResult& m) { return !m.convergence.empty(); });
 }
 
-Figure repeats(const ContestResult& result) {
+Figure repeats(const ComparisonResult& result) {
   Figure figure;
   figure.name = "repeats";
   figure.caption = fmt::format(
@@ -167,10 +167,10 @@ Figure repeats(const ContestResult& result) {
 }
 
 // More values than this, over all pictures, would make the page too large; the repeats go first.
-constexpr std::size_t most_values = 24u << 20;
+constexpr std::size_t max_values = 24u << 20;
 
 // Where the variance of each method comes from, pixel by pixel; layers of less than half a percent are left out.
-void add_shares(const ContestResult& result, std::size_t values, Comparison& comparison) {
+void add_shares(const ComparisonResult& result, std::size_t values, PictureComparison& comparison) {
   for (const MethodResult& m : result.methods) {
     if (!m.attribution) continue;
     std::size_t layer = 0;
@@ -179,7 +179,7 @@ void add_shares(const ContestResult& result, std::size_t values, Comparison& com
         const std::vector<float>& by_pixel = m.attribution->by_pixel[layer++];
         if (std::abs(share.share.mean) < 0.005) continue;
         values += by_pixel.size();
-        if (values > most_values) return;
+        if (values > max_values) return;
         MeasuredPicture picture{share.name, m.mean.width, m.mean.height, by_pixel, {}, {}, m.samples.mean};
         picture.set = "variance of " + name_of(m) + " by " + family.name;
         comparison.pictures.push_back(std::move(picture));
@@ -187,13 +187,14 @@ void add_shares(const ContestResult& result, std::size_t values, Comparison& com
   }
 }
 
-Comparison pictures(const ContestResult& result) {
-  Comparison comparison{"pictures",
-                        "The reference, and the mean of all repeats of each method. At the pointer: values with "
-                        "standard errors, and the luminance's running mean over the repeats with its 95 % band; the "
-                        "dashed line is the reference. If a method has layers of light, `show` has the share of "
-                        "each in the variance around a pixel, white for all of it.",
-                        {}};
+PictureComparison pictures(const ComparisonResult& result) {
+  PictureComparison comparison{
+      "pictures",
+      "The reference, and the mean of all repeats of each method. At the pointer: values with "
+      "standard errors, and the luminance's running mean over the repeats with its 95 % band; the "
+      "dashed line is the reference. If a method has layers of light, `show` has the share of "
+      "each in the variance around a pixel, white for all of it.",
+      {}};
   const Reference& reference = result.reference;
   const std::size_t pixels = reference.mean.pixel_count();
   std::vector<float> error(reference.variance.values.size());
@@ -206,7 +207,7 @@ Comparison pictures(const ContestResult& result) {
     MeasuredPicture picture{name_of(m), m.mean.width,  m.mean.height, m.mean.values, m.standard_error.values,
                             {},         m.samples.mean};
     values += m.luminance.size() * pixels;
-    if (values <= most_values) picture.repeats = m.luminance;
+    if (values <= max_values) picture.repeats = m.luminance;
     comparison.pictures.push_back(std::move(picture));
   }
   add_shares(result, values, comparison);
@@ -214,7 +215,7 @@ Comparison pictures(const ContestResult& result) {
 }
 
 // The shares of one family in the variance of every method that has layers.
-Figure shares(const ContestResult& result, std::size_t family) {
+Figure shares(const ComparisonResult& result, std::size_t family) {
   Figure figure;
   std::vector<const MethodResult*> methods;
   std::vector<int> colors;
@@ -243,12 +244,12 @@ Figure shares(const ContestResult& result, std::size_t family) {
   return figure;
 }
 
-void add_attribution(const ContestResult& result, Report& report) {
+void add_attribution(const ComparisonResult& result, Report& report) {
   const MethodResult* any = nullptr;
   std::string without;
   for (const MethodResult& m : result.methods) {
     if (m.attribution) any = &m;
-    if (!m.contestant.layers) without += (without.empty() ? "" : ", ") + name_of(m);
+    if (!m.compared_method.layers) without += (without.empty() ? "" : ", ") + name_of(m);
   }
   if (any) {
     report.sections.push_back(
@@ -269,7 +270,7 @@ void add_attribution(const ContestResult& result, Report& report) {
 
 }  // namespace
 
-ReportSet report_of(const ContestResult& result, const ContestWords& words) {
+ReportSet report_of(const ComparisonResult& result, const ComparisonText& words) {
   Report report;
   report.name = "comparison", report.title = "Which method is better, and with what confidence";
   report.sections.push_back(Facts{words.conditions});

@@ -1,12 +1,12 @@
-// A contest as a report.
+// A comparison as a report.
 #pragma once
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 #include "lab/report/report.h"
 
 namespace montelux::lab {
 
 // What the report says beside the figures.
-struct ContestWords {
+struct ComparisonText {
   std::string scene;
   std::vector<std::pair<std::string, std::string>> conditions;
   std::vector<std::string> sentences;     // one a verdict
@@ -16,6 +16,6 @@ struct ContestWords {
   std::vector<std::string> commands;      // that make it again
 };
 
-ReportSet report_of(const ContestResult& result, const ContestWords& words);
+ReportSet report_of(const ComparisonResult& result, const ComparisonText& words);
 
 }  // namespace montelux::lab

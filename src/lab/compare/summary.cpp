@@ -1,9 +1,9 @@
-// From what a contest has gathered to what it says.
+// From what a comparison has gathered to what it says.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 #include "mc/confidence.h"
 #include "mc/moments.h"
 
@@ -163,14 +163,14 @@ void summarize_film(const MethodState& state, const Reference& reference, double
 }
 
 Likeness likeness_of(const MethodResult& a, const MethodResult& b) {
-  if (!a.contestant.settings.empty() && a.contestant.settings == b.contestant.settings &&
-      a.contestant.sampler == b.contestant.sampler)
+  if (!a.compared_method.settings.empty() && a.compared_method.settings == b.compared_method.settings &&
+      a.compared_method.sampler == b.compared_method.sampler)
     return Likeness::settings;
   const bool equal = !a.luminance.empty() && a.luminance == b.luminance && a.mean.values == b.mean.values;
   return equal ? Likeness::pictures : Likeness::none;
 }
 
-PairVerdict judge(const ContestResult& result, std::size_t a, std::size_t b, double confidence) {
+PairVerdict judge(const ComparisonResult& result, std::size_t a, std::size_t b, double confidence) {
   const MethodResult &first = result.methods[a], &second = result.methods[b];
   PairVerdict v;
   v.first = a, v.second = b, v.likeness = likeness_of(first, second);
@@ -219,26 +219,26 @@ int winner_of(const Measured& ratio) {
   return ratio.low > 1 ? 1 : ratio.high < 1 ? -1 : 0;
 }
 
-ContestResult result_of(const std::vector<Contestant>& contestants, const ContestState& state,
-                        const ContestSettings& settings) {
-  ContestResult result;
+ComparisonResult result_of(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                           const ComparisonSettings& settings) {
+  ComparisonResult result;
   result.reference = state.reference;
   result.warm_up_counts = settings.render.warm_up_counts, result.measure = settings.measure;
   // Of all tests of all methods together.
-  const double level = level_of_each_test(0.01, contestants.size());
+  const double level = level_of_each_test(0.01, compared_methods.size());
   double smallest_mse = std::numeric_limits<double>::infinity(), smallest_relative = smallest_mse;
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
+  for (std::size_t i = 0; i < compared_methods.size(); ++i) {
     const MethodState& gathered = state.methods[i];
     MethodResult& method = result.methods.emplace_back();
-    method.contestant = contestants[i];
+    method.compared_method = compared_methods[i];
     method.repeats = gathered.repeats;
     method.luminance = gathered.luminance;
     if (method.repeats.empty()) continue;
     summarize(method, settings.confidence);
     summarize_convergence(gathered.convergence, settings.confidence, method);
     summarize_film(gathered, result.reference, level, method);
-    if (method.contestant.layers && !gathered.attribution.empty())
-      method.attribution = attribution_of(*method.contestant.layers, gathered.attribution, gathered.pixel_shares,
+    if (method.compared_method.layers && !gathered.attribution.empty())
+      method.attribution = attribution_of(*method.compared_method.layers, gathered.attribution, gathered.pixel_shares,
                                           {method.mean.width, method.mean.height, settings.confidence});
     if (method.mse.mean > 0) smallest_mse = std::min(smallest_mse, method.mse.mean);
     if (method.relative_mse.mean > 0) smallest_relative = std::min(smallest_relative, method.relative_mse.mean);
@@ -252,8 +252,8 @@ ContestResult result_of(const std::vector<Contestant>& contestants, const Contes
   result.reference_share[ErrorMeasure::mse] = share(ErrorMeasure::mse, smallest_mse);
   result.reference_share[ErrorMeasure::relative_mse] = result.reference_share[ErrorMeasure::flip] =
       std::max(share(ErrorMeasure::relative_mse, smallest_relative), result.reference_share[ErrorMeasure::mse]);
-  for (std::size_t a = 0; a < contestants.size(); ++a)
-    for (std::size_t b = a + 1; b < contestants.size(); ++b)
+  for (std::size_t a = 0; a < compared_methods.size(); ++a)
+    for (std::size_t b = a + 1; b < compared_methods.size(); ++b)
       result.verdicts.push_back(judge(result, a, b, settings.confidence));
   return result;
 }

@@ -2,14 +2,14 @@
 #pragma once
 #include <string>
 
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 
 namespace montelux::lab {
 
 // States how a piece gets on, over the renders that it is made of.
 class PieceProgress {
  public:
-  PieceProgress(const ContestWatch& watch, WorkPiece piece) : watch_(watch), piece_(std::move(piece)) { state(0); }
+  PieceProgress(const ComparisonWatch& watch, WorkPiece piece) : watch_(watch), piece_(std::move(piece)) { state(0); }
   ~PieceProgress() { state(1); }
   PieceProgress(const PieceProgress&) = delete;
   PieceProgress& operator=(const PieceProgress&) = delete;
@@ -17,10 +17,10 @@ class PieceProgress {
   void state(double done) const {
     if (watch_.progress) watch_.progress(piece_, done);
   }
-  const ContestWatch& watch() const { return watch_; }
+  const ComparisonWatch& watch() const { return watch_; }
 
  private:
-  const ContestWatch& watch_;
+  const ComparisonWatch& watch_;
   WorkPiece piece_;
 };
 
@@ -37,8 +37,8 @@ class PartOfPiece final : public RenderObserver {
 };
 
 // The render's settings for one method: its own point set, no end by time.
-RenderSettings settings_for(const Contestant& contestant, const ContestSettings& settings);
+RenderSettings settings_for(const ComparedMethod& compared_method, const ComparisonSettings& settings);
 // Of all that a render took, what counts.
-double seconds_that_count(const RenderResult& result, const ContestSettings& settings);
+double seconds_that_count(const RenderResult& result, const ComparisonSettings& settings);
 
 }  // namespace montelux::lab

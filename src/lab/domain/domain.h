@@ -17,7 +17,7 @@ struct DomainPoints {
 };
 
 // The most that a domain may have.
-inline constexpr std::size_t most_dimensions = 64;
+inline constexpr std::size_t max_dimensions = 64;
 
 class Domain {
  public:

@@ -24,14 +24,14 @@ class Reader {
   }
 
   // What follows would not change that the domain is refused.
-  bool full() const { return factors_.size() + mistakes_.size() > most_dimensions; }
+  bool full() const { return factors_.size() + mistakes_.size() > max_dimensions; }
 
   ParsedDomain finish() {
     std::size_t dimension = 0;
     for (const DomainFactor& f : factors_) dimension += std::visit([](const auto& x) { return x.dimension(); }, f);
-    if (mistakes_.empty() && dimension > most_dimensions)
+    if (mistakes_.empty() && dimension > max_dimensions)
       complain(0, text_.size(),
-               fmt::format("the domain has {} dimensions; the maximum is {}", dimension, most_dimensions));
+               fmt::format("the domain has {} dimensions; the maximum is {}", dimension, max_dimensions));
     ParsedDomain result{std::nullopt, std::move(mistakes_)};
     if (result.mistakes.empty()) result.domain.emplace(std::move(factors_));
     return result;
@@ -62,10 +62,10 @@ class Reader {
   // The intervals up to the first that is one too many.
   void read_sides(const std::vector<TextPart>& parts) {
     for (const TextPart& part : parts) {
-      if (factors_.size() + mistakes_.size() >= most_dimensions)
-        return complain(trimmed(part), factors_.size() < most_dimensions
+      if (factors_.size() + mistakes_.size() >= max_dimensions)
+        return complain(trimmed(part), factors_.size() < max_dimensions
                                            ? "there are too many errors to continue"
-                                           : fmt::format("the domain has more than {} dimensions", most_dimensions));
+                                           : fmt::format("the domain has more than {} dimensions", max_dimensions));
       read_side(trimmed(part));
     }
   }
@@ -170,9 +170,9 @@ class Reader {
     const TextPart* part = setting("dimension");
     if (!part) return otherwise;
     const auto value = number(*part);
-    if (value && *value >= 1 && *value <= double(most_dimensions) && *value == std::floor(*value))
+    if (value && *value >= 1 && *value <= double(max_dimensions) && *value == std::floor(*value))
       return std::size_t(*value);
-    if (value) complain(*part, fmt::format("the dimension must be a whole number from 1 to {}", most_dimensions));
+    if (value) complain(*part, fmt::format("the dimension must be a whole number from 1 to {}", max_dimensions));
     return otherwise;
   }
 

@@ -20,10 +20,10 @@ std::span<const EntitySpec> domain_table() {
       {"ball", "the ball about the origin; variables x, y, z, r; volume", {{"radius", {number}, "default 1"}}},
       {"simplex",
        "x, y, ... >= 0 with a sum up to 1; variables x, y, z, above three dimensions x1, x2, ...; volume",
-       {{"dimension", {integer}, "default 2", 1, double(most_dimensions)}}},
+       {{"dimension", {integer}, "default 2", 1, double(max_dimensions)}}},
       {"cube",
        "the unit cube; variables x1, x2, ...; volume",
-       {{"dimension", {integer}, "default 3", 1, double(most_dimensions)}}},
+       {{"dimension", {integer}, "default 3", 1, double(max_dimensions)}}},
   };
   return entries;
 }

@@ -95,7 +95,7 @@ struct MarkdownWriter {
       text += fmt::format("![{0}]({1}/{2}-{3}.png)\n", "picture " + std::to_string(i + 1), folder, images.name, i + 1);
     return text + fmt::format("\n*{}*\n\n", images.caption);
   }
-  std::string operator()(const Comparison& comparison) const { return comparison.caption + "\n\n"; }
+  std::string operator()(const PictureComparison& comparison) const { return comparison.caption + "\n\n"; }
   std::string operator()(const Verdict& verdict) const { return "- " + verdict.claim + "\n"; }
   std::string operator()(const Commands& commands) const {
     return fmt::format("    {}\n", fmt::join(commands.lines, "\n    "));

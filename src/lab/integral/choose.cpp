@@ -19,7 +19,7 @@ constexpr double pilot_share = 0.03;
 // A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
 // less is not.
 constexpr double clear_gain = 4, no_gain = 1.5;
-constexpr std::uint64_t least_samples_to_try = 32768;
+constexpr std::uint64_t min_samples_to_try = 32768;
 constexpr int first_steps = 5;
 constexpr std::uint64_t max_samples_to_probe = 1u << 20;
 constexpr std::uint64_t max_samples_to_plan = 1u << 26;  // pilots that more samples would pay for are long enough
@@ -105,7 +105,7 @@ Method other_points(const Method& m) {
 std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, double gain) {
   const std::size_t dimension = problem.integrand.dimension;
   std::vector<Method> methods;
-  if (samples < least_samples_to_try) {
+  if (samples < min_samples_to_try) {
     methods.push_back(by_rule(dimension, maps_without_trial(gain, dimension)));
   } else {
     if (gain >= no_gain) methods.push_back(by_rule(dimension, true));

@@ -131,13 +131,13 @@ DensitySampler::Drawn DensitySampler::sample_by_table(CubeKey key, std::uint64_t
 
 DensitySampler::Drawn DensitySampler::sample_by_rejection(CubeKey key, std::uint64_t first, std::size_t count,
                                                           std::span<double> points) const {
-  constexpr std::uint64_t most_proposals = 1u << 20;  // for each point
+  constexpr std::uint64_t max_proposals = 1u << 20;  // for each point
   const CubeKey own = key.fork(std::uint32_t(first)).fork(std::uint32_t(first >> 32));
   const std::size_t batch = batch_size(dimension_);
   std::vector<double> candidates(dimension_ * batch), height(batch), values(batch);
   std::size_t kept = 0;
   for (std::uint64_t tried = 0; kept < count; tried += batch) {
-    if (tried > most_proposals * count)
+    if (tried > max_proposals * count)
       throw std::invalid_argument(
           "rejection accepts fewer than one point in a million: give the inverse of the density");
     fill_independent(own, {dimension_, tried, batch, candidates.data()});

@@ -14,8 +14,8 @@ constexpr std::uint32_t probe_pass = 0xffffe000u;  // no pass of a run has this 
 constexpr std::uint64_t max_scan = 1u << 14;
 constexpr std::size_t max_dimension = 6;  // boxes that shrink lose a point in more
 constexpr int levels = 40;
-constexpr double light = 10;             // a tail index that no singularity of note has
-constexpr double least_exponent = 0.12;  // logarithms are below it
+constexpr double light = 10;           // a tail index that no singularity of note has
+constexpr double min_exponent = 0.12;  // logarithms are below it
 // Where the growth is measured: far enough from the best point found not to depend on where exactly it lies, nor on
 // what rounding leaves of a difference of squares.
 constexpr double near = 1e-6, far = 1e-4;
@@ -132,7 +132,7 @@ TailProbe probe_tail(const Integrand& integrand, std::uint64_t seed, std::uint64
   climb(f, key, points_of_level, top);
   const double exponent = growth_about(f, key.fork(0), top);
   probe.evaluations = f.evaluations();
-  if (exponent < least_exponent) return probe;
+  if (exponent < min_exponent) return probe;
   // What is known to be a singularity is a power law over more terms.
   const TailFit more = fit_tail(largest, 16 * samples);
   probe.exponent = exponent, probe.index = index_of(more, exponent), probe.terms = more.terms;

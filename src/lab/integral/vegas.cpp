@@ -8,7 +8,7 @@ namespace montelux::lab {
 namespace {
 
 constexpr double allocation_exponent = 0.75;  // beta of Lepage 2021
-constexpr std::uint64_t most_boxes = 1u << 14;
+constexpr std::uint64_t max_boxes = 1u << 14;
 constexpr std::uint32_t spread_pass =
     0xfffff000u;  // the pass that measures the boxes: no pass of a run has this number
 
@@ -25,7 +25,7 @@ class Vegas final : public Technique {
       : integrand_(problem.integrand), map_(training.map()), training_evaluations_(training.evaluations()) {
     // As many samples again measure the boxes, four or more in each.
     const std::uint64_t measured = training.evaluations();
-    shape_ = GridShape::of(integrand_.dimension, std::clamp<std::uint64_t>(measured / 4, 1, most_boxes));
+    shape_ = GridShape::of(integrand_.dimension, std::clamp<std::uint64_t>(measured / 4, 1, max_boxes));
     spread_.assign(shape_.boxes, 1.0);
     if (shape_.boxes == 1 || measured < 4) return;
     TermSums sums;

@@ -100,7 +100,7 @@ struct SectionWriter {
     }
     return json;
   }
-  Json operator()(const Comparison& comparison) const {
+  Json operator()(const PictureComparison& comparison) const {
     Json json{{"kind", "comparison"}, {"name", comparison.name}, {"caption", comparison.caption}};
     json["pictures"] = Json::array();
     for (const MeasuredPicture& picture : comparison.pictures) {

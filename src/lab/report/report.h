@@ -79,7 +79,7 @@ struct MeasuredPicture {
 
 // Pictures of one size to be held side by side, over each other, and read out by pixel, one set at a time. The first is
 // the reference.
-struct Comparison {
+struct PictureComparison {
   std::string name, caption;
   std::vector<MeasuredPicture> pictures;
 };
@@ -113,7 +113,7 @@ struct Commands {
   std::vector<std::string> lines;
 };
 
-using Section = std::variant<Text, Formula, Table, Facts, Figure, Images, Comparison, Verdict, Commands>;
+using Section = std::variant<Text, Formula, Table, Facts, Figure, Images, PictureComparison, Verdict, Commands>;
 
 // `name` is good for a file and for a link; `group` gathers the reports of a page.
 struct Report {

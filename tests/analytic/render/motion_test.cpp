@@ -45,7 +45,7 @@ RenderResult rendered(const TestScene& scene, std::uint32_t seed, std::optional<
 }
 
 // The least p-value of Welch's tests of all pixels, times their number (Bonferroni).
-double least_p_value(const Film& a, const Film& b) {
+double min_p_value(const Film& a, const Film& b) {
   double least = 1;
   int pixels = 0;
   const PixelBounds& all = a.bounds();
@@ -78,11 +78,11 @@ TEST(Motion, of_the_camera_is_the_opposite_motion_of_everything_else) {
   const TestScene camera(dim(look + "ActiveTransform EndTime\n" + move + "ActiveTransform All\n", "") + things);
   const TestScene world(dim(look, "") + "ActiveTransform EndTime\n" + move + "ActiveTransform All\n" + things);
   const Film by_camera = rendered(camera, 1).film, by_world = rendered(world, 2).film;
-  EXPECT_GT(least_p_value(by_camera, by_world), level);
+  EXPECT_GT(min_p_value(by_camera, by_world), level);
   // A motion that is a little shorter is another one.
   const TestScene shorter(dim(look, "") + "ActiveTransform EndTime\nTranslate 0.4 0.1 -0.6\nRotate 25 0 1 0.3\n" +
                           "ActiveTransform All\n" + things);
-  EXPECT_LT(least_p_value(by_camera, rendered(shorter, 3).film), level);
+  EXPECT_LT(min_p_value(by_camera, rendered(shorter, 3).film), level);
 }
 
 TEST(Motion, that_does_not_take_place_is_the_scene_at_rest) {
@@ -91,11 +91,11 @@ TEST(Motion, that_does_not_take_place_is_the_scene_at_rest) {
   const TestScene moving(corner(look, "") + "ActiveTransform EndTime\n" + move + "ActiveTransform All\n" + things);
   const TestScene start(corner(look, "") + things), end(corner(look, "") + move + things);
   const Film at_start = rendered(moving, 1, Shutter{0, 0}).film, at_end = rendered(moving, 1, Shutter{1, 1}).film;
-  EXPECT_GT(least_p_value(at_start, rendered(start, 2).film), level);
-  EXPECT_GT(least_p_value(at_end, rendered(end, 3).film), level);
-  EXPECT_LT(least_p_value(at_start, at_end), level);
+  EXPECT_GT(min_p_value(at_start, rendered(start, 2).film), level);
+  EXPECT_GT(min_p_value(at_end, rendered(end, 3).film), level);
+  EXPECT_LT(min_p_value(at_start, at_end), level);
   // A shutter that closes as it opens is not the one that the scene asks for.
-  EXPECT_LT(least_p_value(at_start, rendered(moving, 4).film), level);
+  EXPECT_LT(min_p_value(at_start, rendered(moving, 4).film), level);
 }
 
 TEST(Motion, of_vertices_is_that_of_the_transform_that_moves_them) {
@@ -107,9 +107,9 @@ TEST(Motion, of_vertices_is_that_of_the_transform_that_moves_them) {
   const TestScene whole(corner(look, "") + "ActiveTransform EndTime Translate 0.7 0 0 ActiveTransform All\n" +
                         triangle);
   const Film a = rendered(vertices, 1).film;
-  EXPECT_GT(least_p_value(a, rendered(whole, 2).film), level);
+  EXPECT_GT(min_p_value(a, rendered(whole, 2).film), level);
   const TestScene first(corner(look, "") + triangle);
-  EXPECT_LT(least_p_value(a, rendered(first, 3).film), level);
+  EXPECT_LT(min_p_value(a, rendered(first, 3).film), level);
 }
 
 // A small ball far out of focus makes an image of the aperture, upside down, with the light of the ball spread evenly

@@ -21,7 +21,7 @@ double normal(RandomStream<float>& random) {
 
 // A method of `passes` normal pass means that are off by `bias` in one channel, and a reference with an error of its
 // own.
-Agreement contest(RandomStream<float>& random, int passes, double bias, double level) {
+Agreement comparison(RandomStream<float>& random, int passes, double bias, double level) {
   std::array<MeanDifference, 3> channels;
   for (std::size_t c = 0; c < 3; ++c) {
     Moments means;
@@ -35,7 +35,7 @@ Agreement contest(RandomStream<float>& random, int passes, double bias, double l
 double share_of(Outcome outcome, int trials, int passes, double bias, double level) {
   RandomStream<float> random(7u, std::uint32_t(passes));
   int count = 0;
-  for (int i = 0; i < trials; ++i) count += contest(random, passes, bias, level).outcome == outcome;
+  for (int i = 0; i < trials; ++i) count += comparison(random, passes, bias, level).outcome == outcome;
   return double(count) / trials;
 }
 
@@ -59,11 +59,11 @@ TEST(Agreement, finds_the_bias_that_it_says_it_would_find) {
   // The bias that is found nine times in ten, for the true standard error.
   const int passes = 16;
   const double error = std::sqrt(sigma * sigma / passes + reference_error * reference_error);
-  const double stated = contest(random, passes, 0, level).detectable;
+  const double stated = comparison(random, passes, 0, level).detectable;
   EXPECT_GT(stated, 3 * error);
   EXPECT_LT(stated, 8 * error);
   double mean_stated = 0;
-  for (int i = 0; i < trials; ++i) mean_stated += contest(random, passes, 0, level).detectable / trials;
+  for (int i = 0; i < trials; ++i) mean_stated += comparison(random, passes, 0, level).detectable / trials;
   const double found = share_of(Outcome::differs, trials, passes, mean_stated, level);
   // The largest of the three stated ones is stated, so the power is at least that.
   EXPECT_LT(at_least_p_value(0.9, std::sqrt(0.09 / trials), found), 1) << found;

@@ -1,4 +1,4 @@
-// Where variance comes from, of layers whose covariances are known; and contests that go on.
+// Where variance comes from, of layers whose covariances are known; and comparisons that go on.
 #include "lab/compare/attribution.h"
 
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "api/saved_file.h"
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 #include "noise.h"
 #include "statistics.h"
 
@@ -59,18 +59,18 @@ class LayeredNoise final : public PixelIntegrator {
   }
 };
 
-ContestSettings settings(int repeats) {
-  ContestSettings s;
+ComparisonSettings settings(int repeats) {
+  ComparisonSettings s;
   s.render.bounds = {0, 0, 24, 24}, s.render.width = s.render.height = 24, s.render.threads = 1;
   s.samples = 64, s.repeats = repeats;
   return s;
 }
 
-std::vector<Contestant> contestants(const PixelIntegrator& integrator) {
+std::vector<ComparedMethod> compared_methods(const PixelIntegrator& integrator) {
   LayerPlan plan;
   plan.bounces = 0, plan.techniques = true;
-  Contestant with{"a", "with", integrator, PointSetKind::independent, {}, plan};
-  Contestant without{"b", "without", integrator, PointSetKind::independent, {}, {}};
+  ComparedMethod with{"a", "with", integrator, PointSetKind::independent, {}, plan};
+  ComparedMethod without{"b", "without", integrator, PointSetKind::independent, {}, {}};
   return {with, without};
 }
 
@@ -88,7 +88,7 @@ bool agrees(const Measured& m, double truth) {
 
 TEST(Attribution, finds_the_shares_of_layers_whose_covariances_are_known) {
   const LayeredNoise noise;
-  const ContestResult r = run_contest(contestants(noise), exact_one(), settings(12), {});
+  const ComparisonResult r = run_comparison(compared_methods(noise), exact_one(), settings(12), {});
   ASSERT_TRUE(r.methods[0].attribution);
   EXPECT_FALSE(r.methods[1].attribution);
   const double x = sigma_x * sigma_x, y = sigma_y * sigma_y, z = sigma_z * sigma_z, all = x / 4 + y + z;
@@ -113,7 +113,7 @@ TEST(Attribution, finds_the_shares_of_layers_whose_covariances_are_known) {
 
 TEST(Attribution, has_shares_that_sum_to_one_at_every_pixel) {
   const LayeredNoise noise;
-  const ContestResult r = run_contest(contestants(noise), exact_one(), settings(3), {});
+  const ComparisonResult r = run_comparison(compared_methods(noise), exact_one(), settings(3), {});
   const auto& by_pixel = r.methods[0].attribution->by_pixel;
   ASSERT_EQ(by_pixel.size(), 6u);
   for (std::size_t p = 0; p < 24 * 24; ++p) {
@@ -132,7 +132,7 @@ TEST(RatioOfSums, has_the_interval_of_the_jackknife) {
 }
 
 // All that does not depend on the time.
-void expect_same(const ContestState& a, const ContestState& b) {
+void expect_same(const ComparisonState& a, const ComparisonState& b) {
   ASSERT_EQ(a.methods.size(), b.methods.size());
   for (std::size_t i = 0; i < a.methods.size(); ++i) {
     const MethodState &m = a.methods[i], &n = b.methods[i];
@@ -157,25 +157,25 @@ void expect_same(const ContestState& a, const ContestState& b) {
   }
 }
 
-TEST(Contest, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stopped) {
+TEST(Comparison, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stopped) {
   const LayeredNoise noise;
-  const auto both = contestants(noise);
-  ContestState whole = begin_contest(both, exact_one(), settings(6));
+  const auto both = compared_methods(noise);
+  ComparisonState whole = begin_comparison(both, exact_one(), settings(6));
   EXPECT_TRUE(run_rounds(both, settings(6), 6, {}, whole));
 
-  SavedContest half;
-  half.state = begin_contest(both, exact_one(), settings(3));
+  SavedComparison half;
+  half.state = begin_comparison(both, exact_one(), settings(3));
   EXPECT_TRUE(run_rounds(both, settings(3), 3, {}, half.state));
   // No two repeats share random numbers.
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(whole.methods[0].luminance[i], whole.methods[0].luminance[j]);
   half.options.methods = {"path", "naive"};
   const auto folder = std::filesystem::temp_directory_path();
-  const auto file = folder / "montelux-saved-contest.json", scene = folder / "montelux-saved-contest.pbrt";
+  const auto file = folder / "montelux-saved-comparison.json", scene = folder / "montelux-saved-comparison.pbrt";
   std::ofstream(scene) << "WorldBegin\n";
   half.scene = scene, half.fingerprint = scene_fingerprint(scene);
-  ASSERT_TRUE(save_contest(file, half));
-  Result<SavedContest> read = load_contest(file);
+  ASSERT_TRUE(save_comparison(file, half));
+  Result<SavedComparison> read = load_comparison(file);
   ASSERT_TRUE(read) << read.error();
   expect_same(read->state, half.state);
   EXPECT_TRUE(run_rounds(both, settings(3), 3, {}, read->state));
@@ -191,14 +191,14 @@ TEST(Contest, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stoppe
     std::string damaged = text;
     ASSERT_NE(damaged.find(old), std::string::npos) << old;
     std::ofstream(file) << damaged.replace(damaged.find(old), old.size(), by);
-    const Result<SavedContest> refused = load_contest(file);
+    const Result<SavedComparison> refused = load_comparison(file);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().find("it is damaged"), std::string::npos) << refused.error();
   }
   std::ofstream(file) << text;
 
   // Statistics are those of all six.
-  const ContestResult a = result_of(both, read->state, settings(3)), b = result_of(both, whole, settings(6));
+  const ComparisonResult a = result_of(both, read->state, settings(3)), b = result_of(both, whole, settings(6));
   EXPECT_EQ(a.methods[0].mse.mean, b.methods[0].mse.mean);
   EXPECT_EQ(a.methods[0].mse.count, 6);
   EXPECT_EQ(a.methods[0].bias_squared.mean, b.methods[0].bias_squared.mean);
@@ -207,31 +207,31 @@ TEST(Contest, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stoppe
 
   // A scene that has changed is refused.
   std::ofstream(scene, std::ios::app) << "# another\n";
-  const Result<SavedContest> changed = load_contest(file);
+  const Result<SavedComparison> changed = load_comparison(file);
   ASSERT_FALSE(changed);
   EXPECT_NE(changed.error().find("has changed"), std::string::npos) << changed.error();
   std::filesystem::remove(file), std::filesystem::remove(scene);
 }
 
 // Their checksums are right: only the bounds of what they say are left to refuse them.
-TEST(Contest, refuses_files_that_nobody_would_have_saved) {
+TEST(Comparison, refuses_files_that_nobody_would_have_saved) {
   using Json = nlohmann::ordered_json;
   const LayeredNoise noise;
-  const auto both = contestants(noise);
-  SavedContest saved;
-  saved.state = begin_contest(both, exact_one(), settings(2));
+  const auto both = compared_methods(noise);
+  SavedComparison saved;
+  saved.state = begin_comparison(both, exact_one(), settings(2));
   ASSERT_TRUE(run_rounds(both, settings(2), 2, {}, saved.state));
   saved.options.methods = {"path", "naive"}, saved.options.samples = 64;
   const auto folder = std::filesystem::temp_directory_path();
-  const auto file = folder / "montelux-crafted-contest.json", scene = folder / "montelux-crafted-contest.pbrt";
+  const auto file = folder / "montelux-crafted-comparison.json", scene = folder / "montelux-crafted-comparison.pbrt";
   std::ofstream(scene) << "WorldBegin\n";
   saved.scene = scene, saved.fingerprint = scene_fingerprint(scene);
-  ASSERT_TRUE(save_contest(file, saved));
+  ASSERT_TRUE(save_comparison(file, saved));
   Json whole;
   std::ifstream(file) >> whole;
   whole.erase("checksum");
   ASSERT_TRUE(save_json(file, whole));
-  const Result<SavedContest> again = load_contest(file);
+  const Result<SavedComparison> again = load_comparison(file);
   ASSERT_TRUE(again) << again.error();
   for (const auto& [place, value] : std::vector<std::pair<std::string, Json>>{
            {"/options/repeats", 2147483647},
@@ -251,19 +251,19 @@ TEST(Contest, refuses_files_that_nobody_would_have_saved) {
     Json crafted = whole;
     crafted[Json::json_pointer(place)] = value;
     ASSERT_TRUE(save_json(file, crafted));
-    EXPECT_FALSE(load_contest(file)) << place << ' ' << value;
+    EXPECT_FALSE(load_comparison(file)) << place << ' ' << value;
   }
   std::filesystem::remove(file), std::filesystem::remove(scene);
 }
 
-TEST(Contest, ends_the_round_in_which_it_was_stopped_before_it_goes_on) {
+TEST(Comparison, ends_the_round_in_which_it_was_stopped_before_it_goes_on) {
   const LayeredNoise noise;
-  const auto both = contestants(noise);
-  ContestState whole = begin_contest(both, exact_one(), settings(3)),
-               cut = begin_contest(both, exact_one(), settings(3));
+  const auto both = compared_methods(noise);
+  ComparisonState whole = begin_comparison(both, exact_one(), settings(3)),
+                  cut = begin_comparison(both, exact_one(), settings(3));
   run_rounds(both, settings(3), 3, {}, whole);
   int turns = 0;
-  ContestWatch watch;
+  ComparisonWatch watch;
   watch.progress = [&](const WorkPiece&, double done) { turns += done == 0; };
   watch.stop = [&] { return turns == 4; };
   EXPECT_FALSE(run_rounds(both, settings(3), 3, watch, cut));
@@ -273,8 +273,8 @@ TEST(Contest, ends_the_round_in_which_it_was_stopped_before_it_goes_on) {
   expect_same(cut, whole);
 }
 
-TEST(Contest, refuses_files_that_are_no_saved_contest) {
-  const auto file = std::filesystem::temp_directory_path() / "montelux-no-contest.json";
+TEST(Comparison, refuses_files_that_are_no_saved_comparison) {
+  const auto file = std::filesystem::temp_directory_path() / "montelux-no-comparison.json";
   for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
            {"not JSON", "not a file that montelux compare --save wrote"},
            {R"({"format": "montelux integrals"})", "not a file that montelux compare --save wrote"},
@@ -282,12 +282,12 @@ TEST(Contest, refuses_files_that_are_no_saved_contest) {
            {R"({"format": "montelux comparison"})", "its entry \"version\" is missing"},
            {R"({"format": "montelux comparison", "version": 5})", "it is damaged"}}) {
     std::ofstream(file) << text;
-    const Result<SavedContest> read = load_contest(file);
+    const Result<SavedComparison> read = load_comparison(file);
     ASSERT_FALSE(read);
     EXPECT_NE(read.error().find(reason), std::string::npos) << read.error();
   }
   std::filesystem::remove(file);
-  EXPECT_FALSE(load_contest(file));
+  EXPECT_FALSE(load_comparison(file));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Genz, closed_forms_agree_with_quadrature) {
 
 TEST(Methods, every_mean_is_the_closed_form) {
   const double all_cases = 3 * 5 * double(covered_methods.size());
-  double tests = 0, least = 1, least_of_wrong = 1;
+  double tests = 0, least = 1, smallest_of_wrong = 1;
   for (std::size_t dimension : {2, 5, 10})
     for (const Case& c : cases(dimension))
       for (std::string_view method : covered_methods) {
@@ -78,10 +78,10 @@ TEST(Methods, every_mean_is_the_closed_form) {
         EXPECT_EQ(r.non_finite, 0u);
         EXPECT_LE(r.evaluations, (1u << 16) + 4096u) << method;
         // A twin with a fault of 3 % (a Jacobian that is wrong, a count that is one too few).
-        least_of_wrong = std::min(least_of_wrong, p_value(r, 1.03 * c.genz.integral()));
+        smallest_of_wrong = std::min(smallest_of_wrong, p_value(r, 1.03 * c.genz.integral()));
       }
   EXPECT_EQ(tests, all_cases);
-  EXPECT_LT(least_of_wrong, sidak_level(family_level, tests));
+  EXPECT_LT(smallest_of_wrong, sidak_level(family_level, tests));
 }
 
 TEST(Methods, intervals_hold_the_truth_as_often_as_they_say) {

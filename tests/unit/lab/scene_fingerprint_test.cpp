@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "temporary_folder.h"
 
 using namespace montelux;

@@ -318,7 +318,7 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   s.memories = &memories;
   RenderObserver silent;
   constexpr std::size_t of_one = std::size_t(40 * 40) * 320;
-  s.most_memory = of_one + of_one / 2;
+  s.max_memory = of_one + of_one / 2;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 2);
   ASSERT_EQ(memories.size(), 3u);
   ASSERT_NE(memories[0], nullptr);
@@ -326,7 +326,7 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
   // The next picture: chain 0 goes on, and the others begin afresh. What they had before takes none of the room.
-  s.most_memory = 3 * of_one, s.seed = 6;
+  s.max_memory = 3 * of_one, s.seed = 6;
   const RenderResult next = render(chosen.any(), s, silent);
   EXPECT_EQ(next.forgotten, 0);
   EXPECT_EQ(next.film.image().passes, 3);
@@ -336,12 +336,12 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(largest_confidence(*memories[0]), 4);
   EXPECT_EQ(largest_confidence(*memories[1]), 2);
   EXPECT_EQ(largest_confidence(*memories[2]), 2);
-  --s.most_memory;
+  --s.max_memory;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 1);
   EXPECT_NE(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
   // Of the last picture nothing is kept, and nothing missed.
-  s.most_memory = 0;
+  s.max_memory = 0;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 0);
   for (const auto& memory : memories) EXPECT_EQ(memory, nullptr);
 }

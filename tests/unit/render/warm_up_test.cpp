@@ -160,8 +160,8 @@ TEST(Plans, of_points_that_are_fixed_have_one_pass) {
     s.sampler = PointSetKind::uniform_grid;
     const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent).plan;
     // The measurement of the speed takes the time of one or two of them.
-    EXPECT_GE(by_time.samples_per_pass, std::clamp(samples - 2, 1, most_fixed_samples));
-    EXPECT_LE(by_time.samples_per_pass, std::min(samples, most_fixed_samples));
+    EXPECT_GE(by_time.samples_per_pass, std::clamp(samples - 2, 1, max_fixed_samples));
+    EXPECT_LE(by_time.samples_per_pass, std::min(samples, max_fixed_samples));
     EXPECT_EQ(by_time.passes, 1) << samples;
     // As many as time allows of others.
     s.sampler = PointSetKind::sobol;

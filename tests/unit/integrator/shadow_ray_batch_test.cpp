@@ -1,5 +1,5 @@
 // Shadow rays in another order than they were asked for have the same answers.
-#include "integrator/restir/side_by_side.h"
+#include "integrator/restir/shadow_ray_batch.h"
 
 #include <gtest/gtest.h>
 
@@ -58,14 +58,14 @@ void expect_the_same_answers(std::size_t count_of_packs) {
   EXPECT_EQ(sizes.size(), (asked + lanes_of<F> - 1) / lanes_of<F>);
 }
 
-TEST(SideBySide, rays_have_the_answers_that_they_have_one_by_one) {
+TEST(ShadowRayBatch, rays_have_the_answers_that_they_have_one_by_one) {
   for (std::size_t packs : {std::size_t(3), std::size_t(16), std::size_t(37)}) {
     expect_the_same_answers<NativeFloats>(packs);
     expect_the_same_answers<float>(packs);
   }
 }
 
-TEST(SideBySide, nothing_is_traced_where_no_lane_is_on) {
+TEST(ShadowRayBatch, nothing_is_traced_where_no_lane_is_on) {
   std::vector<Ray<NativeFloats>> ways(5);
   Mask<NativeFloats> open[5];
   for (auto& mask : open) mask = Mask<NativeFloats>(false);

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "api/contest.h"
-#include "api/contest_methods.h"
+#include "api/comparison.h"
+#include "api/comparison_methods.h"
 
 namespace montelux {
 namespace {
@@ -13,7 +13,7 @@ using lab::Measured;
 
 std::vector<std::string> names(std::vector<std::string> typed,
                                std::vector<std::pair<std::string, std::string>> set = {}) {
-  ContestOptions options;
+  ComparisonOptions options;
   options.methods = std::move(typed), options.settings = std::move(set);
   const auto methods = read_methods(options);
   EXPECT_TRUE(methods) << methods.error();
@@ -23,7 +23,7 @@ std::vector<std::string> names(std::vector<std::string> typed,
 }
 
 std::string refusal(std::vector<std::string> typed, std::vector<std::pair<std::string, std::string>> set = {}) {
-  ContestOptions options;
+  ComparisonOptions options;
   options.methods = std::move(typed), options.settings = std::move(set);
   const auto methods = read_methods(options);
   return methods ? "" : methods.error();
@@ -31,7 +31,7 @@ std::string refusal(std::vector<std::string> typed, std::vector<std::pair<std::s
 
 using Names = std::vector<std::string>;
 
-TEST(ContestMethods, are_named_by_what_distinguishes_them) {
+TEST(ComparisonMethods, are_named_by_what_distinguishes_them) {
   EXPECT_EQ(names({"path", "naive"}), (Names{"path", "naive"}));
   EXPECT_EQ(names({"path:maxdepth=5,mis=balance", "path:maxdepth=5"}), (Names{"path:mis=balance", "path"}));
   EXPECT_EQ(names({"path:sampler=halton", "path:sampler=sobol"}), (Names{"path:sampler=halton", "path:sampler=sobol"}));
@@ -39,7 +39,7 @@ TEST(ContestMethods, are_named_by_what_distinguishes_them) {
   EXPECT_EQ(names({"path", "naive"}, {{"maxdepth", "5"}}), (Names{"path", "naive"}));
 }
 
-TEST(ContestMethods, may_have_names_of_their_user) {
+TEST(ComparisonMethods, may_have_names_of_their_user) {
   EXPECT_EQ(names({"old=path:mis=balance", "new one=path"}), (Names{"old", "new one"}));
   EXPECT_NE(refusal({"x=path", "x=naive"}).find("two methods are called \"x\""), std::string::npos);
   // A comma instead of the colon.
@@ -48,8 +48,8 @@ TEST(ContestMethods, may_have_names_of_their_user) {
   EXPECT_NE(refusal({"a\nb=path", "naive"}).find("cannot name a method"), std::string::npos);
 }
 
-TEST(ContestMethods, take_the_settings_of_all_but_where_they_have_their_own) {
-  ContestOptions options;
+TEST(ComparisonMethods, take_the_settings_of_all_but_where_they_have_their_own) {
+  ComparisonOptions options;
   options.methods = {"path", "path:maxdepth=3", "path:maxdepth=7"}, options.settings = {{"maxdepth", "7"}};
   const auto methods = read_methods(options);
   ASSERT_TRUE(methods);
@@ -66,9 +66,9 @@ class Nothing final : public PixelIntegrator {
   RayCounts trace(const TilePass&, std::span<PixelSample>) const override { return {}; }
 };
 
-std::vector<lab::Contestant> contestants(std::vector<std::vector<std::string>> biases) {
+std::vector<lab::ComparedMethod> compared_methods(std::vector<std::vector<std::string>> biases) {
   static const Nothing nothing;
-  std::vector<lab::Contestant> made;
+  std::vector<lab::ComparedMethod> made;
   for (auto& b : biases)
     made.push_back({std::string(1, char('a' + int(made.size()))), fmt::format("m{}", made.size()), nothing,
                     PointSetKind::blue_noise, std::move(b)});
@@ -78,15 +78,15 @@ std::vector<lab::Contestant> contestants(std::vector<std::vector<std::string>> b
 using Places = std::vector<std::size_t>;
 
 TEST(Reference, is_made_by_methods_whose_biases_are_shared) {
-  EXPECT_EQ(*who_may_serve(contestants({{}, {"maxdepth=5"}, {}})), (Places{0, 2}));
-  EXPECT_EQ(*who_may_serve(contestants({{"maxdepth=5"}, {"maxdepth=5"}, {"maxdepth=5"}})), (Places{0, 1, 2}));
-  EXPECT_EQ(*who_may_serve(contestants({{"maxdepth=5"}, {"maxdepth=5", "maxcomponent=9"}, {"maxdepth=5"}})),
+  EXPECT_EQ(*who_may_serve(compared_methods({{}, {"maxdepth=5"}, {}})), (Places{0, 2}));
+  EXPECT_EQ(*who_may_serve(compared_methods({{"maxdepth=5"}, {"maxdepth=5"}, {"maxdepth=5"}})), (Places{0, 1, 2}));
+  EXPECT_EQ(*who_may_serve(compared_methods({{"maxdepth=5"}, {"maxdepth=5", "maxcomponent=9"}, {"maxdepth=5"}})),
             (Places{0, 2}));
-  EXPECT_EQ(*who_may_serve(contestants({{"a", "b"}, {"b", "a"}})), (Places{0, 1}));
+  EXPECT_EQ(*who_may_serve(compared_methods({{"a", "b"}, {"b", "a"}})), (Places{0, 1}));
 }
 
 TEST(Reference, is_made_by_methods_that_find_the_light_that_others_miss) {
-  std::vector<lab::Contestant> three = contestants({{}, {}, {"maxdepth=5"}});
+  std::vector<lab::ComparedMethod> three = compared_methods({{}, {}, {"maxdepth=5"}});
   three[0].missing = {"light of point lights"};
   EXPECT_EQ(*who_may_serve(three), Places{1});
   // Light that all miss rules nobody out.
@@ -98,7 +98,8 @@ TEST(Reference, is_made_by_methods_that_find_the_light_that_others_miss) {
 }
 
 TEST(Reference, is_refused_with_the_methods_of_each_bias) {
-  const auto served = who_may_serve(contestants({{"maxdepth=5"}, {"maxdepth=5"}, {"maxdepth=5"}, {"elementsize=0.1"}}));
+  const auto served =
+      who_may_serve(compared_methods({{"maxdepth=5"}, {"maxdepth=5"}, {"maxdepth=5"}, {"elementsize=0.1"}}));
   ASSERT_FALSE(served);
   EXPECT_NE(served.error().find("m0, m1, m2 (maxdepth=5)"), std::string::npos) << served.error();
   EXPECT_NE(served.error().find("m3 (elementsize=0.1)"), std::string::npos);
@@ -108,12 +109,12 @@ TEST(Reference, is_refused_with_the_methods_of_each_bias) {
 Measured ratio(double mean, double low, double high) { return {mean, low, high, 0.1, 8}; }
 
 // Two methods, "fast" and "slow", of 8 repeats, and one verdict with these ratios.
-Contest contest(Measured relmse, Measured mse, Measured flip, ErrorMeasure measure = ErrorMeasure::relative_mse) {
-  Contest c;
-  for (lab::Contestant& made : contestants({{}, {}})) {
+Comparison comparison(Measured relmse, Measured mse, Measured flip, ErrorMeasure measure = ErrorMeasure::relative_mse) {
+  Comparison c;
+  for (lab::ComparedMethod& made : compared_methods({{}, {}})) {
     made.name = made.label == "a" ? "fast" : "slow";
     lab::MethodResult& m = c.result.methods.emplace_back();
-    m.contestant = made, m.repeats.resize(8);
+    m.compared_method = made, m.repeats.resize(8);
   }
   c.result.measure = measure;
   lab::PairVerdict v;
@@ -123,17 +124,17 @@ Contest contest(Measured relmse, Measured mse, Measured flip, ErrorMeasure measu
   c.result.verdicts = {v};
   return c;
 }
-std::string sentence(const Contest& c) { return sentence_of(c, c.result.verdicts.front(), 0.95); }
+std::string sentence(const Comparison& c) { return sentence_of(c, c.result.verdicts.front(), 0.95); }
 
 TEST(Verdict, goes_by_the_measure_and_says_where_another_says_the_opposite) {
   const Measured low = ratio(0.026, 0.021, 0.031), high = ratio(1.5, 1.3, 1.7), none = ratio(1.01, 0.9, 1.1);
-  EXPECT_EQ(sentence(contest(low, high, none)),
+  EXPECT_EQ(sentence(comparison(low, high, none)),
             "slow is 38.5 (32.3 to 47.6) times as efficient as fast by relMSE, at 95 %; by MSE the opposite: fast is "
             "1.50 (1.30 to 1.70) times as efficient; by FLIP undecided, 0.990 (0.909 to 1.111)");
-  EXPECT_EQ(sentence(contest(low, high, none, ErrorMeasure::mse)),
+  EXPECT_EQ(sentence(comparison(low, high, none, ErrorMeasure::mse)),
             "fast is 1.50 (1.30 to 1.70) times as efficient as slow by MSE, at 95 %; by relMSE the opposite: slow is "
             "38.5 (32.3 to 47.6) times as efficient; by FLIP undecided, 1.010 (0.900 to 1.100)");
-  EXPECT_EQ(sentence(contest(high, high, high)),
+  EXPECT_EQ(sentence(comparison(high, high, high)),
             "fast is 1.50 (1.30 to 1.70) times as efficient as slow by relMSE, at 95 %; by MSE 1.50 (1.30 to 1.70) "
             "times; by FLIP 1.50 (1.30 to 1.70) times");
 }
@@ -141,7 +142,7 @@ TEST(Verdict, goes_by_the_measure_and_says_where_another_says_the_opposite) {
 TEST(Verdict, that_is_none_says_what_the_other_measures_say) {
   const Measured high = ratio(1.5, 1.3, 1.7), none = ratio(1.01, 0.9, 1.1);
   EXPECT_EQ(
-      sentence(contest(none, high, none)),
+      sentence(comparison(none, high, none)),
       "fast and slow: not decided by relMSE: the ratio of their efficiencies is 1.010 (0.900 to 1.100) at 95 %; 12 "
       "times the time may decide it; by MSE fast is 1.50 (1.30 to 1.70) times as efficient; by FLIP undecided, "
       "1.010 (0.900 to 1.100)");
@@ -149,7 +150,7 @@ TEST(Verdict, that_is_none_says_what_the_other_measures_say) {
 
 TEST(Verdict, names_methods_that_are_the_same) {
   const Measured none = ratio(1.01, 0.9, 1.1);
-  Contest c = contest(none, none, none);
+  Comparison c = comparison(none, none, none);
   c.result.verdicts.front().likeness = lab::Likeness::settings;
   EXPECT_EQ(sentence(c), "fast and slow are the same method with the same settings: there is nothing to decide");
   c.result.verdicts.front().likeness = lab::Likeness::pictures;
@@ -158,12 +159,12 @@ TEST(Verdict, names_methods_that_are_the_same) {
 
 TEST(Verdict, is_none_where_the_reference_is_too_noisy_or_a_measure_is_not_known) {
   const Measured high = ratio(1.5, 1.3, 1.7);
-  Contest c = contest(high, high, high);
+  Comparison c = comparison(high, high, high);
   c.result.reference_share[ErrorMeasure::mse] = 0.3;
   EXPECT_NE(sentence(c).find("by MSE not known, the reference is too noisy"), std::string::npos);
   c.refusal = "its variance is too large";
   EXPECT_EQ(sentence(c), "fast and slow: no verdict by this reference");
-  Contest few = contest({NAN, 0, INFINITY, 0, 0}, high, high);
+  Comparison few = comparison({NAN, 0, INFINITY, 0, 0}, high, high);
   EXPECT_EQ(sentence(few),
             "fast and slow: not decided by relMSE; 8 of 8 repeats are left out, whose error is no more than the "
             "noise of the reference explains");
@@ -173,7 +174,7 @@ TEST(Verdict, never_prints_what_is_no_number) {
   const double infinite = INFINITY;
   for (const Measured& odd : {Measured{NAN, 0, infinite, 0, 0}, ratio(1.5, 0, infinite), ratio(1, 1, 1)})
     for (ErrorMeasure measure : lab::error_measures) {
-      const std::string text = sentence(contest(odd, odd, odd, measure));
+      const std::string text = sentence(comparison(odd, odd, odd, measure));
       for (const char* word : {"nan", "inf"}) EXPECT_EQ(text.find(word), std::string::npos) << text;
     }
 }

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "api/checksum.h"
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "api/render.h"
 #include "api/saved_file.h"
 #include "api/saved_scene.h"
@@ -58,7 +58,7 @@ double number_from(const Json& json) { return unpacked<double>(json, 1).front();
 
 // ---- what it is of --------------------------------------------------------------------------------------------------
 
-Json options_json(const ContestOptions& o) {
+Json options_json(const ComparisonOptions& o) {
   Json json{{"methods", o.methods},
             {"settings", o.settings},
             {"measure", lab::key_of(o.measure)},
@@ -228,9 +228,9 @@ Status save_contest(const fs::path& file, const SavedContest& c) {
   return save_json(file, std::move(json));
 }
 
-Result<SavedContest> load_contest(const fs::path& file) {
+Result<SavedComparison> load_comparison(const fs::path& file) {
   return load_saved<Json>(file, saved_format, [](const Json& json) {
-    SavedContest saved = saved_from(json);
+    SavedComparison saved = saved_from(json);
     if (scene_fingerprint(saved.scene, saved.load.environment) != saved.fingerprint)
       throw std::invalid_argument(
           fmt::format("the scene {} has changed since, or is no longer there", saved.scene.string()));

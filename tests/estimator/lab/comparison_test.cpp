@@ -1,5 +1,5 @@
-// A contest of methods whose errors are known: what it measures, what it decides, and what it does not.
-#include "lab/compare/contest.h"
+// A comparison of methods whose errors are known: what it measures, what it decides, and what it does not.
+#include "lab/compare/comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using namespace montelux::test;
 
 // Every sample is `mean` plus noise of standard deviation `sigma`, uniform in distribution, and takes so many
 // nanoseconds of the clock, if there is one. `together`: all pixels have the same noise. Two of the same `first`
-// dimension have the same noise in a contest, but for its size.
+// dimension have the same noise in a comparison, but for its size.
 class Noise final : public PixelIntegrator {
  public:
   Noise(float mean, float sigma, bool together = false) : mean_(mean), sigma_(sigma), together_(together) {}
@@ -67,14 +67,14 @@ class WarmedUp final : public CoupledIntegrator {
   int warm_up_;
 };
 
-ContestSettings settings(int samples, int repeats) {
-  ContestSettings s;
+ComparisonSettings settings(int samples, int repeats) {
+  ComparisonSettings s;
   s.render.bounds = {0, 0, 32, 32}, s.render.width = s.render.height = 32, s.render.threads = 1;
   s.samples = samples, s.repeats = repeats;
   return s;
 }
 
-Contestant contestant(const char* label, const PixelIntegrator& integrator) {
+ComparedMethod compared_method(const char* label, const PixelIntegrator& integrator) {
   return {label, label, integrator, PointSetKind::independent, {}};
 }
 
@@ -86,9 +86,10 @@ Reference exact(float value) {
   return r;
 }
 
-TEST(Contest, measures_the_squared_error_and_states_it_by_its_own_bars) {
+TEST(Comparison, measures_the_squared_error_and_states_it_by_its_own_bars) {
   const Noise one(1, 0.5f), two(1, 1);
-  const ContestResult r = run_contest({contestant("a", one), contestant("b", two)}, exact(1), settings(16, 12), {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", one), compared_method("b", two)}, exact(1), settings(16, 12), {});
   for (std::size_t i = 0; i < 2; ++i) {
     const MethodResult& m = r.methods[i];
     const double truth = (i == 0 ? 0.25 : 1.0) / 16;
@@ -108,11 +109,11 @@ TEST(Contest, measures_the_squared_error_and_states_it_by_its_own_bars) {
             student_t_quantile(1 - family_level / 8, 11));
 }
 
-// A contest of two methods by the work's own clock, each interval at the level of the family.
+// A comparison of two methods by the work's own clock, each interval at the level of the family.
 PairVerdict verdict_by_work(const Noise& a, const Noise& b, const WorkClock& clock, int repeats = 8) {
-  ContestSettings s = settings(16, repeats);
+  ComparisonSettings s = settings(16, repeats);
   s.render.clock = clock.clock(), s.confidence = 1 - family_level;
-  const ContestResult r = run_contest({contestant("a", a), contestant("b", b)}, exact(1), s, {});
+  const ComparisonResult r = run_comparison({compared_method("a", a), compared_method("b", b)}, exact(1), s, {});
   EXPECT_EQ(r.verdicts.size(), 1u);
   return r.verdicts.front();
 }
@@ -129,26 +130,26 @@ void expect_ratio(const PairVerdict& v, double truth, std::initializer_list<doub
 }
 
 // Planted faults: the variance is taken for four fifths of what it is; or is not squared.
-TEST(Contest, decides_for_the_method_of_less_noise_at_the_same_cost) {
+TEST(Comparison, decides_for_the_method_of_less_noise_at_the_same_cost) {
   WorkClock clock;
   const Noise quiet(1, 0.5f, 400, clock, 0), loud(1, 1, 400, clock, 3);
   expect_ratio(verdict_by_work(quiet, loud, clock), 4, {5, 2});
 }
 
 // A planted fault: the time is not counted.
-TEST(Contest, decides_for_the_cheaper_of_equal_noise) {
+TEST(Comparison, decides_for_the_cheaper_of_equal_noise) {
   WorkClock clock;
   const Noise cheap(1, 1, 200, clock, 0), dear(1, 1, 2000, clock, 3);
   expect_ratio(verdict_by_work(dear, cheap, clock), 0.1, {1});
 }
 
-// The pilots of a contest, and what they make of the reference.
-ReferenceGoal goal_of(const std::vector<Contestant>& contestants, const ContestSettings& s) {
-  const ContestState state = begin_contest(contestants, {}, s);
-  std::vector<std::size_t> all(contestants.size());
+// The pilots of a comparison, and what they make of the reference.
+ReferenceGoal goal_of(const std::vector<ComparedMethod>& compared_methods, const ComparisonSettings& s) {
+  const ComparisonState state = begin_comparison(compared_methods, {}, s);
+  std::vector<std::size_t> all(compared_methods.size());
   std::iota(all.begin(), all.end(), 0u);
-  const std::vector<double> samples(contestants.size(), s.samples);
-  const auto pilots = run_pilots(contestants, state, std::vector<double>(contestants.size(), 1e-6), s, {});
+  const std::vector<double> samples(compared_methods.size(), s.samples);
+  const auto pilots = run_pilots(compared_methods, state, std::vector<double>(compared_methods.size(), 1e-6), s, {});
   return plan_reference(pilots, all, samples, s.measure, 0.05);
 }
 
@@ -181,15 +182,15 @@ class TwoTone final : public PixelIntegrator {
   std::uint32_t first_;
 };
 
-TEST(Contest, decides_by_the_measure_that_is_chosen) {
+TEST(Comparison, decides_by_the_measure_that_is_chosen) {
   // By squared error the first is twice as good, by relative squared error the second four times.
   WorkClock clock;
   const TwoTone bright(0.5f, 0.5f, clock, 0), dark(1, 0.25f, clock, 3);
   for (ErrorMeasure measure : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {
-    ContestSettings s = settings(16, 8);
+    ComparisonSettings s = settings(16, 8);
     s.render.clock = clock.clock(), s.confidence = 1 - family_level, s.measure = measure, s.slopes = false;
-    const std::vector<Contestant> both{contestant("a", bright), contestant("b", dark)};
-    const ContestResult r = run_contest(both, TwoTone::truth(), s, {});
+    const std::vector<ComparedMethod> both{compared_method("a", bright), compared_method("b", dark)};
+    const ComparisonResult r = run_comparison(both, TwoTone::truth(), s, {});
     const PairVerdict& v = r.verdicts.front();
     EXPECT_TRUE(v.decided);
     EXPECT_EQ(winner_of(v.ratio[ErrorMeasure::relative_mse]), -1);
@@ -203,21 +204,22 @@ TEST(Contest, decides_by_the_measure_that_is_chosen) {
   }
 }
 
-TEST(Contest, sees_which_methods_are_the_same) {
+TEST(Comparison, sees_which_methods_are_the_same) {
   const Noise one(1, 0.5f), same(1, 0.5f), other(1, 0.5f, true);
-  std::vector<Contestant> three{contestant("a", one), contestant("b", same), contestant("c", other)};
-  EXPECT_EQ(run_contest(three, exact(1), settings(4, 2), {}).verdicts[0].likeness, Likeness::pictures);
-  EXPECT_EQ(run_contest(three, exact(1), settings(4, 2), {}).verdicts[1].likeness, Likeness::none);
+  std::vector<ComparedMethod> three{compared_method("a", one), compared_method("b", same), compared_method("c", other)};
+  EXPECT_EQ(run_comparison(three, exact(1), settings(4, 2), {}).verdicts[0].likeness, Likeness::pictures);
+  EXPECT_EQ(run_comparison(three, exact(1), settings(4, 2), {}).verdicts[1].likeness, Likeness::none);
   three[0].settings = three[1].settings = "noise", three[2].settings = "noise together";
-  const ContestResult r = run_contest(three, exact(1), settings(4, 2), {});
+  const ComparisonResult r = run_comparison(three, exact(1), settings(4, 2), {});
   EXPECT_EQ(r.verdicts[0].likeness, Likeness::settings);
   EXPECT_FALSE(r.verdicts[0].decided);
   EXPECT_EQ(r.verdicts[1].likeness, Likeness::none);
 }
 
-TEST(Contest, of_one_pass_a_repeat_knows_no_error_bars_and_says_no_more) {
+TEST(Comparison, of_one_pass_a_repeat_knows_no_error_bars_and_says_no_more) {
   const Noise one(1, 0.5f), two(1, 1);
-  const ContestResult r = run_contest({contestant("a", one), contestant("b", two)}, exact(1), settings(1, 6), {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", one), compared_method("b", two)}, exact(1), settings(1, 6), {});
   for (const MethodResult& m : r.methods) {
     EXPECT_EQ(m.coverage.count, 0);
     EXPECT_EQ(m.variance.count, 0);
@@ -226,21 +228,21 @@ TEST(Contest, of_one_pass_a_repeat_knows_no_error_bars_and_says_no_more) {
   }
 }
 
-TEST(Contest, takes_passes_of_all_repeats_for_the_error_of_the_image_mean) {
+TEST(Comparison, takes_passes_of_all_repeats_for_the_error_of_the_image_mean) {
   const Noise one(1, 0.5f);
-  const ContestResult r = run_contest({contestant("a", one)}, exact(1), settings(16, 4), {});
+  const ComparisonResult r = run_comparison({compared_method("a", one)}, exact(1), settings(16, 4), {});
   const MethodResult& m = r.methods[0];
   EXPECT_EQ(m.agreement.degrees_of_freedom, 4 * m.repeats[0].passes - 1);
   // 1024 pixels of 64 samples: standard error 0.5 / 256; its own relative error is that of a chi of many degrees.
   EXPECT_NEAR(m.agreement.standard_error / (0.5 / 256), 1, 0.5);
   // A repeat that does not know its passes counts as one.
-  ContestState state = begin_contest({contestant("a", one)}, exact(1), settings(16, 4));
-  run_rounds({contestant("a", one)}, settings(16, 4), 4, {}, state);
+  ComparisonState state = begin_comparison({compared_method("a", one)}, exact(1), settings(16, 4));
+  run_rounds({compared_method("a", one)}, settings(16, 4), 4, {}, state);
   for (Repeat& repeat : state.methods[0].repeats) repeat.passes = 0;
-  EXPECT_EQ(result_of({contestant("a", one)}, state, settings(16, 4)).methods[0].agreement.degrees_of_freedom, 3);
+  EXPECT_EQ(result_of({compared_method("a", one)}, state, settings(16, 4)).methods[0].agreement.degrees_of_freedom, 3);
 }
 
-TEST(Contest, leaves_equals_undecided) {
+TEST(Comparison, leaves_equals_undecided) {
   WorkClock clock;
   const Noise one(1, 1, 400, clock, 0), other(1, 1, 400, clock, 3);
   EXPECT_FALSE(verdict_by_work(one, other, clock).decided);
@@ -249,28 +251,29 @@ TEST(Contest, leaves_equals_undecided) {
   EXPECT_FALSE(verdict_by_work(one, quiet, clock).decided);
 }
 
-TEST(Contest, counts_the_time_of_its_turns) {
+TEST(Comparison, counts_the_time_of_its_turns) {
   WorkClock clock;
   const Noise dear(1, 1, 2000, clock, 0);
-  ContestSettings s = settings(16, 4);
+  ComparisonSettings s = settings(16, 4);
   s.render.clock = clock.clock();
-  const ContestResult r = run_contest({contestant("a", dear)}, exact(1), s, {});
+  const ComparisonResult r = run_comparison({compared_method("a", dear)}, exact(1), s, {});
   for (const Repeat& repeat : r.methods[0].repeats)
     EXPECT_NEAR(repeat.seconds, 2000e-9 * 16 * 32 * 32, 1e-12 * repeat.seconds);
 }
 
 // Alone, and with 12 frames of warm-up before each: the same frames at the same cost.
-ContestResult contest_of_warm_frames(bool warm_up_counts) {
+ComparisonResult comparison_of_warm_frames(bool warm_up_counts) {
   WorkClock clock;
   const Noise alone(1, 1, 1024, clock, 0), frame(1, 1, 1024, clock, 3);
   const WarmedUp warmed(frame, 12);
-  ContestSettings s = settings(16, 8);
+  ComparisonSettings s = settings(16, 8);
   s.render.clock = clock.clock(), s.render.warm_up_counts = warm_up_counts, s.confidence = 1 - family_level;
-  return run_contest({contestant("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
+  return run_comparison({compared_method("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s,
+                        {});
 }
 
-TEST(Contest, leaves_the_time_of_warm_up_out_if_told_to) {
-  const ContestResult r = contest_of_warm_frames(false);
+TEST(Comparison, leaves_the_time_of_warm_up_out_if_told_to) {
+  const ComparisonResult r = comparison_of_warm_frames(false);
   const double frame = 1024e-9 * 32 * 32;
   for (const Repeat& repeat : r.methods[1].repeats) {
     EXPECT_NEAR(repeat.seconds, 16 * frame, 1e-9 * frame);
@@ -292,8 +295,8 @@ TEST(Contest, leaves_the_time_of_warm_up_out_if_told_to) {
   EXPECT_TRUE(holds(r.methods[1].slope_by_time, -1));
 }
 
-TEST(Contest, counts_all_time_by_default) {
-  const ContestResult r = contest_of_warm_frames(true);
+TEST(Comparison, counts_all_time_by_default) {
+  const ComparisonResult r = comparison_of_warm_frames(true);
   for (const MethodResult& m : r.methods)
     for (const Repeat& repeat : m.repeats) EXPECT_EQ(repeat.seconds, repeat.all_seconds);
   EXPECT_TRUE(r.verdicts.front().decided);
@@ -302,15 +305,15 @@ TEST(Contest, counts_all_time_by_default) {
   EXPECT_FALSE(holds(r.methods[1].slope_by_time, -1));
 }
 
-TEST(Contest, gives_warm_frames_as_much_counted_time_as_the_others) {
+TEST(Comparison, gives_warm_frames_as_much_counted_time_as_the_others) {
   WorkClock clock;
   const Noise alone(1, 1, 1024, clock, 0), frame(1, 1, 1024, clock, 3);
   const WarmedUp warmed(frame, 12);
-  ContestSettings s = settings(16, 4);
+  ComparisonSettings s = settings(16, 4);
   const double seconds = 1024e-9 * 32 * 32;
   s.render.clock = clock.clock(), s.render.warm_up_counts = false, s.slopes = false, s.seconds = 4 * 20 * seconds;
-  const ContestResult r =
-      run_contest({contestant("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
   for (const Repeat& repeat : r.methods[1].repeats) {
     EXPECT_GE(repeat.seconds, (1 - 1e-9) * 20 * seconds);
     EXPECT_LE(repeat.seconds, 21 * seconds * (1 + 1e-9));
@@ -318,9 +321,10 @@ TEST(Contest, gives_warm_frames_as_much_counted_time_as_the_others) {
   EXPECT_TRUE(r.methods[1].convergence.empty());
 }
 
-TEST(Contest, finds_a_bias_and_its_size) {
+TEST(Comparison, finds_a_bias_and_its_size) {
   const Noise right(1, 0.5f), wrong(1.02f, 0.5f);
-  const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(64, 8), {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", right), compared_method("b", wrong)}, exact(1), settings(64, 8), {});
   EXPECT_FALSE(r.methods[0].agreement.differs());
   EXPECT_TRUE(r.methods[1].agreement.differs());
   const Measured& b = r.methods[1].bias_squared;
@@ -330,30 +334,31 @@ TEST(Contest, finds_a_bias_and_its_size) {
   EXPECT_GT(std::abs(b.mean - 0.0009) / b.standard_error, most);
 }
 
-TEST(Contest, takes_no_common_error_of_all_pixels_for_a_bias) {
+TEST(Comparison, takes_no_common_error_of_all_pixels_for_a_bias) {
   const Noise right(1, 0.5f, true), wrong(1.5f, 0.5f, true);
-  const ContestResult r = run_contest({contestant("a", right), contestant("b", wrong)}, exact(1), settings(16, 12), {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", right), compared_method("b", wrong)}, exact(1), settings(16, 12), {});
   EXPECT_FALSE(r.methods[0].agreement.differs()) << r.methods[0].agreement.t;
   EXPECT_TRUE(r.methods[1].agreement.differs());
 }
 
-TEST(Contest, takes_no_common_error_of_the_reference_for_a_bias) {
+TEST(Comparison, takes_no_common_error_of_the_reference_for_a_bias) {
   // Every pixel of the reference is off by the same: two of its standard errors, which its passes tell.
   const Noise right(1, 0.5f);
   Reference off = exact(1);
   for (float& v : off.mean.values) v += 0.02f;
   for (float& v : off.variance.values) v = 1e-4f;
   off.variance_of_image = {1e-4, 1e-4, 1e-4};
-  EXPECT_FALSE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
+  EXPECT_FALSE(run_comparison({compared_method("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
   // A planted fault: its pixels are taken as independent.
   off.variance_of_image.reset();
-  EXPECT_TRUE(run_contest({contestant("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
+  EXPECT_TRUE(run_comparison({compared_method("a", right)}, off, settings(16, 12), {}).methods[0].agreement.differs());
 }
 
-TEST(Contest, makes_a_reference_that_is_good_enough) {
+TEST(Comparison, makes_a_reference_that_is_good_enough) {
   const Noise quiet(1, 0.5f), loud(1, 2);
-  const std::vector<Contestant> both{contestant("a", quiet), contestant("b", loud)};
-  const ContestSettings s = settings(16, 4);
+  const std::vector<ComparedMethod> both{compared_method("a", quiet), compared_method("b", loud)};
+  const ComparisonSettings s = settings(16, 4);
   const ReferenceGoal goal = goal_of(both, s);
   EXPECT_EQ(goal.method, 0u);
   const Reference r = make_reference(both, goal, s, {});
@@ -364,10 +369,10 @@ TEST(Contest, makes_a_reference_that_is_good_enough) {
   // Independent pixels: the variance of the image mean is that of a pixel over their number, but for its spread.
   for (double v : r.variance_of_image.value()) EXPECT_LT(std::abs(std::log(v * 1024 / mean_value(r.variance))), 3);
   EXPECT_EQ(r.origin.substr(0, 2), "a,");
-  EXPECT_LT(run_contest(both, r, s, {}).reference_share[s.measure], 0.25);
+  EXPECT_LT(run_comparison(both, r, s, {}).reference_share[s.measure], 0.25);
 }
 
-TEST(Contest, takes_the_reference_s_own_noise_off) {
+TEST(Comparison, takes_the_reference_s_own_noise_off) {
   const Noise one(1, 0.5f);
   Reference noisy = exact(1);
   RandomStream<float> random(5u, 6u);
@@ -376,7 +381,8 @@ TEST(Contest, takes_the_reference_s_own_noise_off) {
     noisy.mean.values[i] += 0.5f / 8 * std::sqrt(12.0f) * (random.next() - 0.5f);
     noisy.variance.values[i] = 0.25f / 64;
   }
-  const ContestResult r = run_contest({contestant("a", one), contestant("b", one)}, noisy, settings(16, 12), {});
+  const ComparisonResult r =
+      run_comparison({compared_method("a", one), compared_method("b", one)}, noisy, settings(16, 12), {});
   const double truth = 0.25 / 16, share = 0.25 / 64 / truth;
   // The reference's noise is the same in every repeat: its mean square over 3072 values has this error of its own.
   const double own = share * truth * std::sqrt(0.8 / 3072);
@@ -389,12 +395,13 @@ TEST(Contest, takes_the_reference_s_own_noise_off) {
               1e-6);
 }
 
-TEST(Contest, stops_when_told) {
+TEST(Comparison, stops_when_told) {
   const Noise one(1, 0.5f);
   std::atomic<int> asked{0};
-  ContestWatch watch;
+  ComparisonWatch watch;
   watch.stop = [&] { return ++asked > 3; };
-  const ContestResult r = run_contest({contestant("a", one), contestant("b", one)}, exact(1), settings(16, 50), watch);
+  const ComparisonResult r =
+      run_comparison({compared_method("a", one), compared_method("b", one)}, exact(1), settings(16, 50), watch);
   EXPECT_TRUE(r.interrupted);
   EXPECT_LT(r.methods[0].repeats.size(), 50u);
 }

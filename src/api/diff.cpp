@@ -1,4 +1,4 @@
-#include "api/compare.h"
+#include "api/diff.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "api/contest_reference.h"
+#include "api/comparison_reference.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "api/checksum.h"
-#include "api/compare.h"
-#include "api/contest_methods.h"
+#include "api/comparison_methods.h"
+#include "api/diff.h"
 #include "api/render.h"
 
 namespace montelux {
@@ -99,7 +99,8 @@ std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, 
 
 }  // namespace
 
-Result<ReferenceSource> find_reference(const ContestOptions& options, const std::vector<lab::Contestant>& contestants,
+Result<ReferenceSource> find_reference(const ComparisonOptions& options,
+                                       const std::vector<lab::ComparedMethod>& compared_methods,
                                        const PixelBounds& bounds) {
   ReferenceSource source;
   if (options.reference) {
@@ -108,14 +109,14 @@ Result<ReferenceSource> find_reference(const ContestOptions& options, const std:
     source.reference = *std::move(named);
     return source;
   }
-  auto serve = who_may_serve(contestants);
+  auto serve = who_may_serve(compared_methods);
   if (!serve) return serve.failure();
   source.may_serve = *std::move(serve);
   return source;
 }
 
 std::optional<fs::path> reference_cache(const LoadedScene::Parts& parts, const PixelBounds& bounds,
-                                        const lab::Contestant& method) {
+                                        const lab::ComparedMethod& method) {
   std::optional<fs::path> folder;
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
     folder = fs::path(cache) / "montelux";

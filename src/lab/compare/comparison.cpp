@@ -1,4 +1,4 @@
-#include "lab/compare/contest.h"
+#include "lab/compare/comparison.h"
 
 #include <fmt/format.h>
 
@@ -17,13 +17,13 @@ namespace montelux::lab {
 
 namespace {
 
-RenderResult take_turn(const Contestant& contestant, const ContestSettings& settings, PassPlan plan, int repeat,
-                       RenderObserver& observer) {
-  RenderSettings s = settings_for(contestant, settings);
+RenderResult take_turn(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
+                       int repeat, RenderObserver& observer) {
+  RenderSettings s = settings_for(compared_method, settings);
   s.plan = plan;
   s.seed = mix_bits(settings.render.seed + 0x9e3779b9u * std::uint32_t(repeat + 1));
   if (settings.seconds) s.seconds = *settings.seconds / settings.repeats;
-  return render(contestant.integrator, s, observer);
+  return render(compared_method.integrator, s, observer);
 }
 
 // The order of the methods in one round: drawn afresh, so that none is always the first.
@@ -39,15 +39,15 @@ std::vector<std::size_t> order_of_round(std::size_t methods, std::uint32_t seed,
 // The longest of the single passes of growing length; they have 1, 2, 4, ... samples up to it.
 int longest_pass(double samples) { return int(std::clamp(samples / 2, 4.0, 1024.0)); }
 
-ConvergenceRun run_convergence(const Contestant& contestant, const ContestSettings& settings,
-                               const Reference& reference, int most_samples, int repeat, RenderObserver& observer) {
+ConvergenceRun run_convergence(const ComparedMethod& compared_method, const ComparisonSettings& settings,
+                               const Reference& reference, int max_samples, int repeat, RenderObserver& observer) {
   ConvergenceRun run;
   if (!settings.slopes) return run;
-  RenderSettings s = settings_for(contestant, settings);
+  RenderSettings s = settings_for(compared_method, settings);
   s.seed = mix_bits(settings.render.seed + 0x85ebca6bu * std::uint32_t(repeat + 1));
-  for (int k = 1, level = 0; k <= most_samples && !observer.stop_requested(); k *= 2, ++level) {
+  for (int k = 1, level = 0; k <= max_samples && !observer.stop_requested(); k *= 2, ++level) {
     s.plan = {k, 1}, s.first_pass = convergence_pass + level;
-    const RenderResult r = render(contestant.integrator, s, observer);
+    const RenderResult r = render(compared_method.integrator, s, observer);
     if (r.interrupted) break;
     run.samples.push_back(k), run.seconds.push_back(seconds_that_count(r, settings));
     run.mse.push_back(squared_error(mean_of(r.film), reference));
@@ -61,16 +61,16 @@ int attribution_passes(double samples, const PassPlan& plan) {
 
 // Which layers the variance of passes like those of a turn comes from. A quarter of its passes tell that: the layers
 // are gathered apart from the turns, whose time they must not lengthen.
-std::optional<AttributionRound> run_attribution(const Contestant& contestant, const ContestSettings& settings,
-                                                PassPlan plan, int round, RenderObserver& observer,
-                                                PixelShares& pixels) {
-  RenderSettings s = settings_for(contestant, settings);
+std::optional<AttributionRound> run_attribution(const ComparedMethod& compared_method,
+                                                const ComparisonSettings& settings, PassPlan plan, int round,
+                                                RenderObserver& observer, PixelShares& pixels) {
+  RenderSettings s = settings_for(compared_method, settings);
   s.plan = plan;
   s.first_pass = attribution_pass;
   s.seed = mix_bits(settings.render.seed + 0xc2b2ae35u * std::uint32_t(round + 1));
-  s.layers = contestant.layers;
+  s.layers = compared_method.layers;
   s.layers->spread = true;
-  const RenderResult r = render(contestant.integrator, s, observer);
+  const RenderResult r = render(compared_method.integrator, s, observer);
   if (r.interrupted) return std::nullopt;
   return attribute(r.film, pixels);
 }
@@ -106,13 +106,13 @@ struct RepeatParts {
   double turn = 0, slopes = 0, attribution = 0;
   double all() const { return turn + slopes + attribution; }
 };
-RepeatParts parts_of_repeat(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+RepeatParts parts_of_repeat(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
                             double samples) {
   constexpr double price_of_layers = 1.3;
   RepeatParts parts;
   parts.turn = samples;
   if (settings.slopes) parts.slopes = 2.0 * std::bit_floor(unsigned(longest_pass(samples))) - 1;
-  if (contestant.layers)
+  if (compared_method.layers)
     parts.attribution = price_of_layers * attribution_passes(samples, plan) * plan.samples_per_pass;
   return parts;
 }
@@ -136,26 +136,26 @@ void add_repeat(Gathered gathered, MethodState& method) {
 }
 
 // One repeat of one method with all that belongs to it; false where it was stopped, and then nothing of it counts.
-bool run_repeat(const Contestant& contestant, const ContestSettings& settings, const Reference& reference, int round,
-                const PieceProgress& piece, MethodState& method) {
+bool run_repeat(const ComparedMethod& compared_method, const ComparisonSettings& settings, const Reference& reference,
+                int round, const PieceProgress& piece, MethodState& method) {
   // With a time, how many samples a turn is going to have is only known once there was one.
   const double before = method.repeats.empty() ? settings.samples : method.repeats.back().samples;
-  const RepeatParts share = parts_of_repeat(contestant, settings, method.plan, before);
+  const RepeatParts share = parts_of_repeat(compared_method, settings, method.plan, before);
   const double turn_ends = share.turn / share.all(), slopes_end = turn_ends + share.slopes / share.all();
   PartOfPiece turn(piece, 0, turn_ends), slopes(piece, turn_ends, slopes_end), layers(piece, slopes_end, 1);
 
-  Gathered g{take_turn(contestant, settings, method.plan, round, turn), {}, {}, {}};
+  Gathered g{take_turn(compared_method, settings, method.plan, round, turn), {}, {}, {}};
   if (g.turn.interrupted) return false;
   g.repeat = measure(g.turn.film, reference);
   g.repeat.samples = samples_a_pixel(g.turn.film);
   g.repeat.seconds = seconds_that_count(g.turn, settings);
   g.repeat.all_seconds = g.turn.seconds, g.repeat.warm_up = g.turn.warm_up;
   g.repeat.rays = double(g.turn.rays.all());
-  g.convergence = run_convergence(contestant, settings, reference, longest_pass(g.repeat.samples), round, slopes);
+  g.convergence = run_convergence(compared_method, settings, reference, longest_pass(g.repeat.samples), round, slopes);
   if (piece.watch().stopped()) return false;
-  if (contestant.layers) {
+  if (compared_method.layers) {
     const PassPlan plan{method.plan.samples_per_pass, attribution_passes(g.repeat.samples, method.plan)};
-    g.attribution = run_attribution(contestant, settings, plan, round, layers, method.pixel_shares);
+    g.attribution = run_attribution(compared_method, settings, plan, round, layers, method.pixel_shares);
     if (!g.attribution) return false;
   }
   add_repeat(std::move(g), method);
@@ -164,30 +164,30 @@ bool run_repeat(const Contestant& contestant, const ContestSettings& settings, c
 
 }  // namespace
 
-RenderSettings settings_for(const Contestant& contestant, const ContestSettings& settings) {
+RenderSettings settings_for(const ComparedMethod& compared_method, const ComparisonSettings& settings) {
   RenderSettings s = settings.render;
-  s.sampler = contestant.sampler;
+  s.sampler = compared_method.sampler;
   s.seconds.reset();
   return s;
 }
 
-double seconds_that_count(const RenderResult& r, const ContestSettings& settings) {
+double seconds_that_count(const RenderResult& r, const ComparisonSettings& settings) {
   return settings.render.warm_up_counts ? r.seconds : r.shown_seconds();
 }
 
-double expected_repeat_seconds(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+double expected_repeat_seconds(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
                                double sample_seconds) {
   double samples = plan.samples();
   if (settings.seconds) samples = std::max(*settings.seconds / settings.repeats / sample_seconds, 1.0);
-  return parts_of_repeat(contestant, settings, plan, samples).all() * sample_seconds;
+  return parts_of_repeat(compared_method, settings, plan, samples).all() * sample_seconds;
 }
 
-ContestState begin_contest(const std::vector<Contestant>& contestants, Reference reference,
-                           const ContestSettings& settings) {
-  ContestState state;
+ComparisonState begin_comparison(const std::vector<ComparedMethod>& compared_methods, Reference reference,
+                                 const ComparisonSettings& settings) {
+  ComparisonState state;
   state.reference = std::move(reference);
   RenderObserver silent;
-  for (const Contestant& c : contestants) {
+  for (const ComparedMethod& c : compared_methods) {
     MethodState method;
     method.plan =
         settings.seconds
@@ -198,29 +198,29 @@ ContestState begin_contest(const std::vector<Contestant>& contestants, Reference
   return state;
 }
 
-bool run_rounds(const std::vector<Contestant>& contestants, const ContestSettings& settings, int rounds,
-                const ContestWatch& watch, ContestState& state) {
+bool run_rounds(const std::vector<ComparedMethod>& compared_methods, const ComparisonSettings& settings, int rounds,
+                const ComparisonWatch& watch, ComparisonState& state) {
   // A round that was cut short is ended first.
   int first = std::numeric_limits<int>::max();
   for (const MethodState& m : state.methods) first = std::min(first, int(m.repeats.size()));
   for (int round = first; round < first + rounds; ++round)
-    for (std::size_t i : order_of_round(contestants.size(), settings.render.seed, round)) {
+    for (std::size_t i : order_of_round(compared_methods.size(), settings.render.seed, round)) {
       MethodState& method = state.methods[i];
       if (int(method.repeats.size()) > round) continue;
       if (watch.stopped()) return false;
       const PieceProgress piece(
-          watch, {fmt::format("repeat {} of {}, {}", round + 1, first + rounds, contestants[i].shown_name()),
+          watch, {fmt::format("repeat {} of {}, {}", round + 1, first + rounds, compared_methods[i].shown_name()),
                   method.repeat_seconds});
-      if (!run_repeat(contestants[i], settings, state.reference, round, piece, method)) return false;
+      if (!run_repeat(compared_methods[i], settings, state.reference, round, piece, method)) return false;
     }
   return true;
 }
 
-ContestResult run_contest(const std::vector<Contestant>& contestants, Reference reference,
-                          const ContestSettings& settings, const ContestWatch& watch) {
-  ContestState state = begin_contest(contestants, std::move(reference), settings);
-  const bool whole = run_rounds(contestants, settings, settings.repeats, watch, state);
-  ContestResult result = result_of(contestants, state, settings);
+ComparisonResult run_comparison(const std::vector<ComparedMethod>& compared_methods, Reference reference,
+                                const ComparisonSettings& settings, const ComparisonWatch& watch) {
+  ComparisonState state = begin_comparison(compared_methods, std::move(reference), settings);
+  const bool whole = run_rounds(compared_methods, settings, settings.repeats, watch, state);
+  ComparisonResult result = result_of(compared_methods, state, settings);
   result.interrupted = !whole;
   return result;
 }

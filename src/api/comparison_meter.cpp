@@ -1,17 +1,17 @@
-#include "api/contest_meter.h"
+#include "api/comparison_meter.h"
 
 #include <algorithm>
 
 namespace montelux {
 
-ContestMeter::ContestMeter(const ContestObserver& observer) : observer_(observer) {
+ComparisonMeter::ComparisonMeter(const ComparisonObserver& observer) : observer_(observer) {
   watch_.stop = observer.stop;
   watch_.progress = [this](const lab::WorkPiece& piece, double done) { state(piece, done); };
 }
 
-void ContestMeter::expect(double seconds) { expected_ = seconds, done_ = piece_ = 0, expected_at_ = elapsed(); }
+void ComparisonMeter::expect(double seconds) { expected_ = seconds, done_ = piece_ = 0, expected_at_ = elapsed(); }
 
-double ContestMeter::remaining() const {
+double ComparisonMeter::remaining() const {
   const double done = done_ + piece_, took = elapsed() - expected_at_;
   // A little of the work says little of the rest.
   const double trust = expected_ > 0 ? std::clamp(10 * done / expected_, 0.0, 1.0) : 0;
@@ -19,7 +19,7 @@ double ContestMeter::remaining() const {
   return std::max(expected_ - done, 0.0) * pace;
 }
 
-void ContestMeter::state(const lab::WorkPiece& piece, double done) {
+void ComparisonMeter::state(const lab::WorkPiece& piece, double done) {
   // A piece that is made of several renders ends with the last of them, and then once more.
   if (done == 0) piece_ = 0, under_way_ = true;
   if (under_way_) piece_ = std::max(piece_, done * piece.seconds);

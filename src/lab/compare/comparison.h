@@ -17,24 +17,24 @@
 
 namespace montelux::lab {
 
-// One method: an integrator with a point set. The integrator must outlive the contest.
-struct Contestant {
+// One method: an integrator with a point set. The integrator must outlive the comparison.
+struct ComparedMethod {
   std::string label;  // "a"
   std::string text;   // as it was asked for: "direct:strategy=ris,candidates=32"
   AnyIntegrator integrator;
   PointSetKind sampler = PointSetKind::blue_noise;
   std::vector<std::string> biases;
   std::optional<LayerPlan> layers{};   // that its variance is attributed to; none: the integrator has no layers
-  std::string name{};                  // what people call it, unique in the contest; empty: the text
+  std::string name{};                  // what people call it, unique in the comparison; empty: the text
   std::vector<std::string> missing{};  // light of the scene that it cannot find
   std::string settings{};              // all that it was asked for, in one order: equal for methods that are the same
 
   const std::string& shown_name() const { return name.empty() ? text : name; }
 };
 
-struct ContestSettings {
+struct ComparisonSettings {
   // Bounds, size, seed, threads, clock, and whether the time of warm-up frames counts; sampler and plan are the
-  // contestants' own.
+  // methods' own.
   RenderSettings render;
   std::optional<double> seconds;  // for each method, over all repeats; else
   int samples = 64;               // a pixel, in each repeat
@@ -97,15 +97,15 @@ struct MethodState {
   double repeat_seconds = 0;  // that a repeat is expected to take with all that belongs to it; 0: not known
 };
 
-// A contest that can go on. It is a function of the contestants, the settings and the number of rounds, but for the
-// times.
-struct ContestState {
+// A comparison that can go on. It is a function of the methods, the settings and the number of rounds, but for
+// the times.
+struct ComparisonState {
   Reference reference;
   std::vector<MethodState> methods;
 };
 
 struct MethodResult {
-  Contestant contestant;
+  ComparedMethod compared_method;
   std::vector<Repeat> repeats;
   Measured seconds, all_seconds, warm_up, rays, samples, mse, relative_mse, flip, variance, coverage;
   // 1 / (squared error x seconds), by the measure of the error; and the same by all seconds.
@@ -140,7 +140,7 @@ struct PairVerdict {
 // The interval excludes one: 1 in favour of the first, -1 of the second; 0: it does not.
 int winner_of(const Measured& ratio);
 
-struct ContestResult {
+struct ComparisonResult {
   bool warm_up_counts = true;  // in seconds and efficiencies; no: only the time of frames that are shown does
   ErrorMeasure measure = ErrorMeasure::relative_mse;  // that verdicts go by
   std::vector<MethodResult> methods;
@@ -163,7 +163,7 @@ struct WorkPiece {
   double seconds = 0;  // that it is expected to take
 };
 // Told of progress, several times a second; may ask to stop.
-struct ContestWatch {
+struct ComparisonWatch {
   std::function<bool()> stop;
   // How much of the piece is done: 0 as it begins, 1 as it ends.
   std::function<void(const WorkPiece& piece, double done)> progress;
@@ -172,20 +172,20 @@ struct ContestWatch {
 };
 
 // The plan of passes of each method; nothing is gathered yet.
-ContestState begin_contest(const std::vector<Contestant>& contestants, Reference reference,
-                           const ContestSettings& settings);
+ComparisonState begin_comparison(const std::vector<ComparedMethod>& compared_methods, Reference reference,
+                                 const ComparisonSettings& settings);
 // So many rounds more. Repeats are numbered through, and no two share random numbers. False where it was stopped; what
 // was under way is then left out.
-bool run_rounds(const std::vector<Contestant>& contestants, const ContestSettings& settings, int rounds,
-                const ContestWatch& watch, ContestState& state);
+bool run_rounds(const std::vector<ComparedMethod>& compared_methods, const ComparisonSettings& settings, int rounds,
+                const ComparisonWatch& watch, ComparisonState& state);
 // Seconds that one repeat of a method is expected to take with all that belongs to it, where a sample of the picture
 // takes `sample_seconds`.
-double expected_repeat_seconds(const Contestant& contestant, const ContestSettings& settings, PassPlan plan,
+double expected_repeat_seconds(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
                                double sample_seconds);
-ContestResult result_of(const std::vector<Contestant>& contestants, const ContestState& state,
-                        const ContestSettings& settings);
+ComparisonResult result_of(const std::vector<ComparedMethod>& compared_methods, const ComparisonState& state,
+                           const ComparisonSettings& settings);
 // All of it: settings.repeats rounds.
-ContestResult run_contest(const std::vector<Contestant>& contestants, Reference reference,
-                          const ContestSettings& settings, const ContestWatch& watch);
+ComparisonResult run_comparison(const std::vector<ComparedMethod>& compared_methods, Reference reference,
+                                const ComparisonSettings& settings, const ComparisonWatch& watch);
 
 }  // namespace montelux::lab

@@ -1,16 +1,16 @@
 // How a comparison states its progress.
-#include "api/contest_meter.h"
+#include "api/comparison_meter.h"
 
 #include <gtest/gtest.h>
 
 namespace montelux {
 namespace {
 
-TEST(ContestMeter, counts_pieces_against_what_was_expected) {
-  std::vector<ContestProgress> seen;
-  ContestObserver observer;
-  observer.progress = [&](const ContestProgress& p) { seen.push_back(p); };
-  ContestMeter meter(observer);
+TEST(ComparisonMeter, counts_pieces_against_what_was_expected) {
+  std::vector<ComparisonProgress> seen;
+  ComparisonObserver observer;
+  observer.progress = [&](const ComparisonProgress& p) { seen.push_back(p); };
+  ComparisonMeter meter(observer);
   meter.expect(1000);
   const lab::WorkPiece pilot{"pilot of path", 250}, repeat{"repeat 1 of 1, path", 750};
   meter.watch().progress(pilot, 0);
@@ -28,17 +28,17 @@ TEST(ContestMeter, counts_pieces_against_what_was_expected) {
   EXPECT_NEAR(seen.back().remaining, 37.5, 0.1);
   meter.watch().progress(repeat, 1);
   EXPECT_EQ(seen.back().remaining, 0);
-  for (const ContestProgress& p : seen) {
+  for (const ComparisonProgress& p : seen) {
     EXPECT_GE(p.fraction, 0);
     EXPECT_LE(p.fraction, 1);
   }
 }
 
-TEST(ContestMeter, believes_a_pace_only_after_a_tenth_of_the_work) {
-  ContestObserver observer;
-  ContestProgress last;
-  observer.progress = [&](const ContestProgress& p) { last = p; };
-  ContestMeter meter(observer);
+TEST(ComparisonMeter, believes_a_pace_only_after_a_tenth_of_the_work) {
+  ComparisonObserver observer;
+  ComparisonProgress last;
+  observer.progress = [&](const ComparisonProgress& p) { last = p; };
+  ComparisonMeter meter(observer);
   meter.expect(1000);
   const lab::WorkPiece piece{"reference", 1000};
   meter.watch().progress(piece, 0);
@@ -46,11 +46,11 @@ TEST(ContestMeter, believes_a_pace_only_after_a_tenth_of_the_work) {
   EXPECT_NEAR(last.remaining, 990 * (1 - 0.1 * 0.9), 1);
 }
 
-TEST(ContestMeter, passes_on_the_wish_to_stop) {
+TEST(ComparisonMeter, passes_on_the_wish_to_stop) {
   bool stop = false;
-  ContestObserver observer;
+  ComparisonObserver observer;
   observer.stop = [&] { return stop; };
-  const ContestMeter meter(observer);
+  const ComparisonMeter meter(observer);
   EXPECT_FALSE(meter.watch().stopped());
   stop = true;
   EXPECT_TRUE(meter.watch().stopped());

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/contest.h"
-#include "api/contest_methods.h"
+#include "api/comparison.h"
+#include "api/comparison_methods.h"
 #include "api/render.h"
 #include "image/image_file.h"
 #include "image/output_file.h"
@@ -38,14 +38,14 @@ std::string interval_text(const Seen& s) { return lab::value_in_interval(s.facto
 
 // One verdict with all that its sentence needs.
 struct Spoken {
-  const Contest& contest;
+  const Comparison& comparison;
   const lab::PairVerdict& verdict;
   const lab::MethodResult &first, &second;
   ErrorMeasure measure;
   double confidence;
 
-  const std::string& a() const { return first.contestant.shown_name(); }
-  const std::string& b() const { return second.contestant.shown_name(); }
+  const std::string& a() const { return first.compared_method.shown_name(); }
+  const std::string& b() const { return second.compared_method.shown_name(); }
   const Measured& ratio() const { return verdict.ratio[measure]; }
 };
 
@@ -61,7 +61,7 @@ std::string left_out(const Spoken& s) {
 std::string other_measure(const Spoken& s, ErrorMeasure other, int lead) {
   const Measured& ratio = s.verdict.ratio[other];
   const std::string by = fmt::format("; by {} ", lab::title_of(other));
-  if (s.contest.result.reference_share[other] > largest_reference_share)
+  if (s.comparison.result.reference_share[other] > largest_reference_share)
     return by + "unknown, the reference is too noisy";
   if (ratio.count < 2) return by + "not known";
   const int winner = lab::winner_of(ratio);
@@ -75,7 +75,7 @@ std::string other_measure(const Spoken& s, ErrorMeasure other, int lead) {
 std::string biased_text(const Spoken& s) {
   std::string names;
   for (const lab::MethodResult* m : {&s.first, &s.second})
-    if (m->agreement.differs()) names += (names.empty() ? "" : " and ") + m->contestant.shown_name();
+    if (m->agreement.differs()) names += (names.empty() ? "" : " and ") + m->compared_method.shown_name();
   return names.empty()
              ? ""
              : fmt::format("; the mean of {} differs from the reference, so this is valid only for this time", names);
@@ -85,7 +85,7 @@ std::string biased_text(const Spoken& s) {
 std::string main_sentence(const Spoken& s) {
   const auto title = lab::title_of(s.measure);
   const std::string level = fmt::format("{:g} %", 100 * s.confidence);
-  if (!s.contest.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", s.a(), s.b());
+  if (!s.comparison.refusal.empty()) return fmt::format("{} and {}: no verdict by this reference", s.a(), s.b());
   if (std::min(s.first.repeats.size(), s.second.repeats.size()) < 2)
     return fmt::format("{} and {}: undecided, there are too few repeats", s.a(), s.b());
   if (s.verdict.likeness == lab::Likeness::settings)
@@ -109,10 +109,10 @@ std::string main_sentence(const Spoken& s) {
 }
 
 std::string warm_up_text(const Spoken& s) {
-  if (s.contest.result.warm_up_counts) return {};
+  if (s.comparison.result.warm_up_counts) return {};
   std::string warmed;
   for (const lab::MethodResult* m : {&s.first, &s.second})
-    if (m->warm_up.mean > 0) warmed += (warmed.empty() ? "" : " and ") + m->contestant.shown_name();
+    if (m->warm_up.mean > 0) warmed += (warmed.empty() ? "" : " and ") + m->compared_method.shown_name();
   if (warmed.empty()) return {};
   const bool first = s.ratio().mean >= 1;
   return fmt::format("; the warm-up of {} is not counted: {} times including it", warmed,
@@ -133,21 +133,21 @@ std::string measure_text(ErrorMeasure measure) {
   return {};
 }
 
-std::string budget_text(const ContestOptions& o) {
+std::string budget_text(const ComparisonOptions& o) {
   if (o.seconds)
     return fmt::format("{:.4g} s for each method, {:.4g} s in each of its repeats", *o.seconds, *o.seconds / o.repeats);
-  const int samples = o.samples.value_or(lab::ContestSettings{}.samples);
+  const int samples = o.samples.value_or(lab::ComparisonSettings{}.samples);
   return fmt::format("{} {} a pixel in each repeat", samples, samples == 1 ? "sample" : "samples");
 }
 
 }  // namespace
 
-std::string sentence_of(const Contest& contest, const lab::PairVerdict& v, double confidence) {
+std::string sentence_of(const Comparison& comparison, const lab::PairVerdict& v, double confidence) {
   const Spoken s{
-      contest,   v, contest.result.methods[v.first], contest.result.methods[v.second], contest.result.measure,
+      comparison, v, comparison.result.methods[v.first], comparison.result.methods[v.second], comparison.result.measure,
       confidence};
   const std::string sentence = main_sentence(s);
-  const bool judged = contest.refusal.empty() && s.ratio().count >= 2 && v.likeness != lab::Likeness::settings;
+  const bool judged = comparison.refusal.empty() && s.ratio().count >= 2 && v.likeness != lab::Likeness::settings;
   if (!judged) return sentence;
   const int lead = lab::winner_of(s.ratio());
   std::string others;
@@ -175,9 +175,9 @@ std::string sentence_of(const lab::Agreement& a, double reference_mean) {
       a.pixel_t);
 }
 
-std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& contest, const std::string& scene) {
-  const ContestOptions& o = contest.saved.options;
-  const lab::ContestResult& r = contest.result;
+std::vector<std::pair<std::string, std::string>> conditions_of(const Comparison& comparison, const std::string& scene) {
+  const ComparisonOptions& o = comparison.saved.options;
+  const lab::ComparisonResult& r = comparison.result;
   std::size_t fewest = ~std::size_t(0), most = 0;
   for (const lab::MethodResult& m : r.methods)
     fewest = std::min(fewest, m.repeats.size()), most = std::max(most, m.repeats.size());
@@ -187,7 +187,8 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& co
   if (o.crop) size += fmt::format(", the crop {},{} to {},{}", o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1);
   rows.emplace_back("picture", size);
   for (const lab::MethodResult& m : r.methods)
-    if (m.contestant.text != m.contestant.shown_name()) rows.emplace_back(m.contestant.shown_name(), m.contestant.text);
+    if (m.compared_method.text != m.compared_method.shown_name())
+      rows.emplace_back(m.compared_method.shown_name(), m.compared_method.text);
   std::string common;
   for (const auto& [key, value] : o.settings) common += fmt::format("{}{}={}", common.empty() ? "" : ", ", key, value);
   if (!common.empty()) rows.emplace_back("settings of all", common);
@@ -198,7 +199,7 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Contest& co
   rows.emplace_back("intervals", fmt::format("{:g} %", 100 * o.confidence));
   rows.emplace_back("reference", fmt::format("{}; its own variance is {:.2g} of the smallest error", r.reference.origin,
                                              r.reference_share[r.measure]));
-  for (const std::string& omission : contest.left_out) rows.emplace_back("left out", omission);
+  for (const std::string& omission : comparison.left_out) rows.emplace_back("left out", omission);
   rows.emplace_back("seed", fmt::format("{}", o.seed));
   if (o.processor_time) rows.emplace_back("clock", "time of all threads on processors");
   rows.emplace_back("version", "Montelux " + version());
@@ -219,28 +220,28 @@ std::string text_of(const MethodShortcomings& shortcomings) {
 
 }  // namespace
 
-Status write_contest(const std::filesystem::path& file, const Contest& contest, const std::string& scene,
-                     double confidence, const std::vector<std::string>& commands) {
-  lab::ContestWords words;
+Status write_comparison(const std::filesystem::path& file, const Comparison& comparison, const std::string& scene,
+                        double confidence, const std::vector<std::string>& commands) {
+  lab::ComparisonText words;
   words.scene = scene;
-  words.conditions = conditions_of(contest, scene);
-  for (const lab::PairVerdict& v : contest.result.verdicts)
-    words.sentences.push_back(sentence_of(contest, v, confidence));
-  const double mean = lab::mean_value(contest.result.reference.mean);
-  for (const lab::MethodResult& m : contest.result.methods)
+  words.conditions = conditions_of(comparison, scene);
+  for (const lab::PairVerdict& v : comparison.result.verdicts)
+    words.sentences.push_back(sentence_of(comparison, v, confidence));
+  const double mean = lab::mean_value(comparison.result.reference.mean);
+  for (const lab::MethodResult& m : comparison.result.methods)
     words.agreement.push_back(m.repeats.empty() ? "no repeat was done" : sentence_of(m.agreement, mean));
-  for (const MethodShortcomings& shortcomings : contest.shortcomings)
+  for (const MethodShortcomings& shortcomings : comparison.shortcomings)
     words.shortcomings.push_back(text_of(shortcomings));
-  if (!contest.refusal.empty()) words.notes.push_back(contest.refusal);
-  if (contest.result.interrupted)
+  if (!comparison.refusal.empty()) words.notes.push_back(comparison.refusal);
+  if (comparison.result.interrupted)
     words.notes.push_back("it was interrupted: the figures are those of the finished repeats");
-  if (!contest.result.warm_up_counts)
+  if (!comparison.result.warm_up_counts)
     words.notes.push_back(
         "frames of a sequence: warm-up frames have been shown anyway, so seconds and "
         "efficiencies exclude their time unless stated otherwise");
-  words.notes.insert(words.notes.end(), contest.notes.begin(), contest.notes.end());
+  words.notes.insert(words.notes.end(), comparison.notes.begin(), comparison.notes.end());
   words.commands = commands;
-  Result<std::string> page = lab::to_html(lab::report_of(contest.result, words));
+  Result<std::string> page = lab::to_html(lab::report_of(comparison.result, words));
   if (!page) return page.failure();
   return write_file(file, *page);
 }

@@ -1,4 +1,4 @@
-#include "api/contest_methods.h"
+#include "api/comparison_methods.h"
 
 #include <fmt/format.h>
 
@@ -103,12 +103,12 @@ LayerPlan attribution_layers(const Scene& scene) {
   return plan;
 }
 
-std::set<std::string> biases_of(const lab::Contestant& c) { return {c.biases.begin(), c.biases.end()}; }
+std::set<std::string> biases_of(const lab::ComparedMethod& c) { return {c.biases.begin(), c.biases.end()}; }
 
 // "maxdepth=5: path, naive; direct light alone: direct".
-std::string biases_text(const std::vector<lab::Contestant>& contestants) {
+std::string biases_text(const std::vector<lab::ComparedMethod>& compared_methods) {
   std::map<std::string, std::vector<std::string>> by_bias;
-  for (const lab::Contestant& c : contestants)
+  for (const lab::ComparedMethod& c : compared_methods)
     by_bias[fmt::format("{}", fmt::join(c.biases, ", "))].push_back(c.shown_name());
   std::string text;
   for (const auto& [bias, names] : by_bias)
@@ -126,7 +126,7 @@ std::string MethodText::canonical() const {
   return all;
 }
 
-Result<std::vector<MethodText>> read_methods(const ContestOptions& options) {
+Result<std::vector<MethodText>> read_methods(const ComparisonOptions& options) {
   std::vector<MethodText> methods;
   for (const std::string& typed : options.methods) {
     auto method = read_method(typed, options.settings);
@@ -141,7 +141,7 @@ Result<std::vector<MethodText>> read_methods(const ContestOptions& options) {
   return methods;
 }
 
-Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& options) {
+Result<Field> make_field(const LoadedScene::Parts& parts, const ComparisonOptions& options) {
   auto methods = read_methods(options);
   if (!methods) return methods.failure();
   Field field;
@@ -153,16 +153,16 @@ Result<Field> make_field(const LoadedScene::Parts& parts, const ContestOptions& 
     const PointSetKind sampler = method.sampler.value_or(parts.picture.sampler);
     note_sampler(*chosen, sampler);
     field.integrators.push_back(*std::move(chosen));
-    lab::Contestant contestant;
-    contestant.label = method.label, contestant.name = method.name, contestant.text = method.text;
-    contestant.settings = method.canonical();
-    contestant.integrator = field.integrators.back().any();
-    contestant.sampler = sampler;
-    contestant.biases = field.integrators.back().biases;
-    contestant.missing = field.integrators.back().missing;
-    const PixelIntegrator* pixels = contestant.integrator.pixel();
-    if (options.attribution && pixels && pixels->has_layers()) contestant.layers = attribution_layers(parts.scene);
-    field.contestants.push_back(std::move(contestant));
+    lab::ComparedMethod compared_method;
+    compared_method.label = method.label, compared_method.name = method.name, compared_method.text = method.text;
+    compared_method.settings = method.canonical();
+    compared_method.integrator = field.integrators.back().any();
+    compared_method.sampler = sampler;
+    compared_method.biases = field.integrators.back().biases;
+    compared_method.missing = field.integrators.back().missing;
+    const PixelIntegrator* pixels = compared_method.integrator.pixel();
+    if (options.attribution && pixels && pixels->has_layers()) compared_method.layers = attribution_layers(parts.scene);
+    field.compared_methods.push_back(std::move(compared_method));
   }
   return field;
 }
@@ -174,16 +174,16 @@ using Faults = std::set<std::string>;
 // The methods without a fault; where there are none, those that have no fault but what all share. A fixed sampler would
 // not state the reference's error.
 template <class FaultsOf>
-std::vector<std::size_t> without_faults(const std::vector<lab::Contestant>& contestants, FaultsOf faults_of) {
-  Faults shared = faults_of(contestants.front());
-  for (const lab::Contestant& c : contestants) {
+std::vector<std::size_t> without_faults(const std::vector<lab::ComparedMethod>& compared_methods, FaultsOf faults_of) {
+  Faults shared = faults_of(compared_methods.front());
+  for (const lab::ComparedMethod& c : compared_methods) {
     const Faults own = faults_of(c);
     std::erase_if(shared, [&](const std::string& fault) { return !own.contains(fault); });
   }
   const auto with = [&](const Faults& wanted) {
     std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < contestants.size(); ++i)
-      if (!is_fixed(contestants[i].sampler) && faults_of(contestants[i]) == wanted) found.push_back(i);
+    for (std::size_t i = 0; i < compared_methods.size(); ++i)
+      if (!is_fixed(compared_methods[i].sampler) && faults_of(compared_methods[i]) == wanted) found.push_back(i);
     return found;
   };
   const std::vector<std::size_t> faultless = with({});
@@ -192,18 +192,18 @@ std::vector<std::size_t> without_faults(const std::vector<lab::Contestant>& cont
 
 }  // namespace
 
-Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::Contestant>& contestants) {
-  const auto biases_and_missing = [](const lab::Contestant& c) {
+Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::ComparedMethod>& compared_methods) {
+  const auto biases_and_missing = [](const lab::ComparedMethod& c) {
     Faults faults = biases_of(c);
     faults.insert(c.missing.begin(), c.missing.end());
     return faults;
   };
-  if (const auto serve = without_faults(contestants, biases_and_missing); !serve.empty()) return serve;
-  if (const auto serve = without_faults(contestants, biases_of); !serve.empty()) return serve;
+  if (const auto serve = without_faults(compared_methods, biases_and_missing); !serve.empty()) return serve;
+  if (const auto serve = without_faults(compared_methods, biases_of); !serve.empty()) return serve;
   return Failure{fmt::format(
       "every method is biased, but not all in the same way: {}; none of them can render a fair reference: state "
       "one by --reference, or add a method without bias (path:maxdepth=none)",
-      biases_text(contestants))};
+      biases_text(compared_methods))};
 }
 
 }  // namespace montelux

@@ -1,4 +1,4 @@
-#include "api/contest.h"
+#include "api/comparison.h"
 
 #include <fmt/format.h>
 
@@ -6,17 +6,17 @@
 #include <cmath>
 #include <map>
 
-#include "api/contest_meter.h"
-#include "api/contest_methods.h"
-#include "api/contest_reference.h"
+#include "api/comparison_meter.h"
+#include "api/comparison_methods.h"
+#include "api/comparison_reference.h"
 #include "lab/compare/pilot.h"
 
 namespace montelux {
 
 namespace {
 
-Result<lab::ContestSettings> settings_of(const LoadedScene::Parts& parts, const ContestOptions& options) {
-  lab::ContestSettings settings;
+Result<lab::ComparisonSettings> settings_of(const LoadedScene::Parts& parts, const ComparisonOptions& options) {
+  lab::ComparisonSettings settings;
   RenderSettings& r = settings.render;
   r.width = parts.picture.width, r.height = parts.picture.height;
   r.bounds = options.crop.value_or(parts.picture.crop);
@@ -42,7 +42,7 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 // Why the verdicts do not count; empty where they do.
-std::string refusal_of(const lab::ContestResult& result) {
+std::string refusal_of(const lab::ComparisonResult& result) {
   const double share = result.reference_share[result.measure];
   if (share <= largest_reference_share) return {};
   if (!std::isfinite(share))
@@ -57,8 +57,8 @@ std::string refusal_of(const lab::ContestResult& result) {
 std::vector<std::string> notes_of_methods(const Field& field, bool attribution) {
   std::map<std::string, std::vector<std::string>> by_bias, by_light;
   std::vector<std::string> unlayered, notes;
-  for (std::size_t i = 0; i < field.contestants.size(); ++i) {
-    const lab::Contestant& c = field.contestants[i];
+  for (std::size_t i = 0; i < field.compared_methods.size(); ++i) {
+    const lab::ComparedMethod& c = field.compared_methods[i];
     if (!c.biases.empty()) by_bias[fmt::format("{}", fmt::join(c.biases, ", "))].push_back(c.shown_name());
     for (const std::string& light : field.shortcomings[i].missing) by_light[light].push_back(c.shown_name());
     if (attribution && !c.layers) unlayered.push_back(c.shown_name());
@@ -76,28 +76,28 @@ std::vector<std::string> notes_of_methods(const Field& field, bool attribution) 
 }
 
 // What is to be said once all rounds are done.
-void conclude(const LoadedScene::Parts& parts, const Field& field, const lab::ContestSettings& settings,
-              bool interrupted, Contest& contest) {
-  contest.result = lab::result_of(field.contestants, contest.saved.state, settings);
-  contest.result.interrupted = interrupted;
-  contest.notes = contest.saved.notes;
-  contest.shortcomings = field.shortcomings, contest.left_out = parts.info.left_out;
-  contest.refusal = refusal_of(contest.result);
-  const auto notes = notes_of_methods(field, contest.saved.options.attribution);
-  contest.notes.insert(contest.notes.end(), notes.begin(), notes.end());
+void conclude(const LoadedScene::Parts& parts, const Field& field, const lab::ComparisonSettings& settings,
+              bool interrupted, Comparison& comparison) {
+  comparison.result = lab::result_of(field.compared_methods, comparison.saved.state, settings);
+  comparison.result.interrupted = interrupted;
+  comparison.notes = comparison.saved.notes;
+  comparison.shortcomings = field.shortcomings, comparison.left_out = parts.info.left_out;
+  comparison.refusal = refusal_of(comparison.result);
+  const auto notes = notes_of_methods(field, comparison.saved.options.attribution);
+  comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
 }
 
 // Frames that are not to count must be there.
-Status check_warm_up(const std::vector<lab::Contestant>& contestants, const ContestOptions& options) {
-  const auto warms_up = [](const lab::Contestant& c) {
+Status check_warm_up(const std::vector<lab::ComparedMethod>& compared_methods, const ComparisonOptions& options) {
+  const auto warms_up = [](const lab::ComparedMethod& c) {
     return c.integrator.coupled() && c.integrator.coupled()->warm_up() > 0;
   };
-  if (!options.warm_frames || std::ranges::any_of(contestants, warms_up)) return Done{};
+  if (!options.warm_frames || std::ranges::any_of(compared_methods, warms_up)) return Done{};
   return Failure{"no method has warm-up frames; for example restir-di:chain=1,warm-up=12 has"};
 }
 
 // Seconds of one repeat of one method; none where that is not known.
-std::optional<double> seconds_of_repeat(const lab::ContestState& state, const lab::ContestSettings& settings) {
+std::optional<double> seconds_of_repeat(const lab::ComparisonState& state, const lab::ComparisonSettings& settings) {
   if (settings.seconds) return *settings.seconds / settings.repeats;
   double sum = 0, repeats = 0;
   for (const lab::MethodState& m : state.methods)
@@ -107,20 +107,20 @@ std::optional<double> seconds_of_repeat(const lab::ContestState& state, const la
 }
 
 // How long all rounds together are expected to take; a method reports its share of the whole.
-double expect_repeats(const Field& field, const lab::ContestSettings& settings, int rounds,
-                      const std::vector<double>& sample_seconds, lab::ContestState& state) {
+double expect_repeats(const Field& field, const lab::ComparisonSettings& settings, int rounds,
+                      const std::vector<double>& sample_seconds, lab::ComparisonState& state) {
   double all = 0;
-  for (std::size_t i = 0; i < field.contestants.size(); ++i) {
+  for (std::size_t i = 0; i < field.compared_methods.size(); ++i) {
     lab::MethodState& method = state.methods[i];
     method.repeat_seconds =
-        lab::expected_repeat_seconds(field.contestants[i], settings, method.plan, sample_seconds[i]);
+        lab::expected_repeat_seconds(field.compared_methods[i], settings, method.plan, sample_seconds[i]);
     all += rounds * method.repeat_seconds;
   }
   return all;
 }
 
 // Samples a pixel that one repeat of each method is expected to have.
-std::vector<double> samples_of_repeats(const lab::ContestState& state, const lab::ContestSettings& settings,
+std::vector<double> samples_of_repeats(const lab::ComparisonState& state, const lab::ComparisonSettings& settings,
                                        const std::vector<double>& sample_seconds) {
   std::vector<double> samples;
   for (std::size_t i = 0; i < state.methods.size(); ++i)
@@ -133,69 +133,70 @@ std::vector<double> samples_of_repeats(const lab::ContestState& state, const lab
 struct Work {
   const LoadedScene::Parts& parts;
   const Field& field;
-  const lab::ContestSettings& settings;
-  const ContestObserver& observer;
-  ContestMeter& meter;
+  const lab::ComparisonSettings& settings;
+  const ComparisonObserver& observer;
+  ComparisonMeter& meter;
 };
 
 // The reference that is better than the goal: kept from before, or made now.
-void take_reference(const Work& work, const lab::ReferenceGoal& goal, Contest& contest) {
+void take_reference(const Work& work, const lab::ReferenceGoal& goal, Comparison& comparison) {
   const PixelBounds& bounds = work.settings.render.bounds;
-  const auto file = contest.saved.options.cache
-                        ? reference_cache(work.parts, bounds, work.field.contestants[goal.method])
+  const auto file = comparison.saved.options.cache
+                        ? reference_cache(work.parts, bounds, work.field.compared_methods[goal.method])
                         : std::nullopt;
   auto kept = file ? kept_reference(*file, bounds, goal.variance) : std::nullopt;
-  if (!kept) contest.forecast.reference = goal.seconds;
-  work.meter.expect(contest.forecast.reference + contest.forecast.repeats);
-  if (work.observer.forecast) work.observer.forecast(contest.forecast);
+  if (!kept) comparison.forecast.reference = goal.seconds;
+  work.meter.expect(comparison.forecast.reference + comparison.forecast.repeats);
+  if (work.observer.forecast) work.observer.forecast(comparison.forecast);
   if (kept) {
-    contest.saved.notes.push_back("the reference was stored by an earlier comparison: " + file->string());
-    contest.saved.state.reference = *std::move(kept);
+    comparison.saved.notes.push_back("the reference was stored by an earlier comparison: " + file->string());
+    comparison.saved.state.reference = *std::move(kept);
     return;
   }
-  contest.saved.state.reference = lab::make_reference(work.field.contestants, goal, work.settings, work.meter.watch());
-  if (file && !work.meter.watch().stopped()) keep_reference(*file, contest.saved.state.reference);
+  comparison.saved.state.reference =
+      lab::make_reference(work.field.compared_methods, goal, work.settings, work.meter.watch());
+  if (file && !work.meter.watch().stopped()) keep_reference(*file, comparison.saved.state.reference);
 }
 
 // Pilots and reference, with what all is expected to take; false where it was stopped before there was a reference.
-bool prepare(const Work& work, ReferenceSource source, Contest& contest) {
-  lab::ContestState& state = contest.saved.state;
-  const auto& contestants = work.field.contestants;
+bool prepare(const Work& work, ReferenceSource source, Comparison& comparison) {
+  lab::ComparisonState& state = comparison.saved.state;
+  const auto& compared_methods = work.field.compared_methods;
   const int rounds = work.settings.repeats;
-  state = lab::begin_contest(contestants, {}, work.settings);
-  std::vector<double> seconds = lab::time_methods(contestants, state, work.settings, work.meter.watch());
-  contest.forecast.repeats = expect_repeats(work.field, work.settings, rounds, seconds, state);
+  state = lab::begin_comparison(compared_methods, {}, work.settings);
+  std::vector<double> seconds = lab::time_methods(compared_methods, state, work.settings, work.meter.watch());
+  comparison.forecast.repeats = expect_repeats(work.field, work.settings, rounds, seconds, state);
   if (source.reference) {
     state.reference = *std::move(source.reference);
-    contest.forecast.pilots = work.meter.elapsed();
-    work.meter.expect(contest.forecast.repeats);
-    if (work.observer.forecast) work.observer.forecast(contest.forecast);
+    comparison.forecast.pilots = work.meter.elapsed();
+    work.meter.expect(comparison.forecast.repeats);
+    if (work.observer.forecast) work.observer.forecast(comparison.forecast);
     return true;
   }
   // Until the pilots tell more: a pilot is like a repeat without its slopes, a reference like some twenty of them.
-  const double one_repeat = contest.forecast.repeats / rounds / double(contestants.size());
-  work.meter.expect(contest.forecast.repeats + one_repeat * (0.5 * double(contestants.size()) + 10));
+  const double one_repeat = comparison.forecast.repeats / rounds / double(compared_methods.size());
+  work.meter.expect(comparison.forecast.repeats + one_repeat * (0.5 * double(compared_methods.size()) + 10));
   const std::vector<lab::Pilot> pilots =
-      lab::run_pilots(contestants, state, seconds, work.settings, work.meter.watch());
+      lab::run_pilots(compared_methods, state, seconds, work.settings, work.meter.watch());
   if (work.meter.watch().stopped()) return false;
   for (std::size_t i = 0; i < pilots.size(); ++i) seconds[i] = pilots[i].wall_seconds / pilots[i].samples;
-  contest.forecast.pilots = work.meter.elapsed();
-  contest.forecast.repeats = expect_repeats(work.field, work.settings, rounds, seconds, state);
+  comparison.forecast.pilots = work.meter.elapsed();
+  comparison.forecast.repeats = expect_repeats(work.field, work.settings, rounds, seconds, state);
   constexpr double wanted_share = 0.05;
   take_reference(work,
                  lab::plan_reference(pilots, source.may_serve, samples_of_repeats(state, work.settings, seconds),
                                      work.settings.measure, wanted_share),
-                 contest);
+                 comparison);
   return !work.meter.watch().stopped();
 }
 
 // What is saved fits the scene as it is now.
-Status check_fit(const SavedContest& saved, const Field& field, const PixelBounds& b) {
+Status check_fit(const SavedComparison& saved, const Field& field, const PixelBounds& b) {
   if (saved.state.reference.mean.width != b.width() || saved.state.reference.mean.height != b.height() ||
-      saved.state.methods.size() != field.contestants.size())
+      saved.state.methods.size() != field.compared_methods.size())
     return Failure{"the saved comparison does not fit the scene: it has other sizes"};
-  for (std::size_t i = 0; i < field.contestants.size(); ++i) {
-    const auto& layers = field.contestants[i].layers;
+  for (std::size_t i = 0; i < field.compared_methods.size(); ++i) {
+    const auto& layers = field.compared_methods[i].layers;
     const auto& shares = saved.state.methods[i].pixel_shares;
     if (!shares.empty() && (!layers || shares.size() != std::size_t(layers->count()) + 1))
       return Failure{"the saved comparison does not fit the scene: its variance was attributed to other layers"};
@@ -205,36 +206,36 @@ Status check_fit(const SavedContest& saved, const Field& field, const PixelBound
 
 }  // namespace
 
-Status check_methods(const ContestOptions& options) {
+Status check_methods(const ComparisonOptions& options) {
   if (auto methods = read_methods(options); !methods) return methods.failure();
   return Done{};
 }
 
-Result<Contest> compare_methods(const LoadedScene& scene, const ContestOptions& options,
-                                const ContestObserver& observer) {
-  ContestMeter meter(observer);
+Result<Comparison> compare_methods(const LoadedScene& scene, const ComparisonOptions& options,
+                                   const ComparisonObserver& observer) {
+  ComparisonMeter meter(observer);
   auto field = make_field(scene.parts(), options);
   if (!field) return field.failure();
-  if (Status warm = check_warm_up(field->contestants, options); !warm) return warm.failure();
+  if (Status warm = check_warm_up(field->compared_methods, options); !warm) return warm.failure();
   auto settings = settings_of(scene.parts(), options);
   if (!settings) return settings.failure();
-  auto source = find_reference(options, field->contestants, settings->render.bounds);
+  auto source = find_reference(options, field->compared_methods, settings->render.bounds);
   if (!source) return source.failure();
-  Contest contest;
-  contest.saved.options = options;
+  Comparison comparison;
+  comparison.saved.options = options;
   const Work work{scene.parts(), *field, *settings, observer, meter};
-  if (!prepare(work, *std::move(source), contest))
+  if (!prepare(work, *std::move(source), comparison))
     return Failure{"interrupted before there was a reference to compare with"};
   const bool whole =
-      lab::run_rounds(field->contestants, *settings, settings->repeats, meter.watch(), contest.saved.state);
-  conclude(scene.parts(), *field, *settings, !whole, contest);
-  contest.seconds = meter.elapsed();
-  return contest;
+      lab::run_rounds(field->compared_methods, *settings, settings->repeats, meter.watch(), comparison.saved.state);
+  conclude(scene.parts(), *field, *settings, !whole, comparison);
+  comparison.seconds = meter.elapsed();
+  return comparison;
 }
 
-Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, const ContestBudget& more,
-                                 const ContestObserver& observer) {
-  ContestMeter meter(observer);
+Result<Comparison> continue_comparison(const LoadedScene& scene, SavedComparison saved, const ComparisonBudget& more,
+                                       const ComparisonObserver& observer) {
+  ComparisonMeter meter(observer);
   auto field = make_field(scene.parts(), saved.options);
   if (!field) return field.failure();
   auto settings = settings_of(scene.parts(), saved.options);
@@ -248,17 +249,17 @@ Result<Contest> continue_contest(const LoadedScene& scene, SavedContest saved, c
           "the saved comparison has no finished repeat, so its duration is unknown: use --repeats instead of --time"};
     rounds = int(std::clamp(std::round(*more.seconds / *one), 1.0, 1e6));
   }
-  Contest contest;
-  contest.saved = std::move(saved);
+  Comparison comparison;
+  comparison.saved = std::move(saved);
   const std::vector<double> seconds =
-      lab::time_methods(field->contestants, contest.saved.state, *settings, meter.watch());
-  contest.forecast.repeats = expect_repeats(*field, *settings, rounds, seconds, contest.saved.state);
-  meter.expect(contest.forecast.repeats);
-  if (observer.forecast) observer.forecast(contest.forecast);
-  const bool whole = lab::run_rounds(field->contestants, *settings, rounds, meter.watch(), contest.saved.state);
-  conclude(scene.parts(), *field, *settings, !whole, contest);
-  contest.seconds = meter.elapsed();
-  return contest;
+      lab::time_methods(field->compared_methods, comparison.saved.state, *settings, meter.watch());
+  comparison.forecast.repeats = expect_repeats(*field, *settings, rounds, seconds, comparison.saved.state);
+  meter.expect(comparison.forecast.repeats);
+  if (observer.forecast) observer.forecast(comparison.forecast);
+  const bool whole = lab::run_rounds(field->compared_methods, *settings, rounds, meter.watch(), comparison.saved.state);
+  conclude(scene.parts(), *field, *settings, !whole, comparison);
+  comparison.seconds = meter.elapsed();
+  return comparison;
 }
 
 }  // namespace montelux
