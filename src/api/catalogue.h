@@ -1,4 +1,4 @@
-// What Montelux knows by name: the same tables that the reader of scenes uses, for people.
+// Everything that Montelux knows by name: the tables of the scene reader, in a form for users.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,19 +9,19 @@
 namespace montelux {
 
 struct CatalogueParameter {
-  std::string name, types;  // types as a scene file spells them: "float", "spectrum|texture"
+  std::string name, types;  // types in the notation of scene files: "float", "spectrum|texture"
   std::string meaning;
-  bool later = false;  // known, not applied yet
+  bool later = false;  // known, but not applied yet
 };
 
 struct CatalogueEntry {
   std::string name, meaning;
   std::vector<CatalogueParameter> parameters;
-  bool later = false;   // known, cannot be done yet
-  std::string instead;  // what serves for it; may be empty
+  bool later = false;   // known, but not supported yet
+  std::string instead;  // the substitute; may be empty
 };
 
-// "integrators", "samplers", "materials", ..., each with a line on what it is.
+// "integrators", "samplers", "materials", ..., each with a one-line description.
 std::vector<std::pair<std::string, std::string>> catalogue_topics();
 
 // The names of one topic; nothing for an unknown topic.

@@ -41,7 +41,7 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
-// Why the verdicts do not count; empty where they do.
+// Why there is no verdict; empty if there is one.
 std::string refusal_of(const lab::ComparisonResult& result) {
   const double share = result.reference_share[result.measure];
   if (share <= largest_reference_share) return {};
@@ -53,7 +53,7 @@ std::string refusal_of(const lab::ComparisonResult& result) {
       100 * share, 100 * largest_reference_share, share / largest_reference_share);
 }
 
-// What the reader must know of the methods: one note for all that are alike.
+// What the user must know about the methods: one note for all that share it.
 std::vector<std::string> notes_of_methods(const Field& field, bool attribution) {
   std::map<std::string, std::vector<std::string>> by_bias, by_light;
   std::vector<std::string> unlayered, notes;
@@ -75,7 +75,7 @@ std::vector<std::string> notes_of_methods(const Field& field, bool attribution) 
   return notes;
 }
 
-// What is to be said once all rounds are done.
+// Computes results and notes once all rounds are done.
 void conclude(const LoadedScene::Parts& parts, const Field& field, const lab::ComparisonSettings& settings,
               bool interrupted, Comparison& comparison) {
   comparison.result = lab::result_of(field.compared_methods, comparison.saved.state, settings);
@@ -87,7 +87,7 @@ void conclude(const LoadedScene::Parts& parts, const Field& field, const lab::Co
   comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
 }
 
-// Frames that are not to count must be there.
+// Excluded warm-up frames must exist.
 Status check_warm_up(const std::vector<lab::ComparedMethod>& compared_methods, const ComparisonOptions& options) {
   const auto warms_up = [](const lab::ComparedMethod& c) {
     return c.integrator.coupled() && c.integrator.coupled()->warm_up() > 0;
@@ -96,7 +96,7 @@ Status check_warm_up(const std::vector<lab::ComparedMethod>& compared_methods, c
   return Failure{"no method has warm-up frames; for example restir-di:chain=1,warm-up=12 has"};
 }
 
-// Seconds of one repeat of one method; none where that is not known.
+// Seconds of one repeat of one method; none if unknown.
 std::optional<double> seconds_of_repeat(const lab::ComparisonState& state, const lab::ComparisonSettings& settings) {
   if (settings.seconds) return *settings.seconds / settings.repeats;
   double sum = 0, repeats = 0;
@@ -106,7 +106,7 @@ std::optional<double> seconds_of_repeat(const lab::ComparisonState& state, const
   return sum / repeats;
 }
 
-// How long all rounds together are expected to take; a method reports its share of the whole.
+// The expected time of all rounds together; each method contributes its share.
 double expect_repeats(const Field& field, const lab::ComparisonSettings& settings, int rounds,
                       const std::vector<double>& sample_seconds, lab::ComparisonState& state) {
   double all = 0;
@@ -119,7 +119,7 @@ double expect_repeats(const Field& field, const lab::ComparisonSettings& setting
   return all;
 }
 
-// Samples a pixel that one repeat of each method is expected to have.
+// The expected number of samples per pixel in one repeat of each method.
 std::vector<double> samples_of_repeats(const lab::ComparisonState& state, const lab::ComparisonSettings& settings,
                                        const std::vector<double>& sample_seconds) {
   std::vector<double> samples;
@@ -129,7 +129,7 @@ std::vector<double> samples_of_repeats(const lab::ComparisonState& state, const 
   return samples;
 }
 
-// What the parts of one comparison work on.
+// The state that the parts of one comparison share.
 struct Work {
   const LoadedScene::Parts& parts;
   const Field& field;
@@ -138,7 +138,7 @@ struct Work {
   ComparisonMeter& meter;
 };
 
-// The reference that is better than the goal: kept from before, or made now.
+// A reference better than the goal: from the cache, or rendered now.
 void take_reference(const Work& work, const lab::ReferenceGoal& goal, Comparison& comparison) {
   const PixelBounds& bounds = work.settings.render.bounds;
   const auto file = comparison.saved.options.cache
@@ -158,7 +158,7 @@ void take_reference(const Work& work, const lab::ReferenceGoal& goal, Comparison
   if (file && !work.meter.watch().stopped()) keep_reference(*file, comparison.saved.state.reference);
 }
 
-// Pilots and reference, with what all is expected to take; false where it was stopped before there was a reference.
+// Pilots and reference, with the predicted times; false if it was stopped before there was a reference.
 bool prepare(const Work& work, ReferenceSource source, Comparison& comparison) {
   lab::ComparisonState& state = comparison.saved.state;
   const auto& compared_methods = work.field.compared_methods;
@@ -173,7 +173,7 @@ bool prepare(const Work& work, ReferenceSource source, Comparison& comparison) {
     if (work.observer.forecast) work.observer.forecast(comparison.forecast);
     return true;
   }
-  // Until the pilots tell more: a pilot is like a repeat without its slopes, a reference like some twenty of them.
+  // Before the pilots: a pilot takes as long as a repeat without its slopes, a reference about twenty times that.
   const double one_repeat = comparison.forecast.repeats / rounds / double(compared_methods.size());
   work.meter.expect(comparison.forecast.repeats + one_repeat * (0.5 * double(compared_methods.size()) + 10));
   const std::vector<lab::Pilot> pilots =
@@ -190,7 +190,7 @@ bool prepare(const Work& work, ReferenceSource source, Comparison& comparison) {
   return !work.meter.watch().stopped();
 }
 
-// What is saved fits the scene as it is now.
+// Checks that the saved state fits the current scene.
 Status check_fit(const SavedComparison& saved, const Field& field, const PixelBounds& b) {
   if (saved.state.reference.mean.width != b.width() || saved.state.reference.mean.height != b.height() ||
       saved.state.methods.size() != field.compared_methods.size())

@@ -1,5 +1,5 @@
-// Comparisons in files: what they are of, and all that they have gathered, as JSON. Long arrays are 64-bit floats
-// (little end first) in base 64.
+// Comparisons in files: their conditions and their state, as JSON. Long arrays are 64-bit floats
+// (little endian) in base 64.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Version 4 had no settings of all methods, no measure (its verdicts were by mse), and repeats of 13 figures.
+// Version 4 had no common settings, no measure (its verdicts used mse), and repeats with 13 figures.
 constexpr SavedFormat saved_format{"montelux comparison", 5, "montelux compare --save", "comparison", 4};
 constexpr std::size_t figures = 17, figures_of_version_4 = 13;
 static_assert(std::endian::native == std::endian::little);
@@ -52,7 +52,7 @@ std::vector<double> unpacked(const Json& json) {
   return unpacked<double>(json, bytes ? bytes->size() / 8 : 0);
 }
 
-// A number that may be endless, which JSON has no word for.
+// A number that may be infinite, which JSON cannot express.
 Json number(double x) { return packed(std::vector<double>{x}); }
 double number_from(const Json& json) { return unpacked<double>(json, 1).front(); }
 
@@ -173,7 +173,7 @@ std::uint32_t count_from(double x) {
 
 lab::MethodState method_from(const Json& j, std::size_t pixel_count, int max_passes) {
   lab::MethodState m;
-  // No more than any comparison plans: what runs on from the file is bounded.
+  // No more than any comparison plans: work that continues from the file is bounded.
   m.plan = {whole_from(j.at("samples_per_pass"), 1, 1 << 20), whole_from(j.at("planned_passes"), 0, max_passes)};
   m.passes = whole_from<decltype(m.passes)>(j.at("passes"), 0, 1 << 30);
   m.non_finite = whole_from<decltype(m.non_finite)>(j.at("non_finite"), 0, std::int64_t(1) << 62);
@@ -206,7 +206,7 @@ SavedContest saved_from(const Json& j) {
   saved.options = options_from(j.at("options"));
   saved.notes = j.at("notes").get<std::vector<std::string>>();
   saved.state.reference = reference_from(j.at("reference"));
-  // A pass has a sample at least; where time ends a comparison passes have another bound.
+  // A pass has at least one sample; if time ends a comparison, passes have another limit.
   const int max_passes = saved.options.samples.value_or(1 << 20);
   for (const Json& m : j.at("methods"))
     saved.state.methods.push_back(method_from(m, saved.state.reference.mean.pixel_count(), max_passes));

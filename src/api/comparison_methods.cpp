@@ -18,8 +18,8 @@ bool has_setting(const ChoiceText& choice, const std::string& key) {
   return std::ranges::any_of(choice.settings, [&](const Setting& s) { return s.first == key; });
 }
 
-// "name=" before the integrator. A name is of letters, digits, spaces and a few marks, so that it stands as it is in
-// any form of the results.
+// "name=" before the integrator. A name consists of letters, digits, spaces and a few marks, so that it needs no
+// escaping in any form of the results.
 Status read_name(const std::string& typed, MethodText& method) {
   method.text = typed;
   const std::size_t equals = typed.find('='), colon = typed.find(':');
@@ -63,11 +63,11 @@ Result<MethodText> read_method(const std::string& typed, const std::vector<Setti
   return method;
 }
 
-// The settings that a method was typed with, sampler and all.
+// The settings that were typed for a method, including the sampler.
 std::vector<Setting> typed_settings(const MethodText& method) { return parse_choice(method.text)->settings; }
 
-// What distinguishes methods: the integrator, and those of the typed settings that not all methods have alike. Methods
-// that are typed alike get their letters.
+// Names methods by what distinguishes them: the integrator, and those of the typed settings that not all methods share.
+// Identical methods get letters.
 void name_methods(std::vector<MethodText>& methods) {
   std::map<Setting, std::size_t> shared;
   for (const MethodText& m : methods) {
@@ -92,7 +92,7 @@ void name_methods(std::vector<MethodText>& methods) {
   }
 }
 
-// The families of layers that variance is attributed to.
+// The families of layers to which variance is attributed.
 LayerPlan attribution_layers(const Scene& scene) {
   LayerPlan plan;
   plan.bounces = 4;
@@ -105,7 +105,7 @@ LayerPlan attribution_layers(const Scene& scene) {
 
 std::set<std::string> biases_of(const lab::ComparedMethod& c) { return {c.biases.begin(), c.biases.end()}; }
 
-// "maxdepth=5: path, naive; direct light alone: direct".
+// "maxdepth=5: path, naive; direct light only: direct".
 std::string biases_text(const std::vector<lab::ComparedMethod>& compared_methods) {
   std::map<std::string, std::vector<std::string>> by_bias;
   for (const lab::ComparedMethod& c : compared_methods)
@@ -171,8 +171,8 @@ namespace {
 
 using Faults = std::set<std::string>;
 
-// The methods without a fault; where there are none, those that have no fault but what all share. A fixed sampler would
-// not state the reference's error.
+// The methods without a fault; if there are none, those whose only faults are common to all. A fixed sampler would
+// not state the error of the reference.
 template <class FaultsOf>
 std::vector<std::size_t> without_faults(const std::vector<lab::ComparedMethod>& compared_methods, FaultsOf faults_of) {
   Faults shared = faults_of(compared_methods.front());

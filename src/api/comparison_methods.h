@@ -1,4 +1,4 @@
-// The methods of a comparison, from the words of its user to integrators that are ready. Inside the facade only.
+// The methods of a comparison, from the user's text to integrators. Internal to the facade.
 #pragma once
 #include "api/comparison.h"
 #include "api/parts.h"
@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// A method as it was typed: "NAME=INTEGRATOR:key=value,...", where NAME= may be left out and sampler may be a key.
+// A method as typed: "NAME=INTEGRATOR:key=value,...", where NAME= is optional and sampler may be a key.
 struct MethodText {
   std::string label;  // "a"
   std::string name;   // unique in the comparison
@@ -14,15 +14,15 @@ struct MethodText {
   ChoiceText integrator;
   std::optional<PointSetKind> sampler;
 
-  // Integrator and settings in one order: equal for methods that are the same but for their samplers.
+  // Integrator and settings in a canonical order: equal for methods that differ only in their samplers.
   std::string canonical() const;
 };
 
-// Each with the settings that all are to have, where it does not have its own. Fails on what no catalogue knows, and on
-// two methods of one name.
+// Each method with the common settings that it does not state itself. Fails for unknown names, and for
+// two methods with the same name.
 Result<std::vector<MethodText>> read_methods(const ComparisonOptions& options);
 
-// The methods of one comparison with all that they need.
+// The methods of one comparison with everything that they need.
 struct Field {
   std::vector<ChosenIntegrator> integrators;
   std::vector<lab::ComparedMethod> compared_methods;
@@ -30,8 +30,8 @@ struct Field {
 };
 Result<Field> make_field(const LoadedScene::Parts& parts, const ComparisonOptions& options);
 
-// Who may make the reference: the methods that are unbiased and find all light; where there are none, those that lack
-// nothing but what all lack; where there are none of these either, the same by biases alone.
+// Which methods may render the reference: those that are unbiased and find all light; if there are none, those whose
+// only shortcomings are common to all; if there are none of these either, the same for biases only.
 Result<std::vector<std::size_t>> who_may_serve(const std::vector<lab::ComparedMethod>& compared_methods);
 
 }  // namespace montelux

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every value is a number. A hole in a reference would be a hole in every figure.
+// Checks that every value is finite: an invalid value would invalidate every figure.
 Status check_finite(const PixelBuffer& picture, std::string_view what) {
   std::size_t holes = 0, first = 0;
   for (std::size_t p = 0; p < picture.pixel_count(); ++p) {
@@ -62,14 +62,14 @@ Result<lab::Reference> read_reference(const fs::path& file, const PixelBounds& b
 
 // ---- the cache of references ----------------------------------------------------------------------------------------
 
-// With the time of the image, which may change.
+// Includes the modification time of the image.
 std::string environment_text(const EnvironmentOptions& e) {
   std::error_code ignored;
   return fmt::format("{} {} {} {}", e.file, e.rotation, e.scale,
                      fs::last_write_time(e.file, ignored).time_since_epoch().count());
 }
 
-// What the picture is of, of all that the scene's files may hold.
+// The choices of a view that a scene file may offer.
 std::string view_of(const LoadOptions& load) {
   return fmt::format("camera {}, animation {}, shutter {}, lenient {}, environment {}", load.camera.value_or("-"),
                      load.animation.value_or("-"),
@@ -77,8 +77,8 @@ std::string view_of(const LoadOptions& load) {
                      load.lenient, load.environment ? environment_text(*load.environment) : "-");
 }
 
-// Changes with any file beside the scene or below, with the camera, the moment and the size of the picture, and with
-// what biases it.
+// Changes with any file in the scene's folder or below, with the camera, the time and the size of the image, and with
+// its biases.
 std::uint64_t scene_hash(const LoadedScene::Parts& parts, const PixelBounds& b, const std::string& biases) {
   std::vector<std::string> files;
   std::error_code ignored;

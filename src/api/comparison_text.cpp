@@ -1,4 +1,4 @@
-// What a comparison says in words: verdicts, agreement with the reference, conditions; and its report.
+// The text of a comparison: verdicts, agreement with the reference, conditions; and its report.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ namespace {
 using lab::ErrorMeasure;
 using lab::Measured;
 
-// How many times the time, in whole numbers where there are many.
+// A multiple of the time, as an integer if it is large.
 std::string times_text(double times) {
   if (!std::isfinite(times)) return "many";
   return times < 10 ? fmt::format("{:.2g}", times) : fmt::format("{:.0f}", times);
 }
 
-// A ratio as seen from the winner, or from the first where nobody is.
+// A ratio in favour of the winner, or of the first method if there is none.
 struct Seen {
   double factor = 1, low = 1, high = 1;
 };
@@ -36,7 +36,7 @@ Seen seen_from(const Measured& ratio, bool first) {
 }
 std::string interval_text(const Seen& s) { return lab::value_in_interval(s.factor, s.low, s.high); }
 
-// One verdict with all that its sentence needs.
+// One verdict with everything that its sentence needs.
 struct Spoken {
   const Comparison& comparison;
   const lab::PairVerdict& verdict;
@@ -49,7 +49,7 @@ struct Spoken {
   const Measured& ratio() const { return verdict.ratio[measure]; }
 };
 
-// Rounds in which an error came out at or below zero have no efficiency.
+// Rounds whose error is zero or negative have no efficiency.
 std::string left_out(const Spoken& s) {
   const auto rounds = int(std::min(s.first.repeats.size(), s.second.repeats.size()));
   if (s.ratio().count >= rounds) return {};
@@ -57,7 +57,7 @@ std::string left_out(const Spoken& s) {
                      rounds - s.ratio().count, rounds);
 }
 
-// What another measure than the verdict's says. `lead`: 1 where the verdict is for the first, -1 the second, 0 nobody.
+// The result by another measure than the verdict's. `lead`: 1 if the verdict favours the first, -1 the second, 0 none.
 std::string other_measure(const Spoken& s, ErrorMeasure other, int lead) {
   const Measured& ratio = s.verdict.ratio[other];
   const std::string by = fmt::format("; by {} ", lab::title_of(other));
@@ -81,7 +81,7 @@ std::string biased_text(const Spoken& s) {
              : fmt::format("; the mean of {} differs from the reference, so this is valid only for this time", names);
 }
 
-// "a is 2.31 (2.10 to 2.55) times as efficient as b by relMSE, at 95 %", or that nothing is decided.
+// "a is 2.31 (2.10 to 2.55) times as efficient as b by relMSE, at 95 %", or that the comparison is undecided.
 std::string main_sentence(const Spoken& s) {
   const auto title = lab::title_of(s.measure);
   const std::string level = fmt::format("{:g} %", 100 * s.confidence);
@@ -210,7 +210,7 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Comparison&
 
 namespace {
 
-// "missing: light of point lights ...; replaced: sampler zsobol by blue-noise"; empty where pictures lack nothing.
+// "missing: light of point lights ...; replaced: sampler zsobol by blue-noise"; empty if images lack nothing.
 std::string text_of(const MethodShortcomings& shortcomings) {
   std::vector<std::string> parts;
   for (const std::string& light : shortcomings.missing) parts.push_back("missing: " + light);

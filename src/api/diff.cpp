@@ -41,7 +41,7 @@ std::string text(const Image& image, std::string_view name) {
   return {};
 }
 
-// Three numbers of the header.
+// Three numbers in the header.
 std::optional<std::array<double, 3>> rgb_of_header(const Image& image, std::string_view prefix) {
   std::array<double, 3> values{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -66,7 +66,7 @@ EstimatedImage estimated(const PictureEstimate& picture) {
   return {picture.color, bars.standard_error, bars.degrees_of_freedom, bars.error_of_mean, bars.pixels_share_samples};
 }
 
-// Whether an integrator of this name lets pixels of one pass learn from each other.
+// Whether the pixels of one pass share samples with an integrator of this name.
 bool shares_samples(std::string_view integrator) { return integrator.starts_with("restir-"); }
 
 }  // namespace
@@ -90,7 +90,7 @@ Result<PictureEstimate> read_estimate(const PictureFiles& files) {
   }
   if (!errors) return estimate;
   const std::optional<double> passes = number(*image, "montelux:passes");
-  // One pass has no spread: its standard error is infinite and tells nothing.
+  // One pass has no spread: its standard error is infinite and meaningless.
   if (!files.standard_error && passes && *passes < 2) return estimate;
   const double unknown = files.degrees_of_freedom.value_or(std::numeric_limits<double>::infinity());
   ErrorBars bars{std::move(*errors), passes && !files.standard_error ? *passes - 1 : unknown, std::nullopt, false};

@@ -1,10 +1,10 @@
-// Which pictures a sequence has, and when a shutter is open: plain data.
+// The frames of a sequence, and exposure intervals: plain data.
 #pragma once
 #include <optional>
 
 namespace montelux {
 
-// Frames first, ..., last. The time of the scene's transforms falls into equal frames: those of the range, or, with
+// Frames first, ..., last. The time of the scene's transforms is divided into equal frames: those of the range or, with
 // `of`, that many, counted from 0. With `fps`, a frame lasts 1 / fps of the scene's unit of time instead.
 struct FrameRange {
   int first = 0, last = 0;

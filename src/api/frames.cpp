@@ -14,7 +14,7 @@ namespace {
 
 constexpr int max_frames = 1000000;
 
-// A number of digits alone.
+// The value of a text that consists only of digits.
 std::optional<int> whole(std::string_view text) {
   int value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -23,14 +23,14 @@ std::optional<int> whole(std::string_view text) {
   return value;
 }
 
-// Where the number of the frame goes: the characters that it replaces, and how it is padded.
+// The placeholder for the frame number: the characters that it replaces, and its padding.
 struct Place {
   std::size_t at = 0, length = 0;
   int width = 0;
   char padding = '0';
 };
 
-// The place of "%d", "%4d" or "%04d" at `at`, if there is one.
+// The placeholder "%d", "%4d" or "%04d" at `at`, if there is one.
 std::optional<Place> printf_place(const std::string& text, std::size_t at) {
   std::size_t end = at + 1;
   while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
@@ -89,7 +89,7 @@ std::uint32_t frame_seed(std::uint32_t seed, int frame) {
 }
 
 Result<std::string> frame_file(const std::string& pattern, int frame) {
-  // The number stands in the name; folders keep theirs.
+  // The placeholder is in the file name; those of folders are ignored.
   const std::filesystem::path path(pattern);
   std::string name = path.filename().string();
   const std::vector<Place> places = places_of(name);

@@ -30,7 +30,7 @@ constexpr std::array<NamedCurve, 3> curves{{
     {"aces", ToneCurve::aces, "fit of Narkowicz (2015) to the ACES reference transform"},
 }};
 
-// A text of the header; empty where there is none.
+// A text in the header; empty if there is none.
 std::string attribute_of(const Image& image, std::string_view name) {
   for (const Attribute& attribute : image.attributes)
     if (attribute.name == name)
@@ -43,7 +43,7 @@ bool states_exposure(const Image& image) {
          attribute_of(image, "montelux:exposure") == "stated by the scene";
 }
 
-// The colours, as the header says what they hold.
+// The colours, with the content that the header states.
 PictureLayer colors_with_content(Image image) {
   PictureLayer all{{}, Content::light, states_exposure(image)};
   const std::string content = attribute_of(image, "montelux:display");

@@ -1,4 +1,4 @@
-// Integrals in files: the statement, the budget, and a running estimate a method, as JSON.
+// Integrals in files: the statement, the budget, and the state of each method, as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>

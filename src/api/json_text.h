@@ -1,3 +1,3 @@
-// JSON as text, for programs over the facade.
+// JSON as text, for programs that use the facade.
 #pragma once
 #include "io/json_text.h"

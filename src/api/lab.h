@@ -13,10 +13,10 @@ namespace montelux {
 
 struct ExperimentSetting {
   std::string name, meaning;
-  double value;  // unless it is set otherwise
+  double value;  // default
 };
 
-// What is known of an experiment before it runs; texts may hold formulas in dollars.
+// The description of an experiment; texts may contain formulas in dollar signs.
 struct ExperimentEntry {
   std::string name, title, group, question, fault;
   std::vector<ExperimentSetting> settings;
@@ -29,8 +29,8 @@ struct LabOptions {
   std::vector<std::string> names;          // none: all
   std::map<std::string, double> settings;  // only with a single experiment
   std::uint32_t seed = 0;
-  bool planted_fault = false;  // makes the mistake that each experiment names, which its verdict must find
-  int threads = 0;             // 0: as many as there are processors
+  bool planted_fault = false;  // plants the fault of each experiment, which its verdict must detect
+  int threads = 0;             // 0: one per processor
 };
 
 struct LabVerdict {
@@ -45,16 +45,16 @@ struct LabOutcome {
 };
 struct LabRun {
   std::vector<LabOutcome> outcomes;
-  std::vector<std::filesystem::path> files;   // written, relative to the folder
+  std::vector<std::filesystem::path> files;   // written files, relative to the folder
   std::optional<std::filesystem::path> page;  // the self-contained page
   std::string why_no_page;
-  std::string why_not_written;  // a file that could not be written, and why; empty: all were
+  std::string why_not_written;  // a file that could not be written, and the reason; empty: all were written
   double seconds = 0;
 
   bool passed() const;
 };
 
-// Told of each experiment that is done, from one thread at a time; asked now and then whether to stop.
+// Receives each finished experiment, from one thread at a time; is queried regularly whether to stop.
 class LabObserver {
  public:
   virtual ~LabObserver() = default;
@@ -62,12 +62,12 @@ class LabObserver {
   virtual bool stop_requested() = 0;
 };
 
-// Runs experiments and writes their reports into the folder: report.html, report.json, and for each experiment its
-// figures as SVG, its data as CSV and its pictures as PNG. Stopped early, it writes those that are done. Fails where a
-// name or a setting is unknown, or where the folder cannot be written.
+// Runs experiments and writes their reports to the folder: report.html, report.json, and for each experiment its
+// figures as SVG, its data as CSV and its images as PNG. If stopped early, it writes the finished ones. Fails if a
+// name or a setting is unknown, or if the folder cannot be written.
 Result<LabRun> run_lab(const LabOptions& options, const std::filesystem::path& folder, LabObserver& observer);
 
-// The documentation of an experiment in Markdown, with the files of its pictures by name.
+// The documentation of an experiment in Markdown, with its image files by name.
 struct ExperimentPage {
   std::string name, title, group, markdown;
   std::map<std::string, std::string> pictures;

@@ -1,4 +1,4 @@
-// What a LoadedScene is made of. Inside the facade only.
+// The components of a LoadedScene. Internal to the facade.
 #pragma once
 #include "accel/accel.h"
 #include "api/scene.h"
@@ -12,7 +12,7 @@ struct LoadedScene::Parts {
   PictureSettings picture;
   std::unique_ptr<Accel> accel;
   SceneInfo info;
-  LoadOptions load;  // what it was loaded with
+  LoadOptions load;  // the options of loading
 };
 
 }  // namespace montelux

@@ -1,4 +1,4 @@
-// What tells whether a scene is the one that it was.
+// Whether a scene is unchanged.
 #include <fmt/format.h>
 
 #include <algorithm>

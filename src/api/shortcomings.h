@@ -1,17 +1,17 @@
-// What pictures of a scene lack of what its file names. Inside the facade only.
+// What images of a scene lack in comparison with its file. Internal to the facade.
 #pragma once
 #include "api/parts.h"
 #include "integrator/catalogue.h"
 
 namespace montelux {
 
-// What the file states for all integrators.
+// The settings that the file states for all integrators.
 IntegratorDefaults integrator_defaults(const PictureSettings& picture);
 
-// Adds to what is missing, and to the notes, the light of the scene that pictures of this integrator do not show.
+// Adds the light of the scene that images by this integrator do not show to the missing light and to the notes.
 void note_light(ChosenIntegrator& chosen, const LoadedScene::Parts& parts);
 
-// What serves for names of the file, but for those that a choice of the user takes the place of.
+// The substitutes for names in the file, except for those that the user overrides.
 std::vector<Replacement> replaced_in(const SceneInfo& scene, bool chooses_integrator, bool chooses_sampler);
 
 }  // namespace montelux
