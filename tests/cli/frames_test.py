@@ -210,7 +210,7 @@ class Frames(ProgramTest):
         result = self.run_program("render", "slide.pbrt", "--frames", "0:1", "--interactive-budget", "0.001ms",
                                   "--no-progress", "-o", "a.#.pfm")
         self.assertIn("over the budget", result.stdout)
-        self.assertIn("error    not known", result.stdout)
+        self.assertIn("error    unknown", result.stdout)
         self.assertIn("2 of 2 pictures took longer", result.stderr)
         for arguments in (["--spp", "2"], ["--time", "1s"], ["--layers", "bounces"]):
             self.run_program("render", "slide.pbrt", "--interactive-budget", "1s", *arguments, status=2)

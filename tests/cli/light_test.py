@@ -49,7 +49,7 @@ class Light(ProgramTest):
         scene = self.scene()
         for integrator in "path", "naive", "restir-di":
             told, attributes, messages = self.rendered(scene, "--integrator", integrator)
-            self.assertEqual(told["missing_light"], ["light of point lights by way of smooth surfaces (dielectric)"])
+            self.assertEqual(told["missing_light"], ["light of point lights through smooth surfaces (dielectric)"])
             self.assertEqual(attributes["montelux:missingLight"], told["missing_light"][0])
             lines = [line for line in messages.splitlines() if "may be missing" in line]
             self.assertEqual(len(lines), 1, messages)
@@ -71,7 +71,7 @@ class Light(ProgramTest):
         for kind, light in lights.items():
             with self.subTest(light=kind):
                 told, _, _ = self.rendered(self.scene(world=light))
-                self.assertEqual(told["missing_light"], [f"light of {kind} lights by way of smooth surfaces (dielectric)"])
+                self.assertEqual(told["missing_light"], [f"light of {kind} lights through smooth surfaces (dielectric)"])
         surfaces = {
             "thindielectric": 'Material "thindielectric"',
             "tinteddielectric": 'Material "tinteddielectric" "rgb tint" [ 0.9 0.5 0.1 ] "rgb absorption" [ 0.1 0.5 1 ]',
@@ -83,7 +83,7 @@ class Light(ProgramTest):
         for kind, ball in surfaces.items():
             with self.subTest(surface=kind):
                 told, _, _ = self.rendered(self.scene(ball=ball))
-                self.assertEqual(told["missing_light"], [f"light of point lights by way of smooth surfaces ({kind})"])
+                self.assertEqual(told["missing_light"], [f"light of point lights through smooth surfaces ({kind})"])
 
     def test_no_alarm_where_everything_is_found(self):
         area = ('AttributeBegin\nTranslate 0 4 0\nAreaLightSource "diffuse"\nShape "sphere" "float radius" [ 0.1 ]\n'

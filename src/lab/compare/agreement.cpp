@@ -12,10 +12,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Student's quantile may be so many times the normal one; with fewer degrees of freedom a test finds next to nothing.
+// The maximum ratio of Student's quantile to the normal one; with fewer degrees of freedom a test has almost no power.
 constexpr double max_quantiles = 2;
 
-// What one test says: by Student's distribution, and by the normal one, which more repeats would lead to.
+// The p-values of one test: by Student's distribution, and by the normal one, which is the limit for many repeats.
 struct PValues {
   double student = 1, normal = 1;
 };
@@ -31,8 +31,8 @@ Agreement::Outcome outcome_of(PValues p, double level) {
   return p.normal < level ? Agreement::Outcome::too_few_repeats : Agreement::Outcome::agrees;
 }
 
-// Of the sum of both variances, from below: the fewer of the two (Scheffe 1970). Satterthwaite's estimate is larger
-// where a variance comes out small by chance, and with a few passes that costs the level.
+// The degrees of freedom of the sum of both variances, bounded from below by the smaller of the two (Scheffe 1970).
+// Satterthwaite's estimate is larger if a variance is small by chance, which violates the level for few passes.
 double joint_degrees(const MeanDifference& d) {
   const double own = d.variance > 0 ? d.degrees_of_freedom : infinite;
   return std::min(own, d.reference_variance > 0 ? d.reference_degrees_of_freedom : infinite);
@@ -57,7 +57,7 @@ Agreement judge_agreement(const std::array<MeanDifference, 3>& channels, const M
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const MeanDifference& d = channels[c];
     const double error = std::sqrt(d.variance + d.reference_variance), degrees = joint_degrees(d);
-    // Without any variance it is exactly equal, or another.
+    // Without any variance it is either exactly equal or different.
     const double t = d.difference == 0 ? 0 : error > 0 ? d.difference / error : std::copysign(infinite, d.difference);
     const PValues p = two_sided(t, degrees);
     consider(p);

@@ -1,5 +1,5 @@
-// Is the mean of a method that of the reference? Tests with a stated level, a stated power, and an answer of their own
-// where there are too few repeats.
+// Does the mean of a method agree with that of the reference? Tests with a stated level, a stated power, and a separate
+// answer if there are too few repeats.
 #pragma once
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace montelux::lab {
 
-// Of one channel of the image mean: method less reference, and the variances of both means with their degrees of
+// One channel of the image mean: method minus reference, and the variances of both means with their degrees of
 // freedom.
 struct MeanDifference {
   double difference = 0;
@@ -17,31 +17,31 @@ struct MeanDifference {
 
 struct Agreement {
   enum class Outcome { agrees, differs, too_few_repeats };
-  // Of finding a bias of `detectable`.
+  // The probability of detecting a bias of `detectable`.
   static constexpr double power = 0.9;
   static constexpr int min_repeats = 3;
 
   Outcome outcome = Outcome::too_few_repeats;
   double level = 0;  // of each test
-  // The most significant test of the image mean: its channel, how far off the mean is, with standard error, and
+  // The most significant test of the image mean: its channel, the difference with its standard error, and
   // Student's t.
   int channel = 0;
   double difference = 0, standard_error = 0, degrees_of_freedom = 0, t = 0, p_value = 1;
-  // The smallest bias of the image mean, in any one channel, that these tests find with that power.
+  // The smallest bias of the image mean, in any one channel, that these tests detect with that power.
   double detectable = 0;
-  // Of the squared bias over pixels, one-sided.
+  // The test of the squared bias over pixels, one-sided.
   double pixel_t = 0, pixel_p_value = 1;
 
   bool differs() const { return outcome == Outcome::differs; }
 };
 
-// Each test of a method (three of the image mean, one of the squared bias over pixels) has this level where the family
-// is all tests of all methods (Bonferroni).
+// The level of each test of a method (three of the image mean, one of the squared bias over pixels) for a family
+// of all tests of all methods (Bonferroni).
 double level_of_each_test(double family_level, std::size_t methods);
 
 // t-tests of the image mean, two-sided with separate variances, and a one-sided Student test of the squared bias over
-// pixels. One below its level: they differ. Where the normal distribution would reject but Student's does not, the
-// repeats are too few to tell; they are with fewer than `min_repeats`, too.
+// pixels. A p-value below the level: they differ. If the normal distribution would reject but Student's does not, or if
+// there are fewer than `min_repeats`, there are too few repeats to tell.
 Agreement judge_agreement(const std::array<MeanDifference, 3>& channels, const Measured& bias_squared, int repeats,
                           double level);
 

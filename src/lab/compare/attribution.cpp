@@ -6,7 +6,7 @@ namespace montelux::lab {
 
 namespace {
 
-// The sum over the window around each pixel; where it is cut by the edge, over what is left of it.
+// The sum over the window around each pixel; at the edge, over the part inside the image.
 std::vector<double> over_windows(const std::vector<double>& values, int width, int height) {
   std::vector<double> sums(values.size());
   for (int y = 0; y < height; ++y)

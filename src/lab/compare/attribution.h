@@ -12,16 +12,16 @@
 
 namespace montelux::lab {
 
-// Variances of one pass, summed over pixels and channels, as one repeat estimates them without bias.
+// Variances of one pass, summed over pixels and channels; the unbiased estimates of one repeat.
 struct AttributionRound {
   double all = 0;              // Var(L)
   std::vector<double> layers;  // Cov(L_i, L)
 };
 
-// The same for every pixel, summed over channels and repeats: first Var(L), then the layers; one a pixel each.
+// The same for every pixel, summed over channels and repeats: first Var(L), then the layers; one value per pixel.
 using PixelShares = std::vector<std::vector<double>>;
 
-// Of a film with layers and their spread, of two passes at least. Adds to `pixels`.
+// From a film with layers and their spread, with at least two passes. Adds to `pixels`.
 AttributionRound attribute(const Film& film, PixelShares& pixels);
 
 struct LayerShare {
@@ -35,7 +35,7 @@ struct FamilyShares {
 };
 struct Attribution {
   std::vector<FamilyShares> families;
-  // Of every layer in the order of the families, the share by pixel, over the window of 3 x 3 pixels around it.
+  // For every layer in the order of the families, the share by pixel, over the window of 3 x 3 pixels around it.
   std::vector<std::vector<float>> by_pixel;
 };
 

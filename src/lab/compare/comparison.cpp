@@ -26,7 +26,7 @@ RenderResult take_turn(const ComparedMethod& compared_method, const ComparisonSe
   return render(compared_method.integrator, s, observer);
 }
 
-// The order of the methods in one round: drawn afresh, so that none is always the first.
+// The order of the methods in one round: random, so that no method is always the first.
 std::vector<std::size_t> order_of_round(std::size_t methods, std::uint32_t seed, int round) {
   std::vector<std::size_t> order(methods);
   std::iota(order.begin(), order.end(), 0u);
@@ -36,7 +36,7 @@ std::vector<std::size_t> order_of_round(std::size_t methods, std::uint32_t seed,
   return order;
 }
 
-// The longest of the single passes of growing length; they have 1, 2, 4, ... samples up to it.
+// The length of the longest single pass; the passes have 1, 2, 4, ... samples up to it.
 int longest_pass(double samples) { return int(std::clamp(samples / 2, 4.0, 1024.0)); }
 
 ConvergenceRun run_convergence(const ComparedMethod& compared_method, const ComparisonSettings& settings,
@@ -59,8 +59,8 @@ int attribution_passes(double samples, const PassPlan& plan) {
   return std::max(2, int(std::min(samples / plan.samples_per_pass / 4, 64.0)));
 }
 
-// Which layers the variance of passes like those of a turn comes from. A quarter of its passes tell that: the layers
-// are gathered apart from the turns, whose time they must not lengthen.
+// Attributes the variance of passes like those of a turn to layers. It repeats a quarter of the passes, because the
+// layers must not lengthen the measured time of the turns.
 std::optional<AttributionRound> run_attribution(const ComparedMethod& compared_method,
                                                 const ComparisonSettings& settings, PassPlan plan, int round,
                                                 RenderObserver& observer, PixelShares& pixels) {
@@ -100,8 +100,8 @@ double samples_a_pixel(const Film& film) {
   return samples / double(b.area());
 }
 
-// Samples a pixel of the parts of a repeat, as seconds go: the turn, the single passes of growing length, and the
-// attribution, whose layers make a sample dearer.
+// Samples per pixel of the parts of a repeat, in proportion to their time: the turn, the single passes of increasing
+// length, and the attribution, whose layers make a sample more expensive.
 struct RepeatParts {
   double turn = 0, slopes = 0, attribution = 0;
   double all() const { return turn + slopes + attribution; }
@@ -117,7 +117,7 @@ RepeatParts parts_of_repeat(const ComparedMethod& compared_method, const Compari
   return parts;
 }
 
-// What one repeat of one method gathers.
+// The results of one repeat of one method.
 struct Gathered {
   RenderResult turn;
   Repeat repeat;
@@ -135,10 +135,10 @@ void add_repeat(Gathered gathered, MethodState& method) {
   method.non_finite += film.non_finite();
 }
 
-// One repeat of one method with all that belongs to it; false where it was stopped, and then nothing of it counts.
+// One complete repeat of one method; false if it was stopped, and then it does not count.
 bool run_repeat(const ComparedMethod& compared_method, const ComparisonSettings& settings, const Reference& reference,
                 int round, const PieceProgress& piece, MethodState& method) {
-  // With a time, how many samples a turn is going to have is only known once there was one.
+  // With a time budget, the number of samples of a turn is unknown before the first one.
   const double before = method.repeats.empty() ? settings.samples : method.repeats.back().samples;
   const RepeatParts share = parts_of_repeat(compared_method, settings, method.plan, before);
   const double turn_ends = share.turn / share.all(), slopes_end = turn_ends + share.slopes / share.all();
@@ -200,7 +200,7 @@ ComparisonState begin_comparison(const std::vector<ComparedMethod>& compared_met
 
 bool run_rounds(const std::vector<ComparedMethod>& compared_methods, const ComparisonSettings& settings, int rounds,
                 const ComparisonWatch& watch, ComparisonState& state) {
-  // A round that was cut short is ended first.
+  // An interrupted round is completed first.
   int first = std::numeric_limits<int>::max();
   for (const MethodState& m : state.methods) first = std::min(first, int(m.repeats.size()));
   for (int round = first; round < first + rounds; ++round)

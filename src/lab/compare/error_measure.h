@@ -1,4 +1,4 @@
-// How far a picture is from the reference, as one number: the measures by which methods may be compared.
+// The distance of an image from the reference as one number: the measures for comparing methods.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@ enum class ErrorMeasure { relative_mse, mse, flip };
 inline constexpr std::array<ErrorMeasure, 3> error_measures{ErrorMeasure::relative_mse, ErrorMeasure::mse,
                                                             ErrorMeasure::flip};
 
-// As options and JSON name it, and as sentences do.
+// The name in options and JSON, and the name in sentences.
 struct MeasureName {
   std::string_view key, title;
 };

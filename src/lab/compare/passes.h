@@ -1,4 +1,4 @@
-// Passes are numbered apart by what they serve, so that no two ever share random numbers.
+// Pass numbers by purpose, so that no two passes ever share random numbers.
 #pragma once
 
 namespace montelux::lab {

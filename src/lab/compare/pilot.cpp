@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Passes of one half of a pilot: of both together as many as a repeat has, and enough for a variance.
+// Passes of one half of a pilot: both together have as many as a repeat, and enough for a variance.
 int half_passes(const PassPlan& plan, const ComparisonSettings& settings, double sample_seconds) {
   constexpr int min_passes = 4, max_passes = 64;
   double passes = plan.passes;
@@ -39,7 +39,7 @@ Pilot take_pilot(const ComparedMethod& compared_method, const ComparisonSettings
   return pilot;
 }
 
-// The mean of a function of the finite values; infinite where there is none.
+// The mean of a function of the finite values; infinite if there are none.
 template <class Function>
 double mean_of_finite(std::size_t count, Function f) {
   double sum = 0, values = 0;
@@ -93,7 +93,7 @@ std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_met
     s.plan = {1, 1}, s.first_pass = timing_pass;
     const PieceProgress piece(watch, {"timing of " + compared_methods[i].shown_name(), 0});
     PartOfPiece part(piece, 0, 1);
-    // Of a few short ones the shortest: the first one meets cold caches, and any the work of others.
+    // The shortest of a few short passes: the first one has cold caches, and any may be delayed by other work.
     double one = infinite;
     const Stopwatch all;
     for (int k = 0; k < 5 && all.seconds() < 0.05; ++k) {
@@ -101,7 +101,7 @@ std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_met
       (void)render(compared_methods[i].integrator, s, part);
       one = std::min(one, std::max(wall.seconds(), 1e-6));
     }
-    // A chain has its warm-up once for all of its frames.
+    // A chain has only one warm-up for all its frames.
     if (const CoupledIntegrator* coupled = compared_methods[i].integrator.coupled()) {
       const double warm_up = coupled->warm_up(), frames = state.methods[i].plan.samples_per_pass;
       one *= (warm_up + frames) / (warm_up + 1) / frames;
@@ -131,7 +131,7 @@ std::vector<double> pilot_errors(const std::vector<Pilot>& pilots, const std::ve
   std::vector<double> errors(pilots.size());
   for (std::size_t half = 0; half < 2; ++half) {
     const PixelBuffer other = pooled_mean(pilots, trusted, 1 - half);
-    // A half has half the samples, so twice the squared error of the whole; and the mean of the two is taken.
+    // A half has half the samples, so twice the squared error of the whole; the result is the mean of both halves.
     for (std::size_t i = 0; i < pilots.size(); ++i)
       errors[i] += 0.25 * error_of(pilots[i].halves[half], other, measure);
   }

@@ -1,4 +1,4 @@
-// Making the picture that methods are held against.
+// Rendering the reference.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ Reference reference_of(const Film& film, int passes) {
   return {mean_of(film), variance_of(film), double(passes - 1), variance_of_image, {}};
 }
 
-// How many passes are to come, where so many have left so many times the variance of the goal: what is expected to be
-// missing, but never more than there are, since a variance by few passes may be far too small or large.
+// The number of further passes if these passes have `excess` times the variance of the goal: the expected number,
+// but at most as many as there are, because a variance from few passes may be far too small or too large.
 int more_passes(int passes, double excess) {
   const double needed = 1.05 * passes * excess;
   const int most = std::min(passes, max_passes - passes);

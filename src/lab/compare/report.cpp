@@ -46,7 +46,7 @@ Table table_of_costs(const ComparisonResult& result) {
   return table;
 }
 
-// How many percent of the mean a bias is.
+// A bias in percent of the mean.
 std::string share_of_mean(double bias, double mean) {
   return mean > 0 && std::isfinite(bias) ? fmt::format("{:.2g} %", 100 * bias / mean) : "not known";
 }
@@ -114,7 +114,7 @@ Table table_of_ratios(const ComparisonResult& result) {
   return table;
 }
 
-// Squared error against samples, or seconds, of single passes.
+// Squared error of single passes by samples or by seconds.
 Figure convergence(const ComparisonResult& result, bool by_time) {
   Figure figure;
   figure.name = by_time ? "by-time" : "by-samples";
@@ -166,10 +166,10 @@ Figure repeats(const ComparisonResult& result) {
   return figure;
 }
 
-// More values than this, over all pictures, would make the page too large; the repeats go first.
+// More values than this, over all images, would make the page too large; the repeats are omitted first.
 constexpr std::size_t max_values = 24u << 20;
 
-// Where the variance of each method comes from, pixel by pixel; layers of less than half a percent are left out.
+// The attribution of the variance of each method, pixel by pixel; layers below half a percent are omitted.
 void add_shares(const ComparisonResult& result, std::size_t values, PictureComparison& comparison) {
   for (const MethodResult& m : result.methods) {
     if (!m.attribution) continue;
@@ -259,7 +259,7 @@ void add_attribution(const ComparisonResult& result, Report& report) {
     report.sections.push_back(Text{
         "The light of a pass is the sum of layers, and this is the share of each in the variance of that sum, over "
         "all pixels and channels. A layer with a negative share reduces the noise of the others."});
-    // One group of lights alone has all of it.
+    // A single light group has all of it.
     for (std::size_t family = 0; family < any->attribution->families.size(); ++family)
       if (any->attribution->families[family].layers.size() > 1) report.sections.push_back(shares(result, family));
   }

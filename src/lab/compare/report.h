@@ -5,15 +5,15 @@
 
 namespace montelux::lab {
 
-// What the report says beside the figures.
+// The text of the report besides the figures.
 struct ComparisonText {
   std::string scene;
   std::vector<std::pair<std::string, std::string>> conditions;
-  std::vector<std::string> sentences;     // one a verdict
-  std::vector<std::string> agreement;     // one a method: is its mean the reference's?
-  std::vector<std::string> shortcomings;  // one a method: what its pictures lack of the scene; empty: nothing
-  std::vector<std::string> notes;         // what the reader must know
-  std::vector<std::string> commands;      // that make it again
+  std::vector<std::string> sentences;     // one per verdict
+  std::vector<std::string> agreement;     // one per method: does its mean agree with the reference?
+  std::vector<std::string> shortcomings;  // one per method: what its images lack; empty: nothing
+  std::vector<std::string> notes;         // for the reader
+  std::vector<std::string> commands;      // that reproduce it
 };
 
 ReportSet report_of(const ComparisonResult& result, const ComparisonText& words);

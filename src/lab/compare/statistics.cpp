@@ -48,7 +48,7 @@ Measured measured_ratio_of_sums(const std::vector<double>& a, const std::vector<
   std::vector<double> pseudo;
   for (std::size_t i = 0; i < a.size(); ++i) pseudo.push_back(n * whole - (n - 1) * (sum_a - a[i]) / (sum_b - b[i]));
   Measured m = measured(pseudo, confidence);
-  // Around the ratio itself, so that the shares of a whole sum to one.
+  // Centred on the ratio itself, so that the shares of a whole sum to one.
   m.low += whole - m.mean, m.high += whole - m.mean, m.mean = whole;
   return m;
 }

@@ -1,4 +1,4 @@
-// What can be said of a figure from a few independent repeats of it.
+// Estimates of a figure from a few independent repeats.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,7 +6,7 @@
 namespace montelux::lab {
 
 // A mean over repeats with its interval (Student's t). With one repeat the interval is infinite. Values that are not
-// finite (a figure that a repeat does not have) are left out; `count` is of those that are left.
+// finite (a figure that a repeat does not have) are excluded; `count` is the number of the others.
 struct Measured {
   double mean = 0, low = 0, high = 0;
   double standard_error = 0;
@@ -14,14 +14,14 @@ struct Measured {
 };
 Measured measured(const std::vector<double>& values, double confidence);
 
-// "540 ± 100", with half of the interval; of one value "541.1 (one repeat)"; of none "not known".
+// "540 ± 100", with half of the interval; "541.1 (one repeat)" for one value; "not known" for none.
 std::string text_of(const Measured& m);
 
 // The geometric mean of paired ratios a[i] / b[i] of positive values, with its interval: the mean of the logarithms
-// and Student's t. Pairs that hold a value that is not positive are left out.
+// and Student's t. Pairs with a value that is not positive are excluded.
 Measured measured_ratio(const std::vector<double>& a, const std::vector<double>& b, double confidence);
 
-// The ratio of two sums over repeats, sum a / sum b, with the interval that the jackknife over repeats gives
+// The ratio of two sums over repeats, sum a / sum b, with the jackknife interval over repeats
 // (Efron and Stein 1981).
 Measured measured_ratio_of_sums(const std::vector<double>& a, const std::vector<double>& b, double confidence);
 

@@ -1,4 +1,4 @@
-// From what a comparison has gathered to what it says.
+// From the state of a comparison to its results.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,7 +35,7 @@ std::vector<double> column(const MethodResult& method, double (*value)(const Rep
   for (const Repeat& r : method.repeats) values.push_back(value(r));
   return values;
 }
-// Of each repeat, 1 / (error x seconds); without a value where the error came out at or below zero.
+// For each repeat, 1 / (error x seconds); without a value if the error is zero or negative.
 std::vector<double> efficiencies(const MethodResult& method, ErrorMeasure measure, double Repeat::*seconds) {
   std::vector<double> values;
   for (const Repeat& r : method.repeats) {
@@ -63,10 +63,10 @@ void summarize(MethodResult& m, double confidence) {
   }
 }
 
-// The mean over pixels of the squared bias. The errors of two repeats are independent, so their product has the squared
-// bias for its mean, and the reference's variance, which is taken off. The jackknife over repeats gives its error, to
-// which the reference adds its own: its squared error at a pixel has about twice its squared variance for variance, the
-// variance that is taken off is an estimate, too, and what all pixels have in common does not average out.
+// The mean over pixels of the squared bias. The errors of two repeats are independent, so the mean of their product is
+// the squared bias plus the reference's variance, which is subtracted. The error is that of the jackknife over repeats
+// plus that of the reference: its squared error at a pixel has a variance of about twice its squared variance, the
+// subtracted variance is itself an estimate, and what all pixels have in common does not average out.
 Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Reference& reference, double confidence) {
   const double n = double(repeats.size());
   if (n < 3) return measured({}, confidence);
@@ -110,8 +110,8 @@ Measured squared_bias(const std::vector<std::vector<float>>& repeats, const Refe
   return squared;
 }
 
-// Complete passes of all repeats as one sample of image means, for one channel: passes are independent, so their spread
-// is right whatever the correlation between pixels. Repeats that do not know theirs count as one pass each.
+// The complete passes of all repeats as one sample of image means, for one channel: passes are independent, so their
+// spread is valid for any correlation between pixels. Repeats with unknown passes count as one pass each.
 Moments image_means(const MethodResult& m, std::size_t channel) {
   const bool by_pass = std::ranges::all_of(m.repeats, [](const Repeat& r) { return r.passes > 0; });
   Moments all;
@@ -143,7 +143,7 @@ std::array<MeanDifference, 3> image_differences(const MethodResult& m, const Ref
   return differences;
 }
 
-// All repeats together against the reference: is the mean another?
+// All repeats together against the reference: does the mean differ?
 void summarize_film(const MethodState& state, const Reference& reference, double level, MethodResult& m) {
   m.mean = make_pixel_buffer(reference.mean.width, reference.mean.height, {"R", "G", "B"});
   m.standard_error = m.mean;
@@ -183,7 +183,7 @@ PairVerdict judge(const ComparisonResult& result, std::size_t a, std::size_t b, 
   const Measured& ratio = v.ratio[result.measure];
   v.decided = v.likeness != Likeness::settings && winner_of(ratio) != 0;
   if (!v.decided && ratio.count >= 2) {
-    // The half width shrinks with the root of the number of repeats, and must come below the distance from one.
+    // The half-width decreases with the root of the number of repeats, and must fall below the distance from one.
     const double half = 0.5 * std::log(ratio.high / ratio.low), distance = std::abs(std::log(ratio.mean));
     v.times_longer = distance > 0 ? (half / distance) * (half / distance) : std::numeric_limits<double>::infinity();
   }
@@ -224,7 +224,7 @@ ComparisonResult result_of(const std::vector<ComparedMethod>& compared_methods, 
   ComparisonResult result;
   result.reference = state.reference;
   result.warm_up_counts = settings.render.warm_up_counts, result.measure = settings.measure;
-  // Of all tests of all methods together.
+  // For all tests of all methods together.
   const double level = level_of_each_test(0.01, compared_methods.size());
   double smallest_mse = std::numeric_limits<double>::infinity(), smallest_relative = smallest_mse;
   for (std::size_t i = 0; i < compared_methods.size(); ++i) {
@@ -246,7 +246,7 @@ ComparisonResult result_of(const std::vector<ComparedMethod>& compared_methods, 
   const auto share = [&](ErrorMeasure measure, double smallest) {
     const double variance = variance_by(measure, result.reference);
     if (variance == 0) return 0.0;
-    // No error above zero: the reference's noise is all that there is.
+    // No error above zero: the noise of the reference explains everything.
     return std::isfinite(smallest) ? variance / smallest : std::numeric_limits<double>::infinity();
   };
   result.reference_share[ErrorMeasure::mse] = share(ErrorMeasure::mse, smallest_mse);

@@ -1,4 +1,4 @@
-// Pieces of work of a comparison while renders are under way.
+// Pieces of work of a comparison during renders.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace montelux::lab {
 
-// States how a piece gets on, over the renders that it is made of.
+// Reports the progress of a piece over its renders.
 class PieceProgress {
  public:
   PieceProgress(const ComparisonWatch& watch, WorkPiece piece) : watch_(watch), piece_(std::move(piece)) { state(0); }
@@ -24,7 +24,7 @@ class PieceProgress {
   WorkPiece piece_;
 };
 
-// A render that is the part [from, to] of a piece; it passes on the wish to stop.
+// A render that is the part [from, to] of a piece; it forwards a request to stop.
 class PartOfPiece final : public RenderObserver {
  public:
   PartOfPiece(const PieceProgress& piece, double from, double to) : piece_(piece), from_(from), to_(to) {}
@@ -36,9 +36,9 @@ class PartOfPiece final : public RenderObserver {
   double from_, to_;
 };
 
-// The render's settings for one method: its own point set, no end by time.
+// The render settings for one method: its own point set, no time limit.
 RenderSettings settings_for(const ComparedMethod& compared_method, const ComparisonSettings& settings);
-// Of all that a render took, what counts.
+// The counted part of the time of a render.
 double seconds_that_count(const RenderResult& result, const ComparisonSettings& settings);
 
 }  // namespace montelux::lab

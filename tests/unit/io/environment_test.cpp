@@ -92,7 +92,7 @@ TEST_F(EnvironmentImage, takes_the_place_of_the_scenes_own) {
   const Lit result = lit(pbrt, {image});
   ASSERT_TRUE(result.scene);
   EXPECT_EQ(result.scene->scene.lights.infinite_count(), 1);
-  EXPECT_NE(result.said.find("takes the place of the scene's own one"), std::string::npos) << result.said;
+  EXPECT_NE(result.said.find("replaces the scene's own one"), std::string::npos) << result.said;
 }
 
 TEST_F(EnvironmentImage, that_cannot_be_used_is_refused) {

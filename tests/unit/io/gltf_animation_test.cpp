@@ -242,7 +242,7 @@ TEST(GltfAnimation, names_the_keys_that_are_wrong) {
     std::string json, words;
   } faults[] = {
       {animated({0, 2, 1}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "key 2 is at 1.0"},
-      {animated({0, 1, 1}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "the one before it at 1.0"},
+      {animated({0, 1, 1}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "the previous one at 1.0"},
       {animated({-1, 2}, {0, 0, 0, 1, 0, 0}, "translation"), "key 0 is at -1.0"},
       {animated({0, 2}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation"), "has 3 values for 2 keys"},
       {animated({0, 2}, {0, 0, 0, 1, 0, 0}, "translation", "CUBICSPLINE"), "which need three each"},

@@ -141,18 +141,17 @@ TEST(Verdict, goes_by_the_measure_and_says_where_another_says_the_opposite) {
 
 TEST(Verdict, that_is_none_says_what_the_other_measures_say) {
   const Measured high = ratio(1.5, 1.3, 1.7), none = ratio(1.01, 0.9, 1.1);
-  EXPECT_EQ(
-      sentence(comparison(none, high, none)),
-      "fast and slow: not decided by relMSE: the ratio of their efficiencies is 1.010 (0.900 to 1.100) at 95 %; 12 "
-      "times the time may decide it; by MSE fast is 1.50 (1.30 to 1.70) times as efficient; by FLIP undecided, "
-      "1.010 (0.900 to 1.100)");
+  EXPECT_EQ(sentence(comparison(none, high, none)),
+            "fast and slow: undecided by relMSE: the ratio of their efficiencies is 1.010 (0.900 to 1.100) at 95 %; 12 "
+            "times the time may decide it; by MSE fast is 1.50 (1.30 to 1.70) times as efficient; by FLIP undecided, "
+            "1.010 (0.900 to 1.100)");
 }
 
 TEST(Verdict, names_methods_that_are_the_same) {
   const Measured none = ratio(1.01, 0.9, 1.1);
   Comparison c = comparison(none, none, none);
   c.result.verdicts.front().likeness = lab::Likeness::settings;
-  EXPECT_EQ(sentence(c), "fast and slow are the same method with the same settings: there is nothing to decide");
+  EXPECT_EQ(sentence(c), "fast and slow are the same method with the same settings");
   c.result.verdicts.front().likeness = lab::Likeness::pictures;
   EXPECT_NE(sentence(c).find("gave the same images bit for bit and differ only in time"), std::string::npos);
 }
@@ -161,13 +160,13 @@ TEST(Verdict, is_none_where_the_reference_is_too_noisy_or_a_measure_is_not_known
   const Measured high = ratio(1.5, 1.3, 1.7);
   Comparison c = comparison(high, high, high);
   c.result.reference_share[ErrorMeasure::mse] = 0.3;
-  EXPECT_NE(sentence(c).find("by MSE not known, the reference is too noisy"), std::string::npos);
+  EXPECT_NE(sentence(c).find("by MSE unknown, the reference is too noisy"), std::string::npos);
   c.refusal = "its variance is too large";
   EXPECT_EQ(sentence(c), "fast and slow: no verdict by this reference");
   Comparison few = comparison({NAN, 0, INFINITY, 0, 0}, high, high);
   EXPECT_EQ(sentence(few),
-            "fast and slow: not decided by relMSE; 8 of 8 repeats are left out, whose error is no more than the "
-            "noise of the reference explains");
+            "fast and slow: undecided by relMSE; 8 of 8 repeats are excluded because the noise of the "
+            "reference explains their error");
 }
 
 TEST(Verdict, never_prints_what_is_no_number) {
@@ -183,14 +182,14 @@ TEST(AgreementSentence, states_the_power_or_that_it_cannot_tell) {
   lab::Agreement a;
   a.difference = 0.01, a.t = 1.2, a.detectable = 0.05, a.p_value = 0.3, a.level = 0.001;
   EXPECT_EQ(sentence_of(a, 2),
-            "too few repeats to tell whether its mean is the reference's (+0.5 % of the reference's "
-            "mean, +1.2 standard errors)");
+            "too few repeats to tell whether its mean agrees with the reference (+0.5 % of the "
+            "mean of the reference, +1.2 standard errors)");
   a.outcome = lab::Agreement::Outcome::agrees;
   EXPECT_EQ(sentence_of(a, 2),
-            "its mean agrees with the reference; a bias of 2.5 % of the mean would be found 9 times in 10");
+            "its mean agrees with the reference; a bias of 2.5 % of the mean would be detected 9 times in 10");
   a.outcome = lab::Agreement::Outcome::differs, a.p_value = 1e-5, a.t = -362;
   EXPECT_EQ(sentence_of(a, 2),
-            "its mean differs from the reference: +0.5 % of the reference's mean, -362.0 standard errors");
+            "its mean differs from the reference: +0.5 % of the mean of the reference, -362.0 standard errors");
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(Domain, a_mistake_is_told_with_its_place) {
                                          {"disk:radius=1+", 14, 1, "too early"},
                                          {"simplex:dimension=65", 18, 2, "from 1 to 64"},
                                          {"hemisphere:measure=cosine", 19, 6, "solid-angle, projected"},
-                                         {"triangle:a=(0,0),b=(1,1),c=(2,2)", 0, 32, "one line"},
+                                         {"triangle:a=(0,0),b=(1,1),c=(2,2)", 0, 32, "collinear"},
                                          {"triangle:a=(0,0,0),b=(1,1)", 0, 26, "all three"},
                                          {"triangle:a=0", 11, 1, "(x, y)"}}) {
     const ParsedDomain parsed = parse_domain({c.text});

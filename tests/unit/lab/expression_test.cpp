@@ -128,7 +128,7 @@ TEST(Expression, a_mistake_is_told_with_its_place) {
                                          {"(x+1", 0, 1, "no closing bracket"},
                                          {"x+1)", 3, 1, "no opening bracket"},
                                          {"4*", 2, 1, "ends too early"},
-                                         {"x + * y", 4, 1, "nothing before \"*\""},
+                                         {"x + * y", 4, 1, "no left operand"},
                                          {"pow(x)", 5, 1, "pow takes 2 arguments"},
                                          {"sin(x, y)", 8, 1, "sin takes 1 argument"},
                                          {"x, y", 1, 1, "one value"},
