@@ -18,8 +18,8 @@ std::string Accel::kernel_version() { return RTC_VERSION_STRING; }
 
 namespace {
 
-// Whether the kernel accepts the ray; it ends the program on coordinates that are too large or not a number. Rays that
-// it does not accept meet nothing.
+// Whether the kernel accepts the ray; the kernel aborts on coordinates that are too large or not a number. Rays that
+// are not accepted hit nothing.
 template <class F>
 MONTELUX_INLINE Mask<F> is_valid(const Ray<F>& ray, float bound) {
   const auto within = [&](const Vec3<F>& v) {
@@ -66,7 +66,7 @@ Mask<F> Accel::occluded(const Ray<F>& ray, Mask<F> wanted) const {
   alignas(64) int valid[n];
   put_ray<F>(r, ray, RayUse::shadow);
   store_lanes(valid, valid_lanes<F>(on));
-  // Embree 3.13 does not come back from packets of shadow rays that are called coherent, where there are instances.
+  // Embree 3.13 does not return from packets of shadow rays marked coherent if there are instances.
   Arguments arguments(RayUse::shadow);
   if (n > 1 || any(on)) kernel_occluded<n>(valid, kernel_->world.get(), &r, arguments);
   return on & (load_lanes<F>(r.tfar) < F(0.0f));

@@ -1,4 +1,4 @@
-// Rays against the scene: the only folder that knows the ray-tracing kernel (Embree 3 or 4).
+// Rays against the scene: the only folder that uses the ray-tracing kernel (Embree 3 or 4).
 #pragma once
 #include <functional>
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace montelux {
 
-// True where the surface is there for a ray, at (geometry row, primitive, u, v). Asked where the row has an alpha mask,
-// and by shadow rays where it is open to some of them. The ray is in the space of the hit's instance. Of shapes that
-// are no meshes, `primitive` is the number of surfaces of the shape that the ray has passed.
+// True if the surface exists for a ray at (geometry row, primitive, u, v). Called if the row has an alpha mask,
+// and for shadow rays if some of them pass it. The ray is in the space of the hit's instance. For shapes that
+// are not meshes, `primitive` is the number of surfaces of the shape that the ray has passed.
 using OpacityTest = std::function<bool(const Hit<float>&, const Ray<float>&, RayUse)>;
 
 class Accel {
@@ -23,17 +23,17 @@ class Accel {
   template <class F>
   struct Trace {
     Mask<F> found;
-    Hit<F> hit;  // valid numbers in every lane, meaningful where found
+    Hit<F> hit;  // finite numbers in every lane, meaningful where found
   };
-  // The nearest surface in (0, t_max) for lanes that are on. Rays of the camera run side by side, which makes them
-  // fast, and pass by the backs of one-sided surfaces.
+  // The nearest surface in (0, t_max) for lanes that are on. Camera rays are coherent, which makes them
+  // fast, and ignore the backs of one-sided surfaces.
   template <class F>
   Trace<F> trace(const Ray<F>& ray, Mask<F> on, RayUse use = RayUse::path) const;
-  // Whether anything lies in (0, t_max): yes only in lanes that are on.
+  // Whether anything is in (0, t_max): true only in lanes that are on.
   template <class F>
   Mask<F> occluded(const Ray<F>& ray, Mask<F> on) const;
 
-  // Memory that the kernel holds, in bytes.
+  // Memory used by the kernel, in bytes.
   std::size_t memory() const;
   static std::string kernel_version();
 

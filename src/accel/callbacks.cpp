@@ -22,7 +22,7 @@ bool is_asked_of(const GeometryRow& row, RayUse use) {
   return use == RayUse::shadow ? may_be_open_to_shadow_rays(row) : row.alpha != 0;
 }
 
-// Whether a ray meets the back of a triangle. The kernel's normal is that of the winding.
+// Whether a ray hits the back of a triangle. The kernel's normal is that of the winding.
 bool meets_back(const GeometryRow& row, RTCRayN* rays, RTCHitN* hits, unsigned n, unsigned i) {
   const Vec3f d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
   const Vec3f ng{RTCHitN_Ng_x(hits, n, i), RTCHitN_Ng_y(hits, n, i), RTCHitN_Ng_z(hits, n, i)};
@@ -31,7 +31,7 @@ bool meets_back(const GeometryRow& row, RTCRayN* rays, RTCHitN* hits, unsigned n
 
 const GeometryContext& context_of(void* user) { return *static_cast<const GeometryContext*>(user); }
 
-// As Hit counts instances.
+// The numbering of instances in Hit.
 std::uint32_t instance_number(const GeometryContext& context, std::uint32_t kernel_number) {
   return kernel_number == RTC_INVALID_GEOMETRY_ID ? 0 : kernel_number - context.store->world_rows + 1;
 }
@@ -40,7 +40,7 @@ bool is_of_camera(RTCRayN* rays, unsigned n, unsigned i) {
   return RTCRayN_id(rays, n, i) == std::uint32_t(RayUse::camera);
 }
 
-// The kernel's filter: rejects the hits where the surface is not there.
+// The kernel's filter: rejects hits where the surface does not exist for the ray.
 template <RayUse use>
 void reject_open(const RTCFilterFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
@@ -58,7 +58,7 @@ void reject_open(const RTCFilterFunctionNArguments* a) {
   }
 }
 
-// Surfaces that only eye and scattered rays see.
+// Surfaces that exist only for camera rays and scattered rays.
 void reject_all(const RTCFilterFunctionNArguments* a) {
   for (unsigned i = 0; i < a->N; ++i) a->valid[i] = 0;
 }
@@ -70,10 +70,10 @@ void shape_bounds(const RTCBoundsFunctionArguments* a) {
   a->bounds_o->upper_x = b.high.x, a->bounds_o->upper_y = b.high.y, a->bounds_o->upper_z = b.high.z;
 }
 
-// Which of the kernel's rays come into the ball around a shape before they end: by far not all that come into its box,
-// not least those that end on it. Rounding only ever says yes.
+// Which of the kernel's rays enter the ball around a shape before they end: far fewer than enter its box, in particular
+// of those that end on it. Rounding can only add rays.
 std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
-  constexpr unsigned most = 16;  // rays of a packet, of any kernel
+  constexpr unsigned most = 16;  // rays per packet, in any kernel
   std::array<std::int32_t, most> into{};
   for (unsigned i = 0; i < n; ++i) {
     const Vec3f o =
@@ -90,8 +90,8 @@ std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
   return bits;
 }
 
-// The nearest surface of the shape that is there for the ray: through one side of a ball it may meet the other. To the
-// test, `primitive` says how many it has passed, so that each is decided by itself.
+// The nearest surface of the shape that exists for the ray: through one side of a ball it may hit the other. For the
+// test, `primitive` is the number of surfaces passed, so that each is decided independently.
 std::optional<ShapeHit> first_that_is_there(const GeometryContext& context, const Ray<float>& ray, RayUse use,
                                             std::uint32_t instance, bool asks) {
   const Shape& shape = context.store->shapes[context.store->rows[context.row].first];
@@ -159,7 +159,7 @@ RTCGeometry make_curves(RTCDevice device, const CurveSet& curves) {
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.controls.data(), 0,
                              sizeof(CurveControl), curves.controls.size());
   if (ribbon)
-    // The kernel reads normals four floats at a time: it keeps a copy with room at the end.
+    // The kernel reads normals four floats at a time: it gets a copy with padding at the end.
     std::memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
                                         curves.normals.size()),
                 curves.normals.data(), curves.normals.size() * sizeof(Vec3f));
@@ -194,7 +194,7 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
       break;
   }
   rtcSetGeometryUserData(geometry, context);
-  if (row.kind == GeometryKind::shape) return geometry;  // their own functions ask
+  if (row.kind == GeometryKind::shape) return geometry;  // tested in their own functions
   const bool one_sided = (row.flags & GeometryRow::one_sided) != 0;
   if (one_sided || is_asked_of(row, RayUse::path))
     rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);

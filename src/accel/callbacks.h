@@ -1,12 +1,12 @@
-// Geometries of the kernel, and the functions that it calls back: surfaces that some rays pass, and shapes that it does
-// not know.
+// Geometries of the kernel, and its callbacks: for surfaces that some rays pass, and for shapes that the kernel does
+// not support.
 #pragma once
 #include "accel/accel.h"
 #include "accel/rtcore.h"
 
 namespace montelux {
 
-// What a callback needs to know of its geometry. Lives as long as the kernel's scene.
+// The data of a callback for its geometry. Lives as long as the kernel's scene.
 struct GeometryContext {
   const GeometryStore* store;
   std::uint32_t row;

@@ -1,4 +1,4 @@
-// What an Accel holds of the kernel: its device, and a scene of it for the world and for each object.
+// The kernel objects of an Accel: its device, and one scene for the world and for each object.
 #pragma once
 #include <fmt/format.h>
 

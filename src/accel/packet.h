@@ -1,4 +1,4 @@
-// Packets of rays as the kernel takes them, and its calls by the number of lanes.
+// Packets of rays in the kernel's form, and its calls by the number of lanes.
 #pragma once
 #include <cstring>
 
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// What the kernel writes where nothing was hit.
+// The value that the kernel writes if nothing was hit.
 inline constexpr std::uint32_t missed = ~0u;
 
 template <class F>
@@ -21,7 +21,7 @@ F load_lanes(const void* from) {
   return x;
 }
 
-// The kernel hands the rays' numbers on to the filters: they say what the rays are for.
+// The kernel passes ray identifiers to the filters: here they state the use of the rays.
 template <class F>
 void put_ray(RTCRayNt<lanes_of<F>>& to, const Ray<F>& ray, RayUse use) {
   using U = Uint<F>;
@@ -79,7 +79,7 @@ inline void kernel_occluded(const int* valid, RTCScene s, RTCRayNt<N>* r, Argume
 }
 #endif
 
-// All ones in lanes that are on.
+// All bits set in lanes that are on.
 template <class F>
 Uint<F> valid_lanes(Mask<F> on) {
   return select(on, Uint<F>(~0u), Uint<F>(0u));

@@ -10,7 +10,7 @@ namespace montelux {
 
 namespace {
 
-// A call of the kernel as it was made.
+// A recorded call of the kernel.
 template <int N>
 struct alignas(64) Recorded {
   RTCRayHitNt<N> packet;
@@ -21,7 +21,7 @@ struct alignas(64) Recorded {
 template <int N>
 double replay_all(RTCScene scene, const std::vector<Recorded<N>>& calls) {
   timespec before, after;
-  // The copies are taken before the clock starts: the kernel writes into its packets.
+  // The copies are made before the clock starts: the kernel writes to its packets.
   std::vector<Recorded<N>> work(calls);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &before);
   for (Recorded<N>& call : work) {

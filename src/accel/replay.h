@@ -1,5 +1,5 @@
-// Recording of the rays that a program traces, and tracing them again by the kernel alone: how fast it could be at
-// best.
+// Recording the rays that a program traces, and tracing them again by the kernel alone: an upper bound of the
+// speed.
 #pragma once
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-// Answers trace and occluded as the Accel does, and keeps the packets of one thread.
+// The same results for trace and occluded as the Accel, and records the packets of one thread.
 class RayRecorder {
  public:
   explicit RayRecorder(const Accel& accel);
@@ -22,7 +22,7 @@ class RayRecorder {
     std::size_t rays = 0;  // that were on
     double seconds = 0;    // processor time in the kernel's calls
   };
-  // Traces all packets once more, in the order in which they came.
+  // Traces all packets again, in their original order.
   Replay replay() const;
 
  private:

@@ -1,4 +1,4 @@
-// The kernel's own header: Embree 4 where there is one, else Embree 3. CMake looks for them in the same order.
+// The kernel's own header: Embree 4 if available, else Embree 3. CMake searches in the same order.
 #pragma once
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

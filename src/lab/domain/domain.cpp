@@ -67,7 +67,7 @@ void Domain::invert(std::span<const double* const> variables, std::size_t count,
 
 namespace {
 
-// Bounds that are the wrong way round turn the sign of an integral, not that of a density.
+// Reversed bounds change the sign of an integral, but not that of a density.
 template <bool turns_sign>
 BatchFunction times_stretch(std::shared_ptr<const Domain> domain, Expression expression) {
   std::vector<char> needed = domain->needed_by(expression);

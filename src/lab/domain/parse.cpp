@@ -23,7 +23,7 @@ class Reader {
       read_sides(split({text_, 0}, ','));
   }
 
-  // What follows would not change that the domain is refused.
+  // Further errors would not change that the domain is rejected.
   bool full() const { return factors_.size() + mistakes_.size() > max_dimensions; }
 
   ParsedDomain finish() {
@@ -49,7 +49,7 @@ class Reader {
     return std::move(compiled.expression);
   }
 
-  // Adds a factor unless one of its names is taken.
+  // Adds a factor unless one of its names is already used.
   void add(DomainFactor factor, TextPart where) {
     std::vector<std::string> names = std::visit([](const auto& f) { return f.names(); }, factor);
     for (const std::string& name : names)
@@ -59,7 +59,7 @@ class Reader {
     factors_.push_back(std::move(factor));
   }
 
-  // The intervals up to the first that is one too many.
+  // The intervals up to the maximum number.
   void read_sides(const std::vector<TextPart>& parts) {
     for (const TextPart& part : parts) {
       if (factors_.size() + mistakes_.size() >= max_dimensions)
@@ -95,7 +95,7 @@ class Reader {
       keep_name(name);
   }
 
-  // So that a mistake in its bounds does not make a variable unknown elsewhere.
+  // So that an error in its bounds does not make a variable unknown elsewhere.
   void keep_name(TextPart name) { names_.emplace_back(name.text); }
 
   void check_bounds(Side& side, TextPart low, TextPart high) {
@@ -176,7 +176,7 @@ class Reader {
     return otherwise;
   }
 
-  // "(0, 1)" or "(0, 1, 2)"; returns how many coordinates there were, 0 where there is no such setting.
+  // "(0, 1)" or "(0, 1, 2)"; returns the number of coordinates, 0 if there is no such setting.
   std::size_t corner(std::string_view name, std::array<double, 3>& point) {
     const TextPart* part = setting(name);
     if (!part) return 0;

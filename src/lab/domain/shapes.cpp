@@ -13,10 +13,10 @@ void scale(std::span<double> stretch, double factor) {
   for (double& s : stretch) s *= factor;
 }
 
-// Coordinates of the cube are in [0, 1); the ends that stand for infinity are kept off.
+// Coordinates of the cube are in [0, 1); avoids the ends that represent infinity.
 double inside(double u) { return std::clamp(u, 0x1p-54, 1 - 0x1p-53); }
 
-// A point at a height and an azimuth, on the sphere of that radius; sets what is asked for.
+// A point at a height and an azimuth on the sphere of that radius; sets the needed variables.
 struct Direction {
   double *x, *y, *z, *theta, *phi;
   explicit Direction(const MapTask& t)
@@ -34,7 +34,7 @@ struct Direction {
   }
 };
 
-// The share that the next of m coordinates takes of what is left, uniform over the simplex: 1 - (1 - u)^(1/m).
+// The share of the remainder for the next of m coordinates, uniform over the simplex: 1 - (1 - u)^(1/m).
 double share_of_rest(double u, std::size_t m) {
   if (m == 1) return u;
   if (m == 2) return 1 - std::sqrt(1 - u);
@@ -181,7 +181,7 @@ std::optional<double> Hemisphere::volume() const { return projected ? pi : 2 * p
 void Hemisphere::map(const MapTask& task) const {
   const auto u = task.u(0), v = task.u(1);
   const Direction direction(task);
-  // Uniform in the measure: heights for solid angle, squares of the radius in the plane for projected solid angle.
+  // Uniform in the measure: heights for solid angle, squared radii in the plane for projected solid angle.
   for (std::size_t i = 0; i < u.size(); ++i)
     direction.set(i, projected ? u[i] / (1 + std::sqrt(1 - u[i])) : u[i], v[i], 1);
   scale(task.stretch, *volume());

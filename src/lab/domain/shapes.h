@@ -1,4 +1,4 @@
-// The factors of a domain: each a map from a unit cube onto a set, with the measure that it stretches the cube by. In
+// The factors of a domain: each is a map from a unit cube onto a set, with its local stretch. In
 // double precision throughout; the maps of `mc` are made for the float lanes of rendering.
 #pragma once
 #include <array>
@@ -12,28 +12,28 @@
 
 namespace montelux::lab {
 
-// What a factor works on. Its own coordinates of the cube start at `first`; its own variables are those from `column`
-// on, of which only those that `needed` marks have to be set. The measure is multiplied into `stretch`.
+// The data of a factor. Its own coordinates of the cube start at `first`; its own variables are those from `column`
+// on, of which only those marked in `needed` must be set. The measure is multiplied into `stretch`.
 struct MapTask {
   PointBatch points;
   std::size_t first = 0, column = 0;
-  std::span<const double*> columns;  // of the whole domain; those of earlier factors are done
-  double* memory = nullptr;          // where columns are written: points.count numbers each
+  std::span<const double*> columns;  // of the whole domain; those of earlier factors are set
+  double* memory = nullptr;          // for new columns: points.count numbers each
   std::span<const char> needed;
   std::span<double> stretch;
 
   std::span<const double> u(std::size_t d) const { return points[first + d]; }
-  // Where the values of an own variable go; null where nobody needs it.
+  // The destination of the values of an own variable; null if it is not needed.
   double* variable(std::size_t k) const { return needed[column + k] ? memory + (column + k) * points.count : nullptr; }
 };
 
-// One variable between bounds, each an expression of the variables before it, or infinite. Infinite ends are reached by
-// x = t / (1 - t^2) with t in (-1, 1), or by a +- u / (1 - u).
+// One variable between bounds, each an expression of earlier variables, or infinite. Infinite intervals use
+// x = t / (1 - t^2) with t in (-1, 1), or a +- u / (1 - u).
 struct Side {
   std::string name;
   Expression low, high;
   bool from_minus_infinity = false, to_infinity = false;
-  std::optional<std::pair<double, double>> fixed{};  // bounds that depend on nothing; infinite ones included
+  std::optional<std::pair<double, double>> fixed{};  // constant bounds, including infinite ones
 
   static constexpr std::size_t dimension() { return 1; }
   std::vector<std::string> names() const { return {name}; }

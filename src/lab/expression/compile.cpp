@@ -1,5 +1,5 @@
-// The grammar is muparser's; its byte code is translated here into straight-line code over columns. So nothing of the
-// library is needed when an expression is evaluated, and no state is shared among threads.
+// The grammar is muparser's; its byte code is translated here to straight-line code over columns. So the library
+// is not needed to evaluate an expression, and threads share no state.
 #include <fmt/format.h>
 #include <muParser.h>
 
@@ -10,7 +10,7 @@
 namespace montelux::lab {
 namespace {
 
-// The code of the library's token; a name that its versions spell differently.
+// The code of the library's token; its versions spell the name differently.
 template <class Function>
 auto raw_function(const Function& f) {
   if constexpr (requires { f.cb._pRawFun; })
@@ -23,7 +23,7 @@ double negative(double x) { return -x; }
 double positive(double x) { return x; }
 double is_zero(double x) { return x == 0 ? 1.0 : 0.0; }
 
-// The parser with our names in place of its own, whose pi has 13 digits.
+// The parser with our names instead of its own, whose pi has 13 digits.
 void prepare(mu::Parser& parser, const std::vector<std::string>& variables, std::vector<double>& values) {
   parser.ClearFun();
   parser.ClearConst();
@@ -52,7 +52,7 @@ const NamedFunction* function_of(void* code) {
 
 struct NotTranslated {};
 
-// Reverse Polish notation to instructions. Every operand that is waiting has the slot of its height on the stack.
+// Translates reverse Polish notation to instructions. The slot of a pending operand is its height on the stack.
 class Translator {
  public:
   explicit Translator(const std::vector<double>& values) : values_(values) {}
@@ -150,7 +150,7 @@ std::string arguments_text(std::string_view name) {
   return fmt::format("{} takes {} argument{}", name, f->arguments, f->arguments == 1 ? "" : "s");
 }
 
-// What the library found, in our words.
+// The library's error message in our wording.
 TextMistake mistake_of(const mu::ParserError& error, std::string_view text) {
   const std::size_t position = error.GetPos() < 0 ? 0 : std::min(std::size_t(error.GetPos()), text.size());
   const std::string& token = error.GetToken();
@@ -188,7 +188,7 @@ CompiledExpression compile(std::string_view text, const std::vector<std::string>
     mu::Parser parser;
     prepare(parser, variables, values);
     parser.SetExpr(std::string(text));
-    // The byte code comes into being with the first evaluation.
+    // The byte code is created by the first evaluation.
     int results = 0;
     parser.Eval(results);
     if (results != 1) {

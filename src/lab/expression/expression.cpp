@@ -5,7 +5,7 @@
 namespace montelux::lab {
 namespace {
 
-// Characters, not bytes, of UTF-8 text.
+// The number of characters, not bytes, of UTF-8 text.
 std::size_t characters(std::string_view text) {
   return std::size_t(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
@@ -13,7 +13,7 @@ std::size_t characters(std::string_view text) {
 
 bool is_column(const Operand& o, std::size_t index) { return o.kind == Operand::Kind::column && o.index == index; }
 
-// The part of a long text that a mistake is shown in: it begins and ends between characters of UTF-8.
+// The part of a long text in which an error is shown: it begins and ends between characters of UTF-8.
 struct Excerpt {
   std::size_t begin, end;
 };

@@ -1,4 +1,4 @@
-// Formulas that a person types, compiled once and evaluated for many points at a time: 4*x^3, exp(-x*y), x < 1 ? x : 0.
+// Formulas as typed by a user, compiled once and evaluated for many points at a time: 4*x^3, exp(-x*y), x < 1 ? x : 0.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@ struct TextMistake {
   std::string message;
 };
 
-// The message, and below it the text with a caret under the place; no line break at the end.
+// The message, and below it the text with a caret at the position; no line break at the end.
 std::string explain(std::string_view text, const TextMistake& mistake);
 
 // A compiled formula. Immutable, so it may be evaluated by several threads at once.
@@ -23,11 +23,11 @@ class Expression {
  public:
   Expression(std::string text, Program program) : text_(std::move(text)), program_(std::move(program)) {}
   const std::string& text() const { return text_; }
-  // Does it depend on the variable of that place?
+  // Whether the formula depends on the variable with that index.
   bool uses(std::size_t variable) const;
   bool constant() const;
 
-  // Sets values[i] to the formula where variable k is columns[k][i]. Columns that it does not use may be null.
+  // Sets values[i] to the formula with variable k equal to columns[k][i]. Unused columns may be null.
   void evaluate(std::span<const double* const> columns, std::span<double> values) const;
   // At one point.
   double operator()(std::span<const double> variables) const;
@@ -37,16 +37,16 @@ class Expression {
   Program program_;
 };
 
-// An expression, or all that was found wrong with the text.
+// An expression, or all errors in the text.
 struct CompiledExpression {
   std::optional<Expression> expression;
   std::vector<TextMistake> mistakes;
 };
 
-// Names are case-sensitive; operators, loosest first: ?:, ||, &&, comparisons, + -, * /, signs, ^ (to the right).
+// Names are case-sensitive; operators by rising precedence: ?:, ||, &&, comparisons, + -, * /, signs, ^ (to the right).
 CompiledExpression compile(std::string_view text, const std::vector<std::string>& variables);
 
-// Starts with a letter or an underscore, goes on with these and digits, and is no constant and no function.
+// Starts with a letter or an underscore, continues with these and digits, and is not a constant or a function.
 bool valid_variable(std::string_view name);
 
 }  // namespace montelux::lab

@@ -8,7 +8,7 @@
 namespace montelux::lab {
 namespace {
 
-// Points at a time: a dozen slots fit the first cache.
+// The number of points at a time: a dozen slots fit the first-level cache.
 constexpr std::size_t block = 256;
 
 // An operand for one block: an array, or the same number everywhere.
@@ -36,7 +36,7 @@ double whole_power(double x, int n) {
   return n < 0 ? 1 / result : result;
 }
 
-// Small whole exponents, the frequent ones, by multiplication.
+// Small integer exponents, which are frequent, by multiplication.
 void power(View a, View b, std::size_t n, double* out) {
   const bool whole = !b.array && std::abs(b.number) <= 32 && b.number == std::floor(b.number);
   if (whole && b.number == 2)
@@ -100,7 +100,7 @@ void operate(Operation operation, View a, View b, std::size_t n, double* out) {
 }  // namespace
 
 void Program::run(std::span<const double* const> columns, std::span<double> values) const {
-  // A slot for each instruction under way, and as many again for constants that a function takes.
+  // One slot for each pending instruction, and one for each constant argument of a function.
   std::size_t most = 0;
   for (const Instruction& i : instructions) most = std::max(most, i.operands.size());
   const auto memory = std::make_unique_for_overwrite<double[]>((slots + most) * block);

@@ -28,14 +28,14 @@ enum class Operation : std::uint8_t {
   call
 };
 
-// Where a number is: a column of the input, a constant, or a slot that an earlier instruction wrote.
+// The location of a number: a column of the input, a constant, or a slot written by an earlier instruction.
 struct Operand {
   enum class Kind : std::uint8_t { column, constant, slot } kind = Kind::constant;
   std::size_t index = 0;
   double value = 0;
 };
 
-// Writes slot `target`. Binary operations and `choose` take 2 and 3 operands, calls as many as the function has.
+// Writes slot `target`. Binary operations and `choose` take 2 and 3 operands, calls one for each argument.
 struct Instruction {
   Operation operation;
   std::size_t target = 0;

@@ -9,7 +9,7 @@
 namespace montelux::lab {
 namespace {
 
-// By ASCII, whatever the locale.
+// ASCII digits, for any locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -30,7 +30,7 @@ std::size_t end_of_number(std::string_view text, std::size_t i) {
   return exponent;
 }
 
-// Bytes of the character that starts here (UTF-8).
+// The number of bytes of the character that starts here (UTF-8).
 std::size_t character_length(std::string_view text, std::size_t i) {
   std::size_t end = i + 1;
   while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) ++end;
@@ -76,7 +76,7 @@ class Scanner {
     }
   }
 
-  // Takes an operator or a bracket, and returns its length.
+  // Reads an operator or a bracket, and returns its length.
   std::size_t symbol(std::size_t i) {
     static constexpr std::string_view doubles[] = {"<=", ">=", "==", "!=", "&&", "||"};
     const std::string_view two = text_.substr(i, 2);
@@ -124,7 +124,7 @@ class Scanner {
     return message;
   }
 
-  // Values side by side.
+  // Reports values without an operator between them.
   void check_pair(const Token& a, const Token& b) {
     const bool left = a.kind == Kind::number || a.kind == Kind::close || (a.kind == Kind::name && b.kind != Kind::open);
     const bool right = b.kind == Kind::number || b.kind == Kind::name || b.kind == Kind::open;

@@ -1,4 +1,4 @@
-// The first look at the text of an expression: names, brackets and characters, everything that is wrong at once.
+// The first scan of the text of an expression: names, brackets and characters; finds all errors at once.
 #pragma once
 #include "lab/expression/expression.h"
 

@@ -11,7 +11,7 @@ namespace {
 
 using Arguments = std::span<const double* const>;
 
-// A row of the table from a function of one point; the loop over many has it inlined.
+// A row of the table for a function of one point; it is inlined into the loop over many.
 template <auto f>
 constexpr NamedFunction unary(std::string_view name, std::string_view meaning) {
   NamedFunction row{name, 1, meaning};
@@ -42,7 +42,7 @@ constexpr NamedFunction ternary(std::string_view name, std::string_view meaning)
   };
   return row;
 }
-// A function of any number of arguments: one that folds two into one. `mean` divides by their number.
+// A function with any number of arguments, from one that combines two. `mean` divides by their number.
 template <auto f, bool mean = false>
 constexpr NamedFunction folded(std::string_view name, std::string_view meaning) {
   NamedFunction row{name, 0, meaning};
@@ -63,7 +63,7 @@ constexpr NamedFunction folded(std::string_view name, std::string_view meaning) 
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Not a number where an argument is not: a maximum must not hide it.
+// Not a number if an argument is not: a maximum must not hide it.
 double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 double smaller(double a, double b) { return a < b || std::isnan(a) ? a : b; }
 double smoothstep(double low, double high, double x) {

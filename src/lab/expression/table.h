@@ -1,4 +1,4 @@
-// The names that an expression may use: constants, and functions of one or more arguments.
+// The names available in an expression: constants, and functions with one or more arguments.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -12,7 +12,7 @@ struct NamedConstant {
   std::string_view meaning;
 };
 
-// A function for one point and for many. `arguments` is 1, 2 or 3, or 0 for any number of them (at least one).
+// A function for one point and for many. `arguments` is 1, 2 or 3, or 0 for any number (at least one).
 struct NamedFunction {
   std::string_view name;
   int arguments;

@@ -1,19 +1,19 @@
-// Taking a text of the user apart, without losing where each part stood.
+// Splitting a text of the user while keeping the position of each part.
 #pragma once
 #include <string_view>
 #include <vector>
 
 namespace montelux::lab {
 
-// A part of a text, and where it begins there, in bytes.
+// A part of a text, and its position there in bytes.
 struct TextPart {
   std::string_view text;
   std::size_t begin = 0;
 };
 
-// Without blanks at its ends.
+// Without white space at its ends.
 TextPart trimmed(TextPart part);
-// Cuts at a character, but not within brackets; into at most `most` parts.
+// Splits at a character, but not within brackets; into at most `most` parts.
 std::vector<TextPart> split(TextPart whole, char at, std::size_t most = std::string_view::npos);
 
 }  // namespace montelux::lab

@@ -14,25 +14,25 @@ namespace montelux::lab {
 namespace {
 
 constexpr std::uint32_t passes = 8;
-constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // no pass of a run has such a number
+constexpr std::uint32_t first_pilot_pass = 0x80000000u;  // larger than all pass numbers of a run
 constexpr double pilot_share = 0.03;
-// A map that makes the variance of a sample this many times less is taken without a trial; one that makes it hardly
-// less is not.
+// A map that divides the variance of a sample by at least `clear_gain` is used without a trial; one below `no_gain` is
+// not used.
 constexpr double clear_gain = 4, no_gain = 1.5;
 constexpr std::uint64_t min_samples_to_try = 32768;
 constexpr int first_steps = 5;
 constexpr std::uint64_t max_samples_to_probe = 1u << 20;
-constexpr std::uint64_t max_samples_to_plan = 1u << 26;  // pilots that more samples would pay for are long enough
+constexpr std::uint64_t max_samples_to_plan = 1u << 26;  // longer pilots are not needed for more samples
 
-// One candidate: its passes grow as long as it may still win.
+// One candidate: its passes grow as long as it can still win.
 struct Pilot {
   Method method;
-  double weight = 1;  // what a sample costs, in evaluations and what goes with them
-  double bonus = 0;   // off the logarithm of the variance: for a rate that pilots are too short to see
+  double weight = 1;  // cost of a sample in evaluations, including overhead
+  double bonus = 0;   // subtracted from the logarithm of the variance: for a rate that pilots are too short to show
   std::unique_ptr<Technique> technique;
   std::vector<TermSums> sums = std::vector<TermSums>(passes);
   std::uint64_t length = 0;
-  std::vector<double> variances;  // of the mean of passes, at lengths that double
+  std::vector<double> variances;  // of the mean of passes, at doubling lengths
   double predicted = 0;           // logarithm of the variance times the cost, at the full budget
 
   void grow(std::uint64_t seed, std::uint64_t to) {
@@ -45,7 +45,7 @@ struct Pilot {
     length = to;
     variances.push_back(means.variance() + 1e-32 * means.mean * means.mean);
   }
-  // Its estimate, where there is one that can be held against others: enough terms, and none that stands for many.
+  // Its estimate, if it can be compared with others: enough terms, and none that dominates.
   std::optional<NamedEstimate> estimate() const {
     constexpr std::uint64_t enough = 1024;
     IntegralState state;
@@ -56,7 +56,7 @@ struct Pilot {
       state.largest.merge(s.largest);
       n += double(s.samples), sum += s.sum, m2 += s.m2;
     }
-    const bool varies = method.kind == MethodKind::control;  // the passes' sums are not those of the estimate
+    const bool varies = method.kind == MethodKind::control;  // the sums of passes differ from those of the estimate
     if (varies || n < double(enough) || found_nothing(state) || diagnose_tail(state, m2, sum / n, n).heavy)
       return std::nullopt;
     return estimate_named("the pilot of " + to_text(method), state);
@@ -66,7 +66,7 @@ struct Pilot {
     for (const TermSums& s : sums) n += s.evaluations;
     return n;
   }
-  // The variance at `full` samples a pass. Its decline per doubling is a mean of what is seen and what is usual.
+  // The variance with `full` samples per pass. Its decline per doubling is a mean of the observed and the usual one.
   void predict(double full) {
     constexpr double usual = 2.2, slowest = 1, fastest = 4;
     double decline = usual;
@@ -87,11 +87,11 @@ Method qmc(QmcPoints points, bool baker, bool adapt) {
   return m;
 }
 
-// Whether a run too short for trials takes the map. In few dimensions little training is enough, and a map that is
-// missed costs more than one that is taken in vain; in many the first steps fit noise.
+// Whether a run too short for trials uses the map. In few dimensions little training suffices, and not using a good map
+// costs more than using a useless one; in many dimensions the first steps fit noise.
 bool maps_without_trial(double gain, std::size_t dimension) { return gain >= (dimension <= 6 ? 1.25 : 3); }
 
-// The points that are best as a rule: lattices in few dimensions, and the more so without a map.
+// The points that are usually best: lattices in few dimensions, in more of them without a map.
 Method by_rule(std::size_t dimension, bool adapt) {
   return dimension <= (adapt ? 3 : 6) ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt);
 }
@@ -101,7 +101,7 @@ Method other_points(const Method& m) {
                                         : qmc(QmcPoints::lattice, true, m.adapt);
 }
 
-// Which methods may win, by what the map has brought so far.
+// The methods that may win, given the gain of the map so far.
 std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, double gain) {
   const std::size_t dimension = problem.integrand.dimension;
   std::vector<Method> methods;
@@ -122,8 +122,8 @@ std::vector<Method> plausible(const Problem& problem, std::uint64_t samples, dou
   return methods;
 }
 
-// Lattices with a periodic integrand gain more from more points than nets do, and most in few dimensions; pilots are
-// too short to see it.
+// Lattices with a periodic integrand gain more from more points than nets do, mostly in few dimensions; pilots are
+// too short to show it.
 double lattice_bonus(std::size_t dimension, bool mapped) {
   if (dimension > 6) return -1;
   return mapped ? 0.5 : 3;
@@ -145,7 +145,7 @@ Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_
   training.go_to(first_steps);
   const double gain = training.gain();
   const std::vector<Method> methods = plausible(problem, samples, gain);
-  // Where only mapped methods are left, they are tried with the map that they will have.
+  // If only mapped methods remain, they are tried with their final map.
   if (std::all_of(methods.begin(), methods.end(), trains)) training.go_to(MapTraining::steps);
   std::vector<Pilot> pilots;
   for (const Method& method : methods) {
@@ -169,7 +169,7 @@ Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_
     grow(p, first / 4), grow(p, first / 2), grow(p, first);
   }
 
-  // Those that may still win get twice the samples, as long as the budget of the pilots holds.
+  // Those that can still win get twice the samples, as long as the budget of the pilots suffices.
   const auto least = [&] {
     return std::min_element(pilots.begin(), pilots.end(),
                             [](const Pilot& a, const Pilot& b) { return a.predicted < b.predicted; });
@@ -195,12 +195,12 @@ Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_
 }  // namespace
 
 Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t samples, MapTraining& training) {
-  // So few samples teach a map nothing.
+  // Too few samples to train a map.
   const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
                        problem.densities.empty();
   if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples for pilots"};
-  // Error bars of quasi-Monte Carlo points rest on how near the nearest came to a singularity; boxes with many
-  // independent samples each are the better there.
+  // The error of quasi-Monte Carlo points depends on the distance of the closest one to a singularity; boxes with many
+  // independent samples each are better there.
   const TailProbe probe = probe_tail(problem.integrand, seed, std::min(samples, max_samples_to_probe) / 32);
   if (probe.exponent > 0 && problem.densities.empty() && !problem.control) {
     Method vegas;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t table_purpose = 0x7ab1eu, bound_purpose = 0xb0u;
 
-// The value of a density that can be sampled from: finite and not negative.
+// Checks the value of a density for sampling: finite and not negative.
 double checked(double p) {
   if (!std::isfinite(p) || p < 0)
     throw std::invalid_argument(fmt::format("a density has the value {}; it must be finite and not negative", p));
@@ -38,7 +38,7 @@ DensitySampler::DensitySampler(const UserDensity& density, std::size_t dimension
 
 void DensitySampler::tabulate() {
   constexpr std::size_t cells_of_axis[3] = {4096, 192, 40};
-  constexpr std::size_t each = 4;  // points in a cell, one of them in each of its parts
+  constexpr std::size_t each = 4;  // points in a cell, one in each of its parts
   cells_ = cells_of_axis[dimension_ - 1];
   std::size_t total = 1;
   for (std::size_t d = 0; d < dimension_; ++d) total *= cells_;
@@ -54,7 +54,7 @@ void DensitySampler::tabulate() {
     user_.density({points, dimension_, total}, values);
     for (std::size_t i = 0; i < total; ++i) mass[i] += checked(values[i]);
   }
-  // A cell that looks empty beside one that is not may hold a little: it gets a small share, so that it can be drawn.
+  // A cell that seems empty next to one that is not may contain a little: it gets a small share, so that it is sampled.
   std::vector<double> least(total);
   std::size_t stride = 1;
   for (std::size_t d = 0; d < dimension_; ++d, stride *= cells_)
@@ -131,7 +131,7 @@ DensitySampler::Drawn DensitySampler::sample_by_table(CubeKey key, std::uint64_t
 
 DensitySampler::Drawn DensitySampler::sample_by_rejection(CubeKey key, std::uint64_t first, std::size_t count,
                                                           std::span<double> points) const {
-  constexpr std::uint64_t max_proposals = 1u << 20;  // for each point
+  constexpr std::uint64_t max_proposals = 1u << 20;  // per point
   const CubeKey own = key.fork(std::uint32_t(first)).fork(std::uint32_t(first >> 32));
   const std::size_t batch = batch_size(dimension_);
   std::vector<double> candidates(dimension_ * batch), height(batch), values(batch);

@@ -1,11 +1,11 @@
-// Points of a user's density.
+// Sampling a user's density.
 #pragma once
 #include "lab/integral/integrate.h"
 #include "mc/cube_points.h"
 
 namespace montelux::lab {
 
-// Draws points and states the density they were drawn with, which is that of the table where a table is used.
+// Samples points and states their density, which is that of the table if a table is used.
 class DensitySampler {
  public:
   DensitySampler(const UserDensity& density, std::size_t dimension);
@@ -13,7 +13,7 @@ class DensitySampler {
   struct Drawn {
     std::uint64_t proposed = 0;
   };
-  // `count` points into `points` (coordinate-major); `first` tells them from others of the same key.
+  // Writes `count` points to `points` (coordinate-major); `first` distinguishes them from others with the same key.
   Drawn sample(CubeKey key, std::uint64_t first, std::size_t count, std::span<double> points) const;
   // The density per unit volume at each point.
   void density(PointBatch points, std::span<double> values) const;
@@ -30,7 +30,7 @@ class DensitySampler {
   UserDensity user_;
   std::size_t dimension_;
   DensitySampling sampling_;
-  std::size_t cells_ = 0;          // of one axis of the table
+  std::size_t cells_ = 0;          // per axis of the table
   std::vector<double> cumulated_;  // running sums of the cells' mass, from 0 to 1
   double bound_ = 0;
 };

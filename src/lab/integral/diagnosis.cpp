@@ -13,14 +13,14 @@ namespace montelux::lab {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A share of the integral outside of the map that is worth a word.
+// A share of the integral outside the map that is worth a warning.
 constexpr double notable_share = 1e-3;
-// A single term with this share of the variance leaves the error bar to chance.
+// A single term with this share of the variance makes the error bar unreliable.
 constexpr double dominant_share = 0.1;
-// Of terms that are known to be unbounded and to have a variance the largest often has a large share.
+// For unbounded terms that are known to have a variance, the largest often has a large share.
 constexpr double dominant_share_of_singular = 0.5;
 
-// The mean of values over passes that weigh by their samples, with Student's degrees of freedom.
+// The mean of values over passes weighted by their samples, with Student's degrees of freedom.
 struct WeightedMean {
   double mean = 0, standard_error = 0, degrees = 0;
 };
@@ -45,7 +45,7 @@ double two_sided_p(double mean, double standard_error, double degrees) {
   return 2 * special::student_t_cdf(-std::abs(mean) / standard_error, degrees);
 }
 
-// The sums of the control variate less its integral have the mean 0.
+// The expected sum of the control variate minus its integral is 0.
 bool contradicts_control(const IntegralState& state) {
   if (state.method.kind != MethodKind::control) return false;
   const WeightedMean m =
@@ -70,7 +70,7 @@ TailDiagnosis diagnose_tail(const IntegralState& state, double m2, double mean, 
   const std::vector<double> largest = state.largest.sorted();
   tail.hill_index = infinity;
   if (largest.empty() || !(samples > 1)) return tail;
-  // Terms that differ by rounding alone have no tail.
+  // Terms that differ only by rounding have no tail.
   if (!(std::sqrt(m2 / samples) > 1e-13 * largest.front())) return tail;
   const double distance = largest.front() - std::abs(mean);
   tail.largest_share = std::min(1.0, distance * distance / m2);
@@ -85,7 +85,7 @@ TailDiagnosis diagnose_tail(const IntegralState& state, double m2, double mean, 
     tail.may_not_exist = probe.index <= 1.02;
     return tail;
   }
-  // A tail that is only seen in many samples counts.
+  // A tail counts only if it is seen in many samples.
   constexpr double counts = 0.01;
   const bool infinite_variance = fit.lower_bound() <= 2 && tail.largest_share > counts;
   tail.heavy = infinite_variance || (samples >= 100 && tail.largest_share > dominant_share);
@@ -110,8 +110,8 @@ std::optional<OutsideMap> outside_map_of(const IntegralState& state) {
   if (!(uniform.degrees > 0)) return std::nullopt;
   OutsideSums all;
   for (const PassRecord& p : state.passes) all.merge(p.outside);
-  // Two tests at half the level each. Student's sees what many points find. Markov's inequality holds for a single hit:
-  // where the expectation of the magnitude is what the map says, it is exceeded k times with probability 1 / k at most.
+  // Two tests at half the level each. Student's detects what many points find. Markov's inequality holds for a single
+  // hit: if the expectation of the magnitude is that of the map, it is exceeded k times with probability at most 1 / k.
   constexpr double level = outside_map_level / 2;
   const bool many = two_sided_p(difference.mean, difference.standard_error, difference.degrees) < level;
   const bool few = all.map_magnitude < level * all.uniform_magnitude;

@@ -1,4 +1,4 @@
-// What is integrated: functions on the unit hypercube that take many points at once.
+// The integrand: functions on the unit hypercube that evaluate many points at once.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -17,10 +17,10 @@ struct PointBatch {
 
 // Sets values[i] to the function at point i. A pure function: it is called from several threads at once.
 using BatchFunction = std::function<void(PointBatch points, std::span<double> values)>;
-// Sets image[d * count + i] to coordinate d of the image of point i; as pure as a BatchFunction.
+// Sets image[d * count + i] to coordinate d of the image of point i; a pure function like BatchFunction.
 using BatchMap = std::function<void(PointBatch points, std::span<double> image)>;
 
-// A function on [0, 1]^dimension; the Jacobian of the domain that it came from is part of it. 1 <= dimension <= 64.
+// A function on [0, 1]^dimension, including the Jacobian of its original domain. 1 <= dimension <= 64.
 struct Integrand {
   std::size_t dimension = 1;
   BatchFunction evaluate;

@@ -29,7 +29,7 @@ void check(const Problem& problem, const Budget& budget) {
   if (!(budget.confidence > 0 && budget.confidence < 1)) fail("the confidence must be between 0 and 1");
 }
 
-// How many samples the run will have, as far as that is known before it.
+// The expected number of samples of the run, as far as it is known in advance.
 std::uint64_t planned_samples(const Budget& budget) {
   constexpr std::uint64_t unknown = 1u << 16;
   if (budget.samples) return *budget.samples;
@@ -37,13 +37,13 @@ std::uint64_t planned_samples(const Budget& budget) {
   return budget.seconds ? std::uint64_t(std::clamp(1e6 * *budget.seconds, 1e5, 1e8)) : default_samples;
 }
 
-// A share of the samples small enough that it costs little where it brings nothing, and no more than a map can use.
+// A share of the samples small enough to cost little if it is useless, and no more than a map can use.
 std::uint64_t training_plan(std::uint64_t samples) {
   constexpr std::uint64_t least = 128, most = 1u << 16;
   return std::clamp<std::uint64_t>(samples / 6, least, most);
 }
 
-// What a run is made of before its first pass.
+// The state of a run before its first pass.
 struct Start {
   IntegralState state;
   std::unique_ptr<Technique> technique;
@@ -80,17 +80,17 @@ Start begin(const Problem& problem, const Method& method, const Budget& budget, 
   return start;
 }
 
-// The part of the integral where what points are drawn by is 0: the bias that this causes.
+// The part of the integral where the sampling density is 0: the resulting bias.
 struct MissedRegion {
   double integral = 0, standard_error = 0;
-  std::uint64_t points = 0;  // of the uniform ones that met it
+  std::uint64_t points = 0;  // uniform points that found it
 };
 constexpr std::uint64_t missed_samples = 4096;
 
-// What a probe of the tail may cost.
+// The maximum cost of probing the tail.
 std::uint64_t probe_budget(std::uint64_t samples) { return std::min<std::uint64_t>(samples / 16, 1u << 15); }
 
-// After the run, where the terms may have a heavy tail and the integrand was not probed.
+// After the run, if the terms may have a heavy tail and the integrand was not probed.
 void probe_if_needed(const Problem& problem, IntegralState& state) {
   constexpr double suspicious = 10, share = 0.05;
   if (state.probe.known || !needs_probe(state.method)) return;

@@ -70,7 +70,7 @@ std::vector<EntitySpec> make_table() {
   };
 }
 
-// The value of a choice by its place among the names; absent where it is none of them.
+// The value of a choice by its index among the names; absent if it is none of them.
 template <std::size_t N>
 std::optional<std::size_t> place_of(const std::array<std::string_view, N>& names, std::string_view name) {
   for (std::size_t i = 0; i < N; ++i)

@@ -1,4 +1,4 @@
-// The methods of integration by name: one closed table feeds the parser, the help text and the documentation.
+// The named methods of integration: one closed table feeds the parser, the help text and the documentation.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -31,7 +31,7 @@ enum class QmcPoints : std::uint8_t { sobol, halton, lattice, pmj02 };
 // A method with its parameters; those of other methods are ignored.
 struct Method {
   MethodKind kind = MethodKind::automatic;
-  std::uint32_t passes = 0;  // independent randomisations; 0: the method's own choice
+  std::uint32_t passes = 0;  // independent randomisations; 0: depends on the method
   Strata strata = Strata::grid;
   std::optional<double> coefficient;  // of the control variate; absent: the best one, fitted on the other passes
   MisHeuristic heuristic = MisHeuristic::balance;
@@ -46,9 +46,9 @@ struct Method {
 std::span<const EntitySpec> method_table();
 std::string_view name_of(MethodKind kind);
 
-// The method of that name with its settings. Fails with one message that names everything that is wrong.
+// The method with that name and settings. Fails with one message that lists all errors.
 Result<Method> method_of(std::string_view name, const std::vector<Setting>& settings);
-// The same from text as a person types it: "qmc", "qmc:points=lattice,baker=true".
+// The same from text as typed by a user: "qmc", "qmc:points=lattice,baker=true".
 Result<Method> parse_method(std::string_view text);
 // The shortest text that parse_method reads as this method.
 std::string to_text(const Method& method);

@@ -11,9 +11,9 @@ namespace {
 constexpr double large_step_share = 0.3;
 constexpr std::uint32_t start_purpose = 1, choice_purpose = 2, step_purpose = 3, size_purpose = 4, accept_purpose = 5;
 
-// Independent chains side by side. Each starts at a point resampled from uniform ones by the target and carries the
-// mean target of these as its weight, so it is unbiased from its first step on, and the integral of the target is not
-// needed (Veach 1997, section 11.3.1). Half of a pass's samples go into the starts.
+// Independent chains, computed together. Each starts at a point resampled from uniform ones by the target, with the
+// mean target of these as its weight, so it is unbiased from its first step, and the integral of the target is not
+// needed (Veach 1997, section 11.3.1). The starts use half of the samples of a pass.
 class Metropolis final : public Technique {
  public:
   Metropolis(const Problem& problem, const Method& method)
@@ -34,7 +34,7 @@ class Metropolis final : public Technique {
     const std::uint64_t each = std::max<std::uint64_t>(2, part.count / chains), starts = each / 2,
                         steps = each - starts;
     TermSums sums(LargestTerms::of_run);
-    // The terms are those of the starts, target over uniform density; the chains have none of their own.
+    // The terms are those of the starts, target over uniform density; the chains themselves have none.
     std::vector<Chain> state = start(key, chains, std::size_t(starts), sums);
     for (std::uint64_t k = 0; k < steps; ++k) step(key, k, state, sums);
 
@@ -53,7 +53,7 @@ class Metropolis final : public Technique {
     std::vector<double> targets, ratios;
   };
 
-  // Target and integrand at points; what is not finite counts as 0.
+  // Target and integrand at points; values that are not finite count as 0.
   Values evaluate(const std::vector<double>& points, std::size_t n, TermSums& sums) const {
     Values v{std::vector<double>(n), std::vector<double>(n)};
     std::vector<double> f(n);
@@ -95,8 +95,8 @@ class Metropolis final : public Technique {
     return state;
   }
 
-  // One step of every chain: anywhere, or nearby on the torus; both are symmetric. The expectation over acceptance is
-  // what enters the sum.
+  // One step of every chain: anywhere, or nearby on the torus; both are symmetric. The sum receives the expectation
+  // over acceptance.
   void step(CubeKey key, std::uint64_t k, std::vector<Chain>& state, TermSums& sums) const {
     const std::size_t dimension = integrand_.dimension, n = state.size();
     std::vector<double> points(dimension * n), kind(n), accept(n);
@@ -105,7 +105,7 @@ class Metropolis final : public Technique {
     fill_independent(key.fork(accept_purpose), {1, k * n, n, accept.data()});
     for (std::size_t c = 0; c < n; ++c) {
       if (kind[c] < large_step_share) continue;
-      // Sizes of many scales, since the right one is not known (Kelemen et al. 2002).
+      // Steps on many scales, because the right one is unknown (Kelemen et al. 2002).
       const double size = step_ * std::exp(-5 * (kind[c] - large_step_share) / (1 - large_step_share));
       for (std::size_t d = 0; d < dimension; ++d) {
         double& x = points[d * n + c];

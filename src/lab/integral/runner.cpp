@@ -18,7 +18,7 @@ bool Runner::add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, st
           {{CubeKey::of(state_.seed, pass), first + from, std::min(cut, count - from), first, count}, pass});
     }
     if (!run_all(units)) return false;
-    // In the order of the units, whoever did them: the same bits for any number of threads.
+    // In the order of the units, whichever thread computed them: the same bits for any number of threads.
     for (const Unit& unit : units) sums[unit.pass - begin].merge(unit.sums);
   }
   for (std::uint32_t pass = begin; pass < end; ++pass) enter(pass, sums[pass - begin]);
@@ -51,7 +51,7 @@ void Runner::enter(std::uint32_t pass, const TermSums& own) {
   state_.largest.merge(own.largest);
 }
 
-// The passes of a run stand one after the other, in the order of their numbers; a merged state may hold others.
+// The passes of a run are stored in the order of their numbers; a merged state may contain others.
 PassRecord& Runner::record_of(std::uint32_t pass) {
   std::vector<PassRecord>& all = state_.passes;
   const auto is_it = [&](std::size_t i) {

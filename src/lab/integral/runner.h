@@ -7,8 +7,8 @@
 
 namespace montelux::lab {
 
-// Grows a state by whole parts of passes: all of them, or none where it is stopped on the way. Memory is bounded
-// whatever the number of samples.
+// Extends a state by complete parts of passes: all of them, or none if it is stopped. Memory is bounded
+// for any number of samples.
 class Runner {
  public:
   Runner(const Technique& technique, const Execution& execution, IntegralState& state)
@@ -18,7 +18,7 @@ class Runner {
         scheduler_(execution.threads),
         state_(state) {}
 
-  // Adds samples [first, first + count) to passes [begin, end) of this run. False: stopped, and the state is as before.
+  // Adds samples [first, first + count) to passes [begin, end) of this run. False: stopped, and the state is unchanged.
   bool add(std::uint32_t begin, std::uint32_t end, std::uint64_t first, std::uint64_t count);
 
  private:
@@ -37,7 +37,7 @@ class Runner {
   const Execution& execution_;
   Scheduler scheduler_;
   IntegralState& state_;
-  std::size_t last_ = 0;  // the record that was used last
+  std::size_t last_ = 0;  // the record used last
 };
 
 }  // namespace montelux::lab

@@ -9,21 +9,21 @@
 namespace montelux::lab {
 namespace {
 
-constexpr std::uint32_t training_purpose = 0x7ea1u;  // the key of training's points: no pass has this number
+constexpr std::uint32_t training_purpose = 0x7ea1u;  // the key of training points: no pass has this number
 constexpr std::uint32_t uniform_purpose = 0x0a11u;   // the key of the uniform share
-// One uniform point for so many through the map.
+// The number of mapped points for each uniform one.
 constexpr std::uint64_t points_per_uniform = 16;
 
-// How far a point lies outside of the map, by the density of the map there: nearly 1 where the map has fewer points
-// than the uniform share, and falling with the fourth power of the density (a power heuristic, Veach and Guibas 1995).
+// How far a point is outside the map, by the density of the map there: nearly 1 where the map has fewer points than
+// the uniform share; decreases with the fourth power of the density (a power heuristic, Veach and Guibas 1995).
 double outside_share(double density) {
   const double ratio = density * double(points_per_uniform), square = ratio * ratio;
   return 1 / (1 + square * square);
 }
 
-// Adds terms and their magnitudes; those that are not finite count as 0.
+// Adds terms and their magnitudes; values that are not finite count as 0.
 void add_terms(std::span<const double> terms, double& sum, double& magnitude) {
-  std::array<double, 8> sums{}, magnitudes{};  // side by side, for the vector units
+  std::array<double, 8> sums{}, magnitudes{};  // in parallel, for the vector units
   std::size_t i = 0;
   for (; i + 8 <= terms.size(); i += 8)
     for (std::size_t k = 0; k < 8; ++k) sums[k] += terms[i + k], magnitudes[k] += std::abs(terms[i + k]);
@@ -38,7 +38,7 @@ void add_terms(std::span<const double> terms, double& sum, double& magnitude) {
     if (std::isfinite(x)) sum += x, magnitude += std::abs(x);
 }
 
-// Buffers of one part: points by coordinate, and what is worked out at them.
+// Buffers of one part: points by coordinate, and the values at them.
 struct Batch {
   std::size_t dimension, most;
   std::vector<double> points, values, jacobian, control;
@@ -63,7 +63,7 @@ class Sampled final : public Technique {
   TechniqueTraits traits() const override {
     TechniqueTraits t;
     const bool correlated = method_.kind == MethodKind::qmc || method_.kind == MethodKind::stratified;
-    t.passes = correlated ? 6 : 32;  // where lengths are powers of two, up to twice as many
+    t.passes = correlated ? 6 : 32;  // if lengths are powers of two, up to twice as many
     t.training_evaluations = training_evaluations_;
     if (method_.kind == MethodKind::antithetic) t.least = 2;
     if (map_) t.least = points_per_uniform, t.cost = 1 + 1 / double(points_per_uniform);
@@ -121,7 +121,7 @@ class Sampled final : public Technique {
     if (method_.baker) fold({block.out, block.dimension * block.count});
   }
 
-  // What the uniform points that go with a part find outside of the map.
+  // What the uniform points of a part find outside the map.
   void add_uniform_share(const PassPart& part, Batch& batch, TermSums& sums) const {
     const CubeKey key = part.key.fork(uniform_purpose);
     const std::uint64_t first = part.first / points_per_uniform, all = part.count / points_per_uniform;
@@ -225,8 +225,8 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
 // the others the later ones know better and get more.
 constexpr std::array<double, MapTraining::steps> step_shares{0.4, 0.031, 0.047, 0.07, 0.105, 0.158, 0.236, 0.353};
 
-// A power of two: the edges of the bins, where the map is not smooth, are then edges of the strata of a Sobol' net too,
-// which makes its error tens of times less.
+// A power of two: the edges of the bins, where the map is not smooth, are then also edges of the strata of a Sobol'
+// net, which reduces its error by a factor of tens.
 std::size_t bins_for(std::uint64_t samples) {
   constexpr std::uint64_t least = 8, most = 128, samples_per_bin = 24;
   return std::size_t(std::bit_floor(std::clamp(samples / samples_per_bin, least, most)));

@@ -1,4 +1,4 @@
-// Techniques whose terms are each a function of one point of the cube: f(x) times a Jacobian, at the points of some
+// Techniques whose terms are functions of one point of the cube: f(x) times a Jacobian, at the points of a
 // point set: uniform, stratified, antithetic, control and qmc.
 #pragma once
 #include "lab/integral/technique.h"
@@ -6,18 +6,18 @@
 
 namespace montelux::lab {
 
-// The map of the coordinates, trained for an integrand step by step: each step sees the integrand through the map of
-// the one before. A training that stopped early goes on to the same map as one that did not.
+// The map of the coordinates, trained for an integrand in steps: each step uses the map of the previous one. An
+// interrupted training continues to the same map.
 class MapTraining {
  public:
   static constexpr int steps = 8;
 
-  // In all about 1.4 times `samples` Sobol' points.
+  // Uses about 1.4 times `samples` Sobol' points in total.
   MapTraining(const Integrand& integrand, std::uint64_t seed, std::uint64_t samples);
   void go_to(int step);
   const AdaptiveMap& map() const { return map_; }
   std::uint64_t evaluations() const { return evaluations_; }
-  // The variance of one uniform sample over that of one through the map, as the last step saw both.
+  // The ratio of the variances of one uniform sample and one through the map, from the last step.
   double gain() const { return gain_; }
 
  private:
@@ -30,7 +30,7 @@ class MapTraining {
   AdaptiveMap map_;
 };
 
-// Methods that adapt take their map from the training, as far as it has gone; its evaluations count as theirs.
+// Adaptive methods use the map of the training in its current state; its evaluations count as theirs.
 std::unique_ptr<Technique> make_sampled(const Problem& problem, const Method& method, const MapTraining* training);
 
 }  // namespace montelux::lab

@@ -11,10 +11,10 @@ namespace montelux::lab {
 namespace {
 
 constexpr std::uint64_t first_look = 4096, trusted_without_spread = 1u << 16;
-// A run to a target error alone gives up after so many samples that are all 0.
+// A run with only a target error gives up after this many samples that are all 0.
 constexpr std::uint64_t max_zeros = 1u << 24;
 constexpr std::uint64_t max_new_passes = 1u << 20;  // of the length that a saved run had
-constexpr std::uint64_t max_group = 4096;           // passes that are added at a time
+constexpr std::uint64_t max_group = 4096;           // passes that are added together
 
 }  // namespace
 
@@ -45,7 +45,7 @@ std::uint64_t Schedule::spent() const {
   return std::uint64_t(double(state_.evaluations - state_.training_evaluations - evaluations_before_) / traits_.cost);
 }
 
-// Passes of independent samples gain nothing by their length, and a stop loses what is done of one.
+// Longer passes of independent samples have no advantage, and a stop loses the current one.
 std::uint64_t Schedule::max_length() const {
   constexpr std::uint32_t passes_of_independent = 32;
   const bool whole = traits_.unit == 0;
@@ -74,7 +74,7 @@ std::string_view Schedule::note() const {
                                                   : std::string_view();
 }
 
-// How many passes, and sets their length where none is given by what was done before.
+// The number of passes; sets their length if it does not follow from an earlier run.
 std::uint64_t Schedule::fixed_passes(std::uint64_t samples) {
   const bool given = state_.method.passes > 0 && passes_ == 0;
   if (passes_ > 0 && samples / length_ > max_new_passes)
@@ -91,11 +91,11 @@ std::uint64_t Schedule::fixed_passes(std::uint64_t samples) {
   return std::max<std::uint64_t>(passes_ > 0 ? 1 : 2, samples / length_);
 }
 
-// As many samples as are given, in passes of one length; new passes where the run goes on.
+// The given number of samples, in passes of one length; new passes if the run is resumed.
 StopReason Schedule::run_fixed(std::uint64_t samples) {
   if (samples > state_.training_evaluations && passes_ == 0) samples -= state_.training_evaluations;
   const std::uint64_t passes = fixed_passes(std::uint64_t(double(samples) / traits_.cost)), length = length_;
-  // Groups of passes small enough that progress is seen and a stop is obeyed soon.
+  // Groups of passes small enough to show progress and to stop soon.
   const std::uint64_t group = std::clamp<std::uint64_t>((std::uint64_t(1) << 20) / length, 1, max_group);
   for (std::uint64_t done = 0; done < passes;) {
     const std::uint64_t next = std::min(passes, done + group);
@@ -108,8 +108,8 @@ StopReason Schedule::run_fixed(std::uint64_t samples) {
   return StopReason::samples;
 }
 
-// Passes that double in length, looked at after each doubling, until the time, the samples or the target is reached;
-// what is left of the time or the samples goes into more passes of the same length.
+// Passes that double in length, with a test after each doubling, until the time, the samples or the target is reached;
+// the remaining time or samples are used for more passes of the same length.
 StopReason Schedule::run_growing() {
   if (passes_ == 0) {
     passes_ = state_.method.passes > 0 ? state_.method.passes : std::max<std::uint32_t>(16, traits_.passes);
@@ -127,7 +127,7 @@ StopReason Schedule::run_growing() {
   }
 }
 
-// More passes of the length reached; a target error is looked at when they have become half as many again.
+// More passes of the final length; a target error is tested after each increase by half.
 StopReason Schedule::spend_rest() {
   std::uint64_t looked = passes_;
   while (affordable(length_)) {
@@ -145,11 +145,11 @@ StopReason Schedule::spend_rest() {
   return budget_.samples && spent() + length_ > max_samples() ? StopReason::samples : StopReason::seconds;
 }
 
-// Do the samples fit what is left, as far as the speed so far tells?
+// Whether the samples fit the remaining time, given the speed so far.
 bool Schedule::affordable(std::uint64_t samples) const {
   if (budget_.samples && spent() + samples > max_samples()) return false;
   if (!budget_.seconds) return true;
-  // A run that goes on knows its speed from before.
+  // A resumed run knows its speed.
   const double all = double(spent()) + double(evaluations_before_) / traits_.cost;
   const double one = (seconds_before_ + elapsed()) / std::max(1.0, all);
   const double left = *budget_.seconds - elapsed();
@@ -170,7 +170,7 @@ double Schedule::target() const {
   return *budget_.target_error * (budget_.target_is_relative ? std::abs(estimate_of(state_).mean) : 1.0);
 }
 
-// One look of the stopping rule, at its share of the error rate: why to end, if it is time.
+// One test of the stopping rule, with its share of the error rate: the reason to end, if there is one.
 std::optional<StopReason> Schedule::look() {
   if (!budget_.target_error) return std::nullopt;
   const bool bounded = budget_.samples || budget_.seconds, patient = spent() >= trusted_without_spread;
@@ -178,7 +178,7 @@ std::optional<StopReason> Schedule::look() {
   if (found_nothing(state_))
     return !bounded && spent() >= max_zeros ? std::optional(StopReason::nothing_found) : std::nullopt;
   const PassEstimate e = estimate_of(state_);
-  // No spread at all may be a constant, or a peak that no sample has found yet.
+  // A spread of zero may be a constant, or a peak that no sample has found yet.
   if (!e.spread && !patient) return std::nullopt;
   reached_ = e.reach(confidence_) <= target();
   if (reached_) return StopReason::target_error;

@@ -1,4 +1,4 @@
-// How many passes of how many samples a run makes, and when it is enough.
+// The number of passes and samples of a run, and when to stop.
 #pragma once
 #include <chrono>
 
@@ -8,21 +8,21 @@
 namespace montelux::lab {
 
 inline constexpr std::uint64_t default_samples = 1u << 20;
-// Where a pass cannot be cut, a stop waits for it.
+// If a pass cannot be divided, a stop waits for it.
 inline constexpr std::uint64_t max_samples_of_whole_pass = std::uint64_t(1) << 22;
 
 class Schedule {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `start` is when the work began, pilots and training included.
+  // `start` is the time when the work began, including pilots and training.
   Schedule(const Technique& technique, const Budget& budget, const Execution& execution, IntegralState& state,
            Clock::time_point start);
 
-  // Throws std::invalid_argument where the number of passes that the method states makes them too long.
+  // Throws std::invalid_argument if the number of passes that the method states makes them too long.
   StopReason run();
   bool target_reached() const { return reached_; }
-  double confidence() const { return confidence_; }  // of the last look
+  double confidence() const { return confidence_; }  // of the last test
 
  private:
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

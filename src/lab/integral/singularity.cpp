@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::uint32_t probe_pass = 0xffffe000u;  // no pass of a run has this number
 constexpr std::uint64_t max_scan = 1u << 14;
-constexpr std::size_t max_dimension = 6;  // boxes that shrink lose a point in more
+constexpr std::size_t max_dimension = 6;  // in more dimensions, shrinking boxes lose the point
 constexpr int levels = 40;
-constexpr double light = 10;           // a tail index that no singularity of note has
+constexpr double light = 10;           // a tail index above that of any relevant singularity
 constexpr double min_exponent = 0.12;  // logarithms are below it
-// Where the growth is measured: far enough from the best point found not to depend on where exactly it lies, nor on
-// what rounding leaves of a difference of squares.
+// The range in which the growth is measured: far enough from the best point found to be independent of its exact
+// position, and of the rounding of a difference of squares.
 constexpr double near = 1e-6, far = 1e-4;
 
-// The magnitude of the integrand; 0 where it is no number.
+// The magnitude of the integrand; 0 where it is not a number.
 class Magnitude {
  public:
   explicit Magnitude(const Integrand& integrand) : integrand_(integrand) {}
@@ -49,7 +49,7 @@ struct Top {
   }
 };
 
-// Uniform points of the whole cube: the largest values, and where the largest is.
+// Uniform points of the whole cube: the largest values, and the position of the maximum.
 LargestTerms scan(Magnitude& f, CubeKey key, std::uint64_t samples, Top& top) {
   const std::size_t dimension = top.point.size(), most = batch_size(dimension);
   LargestTerms largest(LargestTerms::of_run);
@@ -107,8 +107,8 @@ double growth_about(Magnitude& f, CubeKey key, const Top& top) {
   return n > 0 ? sum / n : 0;
 }
 
-// The set where f is infinite has a whole number c of dimensions less than the cube; P(f > y) falls like
-// y^-(c / exponent). The number is that which the statistics of the values are nearest to.
+// The set where f is infinite has an integer number c of dimensions less than the cube; P(f > y) is proportional to
+// y^-(c / exponent). c is the integer closest to the statistics of the values.
 double index_of(const TailFit& fit, double exponent) {
   const double codimension = std::max(1.0, std::round(fit.index * exponent)), index = codimension / exponent;
   const double off = std::abs(index - fit.index) / fit.index * std::sqrt(double(fit.terms));
@@ -133,7 +133,7 @@ TailProbe probe_tail(const Integrand& integrand, std::uint64_t seed, std::uint64
   const double exponent = growth_about(f, key.fork(0), top);
   probe.evaluations = f.evaluations();
   if (exponent < min_exponent) return probe;
-  // What is known to be a singularity is a power law over more terms.
+  // A known singularity follows a power law over more terms.
   const TailFit more = fit_tail(largest, 16 * samples);
   probe.exponent = exponent, probe.index = index_of(more, exponent), probe.terms = more.terms;
   return probe;

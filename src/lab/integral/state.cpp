@@ -32,7 +32,7 @@ Json to_value(const PassRecord& p) {
           p.magnitude};
 }
 
-// A whole number in [low, high], or a number in that range: what is in a file is not what was written into one.
+// An integer in [low, high], or a number in that range: a file may have been changed.
 std::uint64_t whole(const Json& j, const char* what, std::uint64_t low, std::uint64_t high) {
   if (!j.is_number_unsigned() || j.get<std::uint64_t>() < low || j.get<std::uint64_t>() > high)
     throw std::invalid_argument(
@@ -74,7 +74,7 @@ TailProbe probe_from(const Json& j) {
   return p;
 }
 
-// Counts that a run cannot have: a file that was made up. (The chains of metropolis make a few samples fewer than
+// Rejects counts that no run can have. (The chains of metropolis use slightly fewer samples than
 // planned.)
 void check_counts(const IntegralState& s) {
   std::uint64_t samples = 0;
