@@ -204,7 +204,7 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set) {
 
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options) {
   verb.add_option("SCENE", file, "scene file (" + scene_extensions() + ")")->required()->type_name("FILE");
-  add_option(verb, {"--resolution", "WxH|P%", "size of the picture in pixels, or as a percentage of the file's"},
+  add_option(verb, {"--resolution", "WxH|P%", "size of the image in pixels, or as a percentage of the file's"},
              [&options](const std::string& text) { return parse_resolution(text, options); });
   add_option(verb, {"--camera", "NAME|N", "camera of a glTF scene, by its name or number; default: the first"},
              [&options](const std::string& text) -> Status {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "api/checksum.h"
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "io/scene_file.h"
 #include "io/text_file.h"
 

@@ -56,7 +56,7 @@ static ReadResult read_scene_alone(const std::string& path, const ReadOptions& o
                                                                                     .append(kind)
                                                                                     .append(" is ignored: a ")
                                                                                     .append(format->name)
-                                                                                    .append(" file has one only"));
+                                                                                    .append(" file has only one"));
     return result;
   }
   ReadResult result;

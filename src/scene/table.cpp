@@ -49,7 +49,7 @@ ParameterSpec randomization() {
 }
 
 List integrator_parameters(List more = {}) {
-  List list{{"maxdepth", {integer}, "most bounces; default none", 0, most_integer}};
+  List list{{"maxdepth", {integer}, "maximum number of bounces; default none", 0, max_integer}};
   list.insert(list.end(), more.begin(), more.end());
   return list;
 }
@@ -126,7 +126,7 @@ std::vector<EntitySpec> samplers() {
        {{"xsamples", {integer}, "strata along x; default 4", 1, 4096},
         {"ysamples", {integer}, "strata along y; default 4", 1, 4096},
         {"jitter", {boolean}, "default true; false: the centres of the strata, the same in every pass (biased)"},
-        {"seed", {integer}, "default 0", -most_integer, most_integer}}},
+        {"seed", {integer}, "default 0", -max_integer, max_integer}}},
       {"halton", "Halton points", sampler_parameters({randomization()})},
       {"sobol", "Sobol points over the image", sampler_parameters({randomization()})},
       {"paddedsobol", "Sobol points, two dimensions at a time", sampler_parameters({randomization()}), false,

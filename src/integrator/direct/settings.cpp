@@ -64,11 +64,11 @@ Fields<DirectSettings> direct_fields() {
   Fields<S> fields;
   fields.choice<DirectStrategy>("strategy", &S::strategy, "how the light is found", strategy_names())
       .integer("shadow-rays", &S::shadow_rays, "shadow rays of each camera ray", 1, 4096)
-      .text("pattern", "where shadow rays go; default: as the sampler says; fixed and uniform-grid are biased",
+      .text("pattern", "points of shadow rays; default: those of the sampler; fixed and uniform-grid are biased",
             read_pattern, {}, {"fixed", "random", "uniform-grid", "stratified", "sobol"})
       .integer("candidates", &S::candidates, "of ris, for each shadow ray", 1, 4096)
       .choice<MisHeuristic>("mis", &S::heuristic, "heuristic of mis", heuristic_names())
-      .choice<Lanes>("lanes", &S::lanes, "paths side by side", lanes_names());
+      .choice<Lanes>("lanes", &S::lanes, "number of paths traced together", lanes_names());
   return fields;
 }
 
@@ -77,7 +77,7 @@ Fields<DirectSettings> direct_fields() {
 std::span<const DirectPreset> direct_presets() { return presets; }
 
 EntitySpec direct_spec() {
-  return {"direct", "direct light at the first surface alone, by the strategy of choice", direct_fields().specs({})};
+  return {"direct", "direct light at the first surface only, by a choice of strategies", direct_fields().specs({})};
 }
 
 DirectSettings direct_settings(const ParameterList& list) {

@@ -118,18 +118,18 @@ struct LookRow {
   bool has_samples = true;
 };
 constexpr LookRow look_rows[] = {
-    {"ao", Look::ambient_occlusion, "the share of open directions (no picture of light)"},
-    {"normal", Look::normal, "shading normals as colours (no picture of light)", false},
-    {"albedo", Look::albedo, "light reflected of unit light from everywhere (no picture of light)"},
-    {"depth", Look::depth, "distance from the camera (no picture of light)", false},
-    {"irradiance", Look::irradiance, "direct light that falls on surfaces (no picture of light)"}};
+    {"ao", Look::ambient_occlusion, "the share of open directions (no image of light)"},
+    {"normal", Look::normal, "shading normals as colours (no image of light)", false},
+    {"albedo", Look::albedo, "reflected light under uniform unit radiance (no image of light)"},
+    {"depth", Look::depth, "distance from the camera (no image of light)", false},
+    {"irradiance", Look::irradiance, "direct light incident on surfaces (no image of light)"}};
 
 Fields<LookSettings> look_fields(const LookRow& row) {
   Fields<LookSettings> fields;
   if (row.has_samples) fields.integer("samples", &LookSettings::samples, "of each camera ray", 1, 4096);
   if (row.look != Look::ambient_occlusion) return fields;
-  fields.number("distance", &LookSettings::distance, "what lies farther does not occlude; 1e30: no bound", 1e-6, 1e30)
-      .boolean("cossample", &LookSettings::by_cosine, "directions are drawn by the cosine, with less noise");
+  fields.number("distance", &LookSettings::distance, "maximum distance of occluders; 1e30: unlimited", 1e-6, 1e30)
+      .boolean("cossample", &LookSettings::by_cosine, "directions are cosine-weighted, with less noise");
   return fields;
 }
 

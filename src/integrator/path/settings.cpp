@@ -80,18 +80,18 @@ Fields<PathSettings> common_fields() {
   fields.other(max_depth_spec())
       .text("roulette", "throughput, proportional, efficiency, fixed:PROBABILITY or off", read_roulette, roulette_text)
       .integer("roulette-depth", &PathSettings::roulette_depth, "scattering events before roulette", 0, 1 << 20)
-      .choice<Lanes>("lanes", &PathSettings::lanes, "paths side by side", lanes_names());
+      .choice<Lanes>("lanes", &PathSettings::lanes, "number of paths traced together", lanes_names());
   return fields;
 }
 
 Fields<PathSettings> light_fields() {
   Fields<PathSettings> fields;
   fields.boolean("nee", &PathSettings::nee, "next-event estimation")
-      .choice<PathMis>("mis", &PathSettings::mis, "how the two share the light",
+      .choice<PathMis>("mis", &PathSettings::mis, "how the two techniques are combined",
                        {{"balance", PathMis::balance}, {"power", PathMis::power}, {"off", PathMis::off}})
       .text("light-selection",
-            "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one out of so many of bvh, by what each "
-            "would contribute); default: as the scene says",
+            "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one of that many by bvh, by what each "
+            "would contribute); default: as stated by the scene",
             read_light_selection);
   return fields;
 }
@@ -101,7 +101,7 @@ Fields<PathSettings> light_fields() {
 NamedValues<Lanes> lanes_names() { return {{"one", Lanes::one}, {"native", Lanes::native}}; }
 
 ParameterSpec max_depth_spec() {
-  return {"maxdepth", {integer},  "maximum number of bounces; default: as the scene states, else none",
+  return {"maxdepth", {integer},  "maximum number of bounces; default: as stated by the scene, else none",
           0,          2147483647, {"none"}};
 }
 
@@ -113,7 +113,7 @@ EntitySpec path_spec() {
 }
 
 EntitySpec naive_spec() {
-  return {"naive", "path tracing that waits for the path to hit a light", common_fields().specs({})};
+  return {"naive", "path tracing that finds light only when a path hits an emitter", common_fields().specs({})};
 }
 
 Result<PathSettings> path_settings(const ParameterList& list, std::optional<int> max_depth) {

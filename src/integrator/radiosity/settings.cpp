@@ -11,9 +11,9 @@ Fields<RadiositySettings> radiosity_fields() {
   Fields<S> fields;
   fields.number("elementsize", &S::element_size, "longest edge of an element, over the scene's diagonal", 1e-5, 10)
       .integer("rays", &S::rays, "of each side of an element in each frame", 1, 65536)
-      .integer("chain", &S::frames, "frames that one solution is refined over: a pass", 1, 1024)
-      .integer("warm-up", &S::warm_up, "reflections before the first frame that is shown", 0, 1024)
-      .boolean("gather", &S::gather, "irradiance of pixels from light and elements around them");
+      .integer("chain", &S::frames, "frames per solution, which is one pass", 1, 1024)
+      .integer("warm-up", &S::warm_up, "frames before the first one that is shown", 0, 1024)
+      .boolean("gather", &S::gather, "final gather: irradiance of pixels from lights and elements");
   return fields;
 }
 

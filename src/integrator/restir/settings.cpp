@@ -35,11 +35,11 @@ NamedValues<ReuseWeights> weights_names() {
 
 Status read_shift(const std::string& text, RestirSettings& s) {
   s.indirect.joins = text != "replay";
-  if (text == "reconnection") s.indirect.most_replayed = 0;
+  if (text == "reconnection") s.indirect.max_replayed = 0;
   return Done{};
 }
 std::string shift_text(const RestirSettings& s) {
-  return !s.indirect.joins ? "replay" : s.indirect.most_replayed > 0 ? "hybrid" : "reconnection";
+  return !s.indirect.joins ? "replay" : s.indirect.max_replayed > 0 ? "hybrid" : "reconnection";
 }
 
 // One row for each setting of the integrator of this name.
@@ -52,38 +52,39 @@ Fields<RestirSettings> fields_of(std::string_view name) {
       .boolean("bsdf", &S::bsdf_candidate, "one more candidate by the BSDF")
       .other({"groups",
               {ParameterType::boolean},
-              "pixels share in groups, whose samples are all tried at all of their pixels; off: each has neighbours of "
-              "its own; default on, off where weights are stated"})
-      .integer("neighbours", &S::neighbours, "pixels that a pixel learns from in each round", 0, 16)
-      .number("radius", &S::radius, "how far they are, in pixels: groups are of one block of twice as many", 1, most)
+              "pixels share in groups, whose samples are evaluated at all of their pixels; off: each pixel has its "
+              "own neighbours; default on, off if weights are stated"})
+      .integer("neighbours", &S::neighbours, "pixels that a pixel shares with in each round", 0, 16)
+      .number("radius", &S::radius, "their distance in pixels; the blocks of groups have twice this size", 1, most)
       .integer("rounds", &S::rounds, "rounds of spatial reuse", 0, 8)
       .boolean("similar", &S::similar,
-               "share among alike: in groups, the same object first; else the same normal and depth")
-      .boolean("temporal", &S::temporal, "learn from the frame before")
-      .boolean("carry", &S::carry, "in a sequence, learn from the picture before, too, with temporal=on")
-      .number("m-cap", &S::m_cap, "most confidence of the frame before, in new frames, with temporal=on", 0, 1e6)
+               "share between similar pixels: in groups, the same object first; else similar normal and depth")
+      .boolean("temporal", &S::temporal, "reuse the previous frame")
+      .boolean("carry", &S::carry, "in a sequence, also reuse the previous image, with temporal=on")
+      .number("m-cap", &S::m_cap, "maximum confidence of the previous frame, in frames, with temporal=on", 0, 1e6)
       .choice<ReuseWeights>("weights", &S::weights,
-                            "how reservoirs share without groups, which stating them turns off; naive is biased",
+                            "weights of sharing without groups; stating them turns groups off; naive is biased",
                             weights_names())
-      .boolean("visibility-reuse", &S::visibility_reuse, "samples that are hidden are not passed on")
-      .integer("chain", &S::chain, "frames that learn from each other: a pass", 1, 1024)
-      .integer("warm-up", &S::warm_up, "frames before those, which are not shown, with temporal=on", 0, 1024)
+      .boolean("visibility-reuse", &S::visibility_reuse, "do not pass on occluded samples")
+      .integer("chain", &S::chain, "frames that share samples, which form one pass", 1, 1024)
+      .integer("warm-up", &S::warm_up, "preceding frames that are not shown, with temporal=on", 0, 1024)
       .other(max_depth_spec())
       .choice<Lanes>(
-          "lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "pixels side by side", lanes_names());
+          "lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "number of pixels computed together", lanes_names());
   if (!paths) return fields;
-  fields.boolean("direct", &S::direct, "direct light at the first rough surface is shared, too")
+  fields.boolean("direct", &S::direct, "also share direct light at the first rough surface")
       .number(
           "footprint", [](S& s) -> float& { return s.indirect.footprint; },
-          "paths are joined where the lobes cover this area, over the squared depth of the first surface", 0, 1e6);
+          "paths are connected where the lobes cover this area, relative to the squared depth of the first surface", 0,
+          1e6);
   if (name == "restir-gi") return fields;
   // How a path is shifted decides last whether events scatter again.
   fields
       .integer(
-          "replayed", [](S& s) -> int& { return s.indirect.most_replayed; }, "most events that scatter again", 1, 64)
+          "replayed", [](S& s) -> int& { return s.indirect.max_replayed; }, "maximum number of replayed events", 1, 64)
       .text("shift",
-            "how a path becomes another pixel's: it is joined to the next surface, or scatters again with the same "
-            "numbers as far as the light, or as far as a surface to which it can be joined",
+            "how a path is shifted to another pixel: it is connected to the next surface, or replayed with the same "
+            "numbers up to the light, or up to a surface to which it can be connected",
             read_shift, shift_text, {"reconnection", "replay", "hybrid"});
   return fields;
 }
@@ -102,14 +103,14 @@ EntitySpec restir_di_spec() {
 
 EntitySpec restir_gi_spec() {
   return {"restir-gi",
-          "path tracing whose light at the first rough surface is resampled over pixels and frames, where paths can be "
-          "joined to the next surface (ReSTIR GI)",
+          "path tracing whose light at the first rough surface is resampled over pixels and frames, if paths can be "
+          "connected to the next surface (ReSTIR GI)",
           specs_of("restir-gi")};
 }
 
 EntitySpec restir_pt_spec() {
   return {"restir-pt",
-          "path tracing whose paths behind the first rough surface are resampled over pixels and frames (ReSTIR PT)",
+          "path tracing whose paths beyond the first rough surface are resampled over pixels and frames (ReSTIR PT)",
           specs_of("restir-pt")};
 }
 

@@ -166,7 +166,7 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
 static Fields<TracePathSettings> tracepath_fields() {
   Fields<TracePathSettings> fields;
   fields
-      .number("p-emit", &TracePathSettings::p_emit, "probability of taking emitted light where there is both", 0.001,
+      .number("p-emit", &TracePathSettings::p_emit, "probability of using emitted light where there is both", 0.001,
               0.999)
       .integer("roulette-depth", &TracePathSettings::roulette_depth, "scattering events before roulette", 0, 64)
       .other(max_depth_spec());
@@ -175,7 +175,7 @@ static Fields<TracePathSettings> tracepath_fields() {
 
 EntitySpec tracepath_spec() {
   return {"tracepath",
-          "the recursive TracePath of COS 526, made right: emitted or reflected light; a light, and elsewhere",
+          "the recursive TracePath of COS 526, corrected: emitted or reflected light; a light, and elsewhere",
           tracepath_fields().specs({})};
 }
 
