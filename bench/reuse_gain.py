@@ -2,7 +2,7 @@
 """What reuse gains: the comparisons of docs/reuse.md, with one command. Prints their table as Markdown.
 
 Everything is kept in the folder: scenes, references, one saved comparison for each name and its result. What is there
-already is not done again, so a run that was broken off goes on, and the table is of all that is there.
+already is not done again, so an interrupted run continues, and the table contains all finished results.
 """
 import argparse
 import json
@@ -18,7 +18,7 @@ LEARNS = "temporal=on,chain=4,warm-up=2"  # a short past pays where all time cou
 
 @dataclass
 class Reference:
-    """A picture that methods are held against; `seed` is none that `compare` takes."""
+    """A reference image; `seed` is one that `compare` does not use."""
 
     scene: str
     integrator: str

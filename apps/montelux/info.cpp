@@ -97,7 +97,7 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
   fmt::print("picture   {} x {} pixels", info.width, info.height);
   if (info.crop != PixelBounds{0, 0, info.width, info.height})
     fmt::print(", of these {},{},{},{}", info.crop.x0, info.crop.y0, info.crop.x1, info.crop.y1);
-  fmt::print("; {} samples a pixel\n", info.samples);
+  fmt::print("; {} samples per pixel\n", info.samples);
   fmt::print("by        camera {}, film {}, filter {}, sampler {}, integrator {}", info.camera, info.film, info.filter,
              info.sampler, info.integrator);
   if (info.max_depth) fmt::print(" up to {} scattering events", *info.max_depth);

@@ -3,7 +3,7 @@
 
 usage: bench/cycles/compare.py [--montelux PATH] [--width W] [--samples N] [--pictures K] [--threads T] [--work DIR]
 
-Needs blender, oiiotool and numpy. Each renderer is held against the mean of its own pictures: v is the variance over
+Needs blender, oiiotool and numpy. Each renderer is compared with the mean of its own images: v is the variance over
 the K pictures per pixel and channel, m their mean, relMSE = mean(v / (m^2 + 0.01)). Time is the slope of user + system
 seconds between N / 8 and N samples, so that loading is counted apart."""
 import argparse

@@ -55,7 +55,7 @@ struct AnimationInfo {
   double seconds = 0;
 };
 
-// What is in a scene, for people.
+// A description of a scene for the user.
 struct SceneInfo {
   std::string file;
   int width = 0, height = 0;
@@ -67,8 +67,8 @@ struct SceneInfo {
   std::optional<int> max_depth;  // that the file states
   bool moves = false;            // the camera or a shape
   double transforms_start = 0, transforms_end = 1, shutter_open = 0, shutter_close = 1;  // in the scene's unit of time
-  // What the frames of a sequence share out, how many there are in a unit of time where nothing else is asked for, and
-  // how many of those asked for (from the first) the scene has motion for.
+  // The time that the frames of a sequence divide, their default number per unit of time, and
+  // how many of the requested ones (from the first) the scene has motion for.
   double time_start = 0, time_end = 1;
   std::optional<double> frame_rate;
   int frames_held = 1 << 30;

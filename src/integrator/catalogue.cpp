@@ -127,8 +127,7 @@ Made make_restir(const Request& r) {
     settings->visibility_reuse = true;
     note =
         "visibility-reuse is on, because surfaces here have alpha masks or are mixed with interfaces (with bsdf=off it "
-        "may "
-        "be off)";
+        "may be off)";
   }
   ChosenIntegrator chosen{name, {}, {}, {}, std::make_unique<RestirIntegrator>(r.scene, r.accel, *settings)};
   if (!note.empty()) chosen.notes.push_back(std::move(note));

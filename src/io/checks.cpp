@@ -156,7 +156,7 @@ class RangeCheck {
   }
   bool in_range(double value) {
     if (value >= spec_.low && value <= spec_.high) return true;
-    // A float is shown as it was typed, an integer with all of its digits.
+    // A float is shown with its own digits, an integer with all of its digits.
     const auto as_float = static_cast<float>(value);
     const bool is_float = static_cast<double>(as_float) == value;
     report_.error(parameter_.where, "'" + std::string(spec_.name) + "' must " + range_of(spec_, value) + "; found " +

@@ -82,7 +82,7 @@ class Compare(ProgramTest):
         verdict = found["verdicts"][0]
         self.assertLess(verdict["efficiency_ratio"]["relmse"]["mean"],
                         verdict["efficiency_ratio_with_warm_up"]["relmse"]["mean"])
-        # What is left out is said, in every form of the results.
+        # Omissions are stated in every form of the results.
         result = self.compare(*methods, "--warm-frames", "-o", "report.html")
         self.assertRegex(result.stdout, r"not counted: \S+ m?s of warm-up in each repeat; efficiency including it")
         self.assertRegex(result.stdout, r"the warm-up of restir-di:\S+ is not counted: with it \S+ \(\S+ to \S+\) times")
@@ -175,11 +175,11 @@ class Compare(ProgramTest):
             self.assertNotIn("stored by an earlier comparison", result.stderr)
         again = self.run_program("compare", scene, "--shutter", "0:0", *common, "--repeats", 2)
         self.assertIn("stored by an earlier comparison", again.stderr)
-        # What goes on is of the moment that it was begun with: the same as all at once.
+        # A continued comparison keeps its initial settings: the result equals that of a single run.
         whole = self.run_program("compare", scene, "--shutter", "0.7:0.7", *common, "--repeats", 4)
         more = self.run_program("compare", "--resume", "0.7.json", "--repeats", 2, "--json")
         for one, other in zip(json.loads(whole.stdout)["methods"], json.loads(more.stdout)["methods"]):
-            # But for the reference, which was read from a file.
+            # Except for the reference, which was read from a file.
             self.assertAlmostEqual(one["mse"]["mean"] / other["mse"]["mean"], 1, delta=1e-3)
         scene.write_text(scene.read_text() + " ")
         self.assertIn("has changed since",

@@ -1,4 +1,4 @@
-"""montelux diff and tonemap: equal, alike but for noise, or different; each told by the exit status."""
+"""montelux diff and tonemap: equal, equal except for noise, or different; each with its exit status."""
 import json
 import unittest
 

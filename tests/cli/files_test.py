@@ -112,7 +112,7 @@ class FullDisk(FilesTest):
         self.assert_old_file_stays("run.json", *comparison, "--save", "run.json")
 
     def test_the_files_of_a_report_are_checked(self):
-        # Its status was 2 as for input that cannot be used; that the disk is full is found out after the work.
+        # Its status was 2 as for input that cannot be used; a full disk is detected only after the work.
         result = self.run_with("lab", "run", "roulette", "-q", "-o", "out", status=FAILED, preexec_fn=limit_of_size(600))
         self.assertIn(b"cannot write", result.stderr)
         self.assertEqual([p for p in (self.folder / "out").rglob("*") if p.name.startswith(".")], [])
@@ -257,7 +257,7 @@ class Bounds(FilesTest):
             usage = resource.getrusage(resource.RUSAGE_CHILDREN)
             return usage.ru_utime + usage.ru_stime
         begin = processor_time()
-        limit = 3 << 30  # bytes of address space: what asks for more is not bounded
+        limit = 3 << 30  # bytes of address space: more means that the input is not limited
         result = self.run_with(*arguments, status=status,
                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertLess(processor_time() - begin, seconds)

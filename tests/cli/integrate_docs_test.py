@@ -1,4 +1,4 @@
-"""Every example of docs/integrate.md runs, and prints what the page shows, but for times and what follows from them."""
+"""Every example of docs/integrate.md runs, and prints what the page shows, except for times and figures derived from them."""
 import re
 import shlex
 import unittest

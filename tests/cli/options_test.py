@@ -187,7 +187,7 @@ class EveryVerb(ProgramTest):
                     self.assertEqual(result.stderr, "")
                 for result in loud, loud_json:
                     self.assertEqual(result.stderr == "", verb in self.SILENT, result.stderr)
-                # Results stay, but for times and speeds; all that compare finds depends on times.
+                # Results stay, except for times and speeds; all results of compare depend on times.
                 figures = re.compile(r"^time .*$|[\d.e+-]+( m?s\b)?| +", re.MULTILINE)
                 shown, left = (figures.sub("", result.stdout) for result in (loud, quiet))
                 if verb in self.BRIEF:

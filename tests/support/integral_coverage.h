@@ -9,7 +9,7 @@
 
 namespace montelux::test {
 
-// A problem with everything that any method asks for: the control variate is the plane through the function's values at
+// A problem with everything that any method needs: the control variate is the plane through the function's values at
 // the centre and near it, the densities are triangles about 1/4 and 3/4 of every axis mixed with the uniform density.
 inline lab::Problem genz_problem(const Genz& g) {
   lab::Problem problem{.integrand = g.integrand()};

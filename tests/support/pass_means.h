@@ -100,7 +100,7 @@ inline MeansVerdict compare_means(const PassMeans& a, const PassMeans& b, double
       v.image_difference = x.mean / y.mean - 1;
       v.image_error = std::hypot(x.standard_error(), y.standard_error()) / y.mean;
     }
-    // Blocks of sky alone have no noise to speak of: they are alike but for rounding.
+    // Blocks of sky alone have negligible noise: they are equal up to rounding.
     if (std::abs(x.mean - y.mean) <= 1e-5 * std::abs(y.mean)) continue;
     const double p = welch_test(x, y).p_value;
     if (p < v.smallest_p) v.difference = x.mean / y.mean - 1;

@@ -1,5 +1,5 @@
 // Short sequences with a camera and a thing that move, and how they are measured: picture by picture over independent
-// chains, each of which goes on from its own of the picture before.
+// chains, each of which continues its own of the previous image.
 #pragma once
 #include "pass_means.h"
 #include "reuse_scenes.h"

@@ -33,7 +33,7 @@ Table table_of_methods(const ComparisonResult& result) {
 Table table_of_costs(const ComparisonResult& result) {
   Table table{"costs",
               fmt::format("What one repeat took.{}", result.warm_up_counts ? "" : seconds_note),
-              {"method", "seconds", "samples a pixel", "rays"},
+              {"method", "seconds", "samples per pixel", "rays"},
               {}};
   for (const MethodResult& m : result.methods)
     table.rows.push_back({name_of(m), text_of(m.seconds), m.samples.mean, fmt::format("{:.3g}", m.rays.mean)});
@@ -119,7 +119,7 @@ Figure convergence(const ComparisonResult& result, bool by_time) {
   Figure figure;
   figure.name = by_time ? "by-time" : "by-samples";
   figure.caption = "Mean squared error of single passes of 1, 2, 4, … samples, with 95 % bars over the repeats.";
-  figure.x = {by_time ? "seconds" : "samples a pixel", true, {}, {}};
+  figure.x = {by_time ? "seconds" : "samples per pixel", true, {}, {}};
   figure.y = {"mse", true, {}, {}};
   int color = 0;
   for (const MethodResult& m : result.methods) {

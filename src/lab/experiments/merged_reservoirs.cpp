@@ -59,7 +59,7 @@ Findings run(const Setup& setup) {
   for (std::uint32_t i = 0; i < total; ++i) truth.x.push_back(i + 1);
   figure.curves = {histogram("one stream", long_counts, 0.5, total + 0.5),
                    histogram("merged", merged_counts, 0.5, total + 0.5), truth};
-  // Two samples of one size, held against each other.
+  // Compares two samples of equal size.
   double chi_square = 0;
   for (std::uint32_t i = 0; i < total; ++i)
     chi_square += std::pow(long_counts[i] - merged_counts[i], 2) / (long_counts[i] + merged_counts[i]);

@@ -55,7 +55,7 @@ struct Ensemble {
   }
 };
 
-// The mean of x over the chains as they go on, plain and weighted by their starts.
+// The mean of x over the chains by number of steps, plain and weighted by their starts.
 struct History {
   Curve plain{"mean of $x$ over the chains", Mark::points, {}, {}, {}, {}};
   Curve weighted{"weighted by $g(x_0)/p(x_0)$", Mark::points, {}, {}, {}, {}};
@@ -99,7 +99,7 @@ std::vector<double> autocorrelation(RandomStream<float> stream, const Mutation& 
   return correlation;
 }
 
-// The weighted means of one set of chains hang together, so the largest deviation is held against the level of all.
+// The weighted means of one set of chains are correlated, so the largest deviation is tested at the level of all.
 Check weighted_check(const std::vector<double>& z) {
   double largest = 0;
   for (double value : z) largest = std::max(largest, std::abs(value));

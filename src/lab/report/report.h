@@ -72,7 +72,7 @@ struct MeasuredPicture {
   int width = 0, height = 0;
   std::vector<float> mean;
   std::vector<float> error;                 // standard error of the mean; empty: exact
-  std::vector<std::vector<float>> repeats;  // luminance by repeat, one a pixel; may be empty
+  std::vector<std::vector<float>> repeats;  // luminance by repeat, one value per pixel; may be empty
   double samples = 0;                       // a pixel, in each repeat
   std::string set = "pictures";             // those of one set are shown together
 };

@@ -30,7 +30,7 @@ struct StatedProblem {
   std::vector<DensityFacts> densities;
 };
 
-// `mistakes` are for people: a sentence each, where it applies with the text and a caret below. `notes` say what the
+// `mistakes` are messages: a sentence each, if applicable with the text and a caret below. `notes` say what the
 // result suffers from.
 struct StatementReading {
   std::optional<StatedProblem> stated;

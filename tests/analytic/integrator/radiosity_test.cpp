@@ -26,7 +26,7 @@ Film render_film(const TestScene& scene, const std::string& way, PassPlan plan, 
   return render(chosen.any(), scene.settings(PointSetKind::independent, plan, seed, threads), silent).film;
 }
 
-// Whether the mean is not told apart from the closed form times `off`.
+// Whether the mean is indistinguishable from the closed form times `off`.
 bool finds(const std::string& scene_name, const std::string& way, double level, double off = 1) {
   constexpr int passes = 8;
   const TestScene scene(read_text(folder / scene_name), folder.string());

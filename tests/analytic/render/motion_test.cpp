@@ -94,7 +94,7 @@ TEST(Motion, that_does_not_take_place_is_the_scene_at_rest) {
   EXPECT_GT(min_p_value(at_start, rendered(start, 2).film), level);
   EXPECT_GT(min_p_value(at_end, rendered(end, 3).film), level);
   EXPECT_LT(min_p_value(at_start, at_end), level);
-  // A shutter that closes as it opens is not the one that the scene asks for.
+  // A shutter that closes as it opens is not the one that the scene states.
   EXPECT_LT(min_p_value(at_start, rendered(moving, 4).film), level);
 }
 

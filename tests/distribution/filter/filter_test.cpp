@@ -177,7 +177,7 @@ TEST(Filter, weights_of_tabulated_filters_have_mean_one_by_quadrature) {
     double magnitude = integral([&](double x) { return std::abs(c.profile(x)); }, -c.radius, c.radius) /
                        integral(c.profile, -c.radius, c.radius);
     EXPECT_GT(centre, 0);
-    // The table has steps at multiples of the nodes' distance: what is left is the rounding of single numbers.
+    // The table has steps at multiples of the nodes' distance: the remainder is the rounding of single numbers.
     EXPECT_NEAR(fixed / mean, magnitude, 1e-5) << c.name;
   }
 }

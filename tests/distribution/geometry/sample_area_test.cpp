@@ -115,7 +115,7 @@ TEST(Area, equals_that_by_counting_the_hits_of_random_lines) {
     for (const NamedShape& k : shapes_at(float(s))) {
       test::SampleSummary lines = area_by_lines(k, r);
       EXPECT_GT(test::z_test(lines.mean, lines.standard_error(), area(k.shape)).p_value, level) << k.name << " " << s;
-      // The twin: an area two percent too large is found out.
+      // The twin: an area two percent too large is detected.
       if (k.name == "sphere") {
         EXPECT_LT(test::z_test(lines.mean, lines.standard_error(), 1.02 * area(k.shape)).p_value, test::family_level);
       }

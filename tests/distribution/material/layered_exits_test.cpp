@@ -19,7 +19,7 @@ struct Estimates {
   SampleSummary consistent, reversed;
 };
 
-// One bounce off Lambert's law under a rough coat: f |cos| from wo to wi by both techniques, written down afresh from
+// One bounce off Lambert's law under a rough coat: f |cos| from wo to wi by both techniques, reimplemented from
 // the coat alone, with the right weights and with the density of the reversed directions for the second technique.
 Estimates two_techniques(const Dielectric<float>& coat, Vec3f wo, Vec3f wi, int count, std::uint32_t seed) {
   RandomStream<float> random(seed, 17u);

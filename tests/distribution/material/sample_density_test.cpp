@@ -1,5 +1,5 @@
 // What models draw follows the density that they state: those whose density is a closed form, and those that have one
-// where exact densities are asked for.
+// where exact densities are requested.
 #include <gtest/gtest.h>
 
 #include "cases.h"
@@ -55,7 +55,7 @@ TEST(BsdfDistribution, a_density_that_leans_to_one_side_is_rejected) {
 
 TEST(BsdfDistribution, weight_is_value_over_density) {
   for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
-    // A value that is itself drawn is drawn afresh.
+    // A value that is itself random is sampled again.
     const bool is_drawn = std::is_same_v<Model, CoatedDiffuse<float>> && c.row.v[CoatedDiffuseSlots::internal] > 0;
     if (is_drawn || model.is_delta()) return;
     RandomStream<float> stream(5, 6);

@@ -1,4 +1,4 @@
-// Reservoirs that go on over the pictures of a sequence against the path tracer of each picture: image mean and blocks,
+// Reservoirs that continue over a sequence, against the path tracer of each picture: image mean and blocks,
 // over independent chains, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 

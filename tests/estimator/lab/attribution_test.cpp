@@ -1,4 +1,4 @@
-// Where variance comes from, of layers whose covariances are known; and comparisons that go on.
+// Attribution of variance to layers with known covariances; and comparisons that are continued.
 #include "lab/compare/attribution.h"
 
 #include <gtest/gtest.h>

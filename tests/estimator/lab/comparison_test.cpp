@@ -18,7 +18,7 @@ using namespace montelux::test;
 
 // Every sample is `mean` plus noise of standard deviation `sigma`, uniform in distribution, and takes so many
 // nanoseconds of the clock, if there is one. `together`: all pixels have the same noise. Two of the same `first`
-// dimension have the same noise in a comparison, but for its size.
+// dimension have the same noise in a comparison, except for its size.
 class Noise final : public PixelIntegrator {
  public:
   Noise(float mean, float sigma, bool together = false) : mean_(mean), sigma_(sigma), together_(together) {}
@@ -366,7 +366,7 @@ TEST(Comparison, makes_a_reference_that_is_good_enough) {
     EXPECT_LE(variance_by(by, r), goal.variance[by]);
   // Two fifths of the samples would not have been enough.
   EXPECT_GT(variance_by(s.measure, r), 0.4 * goal.variance[s.measure]);
-  // Independent pixels: the variance of the image mean is that of a pixel over their number, but for its spread.
+  // Independent pixels: the variance of the image mean is that of a pixel over their number, up to its spread.
   for (double v : r.variance_of_image.value()) EXPECT_LT(std::abs(std::log(v * 1024 / mean_value(r.variance))), 3);
   EXPECT_EQ(r.origin.substr(0, 2), "a,");
   EXPECT_LT(run_comparison(both, r, s, {}).reference_share[s.measure], 0.25);

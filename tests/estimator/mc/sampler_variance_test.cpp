@@ -65,7 +65,7 @@ TEST(SamplerVariance, at_an_edge_falls_faster_than_at_random) {
   }
 }
 
-// Points of one pass with a part of the construction left out, held against what the whole has.
+// Points of one pass with a part of the construction omitted, compared with the complete one.
 TEST(SamplerVariance, shows_what_is_missing_from_a_construction) {
   const int m = 8;
   const auto variance_of = [&](auto points) {

@@ -73,7 +73,7 @@ TEST(ErrorBarsOfReuse, cover_the_truth_as_often_as_they_say) {
   EXPECT_TRUE(low <= of_images.low && of_images.high <= high);
 }
 
-// The last picture of a sequence, whose chains go on from those of the pictures before it.
+// The last picture of a sequence, whose chains continue those of the previous images.
 Coverage coverage_of_sequence(const TestScene& scene, const char* way, int count) {
   const ChosenIntegrator chosen = scene.integrator(way);
   const auto film_of = [&](std::uint32_t seed) {
@@ -129,7 +129,7 @@ TEST(ErrorBarsOfSequence, cover_the_image_behind_slats_and_estimate_its_error) {
   }
 }
 
-// Frames that learn from the frames before them, each taken for a pass of its own: their error bars must be found too
+// Frames that reuse previous frames, each treated as a separate pass: their error bars must be found too
 // small where direct light rules the error, as it does not in the box.
 TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
   struct Case {

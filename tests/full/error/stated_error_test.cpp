@@ -33,7 +33,7 @@ class StatedErrorOfScene : public testing::TestWithParam<ErrorScene> {
 }  // namespace
 
 // In the mean of 20 pictures within 0.8 to 1.25, as far as these can tell; and the divisor that shares the noise is
-// found out at few samples.
+// detected at few samples.
 TEST_P(StatedErrorOfScene, is_the_true_one_in_the_mean) {
   const auto scene = file();
   if (!scene) GTEST_SKIP() << "MONTELUX_SCENES has no " << GetParam().name;

@@ -1,6 +1,6 @@
 // Every scene that has a reference picture: Welch tests of the image mean and of 8x8 blocks, family-wise 1 % over all
 // scenes, at a relative standard error of the image mean of 0.3 % or better. Prints the table of docs/validation.md.
-// MONTELUX_REFERENCE_SAMPLES states the samples a pixel (default 512).
+// MONTELUX_REFERENCE_SAMPLES states the samples per pixel (default 512).
 #include <gtest/gtest.h>
 
 #include <algorithm>

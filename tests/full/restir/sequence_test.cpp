@@ -1,4 +1,4 @@
-// Reservoirs that go on over the pictures of a sequence against the path tracer of each picture, at a standard error of
+// Reservoirs that continue over a sequence, against the path tracer of each picture, at a standard error of
 // the image of 0.2 % or less, at one level for all tests together. Planted faults must be found.
 #include <gtest/gtest.h>
 

@@ -245,7 +245,7 @@ TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
                   {"restir-di:radius=4", "restir-di:radius=4,weights=pairwise"});
 }
 
-// Paths of several bounces, whose frames learn from the frames before.
+// Paths of several bounces, whose frames reuse the previous frames.
 TEST(ReuseSlope, of_paths_is_minus_one_to_ten_thousand_chains) {
   const ReuseScene text = path_reuse_scenes(size)[0];
   ASSERT_EQ(text.name, "indirect");

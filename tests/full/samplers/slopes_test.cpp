@@ -49,7 +49,7 @@ Range theory(PointSetKind kind, const SquareIntegrand& f) {
   const bool edge = f.f == square_disk.f || f.f == square_triangle.f;
   const bool lattice = kind == PointSetKind::lattice, halton = kind == PointSetKind::halton;
   if (f.f == line_exp.f) return lattice ? Range{-2, -2} : Range{-3, -3};
-  // Straight edges: a lattice may meet them better than its rate for curved ones, up to -2 but for logarithms.
+  // Straight edges: a lattice may meet them better than its rate for curved ones, up to -2 except for logarithms.
   if (edge) return {lattice || halton ? -2.1 : -1.7, -1.3};
   if (kind == PointSetKind::stratified) return {-2.1, -1.9};
   // Powers of two are no round numbers in base 3: between the rates -2 and -3.

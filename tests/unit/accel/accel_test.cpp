@@ -55,7 +55,7 @@ struct Answer {
   Hit<float> hit;
 };
 
-// Every lane of F asks a ray of its own, but for every third lane, which is off and must find nothing.
+// Every lane of F traces its own ray, except every third lane, which is off and must find nothing.
 template <class F>
 std::vector<Answer> ask(const Accel& accel, const std::vector<Ray<float>>& rays) {
   std::vector<Answer> answers;

@@ -216,7 +216,7 @@ TEST(Film, image_has_the_passes_of_the_tile_that_has_fewest) {
   EXPECT_EQ(halves({0, 1, 2}, {}).image().passes, 0);
 }
 
-// A render that was interrupted has more passes of some tiles than of others. What goes on from there pairs passes by
+// A render that was interrupted has more passes of some tiles than of others. The continued render pairs passes by
 // their numbers.
 TEST(Film, passes_of_tiles_meet_by_their_numbers) {
   Film film = halves({0, 1}, {0});

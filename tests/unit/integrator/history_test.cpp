@@ -13,7 +13,7 @@ namespace {
 
 constexpr int size = 64;
 
-// Boards and balls before a wall, all at rest but for one mesh and one ball; the camera pans and rolls a little.
+// Boards and balls before a wall, all static except one mesh and one ball; the camera pans and rolls a little.
 std::string panning_scene() {
   std::string text =
       moving_camera_head(size, "-0.5 1 -6  -0.5 0.8 0  0 1 0", "0.5 1.1 -5.5  1.2 0.8 0  0.1 1 0", 40) + R"(WorldBegin

@@ -1,4 +1,4 @@
-// Shadow rays in another order than they were asked for have the same answers.
+// Shadow rays traced in another order have the same results.
 #include "integrator/restir/shadow_ray_batch.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ void expect_the_same_answers(std::size_t count_of_packs) {
   }
   EXPECT_GT(hidden, int(asked) / 3);
   EXPECT_LT(hidden, int(asked));
-  // Every ray once, in packs that are full but for the last one.
+  // Every ray once, in packs that are full except the last one.
   EXPECT_EQ(counts.shadow, asked);
   EXPECT_EQ(sizes.size(), (asked + lanes_of<F> - 1) / lanes_of<F>);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-// A picture of one colour but for one texel, rows from the top, in the portable float format (rows from the bottom).
+// An image of one colour except for one texel, rows from the top, in the portable float format (rows from the bottom).
 std::string picture(int width, int height, int bright_x, int bright_y) {
   std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
   for (int y = height - 1; y >= 0; --y)

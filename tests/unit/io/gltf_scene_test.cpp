@@ -1,4 +1,4 @@
-// What becomes of the parts of a glTF document, held against what the specification says of them.
+// The parts of a glTF document after reading, compared with the specification.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -82,7 +82,7 @@ const std::map<std::string, std::string, std::less<>>& values() {
   return all;
 }
 
-// What stands beside a parameter, since it means nothing alone; by its name, after a colon: of one entity.
+// What accompanies a parameter that is meaningless alone; by its name, after a colon: of one entity.
 const std::map<std::string, std::string, std::less<>>& companions() {
   static const std::map<std::string, std::string, std::less<>> all{
       {"v1", "\"string mapping\" \"planar\""},

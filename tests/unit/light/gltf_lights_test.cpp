@@ -70,7 +70,7 @@ TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   EXPECT_EQ(radiance({w.x, -w.y, w.z}), 0);
 }
 
-// A triangle over one part of an image that is black but for one texel: how often it is chosen beside a triangle that
+// A triangle over one part of an image that is black except one texel: how often it is chosen beside a triangle that
 // shines everywhere.
 double share_of_triangle(Vec2f low, Vec2f high, int bright_x, int bright_y) {
   auto image = std::make_shared<LightImage>();

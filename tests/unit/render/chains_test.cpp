@@ -165,7 +165,7 @@ TEST(Chains, do_not_show_their_warm_up) {
   EXPECT_GT(differ, 500);  // or any frames would do
 }
 
-// Stops as soon as it is asked.
+// Stops at the first query.
 class StopsAtOnce final : public RenderObserver {
  public:
   bool stop_requested() override { return true; }
@@ -279,7 +279,7 @@ TEST(Chains, find_the_same_history_in_a_crop) {
   const ReuseMemory &whole = opened(*of_all[0]), &own = opened(*of_crop[0]);
   ASSERT_EQ(own.bounds, crop);
   int with_history = 0;
-  // But for the edge, whose history may be outside.
+  // Except for the edge, whose history may be outside.
   for (int y = crop.y0 + 1; y < crop.y1 - 1; ++y)
     for (int x = crop.x0 + 1; x < crop.x1 - 1; ++x) {
       const float confidence = own.lights[pixel_number(crop, x, y)].confidence;
@@ -325,7 +325,7 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(memories[0]->bytes(), of_one);
   EXPECT_EQ(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
-  // The next picture: chain 0 goes on, and the others begin afresh. What they had before takes none of the room.
+  // The next image: chain 0 continues, and the others restart. Their earlier histories use no memory.
   s.max_memory = 3 * of_one, s.seed = 6;
   const RenderResult next = render(chosen.any(), s, silent);
   EXPECT_EQ(next.forgotten, 0);
@@ -364,7 +364,7 @@ TEST(Chains, without_a_picture_before_begin_afresh) {
   ChainMemories idle;
   second_picture("restir-pt:candidates=2,neighbours=0", 3, 2, idle);
   for (const auto& memory : idle) EXPECT_EQ(memory, nullptr);
-  // Nor does a chain go on from a picture further back, where the one between had no chain of its number.
+  // Nor does a chain continue an earlier image if the one in between had no chain with its number.
   ChainMemories gap;
   second_picture("restir-di:candidates=2,neighbours=0", 3, 2, gap);
   ASSERT_EQ(gap.size(), 3u);

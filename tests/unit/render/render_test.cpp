@@ -222,7 +222,7 @@ TEST(Render, a_finished_render_is_not_interrupted) {
   EXPECT_EQ(slow.calls(), 5 * 6);
 }
 
-// Without end but for the time.
+// Without end except for the time.
 RenderResult render_in_time(std::chrono::microseconds pause, double seconds) {
   const Slow slow(pause);
   RenderObserver silent;

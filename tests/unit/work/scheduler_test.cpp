@@ -115,7 +115,7 @@ TEST(Scheduler, throws_what_the_lowest_unit_has_thrown) {
     EXPECT_STREQ(error.what(), "unit 1");
   }
   EXPECT_LT(started, 100);
-  // It goes on working.
+  // It continues to work.
   EXPECT_EQ(scheduler.run(10, [](std::size_t, int) {}), 10u);
 }
 
