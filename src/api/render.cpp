@@ -26,7 +26,7 @@ std::vector<std::string_view> views_of(const std::vector<std::pair<std::string, 
   return names;
 }
 
-// The layers that a scene has of those that were asked for.
+// The requested layers that exist for the scene.
 Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrator& chosen, const Scene& scene) {
   if (!chosen.integrator || !chosen.integrator->has_layers()) {
     const bool clamped =

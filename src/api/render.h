@@ -87,7 +87,7 @@ struct SequencePicture {
 };
 
 // Pictures of one scene with the same options, one after the other: what an integrator prepares is prepared once, and
-// what its chains have learned goes on from each picture to the next, where it can.
+// the state of its chains continues from each image to the next, where possible.
 class PictureSequence {
  public:
   // Fails as render_scene() does. The scene must outlive it.
@@ -109,12 +109,12 @@ class PictureSequence {
 Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer);
 
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
-// P.X ...; Z; samples; id. Then those of light, where they were asked for: bounce0.R ..., Combined_key.R ..., and with
+// P.X ...; Z; samples; id. Then the requested layers of light: bounce0.R ..., Combined_key.R ..., and with
 // errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding. Motion is
 // motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
 
-// How an 8-bit picture shows the colours, by what is asked for and by the picture itself.
+// How an 8-bit picture shows the colours, by the request and by the image itself.
 ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The

@@ -48,7 +48,7 @@ class Scene {
   // Default: "perspective", at the origin, looking along +z.
   void set_camera(Model camera, const Transform& camera_to_world = {});
   void set_filter(Model filter);          // of pixels; default: "gaussian"
-  void set_sampler(Model sampler);        // default: "zsobol", served by "blue-noise"
+  void set_sampler(Model sampler);        // default: "zsobol", replaced by "blue-noise"
   void set_integrator(Model integrator);  // default: "path"
 
   MaterialId add_material(Model material);

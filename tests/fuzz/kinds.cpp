@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 using Examples = std::vector<std::string>;
 
 constexpr std::pair<int, int> resolution{8, 6};
-// The longest that a render of a few pixels may take before it is asked to stop.
+// The longest that a render of a few pixels may take before a stop is requested.
 constexpr double max_seconds = 2;
 
 void require(bool holds, const std::string& rule) {

@@ -42,7 +42,7 @@ class StatedErrors {
     scene_.emplace(*std::move(loaded.scene));
   }
 
-  // By seeds, of pictures with so many samples a pixel.
+  // By seeds, for images with this many samples per pixel.
   void render(int samples, int seeds) {
     for (int i = 0; i < seeds; ++i) {
       RenderOptions options;

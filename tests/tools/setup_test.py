@@ -1,4 +1,4 @@
-"""tools/setup asks apt-get for what is missing and for nothing else; the package system is played by small scripts."""
+"""tools/setup requests from apt-get what is missing and for nothing else; the package system is played by small scripts."""
 import os
 import subprocess
 import tempfile

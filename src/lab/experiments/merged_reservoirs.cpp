@@ -67,7 +67,7 @@ Findings run(const Setup& setup) {
   findings.sections = {figure};
   findings.checks = {counts_check("One long stream chooses in proportion to the weights.", long_counts, probabilities),
                      counts_check("Four merged streams do so too.", merged_counts, probabilities),
-                     chi_square_check("The two cannot be told apart.", chi_square, total - 1),
+                     chi_square_check("The two are indistinguishable.", chi_square, total - 1),
                      exact_check("The merged reservoir knows the sum of all weights and how many elements were seen.",
                                  sums_agree, "in every realisation")};
   return findings;

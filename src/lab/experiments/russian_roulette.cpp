@@ -75,7 +75,7 @@ const Experiment russian_roulette{
         "A random variable is kept with the probability $q$ and then divided by it, and is zero otherwise. Does the "
         "expectation stay, what happens to the variance, and when does it pay? (The text calls $q$ the probability of "
         "ending; "
-        "it is that of going on.)",
+        "it is that of survival.)",
     .formula =
         R"(Z = \begin{cases}Y/q & \xi < q\\ 0 & \text{otherwise}\end{cases},\qquad E[Z] = q\,\frac{E[Y]}q + (1-q)\cdot 0 = E[Y],\qquad V[Z] = \frac{E[Y^2]}q - E[Y]^2)",
     .source = "Bulant, Monte Carlo integrování, ending the recursion by Russian roulette",

@@ -95,14 +95,14 @@ bool agrees(const Measured& m, double value, double level) {
   return m.standard_error > 0 && 2 * student_t_cdf(-distance / m.standard_error, passes - 1) >= level;
 }
 
-// 1/Z weights have tails so long that the spread of a few passes says nothing: with frames that learn from those
+// 1/Z weights have tails so long that the spread of a few passes says nothing: with frames that reuse those
 // before, in coated furnaces (in these the standard error of a render grows with its samples), and in the corner of two
 // squares. Their mean is right over thousands (tests/estimator/integrator and tests/full/restir hold these weights).
 bool has_an_error(const std::string& way, const std::string& scene) {
   return way.find("weights=unbiased") == std::string::npos || scene != "corner-squares.pbrt";
 }
 
-// Holds every way against the closed form of every scene. Each way would be found out, in most of the scenes, if its
+// Holds every way against the closed form of every scene. Each way would be detected, in most of the scenes, if its
 // means were a tenth too large or too small.
 void hold_to_closed_forms(const std::vector<Expected>& scenes, const std::vector<std::string>& ways, int samples) {
   const double level = sidak_level(family_level, double(scenes.size() * ways.size()));

@@ -14,7 +14,7 @@ namespace {
 const std::filesystem::path folder = MONTELUX_SOURCE_DIR "/docs/lab";
 const std::filesystem::path contents = MONTELUX_SOURCE_DIR "/docs/lab.md";
 constexpr std::string_view marker =
-    "<!-- What follows is printed from the table of experiments; the test of it can write it anew. -->\n";
+    "<!-- What follows is printed from the table of experiments; the test of it can rewrite it. -->\n";
 
 std::string read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -45,7 +45,7 @@ TEST(LabDocument, holds_the_experiments_as_they_are) {
   const std::size_t at = text.find(marker);
   ASSERT_NE(at, std::string::npos) << contents;
   const std::string list = text.substr(0, at + marker.size()) + list_of(pages);
-  // To write it anew: MONTELUX_WRITE_DOCUMENTS=1 analytic_lab --gtest_filter=LabDocument.*
+  // To rewrite it: MONTELUX_WRITE_DOCUMENTS=1 analytic_lab --gtest_filter=LabDocument.*
   if (std::getenv("MONTELUX_WRITE_DOCUMENTS")) {
     write(contents, list);
     for (const ExperimentPage& page : pages) {

@@ -1,6 +1,6 @@
 // The variance of every point set against the number of points, N = 1, 2, 4, ..., 4096, and its exponent with its
 // error, held to theory; and the variance of a picture by the samples of a pass. Both tables are those of
-// docs/samplers.md. To write them anew: MONTELUX_WRITE_DOCUMENTS=1 full_samplers
+// docs/samplers.md. To rewrite them: MONTELUX_WRITE_DOCUMENTS=1 full_samplers
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -13,7 +13,7 @@ namespace {
 
 const std::string document = MONTELUX_SOURCE_DIR "/docs/formats.md";
 constexpr std::string_view marker =
-    "<!-- What follows is printed from the tables; the test of it can write it anew. -->\n";
+    "<!-- What follows is printed from the tables; the test of it can rewrite it. -->\n";
 
 std::string read_document() {
   std::ifstream file(document, std::ios::binary);
@@ -27,7 +27,7 @@ TEST(FormatsDocument, holds_the_tables_as_they_are) {
   std::size_t at = text.find(marker);
   ASSERT_NE(at, std::string::npos) << document;
   std::string before = text.substr(0, at + marker.size());
-  // To write it anew: MONTELUX_WRITE_DOCUMENTS=1 unit_io --gtest_filter=FormatsDocument.*
+  // To rewrite it: MONTELUX_WRITE_DOCUMENTS=1 unit_io --gtest_filter=FormatsDocument.*
   if (std::getenv("MONTELUX_WRITE_DOCUMENTS"))
     std::ofstream(document, std::ios::binary) << before << "\n" << pbrt_reference();
   EXPECT_EQ(read_document(), before + "\n" + pbrt_reference());
