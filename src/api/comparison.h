@@ -118,7 +118,7 @@ Result<Comparison> continue_comparison(const LoadedScene& scene, SavedComparison
 std::uint64_t scene_fingerprint(const std::filesystem::path& scene,
                                 const std::optional<EnvironmentOptions>& environment = {},
                                 const std::vector<std::string>& written = {});
-Status save_contest(const std::filesystem::path& file, const SavedContest& contest);
+Status save_comparison(const std::filesystem::path& file, const SavedComparison& comparison);
 // Fails where the file cannot be read, is of another kind or version, or its scene has changed.
 Result<SavedComparison> load_comparison(const std::filesystem::path& file);
 

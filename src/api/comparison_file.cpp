@@ -75,8 +75,8 @@ Json options_json(const ComparisonOptions& o) {
   if (o.crop) json["crop"] = {o.crop->x0, o.crop->y0, o.crop->x1, o.crop->y1};
   return json;
 }
-ContestOptions options_from(const Json& j) {
-  ContestOptions o;
+ComparisonOptions options_from(const Json& j) {
+  ComparisonOptions o;
   o.methods = j.at("methods").get<std::vector<std::string>>();
   o.measure = lab::ErrorMeasure::mse;
   if (j.contains("settings")) o.settings = j.at("settings").get<decltype(o.settings)>();
@@ -199,8 +199,8 @@ lab::MethodState method_from(const Json& j, std::size_t pixel_count, int max_pas
   return m;
 }
 
-SavedContest saved_from(const Json& j) {
-  SavedContest saved;
+SavedComparison saved_from(const Json& j) {
+  SavedComparison saved;
   const SavedScene scene = scene_from(j);
   saved.scene = scene.file, saved.load = scene.load, saved.fingerprint = scene.fingerprint;
   saved.options = options_from(j.at("options"));
@@ -217,7 +217,7 @@ SavedContest saved_from(const Json& j) {
 
 }  // namespace
 
-Status save_contest(const fs::path& file, const SavedContest& c) {
+Status save_comparison(const fs::path& file, const SavedComparison& c) {
   Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
   add_scene(json, {c.scene, c.load, c.fingerprint});
   json["options"] = options_json(c.options);

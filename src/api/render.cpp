@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "api/film_keeper.h"
 #include "api/parts.h"
 #include "api/shortcomings.h"
@@ -76,8 +76,8 @@ Status plan_passes(const RenderOptions& options, const AnyIntegrator& integrator
   constexpr int endless = 1 << 20;  // time ends it
   const int samples = r.plan.samples();
   if (const auto& k = options.samples_per_pass; k && *k != r.plan.samples_per_pass) {
-    if (*k < 1 || *k > most_fixed_samples)
-      return Failure{fmt::format("a pass has from 1 to {} samples a pixel; found {}", most_fixed_samples, *k)};
+    if (*k < 1 || *k > max_fixed_samples)
+      return Failure{fmt::format("a pass has from 1 to {} samples a pixel; found {}", max_fixed_samples, *k)};
     // A saved film has those that it was made with.
     const bool as_saved = options.resume && !options.samples;
     if (is_fixed(r.sampler) && !as_saved)
@@ -161,7 +161,7 @@ Result<Plan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& o
                : plan_passes(plan.chosen.any(), options.samples.value_or(preset ? preset->eye_rays : picture.samples),
                              r.sampler);
   if (Status good = plan_passes(options, plan.chosen.any(), r); !good) return good.failure();
-  if (is_fixed(r.sampler) && r.plan.samples_per_pass > most_fixed_samples)
+  if (is_fixed(r.sampler) && r.plan.samples_per_pass > max_fixed_samples)
     return Failure{fmt::format("sampler {} supports at most {} samples, all in one pass; found {}", name_of(r.sampler),
                                max_fixed_samples, r.plan.samples_per_pass)};
   return plan;

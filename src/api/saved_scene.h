@@ -4,7 +4,7 @@
 #include <charconv>
 #include <limits>
 
-#include "api/contest.h"
+#include "api/comparison.h"
 #include "api/saved_file.h"
 #include "lab/report/base64.h"
 

@@ -174,7 +174,7 @@ Made make_light(const Request& r) {
         "an orthographic camera sees the sky in a few directions, which no path from the sky takes: the picture is "
         "black where no surface is");
   }
-  const auto turns = [](const GeometryRow& row) { return (row.flags & GeometryRow::turns_to_ray) != 0; };
+  const auto turns = [](const GeometryRow& row) { return (row.flags & GeometryRow::ray_facing) != 0; };
   if (std::ranges::any_of(r.scene.geometry.rows, turns)) {
     chosen.biases.push_back("curves that face the light");
     chosen.notes.push_back(
