@@ -245,8 +245,8 @@ void print_integral_warnings(const std::vector<IntegralRun>& runs) {
 void add_output_options(CLI::App& verb, IntegralOutput& output) {
   verb.add_flag("--json", output.json, "results as one JSON object");
   verb.add_flag("--csv", output.csv, "results as a table of comma-separated values")->excludes("--json");
-  verb.add_flag("--quiet", output.quiet, "no progress, notes or warnings, and of the results the values alone");
-  verb.add_flag("--strict", output.strict, "exit status 1 where a warning says that a result is less than it claims");
+  verb.add_flag("--quiet", output.quiet, "no progress, notes or warnings, and only the values of the results");
+  verb.add_flag("--strict", output.strict, "exit status 1 if a result has a warning");
 }
 
 int print_integrals(const IntegralOutput& output, const IntegralOptions& options,

@@ -62,7 +62,7 @@ Result<double> parse_confidence(const std::string& text) {
   return Failure{fmt::format("takes a probability between 0 and 1, such as 0.95 or 95%; found \"{}\"", text)};
 }
 
-// The integral of a file, with the budget that is asked for now, or else what is left of the file's.
+// The integral of a file, with the budget that is stated now, or else what is left of the file's.
 Result<SavedIntegral> resumed(const IntegrateArguments& arguments) {
   const IntegralOptions& now = arguments.integral;
   const lab::IntegralStatement& s = now.statement;

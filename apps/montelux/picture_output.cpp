@@ -98,11 +98,11 @@ void print_mean(const Rendering& rendering) {
 // The error of a pixel; never that of a part of the picture.
 std::string error_line(const Rendering& rendering) {
   const ErrorEstimate& error = rendering.error;
-  if (rendering.found_no_light) return "not known: no sample found light";
-  if (!rendering.has_pixel_error()) return "not known: it takes two independent passes of every pixel";
-  std::string line = fmt::format("{} of a pixel, root of the mean relative square", error_text(error));
+  if (rendering.found_no_light) return "unknown: no sample found light";
+  if (!rendering.has_pixel_error()) return "unknown: it takes two independent passes of every pixel";
+  std::string line = fmt::format("{} per pixel (root mean square of the relative errors)", error_text(error));
   if (error.is_unsure())
-    line += fmt::format("; few bright samples decide it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
+    line += fmt::format("; few bright samples determine it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
                         100 * std::sqrt(error.relative_high));
   return line;
 }
@@ -169,14 +169,14 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   const Outcome outcome = outcome_of(rendering);
   const double seconds = std::max(rendering.result.seconds, 1e-9);
   const int k = rendering.plan.samples_per_pass, passes = outcome.image.passes;
-  for (const std::string& file : report.files) fmt::print("picture  {}\n", file);
+  for (const std::string& file : report.files) fmt::print("image    {}\n", file);
   if (report.film) fmt::print("film     {}\n", *report.film);
   print_mean(rendering);
   fmt::print("error    {}\n", error_line(rendering));
-  if (outcome.non_finite > 0) fmt::print("not finite {} samples, which are not in the mean\n", outcome.non_finite);
+  if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
-  fmt::print("samples  {:.3g} a pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
+  fmt::print("samples  {:.3g} per pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
              count_text(outcome.samples));
   if (share < 1) fmt::print("         {:.3g} % of the pixels have samples\n", 100 * share);
   fmt::print("time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),

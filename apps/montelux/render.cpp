@@ -50,7 +50,7 @@ constexpr const char* examples = R"(Examples:
   montelux render flight.pbrt --frames 0:23 -o flight.####.exr
   montelux render walk.glb --frames 0:47 --fps 24 --shutter 0:0.02 -o walk.####.exr
   montelux render flight.pbrt --frames 0:23 --interactive-budget 33ms --integrator restir-di
-  montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the picture
+  montelux render room.pbrt --layers bounces:3,light-groups  layers that sum to the image
   montelux render room.pbrt --spp 4096 --checkpoint room.film --checkpoint-every 1m
   montelux render --resume room.film --checkpoint room.film  continues where that was interrupted
   montelux render --resume room.film --spp 8192 -o room.exr
@@ -100,8 +100,9 @@ Status check_files(const RenderArguments& arguments) {
 std::string interruption_text(const RenderArguments& arguments, const Outcome& outcome) {
   const std::string goes_on =
       arguments.checkpoint ? fmt::format("; montelux render --resume {} continues", *arguments.checkpoint) : "";
-  if (outcome.image.passes == 0) return "interrupted in the first pass; parts of the picture are missing" + goes_on;
-  return fmt::format("interrupted after {} passes; the picture is of what was done{}", outcome.image.passes, goes_on);
+  if (outcome.image.passes == 0) return "interrupted in the first pass; parts of the image are missing" + goes_on;
+  return fmt::format("interrupted after {} passes; the image contains the finished passes{}", outcome.image.passes,
+                     goes_on);
 }
 
 // One picture: written and told of. A frame that is interrupted is not written.
@@ -368,7 +369,7 @@ void add_saving_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(
       verb,
       {"--resume", "FILE",
-       "continue a saved film, up to --spp samples a pixel in all or for --time more; default: what it lacks. Its "
+       "continue a saved film, up to --spp samples per pixel in all or for --time more; default: what it lacks. Its "
        "scene and settings need not be given"},
       text_into(arguments.resume));
   add_option(verb,
@@ -379,7 +380,7 @@ void add_saving_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(
       verb,
       {"--samples-per-pass", "K",
-       "samples a pixel in each pass; default: so that there are from 8 to 32 passes, or as the saved film has it"},
+       "samples per pixel in each pass; default: so that there are from 8 to 32 passes, or as the saved film has it"},
       into(arguments.render.samples_per_pass, [](const std::string& t) { return parse_whole(t, 1, 1 << 16); }));
   verb.get_option("--passes")->excludes("--time");
   for (const char* saving : {"--checkpoint", "--resume", "--passes"})

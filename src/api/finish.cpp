@@ -63,7 +63,7 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
     add("estimatedRelativeMSE", error.relative_mse);
     add("estimatedRelativeMSELow", error.relative_low);
     add("estimatedRelativeMSEHigh", error.relative_high);
-    if (error.is_unsure()) add("unsureError", std::string("few bright samples decide the error"));
+    if (error.is_unsure()) add("unsureError", std::string("few bright samples determine the error"));
   }
   for (int c = 0; c < spectrum_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);

@@ -18,7 +18,7 @@ struct LayerRequest {
 
 // "bounces:3,light-groups,errors,motion". Fails if a word is unknown or nothing is requested.
 Result<LayerRequest> parse_layers(const std::string& text);
-// The text of a request; empty where nothing is asked for.
+// The text of a request; empty where nothing is requested.
 std::string to_text(const LayerRequest& request);
 
 }  // namespace montelux

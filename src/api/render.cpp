@@ -54,7 +54,7 @@ struct Plan {
   std::vector<Replacement> replaced;
   FilesToWrite files;
   std::string way;                      // the integrator, with its settings
-  std::optional<int> samples_per_pass;  // that are asked for
+  std::optional<int> samples_per_pass;  // that are requested
   bool motion = false;                  // of a sequence
   double preparation = 0;               // seconds that the making of the integrator took: pilots, meshes of elements
 };
@@ -77,7 +77,7 @@ Status plan_passes(const RenderOptions& options, const AnyIntegrator& integrator
   const int samples = r.plan.samples();
   if (const auto& k = options.samples_per_pass; k && *k != r.plan.samples_per_pass) {
     if (*k < 1 || *k > max_fixed_samples)
-      return Failure{fmt::format("a pass has from 1 to {} samples a pixel; found {}", max_fixed_samples, *k)};
+      return Failure{fmt::format("a pass has from 1 to {} samples per pixel; found {}", max_fixed_samples, *k)};
     // A saved film has those that it was made with.
     const bool as_saved = options.resume && !options.samples;
     if (is_fixed(r.sampler) && !as_saved)
@@ -92,7 +92,7 @@ Status plan_passes(const RenderOptions& options, const AnyIntegrator& integrator
   if (const auto& range = options.passes) {
     const bool further = options.resume && !options.samples;  // than the scene's number of samples
     if (!further && range->last >= r.plan.passes)
-      return Failure{fmt::format("there is no pass {}: {} samples a pixel are {} passes of {}, from 0 to {}",
+      return Failure{fmt::format("there is no pass {}: {} samples per pixel are {} passes of {}, from 0 to {}",
                                  range->last, samples, r.plan.passes, r.plan.samples_per_pass, r.plan.passes - 1)};
     r.first_pass = range->first, r.plan.passes = range->count();
   }
@@ -179,9 +179,8 @@ void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSetting
   const FinishTime finish = seconds_to_finish(settings.bounds, plan.files);
   const double end = all - finish.error - finish.encoding;
   if (left(all - finish.encoding) == min_share * all)
-    observer.announce(
-        fmt::format("to prepare and to write the picture takes about {:.2g} s of its own, in addition to the time",
-                    before + finish.encoding));
+    observer.announce(fmt::format("preparing and writing the image takes about {:.2g} s in addition to the time",
+                                  before + finish.encoding));
   if (settings.begun) {
     settings.seconds = left(end);
     before += since_start.seconds();
@@ -252,7 +251,7 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const Plan& plan, cons
   return film;
 }
 
-// One picture, as the plan is but for seed, shutter and memories. What the end of a picture takes goes into the plan;
+// One picture, as the plan is except seed, shutter and memories. What the end of a picture takes goes into the plan;
 // `film`, where there is one, learns how long passes are, and what the preparation took.
 Rendering render_picture(const LoadedScene::Parts& parts, Plan& plan, RenderSettings settings, RenderObserver& observer,
                          SavedFilm* film = nullptr) {

@@ -30,7 +30,7 @@ struct FilmSettings {
   PixelBounds crop;
 };
 
-// A film in a file: what it is of, its passes, and what has been asked for.
+// A film in a file: what it is of, its passes, and what has been requested.
 struct SavedFilm {
   std::filesystem::path scene;
   LoadOptions load;

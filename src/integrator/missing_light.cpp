@@ -104,8 +104,8 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
       list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
   const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
   return {
-      fmt::format("light of {} lights by way of smooth surfaces ({})", lights, surfaces),
-      fmt::format("light of {} lights may be missing that comes to surfaces by way of smooth glass or mirrors ({}): "
+      fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
+      fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
                   "no ray meets such a light, and no light sample passes such a surface; light finds what the camera "
                   "sees of it directly (and a small sphere that shines, in the light's place, is found)",
                   lights, surfaces)};

@@ -77,7 +77,7 @@ class Films(ProgramTest):
                 film.unlink(missing_ok=True)
                 status = self.interrupt(SCENE, *plan, *saving, "--threads", threads, by=by, after=film.exists)
                 self.assertEqual(status, -by if by == signal.SIGKILL else 128 + by)
-                # Twice, so that an interrupted film is itself what goes on; the second time to its end.
+                # Twice, so that an interrupted film is itself what continues; the second time to its end.
                 seen = film.stat().st_mtime_ns
                 self.interrupt("--resume", "room.film", *saving, by=by,
                                after=lambda: film.stat().st_mtime_ns != seen)
@@ -162,7 +162,7 @@ class Films(ProgramTest):
                             "--layers=bounces": "layers is"}.items():
             self.refused("render", SCENE, "--resume", "a.film", given, "-o", "x.exr", saying=what)
         self.refused("render", SCENE, *PLAN, "--passes", "7:8", *merged[:0], "--checkpoint", "x.film",
-                     saying="there is no pass 8: 16 samples a pixel are 8 passes of 2, from 0 to 7")
+                     saying="there is no pass 8: 16 samples per pixel are 8 passes of 2, from 0 to 7")
         self.refused("render", SCENE, *PLAN, "--passes", "1:2", saying="--passes renders a part: --checkpoint FILE")
 
     def test_another_scene_is_refused(self):

@@ -9,7 +9,7 @@ Fields<LightTracingSettings> light_tracing_fields() {
   Fields<S> fields;
   fields.other(max_depth_spec())
       .integer("roulette-depth", &S::roulette_depth, "scattering events before roulette", 0, 1 << 20)
-      .choice<Lanes>("lanes", &S::lanes, "paths side by side", lanes_names());
+      .choice<Lanes>("lanes", &S::lanes, "number of paths traced together", lanes_names());
   return fields;
 }
 
