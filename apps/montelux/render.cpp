@@ -260,7 +260,7 @@ Result<SavedFilm> resumed(RenderArguments& arguments) {
   if (!film) return film;
   if (!film->wanted && !render.samples && !render.seconds && !render.passes)
     return Failure{
-        fmt::format("{} was rendered within a time; --time says how much more, or --spp how many samples a "
+        fmt::format("{} was rendered within a time; --time says how much more, or --spp how many samples per "
                     "pixel there shall be",
                     *arguments.resume)};
   if (arguments.scene.empty()) arguments.scene = film->scene.string();
