@@ -14,6 +14,7 @@
 #include "lab/integral/methods.h"
 #include "light/table.h"
 #include "material/table.h"
+#include "medium/table.h"
 #include "scene/table.h"
 #include "texture/table.h"
 

@@ -10,15 +10,16 @@
 #include "io/text_file.h"
 #include "light/table.h"
 #include "material/table.h"
+#include "medium/table.h"
 #include "scene/table.h"
 #include "texture/table.h"
 
 namespace montelux {
 
 std::string_view name_of(Family family) {
-  constexpr std::array<std::string_view, 12> names{"material", "texture",    "light",       "area light",
+  constexpr std::array<std::string_view, 13> names{"material", "texture",    "light",       "area light",
                                                    "shape",    "camera",     "filter",      "film",
-                                                   "sampler",  "integrator", "accelerator", "option"};
+                                                   "sampler",  "integrator", "accelerator", "medium",  "option"};
   return names[static_cast<std::size_t>(family)];
 }
 
@@ -46,6 +47,8 @@ std::span<const EntitySpec> table_of(Family family) {
       return integrator_table();
     case Family::accelerator:
       return accelerator_table();
+    case Family::medium:
+      return medium_table();
     case Family::option:
       return {&option_spec(), 1};
   }

@@ -21,6 +21,7 @@ enum class Family {
   sampler,
   integrator,
   accelerator,
+  medium,
   option
 };
 

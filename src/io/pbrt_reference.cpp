@@ -3,6 +3,7 @@
 #include "io/checks.h"
 #include "io/numbers.h"
 #include "io/pbrt/parameters.h"
+#include "medium/table.h"
 #include "scene/table.h"
 
 namespace montelux {

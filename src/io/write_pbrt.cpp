@@ -100,6 +100,8 @@ class Writer {
   std::string write() {
     write_options();
     text_ += "WorldBegin\n";
+    // What the camera stands in is stated by each shape again.
+    if (scene_.camera_medium) text_ += "MediumInterface \"\" \"\"\n";
     for (const TextureDesc& texture : scene_.textures) write_texture(texture);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);
     for (const LightDesc& light : scene_.lights) {
@@ -169,6 +171,8 @@ class Writer {
     text_ += "Accelerator " + entity_text(scene_.accelerator) + "\n";
     if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
       text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
+    for (const MediumDesc& medium : scene_.media) write_medium(medium);
+    if (scene_.camera_medium) text_ += "MediumInterface \"\" " + medium_name(scene_.camera_medium) + "\n";
     text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_later);
     text_ += "Camera " + entity_text(scene_.camera) + "\n";
   }
@@ -189,6 +193,17 @@ class Writer {
     state_color_space(entity);
     text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) +
              " ]" + parameters_text(entity.parameters) + "\n";
+  }
+
+  void write_medium(const MediumDesc& medium) {
+    if (medium.entity.type.empty()) return;  // left out by a lenient reading
+    state_color_space(medium.entity);
+    text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(medium.entity.type) + " ]" +
+             parameters_text(medium.entity.parameters) + "\n";
+  }
+  std::string medium_name(std::optional<MediumDescId> id) const {
+    const bool is_there = id && !scene_.media[std::size_t(*id)].entity.type.empty();
+    return in_quotes(is_there ? scene_.media[std::size_t(*id)].name : "");
   }
 
   static std::string mesh_text(const Mesh& mesh) {
@@ -212,6 +227,8 @@ class Writer {
     const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];
     if (!material.empty()) text += "NamedMaterial " + in_quotes(material) + "\n";
     if (shape.reverse_orientation) text += "ReverseOrientation\n";
+    if (shape.media.is_boundary())
+      text += "MediumInterface " + medium_name(shape.media.inside) + " " + medium_name(shape.media.outside) + "\n";
     if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
     text += "Shape " + entity_text(shape.entity);
     // The mesh of a file stays in that file.

@@ -1,7 +1,7 @@
 // Flight between the two faces of a coated surface: only depth is tracked, not position (Guo, Hasan and Zhao 2018).
 #pragma once
 #include "color/spectrum.h"
-#include "material/layer_phase.h"
+#include "mc/henyey_greenstein.h"
 #include "mc/random.h"
 
 namespace montelux {

@@ -14,6 +14,7 @@ namespace montelux {
 
 enum class MaterialDescId : std::uint32_t {};
 enum class ObjectDescId : std::uint32_t {};
+enum class MediumDescId : std::uint32_t {};
 
 struct TextureDesc {
   std::string name;
@@ -27,6 +28,17 @@ struct MaterialDesc {
   Entity entity;
 };
 
+struct MediumDesc {
+  std::string name;
+  Entity entity;
+};
+
+// The media on the two sides of a surface; none: empty space. `outside` is where the oriented normal points.
+struct MediumSidesDesc {
+  std::optional<MediumDescId> inside, outside;
+  bool is_boundary() const { return inside != outside; }
+};
+
 struct ShapeDesc {
   Entity entity;
   Transform object_to_world;
@@ -38,6 +50,7 @@ struct ShapeDesc {
   // The transforms of a moving shape at times evenly spaced up to the end of the transforms' time; object_to_world is
   // that at the start.
   std::vector<Transform> object_to_world_later;
+  MediumSidesDesc media{};
 };
 
 struct LightDesc {
@@ -82,6 +95,8 @@ struct SceneDesc {
   ParameterList options;
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;  // number 0 is the default material (diffuse)
+  std::vector<MediumDesc> media;
+  std::optional<MediumDescId> camera_medium;  // in which the camera stands
   std::vector<LightDesc> lights;
   std::vector<ShapeDesc> shapes;
   std::vector<ObjectDesc> objects;

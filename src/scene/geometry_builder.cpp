@@ -204,7 +204,8 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
   const bool interface = inputs_.is_interface(shape.material);
   const bool partly_interface = inputs_.is_partly_interface(shape.material);
-  if (!alpha || (interface && !shape.area_light)) {  // nothing that light could hit
+  const std::optional<MediumSides> media = inputs_.media(shape);
+  if (!alpha || (interface && !shape.area_light && !media)) {  // nothing that light could hit
     shape.entity.parameters.use_all();
     if (shape.area_light) shape.area_light->parameters.use_all();
     return;
@@ -220,6 +221,10 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   row.alpha = *alpha;
   row.material = std::uint32_t(shape.material);
   row.object = next_object_number_++;
+  if (media) {
+    row.flags |= GeometryRow::bounds_media, row.inside = media->inside, row.outside = media->outside;
+    store_.bounds_media = true;
+  }
   if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
   if (partly_interface) row.flags |= GeometryRow::open_to_some_shadow_rays;
   if (shape.entity.parameters.boolean("onesided", false)) row.flags |= GeometryRow::one_sided;

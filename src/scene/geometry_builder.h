@@ -11,6 +11,11 @@
 
 namespace montelux {
 
+// Numbers of the media on the sides of a surface.
+struct MediumSides {
+  std::uint32_t inside = 0, outside = 0;
+};
+
 // What the builder needs to know about a shape's attributes.
 struct ShapeInputs {
   // Emission of an area light.
@@ -23,6 +28,8 @@ struct ShapeInputs {
   std::function<bool(MaterialDescId)> is_partly_interface;
   // Whether the material uses the surface's parameters: textures, normal maps, a grain.
   std::function<bool(MaterialDescId)> uses_parameters;
+  // Where they differ; none on a surface that bounds no medium.
+  std::function<std::optional<MediumSides>(const ShapeDesc&)> media;
 };
 
 class GeometryBuilder {

@@ -29,11 +29,13 @@ struct alignas(64) GeometryRow {
   std::uint32_t object = 0;         // number of the object from 1, for the id layer
   std::uint32_t poses = 1;          // number of poses of a deforming mesh, evenly spaced over time
   std::uint32_t pose_vertices = 0;  // vertices of one pose; the poses are consecutive; 0: only one pose
-  std::uint32_t unused[4] = {};
+  std::uint32_t inside = 0, outside = 0;  // numbers of the media on its sides, if it bounds media
+  std::uint32_t unused[2] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
                                  ray_facing = 16, open_to_some_shadow_rays = 32;
   static constexpr std::uint32_t one_sided = 64;  // of triangles: the camera does not see their back
+  static constexpr std::uint32_t bounds_media = 128;
 };
 static_assert(sizeof(GeometryRow) == 64);
 
@@ -70,6 +72,7 @@ struct GeometryStore {
   std::vector<std::array<float, 12>> instance_keys;
   std::vector<KeyRange> instance_motion;  // of each instance; empty if none moves
   bool deforms = false;                   // some mesh has more than one pose
+  bool bounds_media = false;              // some surface has different media on its sides
 
   bool moves() const { return deforms || !instance_keys.empty(); }
   // Whether any surface exists for some rays and not for others.

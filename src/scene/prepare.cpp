@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "medium/build.h"
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
 #include "scene/unused.h"
@@ -30,6 +31,7 @@ class Preparation {
     for (const TextureDesc& t : desc_.textures)
       texture_builder_.add(t.name, t.is_spectrum, t.entity, t.texture_to_world);
     std::vector<Material> materials = make_materials();
+    MediumSet media = make_media();
     LightSetBuilder lights;
     GeometryStore geometry = make_geometry(materials, lights);
     for (const LightDesc& light : desc_.lights) add_light(light, lights);
@@ -41,6 +43,8 @@ class Preparation {
         std::move(geometry),
         std::move(textures_),
         {},
+        std::move(media),
+        medium_number(desc_.camera_medium),
         std::move(lights).build({picture_.light_selection}, centre, radius),
         make_camera(),
         Filter::build(desc_.filter),
@@ -55,6 +59,10 @@ class Preparation {
 
  private:
   std::vector<Material> make_materials();
+  MediumSet make_media();
+  std::uint32_t medium_number(std::optional<MediumDescId> id) const {
+    return id ? medium_numbers_[std::size_t(*id)] : empty_space;
+  }
   Camera make_camera();
   void break_mixture_cycles(std::vector<Material>& materials);
   GeometryStore make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights);
@@ -69,6 +77,7 @@ class Preparation {
   std::unique_ptr<TextureSet> textures_;
   TextureBuilder texture_builder_;
   std::map<std::string, std::shared_ptr<const LightImage>> light_images_;  // by file
+  std::vector<std::uint32_t> medium_numbers_;  // of the description's media, in the scene
   Bounds3 bounds_;
 };
 
@@ -91,6 +100,16 @@ std::vector<Material> Preparation::make_materials() {
   if (materials.empty()) materials.push_back(build_material({"diffuse", {}, {}}, inputs));
   break_mixture_cycles(materials);
   return materials;
+}
+
+// A medium that a lenient reading has left out is empty space.
+MediumSet Preparation::make_media() {
+  MediumSet media;
+  for (const MediumDesc& medium : desc_.media)
+    medium_numbers_.push_back(medium.entity.type.empty()
+                                  ? empty_space
+                                  : media.add(build_medium(medium.entity, {unbounded_rgb, emission_rgb})));
+  return media;
 }
 
 Camera Preparation::make_camera() {
@@ -135,7 +154,11 @@ GeometryStore Preparation::make_geometry(const std::vector<Material>& materials,
                      [this](const Entity& shape) { return alpha_of(shape); },
                      [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
                      [&](MaterialDescId id) { return is_partly_interface(materials, std::uint32_t(id)); },
-                     [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); }};
+                     [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); },
+                     [&](const ShapeDesc& shape) -> std::optional<MediumSides> {
+                       const MediumSides sides{medium_number(shape.media.inside), medium_number(shape.media.outside)};
+                       return sides.inside == sides.outside ? std::nullopt : std::optional(sides);
+                     }};
   GeometryBuilder builder(inputs, lights, diagnostics_);
   for (const ShapeDesc& shape : desc_.shapes) builder.add_world_shape(shape);
   for (const ObjectDesc& object : desc_.objects) builder.add_object(object);

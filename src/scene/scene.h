@@ -9,6 +9,7 @@
 #include "filter/filter.h"
 #include "geometry/bounds.h"
 #include "light/light_set.h"
+#include "medium/medium.h"
 #include "scene/geometry_store.h"
 #include "scene/materials.h"
 #include "scene/surface.h"
@@ -20,6 +21,8 @@ struct Scene {
   GeometryStore geometry;
   std::unique_ptr<TextureSet> textures;  // by pointer: the materials refer to it
   MaterialSet materials;
+  MediumSet media{};
+  std::uint32_t camera_medium = empty_space;  // in which the camera stands
   LightSet lights;
   Camera camera;
   Filter filter;

@@ -21,10 +21,13 @@ enum RowWord : std::uint32_t {
   alpha,
   object,
   poses,
-  pose_vertices
+  pose_vertices,
+  inside,
+  outside
 };
 static_assert(offsetof(GeometryRow, object) == 4 * RowWord::object &&
               offsetof(GeometryRow, pose_vertices) == 4 * RowWord::pose_vertices &&
+              offsetof(GeometryRow, outside) == 4 * RowWord::outside &&
               offsetof(GeometryRow, flags) == 4 * RowWord::flags);
 
 const std::uint32_t* words_of(const GeometryStore& store) {
@@ -264,6 +267,11 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
   s.ray_facing = Mask<F>(false);
   if (!store.curves.empty())
     s.ray_facing = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::ray_facing)) != U(0u));
+  s.bounds_media = Mask<F>(false), s.inside = s.outside = U(0u);
+  if (store.bounds_media) {
+    s.bounds_media = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::bounds_media)) != U(0u));
+    s.inside = gather(words + RowWord::inside, row), s.outside = gather(words + RowWord::outside, row);
+  }
   return s;
 }
 

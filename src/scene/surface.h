@@ -14,6 +14,9 @@ struct SurfaceHit {
   Uint<F> object;  // number of the object, from 1
   // The surface faces the incident ray, like curves do: for another ray it is a different surface.
   Mask<F> ray_facing;
+  // Whether different media lie on its two sides, and their numbers; `outside` is where the oriented normal points.
+  Mask<F> bounds_media;
+  Uint<F> inside, outside;
 };
 
 // The surface where rays hit the scene, at their time.

@@ -184,15 +184,6 @@ std::span<const EntitySpec> accelerator_table() {
   return table;
 }
 
-std::span<const EntitySpec> medium_table() {
-  static const std::vector<EntitySpec> table{
-      {"homogeneous", "the same everywhere", {}, true},     {"uniformgrid", "densities on a grid", {}, true},
-      {"rgbgrid", "coefficients on a grid", {}, true},      {"cloud", "procedural cloud", {}, true},
-      {"nanovdb", "densities of a NanoVDB file", {}, true},
-  };
-  return table;
-}
-
 const EntitySpec& option_spec() {
   static const EntitySpec spec{
       "Option",

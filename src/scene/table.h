@@ -12,7 +12,6 @@ std::span<const EntitySpec> sampler_table();
 std::span<const EntitySpec> integrator_table();
 // Accepted for compatibility with files that name one; the ray-tracing kernel builds its own.
 std::span<const EntitySpec> accelerator_table();
-std::span<const EntitySpec> medium_table();
 // One entity, whose parameters are the options.
 const EntitySpec& option_spec();
 

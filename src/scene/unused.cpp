@@ -44,6 +44,7 @@ void report_unused(const SceneDesc& scene, Diagnostics& diagnostics) {
   report.add("accelerator", scene.accelerator);
   for (const TextureDesc& texture : scene.textures) report.add("texture", texture.entity);
   for (const MaterialDesc& material : scene.materials) report.add("material", material.entity);
+  for (const MediumDesc& medium : scene.media) report.add("medium", medium.entity);
   for (const LightDesc& light : scene.lights) report.add("light", light.entity);
   for (const ShapeDesc& shape : scene.shapes) report.add(shape);
   for (const ObjectDesc& object : scene.objects)

@@ -88,6 +88,7 @@ void Parser::directive_camera() {
   stated_option(Family::camera, scene_.camera);
   if (!outside) return;
   scene_.world_to_camera = state_.transform.start;
+  scene_.camera_medium = state_.media.outside;
   scene_.world_to_camera_later = transform_at_end("camera");
   coordinate_systems_["camera"] = {state_.transform.start.inverted(), state_.transform.end.inverted()};
 }
@@ -145,17 +146,15 @@ void Parser::directive_attribute() {
     std::string_view name;
     Family family;
   };
-  constexpr std::array<Target, 4> targets{{{"shape", Family::shape},
+  constexpr std::array<Target, 5> targets{{{"shape", Family::shape},
                                            {"light", Family::light},
                                            {"material", Family::material},
+                                           {"medium", Family::medium},
                                            {"texture", Family::texture}}};
   Token name = lexer_->peek();
   auto target = quoted_argument("shape, light, material, medium or texture");
   if (!target) return;
   ParameterList stated = parameters();
-  if (*target == "medium")
-    return report_.tolerable(here(), "attributes of participating media are not supported yet",
-                             report_.lenient() ? "they are omitted" : "lenient reading omits them");
   for (const Target& t : targets) {
     if (t.name != *target) continue;
     ParameterList& defaults = state_.attributes[t.family];

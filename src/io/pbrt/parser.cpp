@@ -260,6 +260,7 @@ SceneDesc Parser::finish() {
   resolve_textures();
   resolve_materials();
   resolve_instances();
+  resolve_media();
   report_.finish();
   return std::move(scene_);
 }

@@ -29,6 +29,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   std::uint32_t material = 0;  // a number of a material, or `named_material` plus one of a name
   std::optional<Entity> area_light;
+  MediumSidesDesc media;
   std::string color_space = "srgb";
   std::map<Family, ParameterList> attributes;  // defaults stated by Attribute
 };
@@ -141,6 +142,7 @@ class Parser {
   void directive_area_light_source();
   void directive_make_named_medium();
   void directive_medium_interface();
+  std::optional<MediumDescId> medium_named(const std::string& name, const SourceLocation& where);
   void check_texture_of_texture(const Stated& stated, TextureKind kind);
 
   // shapes.cpp
@@ -157,6 +159,7 @@ class Parser {
   void resolve_textures();
   void resolve_materials();
   void resolve_instances();
+  void resolve_media();
   std::vector<std::string_view> material_names() const;
 
   SourceLocation here() const { return lexer_->where(directive_); }
@@ -174,10 +177,17 @@ class Parser {
   std::set<Family> options_stated_;
 
   std::map<std::string, MovingTransform> coordinate_systems_;
-  std::map<std::string, SourceLocation> number_textures_, spectrum_textures_, media_;
+  std::map<std::string, SourceLocation> number_textures_, spectrum_textures_;
   std::vector<TextureUse> texture_uses_;
   std::map<std::string, MaterialDescId> named_materials_;
   std::vector<NameUse> material_uses_;
+  // Media get their numbers where they are first named, which may be before they are defined.
+  struct NamedMedium {
+    MediumDescId id;
+    SourceLocation first_use;
+    bool is_defined = false;
+  };
+  std::map<std::string, NamedMedium> media_;
   std::map<std::string, ObjectDescId> object_ids_;
   std::optional<ObjectDescId> open_object_;
   std::vector<NameUse> instance_uses_;  // one per instance

@@ -73,6 +73,15 @@ void Parser::resolve_materials() {
   }
 }
 
+void Parser::resolve_media() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, medium] : media_)
+    if (medium.is_defined) names.push_back(name);
+  for (const auto& [name, medium] : media_)
+    if (!medium.is_defined)
+      report_.error(medium.first_use, "there is no medium '" + printable(name) + "'", did_you_mean(name, names));
+}
+
 void Parser::resolve_instances() {
   std::vector<std::string_view> names;
   for (const auto& [name, id] : object_ids_) names.push_back(name);

@@ -85,7 +85,8 @@ void Parser::directive_shape() {
                   static_cast<MaterialDescId>(state_.material),
                   state_.area_light,
                   nullptr,
-                  shines ? std::vector<Transform>() : transform_at_end("shape")};
+                  shines ? std::vector<Transform>() : transform_at_end("shape"),
+                  state_.media};
   const std::string& type = shape.entity.type;
   if (type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv") {
     shape.mesh = mesh_of(shape.entity);

@@ -1,4 +1,6 @@
 // Textures, materials, lights; media by name.
+#include <utility>
+
 #include "io/pbrt/parser.h"
 #include "io/text_file.h"
 
@@ -119,27 +121,45 @@ void Parser::directive_area_light_source() {
   state_.area_light = std::move(light->entity);
 }
 
+std::optional<MediumDescId> Parser::medium_named(const std::string& name, const SourceLocation& where) {
+  if (name.empty()) return std::nullopt;
+  const auto [medium, is_new] = media_.try_emplace(name, NamedMedium{MediumDescId(scene_.media.size()), where});
+  if (is_new) scene_.media.push_back({name, {}});
+  return medium->second.id;
+}
+
 void Parser::directive_make_named_medium() {
   auto name = quoted_argument("a name");
   if (!name) return;
-  parameters();
-  if (!media_.emplace(*name, here()).second)
+  ParameterList stated = parameters();
+  if (name->empty()) return report_.error(here(), "a medium needs a name that is not empty");
+  const MediumDescId id = *medium_named(*name, here());
+  NamedMedium& medium = media_.find(*name)->second;
+  if (std::exchange(medium.is_defined, true))
     return report_.error(here(), "medium '" + printable(*name) + "' is defined twice");
-  report_.tolerable(here(), "medium '" + printable(*name) + "': participating media are not supported yet",
-                    report_.lenient() ? "it is omitted" : "lenient reading omits it");
+  const Parameter* type = stated.find("type");
+  const std::string type_name = stated.string("type", "");
+  if (type_name.empty()) return report_.error(type ? type->where : here(), "MakeNamedMedium needs \"string type\"");
+  ParameterList others;
+  for (const Parameter& parameter : stated.all())
+    if (parameter.name != "type") others.add(parameter);
+  auto entity = stated_entity(Family::medium, type_name, type->where, others, std::nullopt);
+  // What is left out is empty space.
+  if (entity) scene_.media[std::size_t(id)].entity = std::move(entity->entity);
 }
 
 void Parser::directive_medium_interface() {
   SourceLocation where = lexer_->where(lexer_->peek());
   auto inside = quoted_argument("one or two names of media");
   if (!inside) return;
-  std::vector<std::string> names{*inside};
-  if (lexer_->peek().kind == TokenKind::quoted) names.push_back(unescape(lexer_->next().text));
-  for (const std::string& name : names) {
-    // A defined medium was reported at its definition.
-    if (name.empty() || media_.contains(name)) continue;
-    report_.error(where, "there is no medium '" + printable(name) + "'");
+  // One name stands for both sides.
+  std::string outside = *inside;
+  SourceLocation outside_where = where;
+  if (lexer_->peek().kind == TokenKind::quoted) {
+    outside_where = lexer_->where(lexer_->peek());
+    outside = unescape(lexer_->next().text);
   }
+  state_.media = {medium_named(*inside, where), medium_named(outside, outside_where)};
 }
 
 }  // namespace montelux::pbrt

@@ -1,6 +1,7 @@
-// The phase function of the medium between the layers of a coated surface.
+// Directions about an axis, peaked forward or backward: the distribution of Henyey and Greenstein.
 #pragma once
 #include "math/functions.h"
+#include "math/vec.h"
 
 namespace montelux {
 
