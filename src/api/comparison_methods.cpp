@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "api/layers.h"
 #include "api/render.h"
 #include "api/shortcomings.h"
 
@@ -97,8 +98,7 @@ LayerPlan attribution_layers(const Scene& scene) {
   LayerPlan plan;
   plan.bounces = 4;
   plan.techniques = true;
-  plan.group_of_light = scene.lights.groups();
-  plan.group_names = scene.lights.group_names();
+  state_light_groups(plan, scene);
   plan.light_groups = !plan.group_names.empty();
   return plan;
 }

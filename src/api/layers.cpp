@@ -39,6 +39,16 @@ Status read_word(std::string_view word, LayerRequest& request) {
 
 }  // namespace
 
+void state_light_groups(LayerPlan& plan, const Scene& scene) {
+  plan.group_of_light = scene.lights.groups();
+  plan.group_names = scene.lights.group_names();
+  if (scene.media.emits()) {
+    // The number after those of all lights.
+    plan.group_of_light.push_back(std::uint32_t(plan.group_names.size()));
+    plan.group_names.push_back("media");
+  }
+}
+
 Result<LayerRequest> parse_layers(const std::string& text) {
   LayerRequest request;
   std::string_view rest = text;

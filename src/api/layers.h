@@ -5,6 +5,7 @@
 
 #include "image/layers.h"
 #include "math/result.h"
+#include "scene/scene.h"
 
 namespace montelux {
 
@@ -15,6 +16,9 @@ struct LayerRequest {
   bool motion = false;  // between the pictures of a sequence
   bool of_light() const { return bounces || light_groups; }
 };
+
+// States the light groups of a scene in a plan; light that media emit has a group of its own, "media".
+void state_light_groups(LayerPlan& plan, const Scene& scene);
 
 // "bounces:3,light-groups,errors,motion". Fails if a word is unknown or nothing is requested.
 Result<LayerRequest> parse_layers(const std::string& text);

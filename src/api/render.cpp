@@ -41,8 +41,7 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
   plan.bounces = request.bounces;
   plan.light_groups = request.light_groups;
   plan.spread = request.errors;
-  plan.group_of_light = scene.lights.groups();
-  plan.group_names = scene.lights.group_names();
+  state_light_groups(plan, scene);
   if (plan.group_names.empty()) plan.group_names = {"default"};
   return plan;
 }

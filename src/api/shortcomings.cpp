@@ -7,7 +7,7 @@ IntegratorDefaults integrator_defaults(const PictureSettings& picture) {
 }
 
 void note_light(ChosenIntegrator& chosen, const LoadedScene::Parts& parts) {
-  if (chosen.search != LightSearch::none && parts.scene.lights.count() == 0)
+  if (chosen.search != LightSearch::none && parts.scene.lights.count() == 0 && !parts.scene.media.emits())
     chosen.notes.push_back("the scene has no light: the image is black");
   note_missing_light(chosen, integrator_defaults(parts.picture), parts.scene, *parts.accel);
 }

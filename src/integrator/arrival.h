@@ -15,8 +15,8 @@ inline constexpr float most_survival = 0.97f;
 // The point from which rays leave, as the lights' densities take it.
 template <class F>
 struct Departure {
-  Vec3<F> p, n;  // n: unit normal of the side that scatters; zero: both sides, or no surface
-  Media<F> media{gray(F(0.0f)), gray(F(0.0f))};  // into which the ray leaves
+  Vec3<F> p, n;                    // n: unit normal of the side that scatters; zero: both sides, or no surface
+  Media<F> media = no_media<F>();  // into which the ray leaves
 };
 
 // A surface that scatters, at the end of a ray. Results hold where `found`.

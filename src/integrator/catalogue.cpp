@@ -197,13 +197,14 @@ struct Row {
   Made (*make)(const Request&);
   LightSearch search = LightSearch::any_length;
   Content content = Content::light;
+  bool crosses_media = false;  // participating ones
 };
 
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path<false>},
-                         {naive_spec(), make_path<true>},
+    std::vector<Row> all{{path_spec(), make_path<false>, LightSearch::any_length, Content::light, true},
+                         {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, true},
                          {direct_spec(), make_direct, LightSearch::one_event},
                          {distribution_spec(), make_distribution},
                          {tracepath_spec(), make_tracepath},
@@ -295,6 +296,10 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   auto read = read_choice(choice);
   if (!read) return read.failure();
   const auto& [row, list] = *read;
+
+  if (!scene.media.empty() && !row->crosses_media)
+    return Failure{
+        fmt::format("the scene has participating media, which {} cannot cross; path and naive can", row->spec.name)};
 
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
   const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;

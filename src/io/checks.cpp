@@ -17,9 +17,9 @@
 namespace montelux {
 
 std::string_view name_of(Family family) {
-  constexpr std::array<std::string_view, 13> names{"material", "texture",    "light",       "area light",
-                                                   "shape",    "camera",     "filter",      "film",
-                                                   "sampler",  "integrator", "accelerator", "medium",  "option"};
+  constexpr std::array<std::string_view, 13> names{"material",    "texture", "light", "area light", "shape",
+                                                   "camera",      "filter",  "film",  "sampler",    "integrator",
+                                                   "accelerator", "medium",  "option"};
   return names[static_cast<std::size_t>(family)];
 }
 

@@ -101,7 +101,7 @@ class Writer {
     write_options();
     text_ += "WorldBegin\n";
     // What the camera stands in is stated by each shape again.
-    if (scene_.camera_medium) text_ += "MediumInterface \"\" \"\"\n";
+    if (has_camera_medium()) text_ += "MediumInterface \"\" \"\"\n";
     for (const TextureDesc& texture : scene_.textures) write_texture(texture);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);
     for (const LightDesc& light : scene_.lights) {
@@ -172,7 +172,7 @@ class Writer {
     if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
       text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
     for (const MediumDesc& medium : scene_.media) write_medium(medium);
-    if (scene_.camera_medium) text_ += "MediumInterface \"\" " + medium_name(scene_.camera_medium) + "\n";
+    if (has_camera_medium()) text_ += "MediumInterface \"\" " + medium_name(scene_.camera_medium) + "\n";
     text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_later);
     text_ += "Camera " + entity_text(scene_.camera) + "\n";
   }
@@ -198,13 +198,15 @@ class Writer {
   void write_medium(const MediumDesc& medium) {
     if (medium.entity.type.empty()) return;  // left out by a lenient reading
     state_color_space(medium.entity);
-    text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(medium.entity.type) + " ]" +
-             parameters_text(medium.entity.parameters) + "\n";
+    text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(medium.entity.type) +
+             " ]" + parameters_text(medium.entity.parameters) + "\n";
   }
   std::string medium_name(std::optional<MediumDescId> id) const {
     const bool is_there = id && !scene_.media[std::size_t(*id)].entity.type.empty();
     return in_quotes(is_there ? scene_.media[std::size_t(*id)].name : "");
   }
+
+  bool has_camera_medium() const { return medium_name(scene_.camera_medium) != in_quotes(""); }
 
   static std::string mesh_text(const Mesh& mesh) {
     std::string text = array_text("point3 P", mesh.positions);
@@ -227,8 +229,8 @@ class Writer {
     const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];
     if (!material.empty()) text += "NamedMaterial " + in_quotes(material) + "\n";
     if (shape.reverse_orientation) text += "ReverseOrientation\n";
-    if (shape.media.is_boundary())
-      text += "MediumInterface " + medium_name(shape.media.inside) + " " + medium_name(shape.media.outside) + "\n";
+    const std::string inside = medium_name(shape.media.inside), outside = medium_name(shape.media.outside);
+    if (inside != outside) text += "MediumInterface " + inside + " " + outside + "\n";
     if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
     text += "Shape " + entity_text(shape.entity);
     // The mesh of a file stays in that file.

@@ -73,8 +73,8 @@ class MediumSet {
     for (int c = 0; c < spectrum_size; ++c) {
       const F depth = extinct.c[c] * length;
       // (1 - exp(-x)) / x near 0 by its series.
-      const F share = select(depth > F(1e-3f), (F(1.0f) - attenuation(depth)) / max(depth, F(1e-3f)),
-                             F(1.0f) - 0.5f * depth);
+      const F share =
+          select(depth > F(1e-3f), (F(1.0f) - attenuation(depth)) / max(depth, F(1e-3f)), F(1.0f) - 0.5f * depth);
       const F mean_way = select(depth < F(1e30f), share * length, F(1.0f) / max(extinct.c[c], F(1e-30f)));
       result.c[c] = select(source.c[c] > F(0.0f), source.c[c] * mean_way, F(0.0f));
     }

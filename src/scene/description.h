@@ -36,7 +36,6 @@ struct MediumDesc {
 // The media on the two sides of a surface; none: empty space. `outside` is where the oriented normal points.
 struct MediumSidesDesc {
   std::optional<MediumDescId> inside, outside;
-  bool is_boundary() const { return inside != outside; }
 };
 
 struct ShapeDesc {

@@ -24,11 +24,11 @@ struct alignas(64) GeometryRow {
   std::uint32_t uv_shift = 0;      // the same for uv
   std::uint32_t flags = 0;
   std::uint32_t material = 0;
-  std::uint32_t first_light = 0;    // 1 + the light of primitive 0, the others following; 0: emits nothing
-  std::uint32_t alpha = 0;          // 1 + number of a number texture; 0: opaque
-  std::uint32_t object = 0;         // number of the object from 1, for the id layer
-  std::uint32_t poses = 1;          // number of poses of a deforming mesh, evenly spaced over time
-  std::uint32_t pose_vertices = 0;  // vertices of one pose; the poses are consecutive; 0: only one pose
+  std::uint32_t first_light = 0;          // 1 + the light of primitive 0, the others following; 0: emits nothing
+  std::uint32_t alpha = 0;                // 1 + number of a number texture; 0: opaque
+  std::uint32_t object = 0;               // number of the object from 1, for the id layer
+  std::uint32_t poses = 1;                // number of poses of a deforming mesh, evenly spaced over time
+  std::uint32_t pose_vertices = 0;        // vertices of one pose; the poses are consecutive; 0: only one pose
   std::uint32_t inside = 0, outside = 0;  // numbers of the media on its sides, if it bounds media
   std::uint32_t unused[2] = {};
 

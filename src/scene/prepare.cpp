@@ -53,6 +53,8 @@ class Preparation {
         {},
         shutter_of(picture_.shutter_open, picture_.shutter_close, picture_.transforms_start, picture_.transforms_end),
         picture_.pixel_centres};
+    // Media in which no path can be cost nothing.
+    if (!scene.geometry.bounds_media && scene.camera_medium == empty_space) scene.media = {};
     scene.materials = MaterialSet(std::move(materials), scene.textures.get());
     return {std::move(scene), picture_};
   }
@@ -77,7 +79,7 @@ class Preparation {
   std::unique_ptr<TextureSet> textures_;
   TextureBuilder texture_builder_;
   std::map<std::string, std::shared_ptr<const LightImage>> light_images_;  // by file
-  std::vector<std::uint32_t> medium_numbers_;  // of the description's media, in the scene
+  std::vector<std::uint32_t> medium_numbers_;                              // of the description's media, in the scene
   Bounds3 bounds_;
 };
 

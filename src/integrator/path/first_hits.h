@@ -35,6 +35,7 @@ class FirstHits {
                         LayerTally& tally);
 
   std::vector<PathStart<float>> starts_;
+  Media<F> media_;  // of the camera
   const StopQuery* stop_ = nullptr;
   std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
@@ -107,6 +108,8 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
                         [[maybe_unused]] Tally& tally) {
   using U = Uint<F>;
   stop_ = pass.stop;
+  media_ = media_of<F>(scene.media, Uint<F>(scene.camera_medium));
+  const Mask<F> in_medium(scene.camera_medium != empty_space);
   constexpr int block_x = block_width<F>(), block_y = lanes_of<F> / block_x;
   const PixelBounds& tile = pass.tile;
   const std::uint32_t samples = pass.samples(), first = pass.only.value_or(0);
@@ -130,9 +133,11 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
-        for_each_lane(found, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });
+        // In a medium a path may scatter on a ray that meets no surface: its t is infinite.
+        const Mask<F> starts = found | (on & in_medium);
+        for_each_lane(starts, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });
 
-        Mask<F> left = on & !found;
+        Mask<F> left = on & !starts;
         if (any(left)) {
           Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
           for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = lane(sky, k); });
@@ -153,7 +158,7 @@ Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
     set_lane_words(start, k, starts_[next_++]);
     fresh |= 1u << k;
   }
-  if (fresh != 0) begin_paths(state, start, mask_of_bits<F>(fresh));
+  if (fresh != 0) begin_paths(state, start, media_, mask_of_bits<F>(fresh));
   return mask_of_bits<F>(running | fresh);
 }
 

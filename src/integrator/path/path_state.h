@@ -2,8 +2,8 @@
 #pragma once
 #include <cstring>
 
-#include "integrator/media.h"
 #include "scene/geometry_store.h"
+#include "transport/media.h"
 
 namespace montelux {
 
@@ -68,7 +68,7 @@ MONTELUX_INLINE S<F> select_words(Mask<F> m, const S<F>& a, const S<F>& b) {
 
 // Paths begin in the lanes `fresh`, where the starts stand.
 template <class F>
-MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, Mask<F> fresh) {
+MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, const Media<F>& media, Mask<F> fresh) {
   using U = Uint<F>;
   auto put = [fresh](auto& to, const auto& from) { to = select<F>(fresh, from, to); };
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
@@ -79,7 +79,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   put_one(path.hit.instance, start.hit.instance);
   path.throughput = select(fresh, gray(F(1.0f)), path.throughput);
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
-  path.media = select_media<F>(fresh, Media<F>{gray(F(0.0f)), gray(F(0.0f))}, path.media);
+  path.media = select_media<F>(fresh, media, path.media);
   put(path.p, start.o), put(path.n, zero);
   put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
   put_one(path.time, start.time);

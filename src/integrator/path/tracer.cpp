@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrator/path/loop.h"
+#include "integrator/path/media_paths.h"
 
 namespace montelux {
 
@@ -52,6 +53,7 @@ SurvivalMap PathTracer::run_pilot() const {
 template <class Tally>
 RayCounts PathTracer::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
   const LightSet& lights = own_lights_ ? *own_lights_ : scene_.lights;
+  if (!scene_.media.empty()) return trace_paths_in_media(scene_, lights, accel_, settings_, pass, out, tally);
   return settings_.lanes == Lanes::one ? trace_paths<float>(scene_, lights, accel_, settings_, pass, out, tally)
                                        : trace_paths<NativeFloats>(scene_, lights, accel_, settings_, pass, out, tally);
 }

@@ -41,6 +41,7 @@ std::optional<Parser::Stated> Parser::stated_entity(Family family, const std::st
     return std::nullopt;
   }
   const EntitySpec* spec = stand_in(family, *named, type_where);
+  if (!spec && named->parameters.empty()) return std::nullopt;  // the table does not know its parameters yet
   ParameterList all = stated;
   // Defaults set by Attribute, if the entity accepts them and does not state them.
   auto defaults = state_.attributes.find(family);

@@ -14,7 +14,7 @@ namespace montelux::test {
 namespace {
 
 // Scenes that Montelux cannot render yet, and the word that its message must hold.
-const std::map<std::string, std::string> not_yet{{"staircase2-gray", "medium"}};
+const std::map<std::string, std::string> not_yet{};
 
 // Scenes that differ, and what is known or thought of the cause. Where one starts to agree, find out why.
 constexpr std::string_view rough_coats =

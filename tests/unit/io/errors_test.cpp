@@ -136,8 +136,17 @@ INSTANTIATE_TEST_SUITE_P(
         world("undefined_object", "ObjectInstance \"tree\"", 16, "no object 'tree'"),
         world("object_twice", "ObjectBegin \"a\" ObjectEnd ObjectBegin \"a\" ObjectEnd", 27, "defined twice"),
         world("undefined_medium", "MediumInterface \"fog\" \"\"", 17, "no medium 'fog'"),
-        world("medium", "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"", 1,
-              "participating media are not supported yet"),
+        world("medium", "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\"", 23,
+              "medium 'uniformgrid' is not supported yet"),
+        world("medium_twice",
+              "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" MakeNamedMedium \"a\" \"string type\" "
+              "\"homogeneous\"",
+              49, "medium 'a' is defined twice"),
+        world("medium_without_type", "MakeNamedMedium \"fog\"", 1, "needs \"string type\""),
+        world("unknown_medium", "MakeNamedMedium \"fog\" \"string type\" \"homogenous\"", 23, "no medium 'homogenous'",
+              "homogeneous"),
+        world("unknown_preset", "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"string preset\" \"Beer\"",
+              51, "preset"),
         world("hair", "Material \"hair\"", 10, "is not supported yet", "'diffuse' instead"),
         world("undefined_coordinates", "CoordSysTransform \"cam\"", 1, "no coordinate system"),
         world("color_space", "ColorSpace \"sRGB2\"", 12, "no colour space", "rec2020"),
@@ -283,7 +292,8 @@ TEST(Reading, stops_printing_after_fifty_mistakes_and_counts_the_rest) {
 
 TEST(LenientReading, lets_pass_what_montelux_cannot_do_yet) {
   std::string text =
-      "WorldBegin\nMakeNamedMedium \"fog\"\nMediumInterface \"fog\" \"\"\nMaterial \"hair\" \"rgb reflectance\" [ .1 "
+      "WorldBegin\nMakeNamedMedium \"fog\" \"string type\" \"cloud\"\nMediumInterface \"fog\" \"\"\nMaterial \"hair\" "
+      "\"rgb reflectance\" [ .1 "
       ".2 .3 ]\n"
       "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\nShape \"sphere\" \"float radus\" 1\n";
   EXPECT_FALSE(read_pbrt_text(text, ".").scene);

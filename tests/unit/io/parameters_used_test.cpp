@@ -188,6 +188,9 @@ std::string scene_text(Family family, const EntitySpec& entity, const std::strin
       return "\nAccelerator " + name + parameters + "WorldBegin\n" + end;
     case Family::option:
       return "\nOption" + parameters + "WorldBegin\n" + end;
+    case Family::medium:
+      return "\nMakeNamedMedium \"m\" \"string type\" " + name + parameters +
+             "WorldBegin\nMediumInterface \"m\" \"\"\n" + end;
     case Family::texture:
       return "WorldBegin " + parts + "Texture \"t\" " + (spectra ? "\"spectrum\" " : "\"float\" ") + name + parameters +
              (spectra ? "Material \"diffuse\" \"texture reflectance\" \"t\""
@@ -321,7 +324,7 @@ TEST_P(Parameters, have_the_defaults_that_the_tables_state) {
 INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
                          testing::Values(Family::material, Family::texture, Family::light, Family::area_light,
                                          Family::shape, Family::camera, Family::filter, Family::film, Family::sampler,
-                                         Family::integrator, Family::accelerator, Family::option),
+                                         Family::integrator, Family::accelerator, Family::medium, Family::option),
                          [](const auto& family) {
                            std::string name(name_of(family.param));
                            std::ranges::replace(name, ' ', '_');

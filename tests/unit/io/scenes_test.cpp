@@ -32,9 +32,7 @@ bool is_part(const fs::path& path) {
 std::string expected_error(const std::string& name) {
   if (name == "furball") return "'hair' is not supported yet";
   if (name == "testball-subsurface") return "'subsurface' is not supported yet";
-  if (name == "colored-smoke" || name.starts_with("plume") || name == "volumetric-caustic" ||
-      name.starts_with("staircase2"))
-    return "media are not supported yet";
+  if (name == "colored-smoke" || name.starts_with("plume")) return "is not supported yet";
   return {};
 }
 

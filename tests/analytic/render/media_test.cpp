@@ -1,0 +1,191 @@
+// Participating media in closed form, each colour component by itself.
+#include "colour_means.h"
+
+namespace montelux::test {
+
+namespace {
+
+using Coefficients = std::array<double, 3>;
+
+std::string rgb(const Coefficients& c) {
+  return "[ " + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) + " ]";
+}
+
+struct MediumText {
+  Coefficients absorption, scattering;
+  double g = 0;
+  Coefficients emission{0, 0, 0};
+  double extinction(std::size_t c) const { return absorption[c] + scattering[c]; }
+  std::string text() const {
+    return R"(MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_a" )" + rgb(absorption) + " \"rgb sigma_s\" " +
+           rgb(scattering) + " \"float g\" " + std::to_string(g) + " \"rgb Le\" " + rgb(emission) + "\n";
+  }
+};
+
+std::string head(int max_depth) {
+  return R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+PixelFilter "box"
+Integrator "volpath" "integer maxdepth" )" +
+         std::to_string(max_depth) + "\n";
+}
+
+// Fails where a component contradicts truth(c), or does not contradict faulty(c).
+void expect_means(const std::string& scene, const std::string& way, int samples, auto truth, auto faulty) {
+  const Mean m = measure(TestScene(scene), way, samples, 1);
+  const double level = sidak_level(family_level, 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_GT(p_value(m.mean[c], m.standard_error[c], truth(c)), level)
+        << way << ", component " << c << ": " << m.mean[c] << " for " << truth(c) << " +- " << m.standard_error[c];
+    EXPECT_LT(p_value(m.mean[c], m.standard_error[c], faulty(c)), level) << way << ", component " << c;
+  }
+}
+
+// A slab of a medium between two interfaces one unit apart, seen at this cosine before a sky of radiance 1.
+std::string slab_scene(const MediumText& medium, double cosine, int max_depth) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return head(max_depth) + "LookAt " + std::to_string(3 * sine) + " " + std::to_string(1 + 3 * cosine) +
+         R"( 0  0 1 0  0 0 1
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + medium.text() +
+         R"(WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "interface"
+MediumInterface "m" ""
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -500 1 -500   -500 1 500   500 1 500   500 1 -500 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -500 0 -500   500 0 -500   500 0 500   -500 0 500 ]
+)";
+}
+
+TEST(MediumSlab, lets_light_through_as_beer_and_lambert_say) {
+  const MediumText absorbs{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  // With no event left to scatter, what scatters is lost: extinction, by chance.
+  const MediumText scatters{{0.2, 0.1, 0}, {0.3, 0.6, 1.2}, 0.5};
+  for (const double cosine : {1.0, 0.5})
+    for (const MediumText& m : {absorbs, scatters})
+      expect_means(
+          slab_scene(m, cosine, 0), "path", 64, [&](std::size_t c) { return std::exp(-m.extinction(c) / cosine); },
+          [&](std::size_t c) { return std::exp(-1.1 * m.extinction(c) / cosine); });
+}
+
+TEST(MediumSlab, emits_what_it_absorbs) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}, 0, {2, 3, 0.5}};
+  const auto seen = [&](double cosine, std::size_t c) {
+    const double left = std::exp(-m.absorption[c] / cosine);
+    return m.emission[c] * (1 - left) + left;
+  };
+  for (const double cosine : {1.0, 0.5})
+    expect_means(
+        slab_scene(m, cosine, 0), "path", 16, [&](std::size_t c) { return seen(cosine, c); },
+        [&](std::size_t c) { return 1.001 * seen(cosine, c); });
+}
+
+// Everything at one temperature looks alike, whatever scatters.
+TEST(UnboundedMedium, glows_with_its_own_radiance) {
+  const MediumText m{{0.2, 0.7, 1.5}, {1, 0.5, 0.1}, 0.3, {2, 3, 0.5}};
+  const std::string scene = head(10000) + m.text() + R"(MediumInterface "" "m"
+Camera "perspective" "float fov" 30
+WorldBegin
+)";
+  expect_means(
+      scene, "path", 64, [&](std::size_t c) { return m.emission[c]; },
+      [&](std::size_t c) { return 1.02 * m.emission[c]; });
+}
+
+// What a fog scatters once, of a point light at (1, 0, 0), toward a camera at (0, 0, 5) that looks at the origin: an
+// integral over the line of sight, by the midpoint rule in the angle at the light (Kulla and Fajardo 2012).
+double single_scattering(const MediumText& m, std::size_t c, double intensity) {
+  constexpr int steps = 200000;
+  const double from = std::atan(-5.0), to = 2 * std::atan(1.0);  // of the camera, and at infinity
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double angle = from + (to - from) * (i + 0.5) / steps;
+    const double z = std::tan(angle), t = 5 + z, r = std::sqrt(1 + z * z);  // dt / r^2 = d(angle)
+    const double cosine = -z / r;  // of the flight from the light to (0, 0, -z), then along +z
+    const double g = m.g, d = 1 + g * g - 2 * g * cosine;
+    const double phase = (1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d));
+    sum += m.scattering[c] * phase * intensity * std::exp(-m.extinction(c) * (t + r));
+  }
+  return sum * (to - from) / steps;
+}
+
+TEST(UnboundedMedium, scatters_the_light_of_a_point_once) {
+  const Coefficients intensity{1, 2, 3};
+  for (const double g : {-0.5, 0.0, 0.7}) {
+    const MediumText m{{0.1, 0.2, 0}, {0.2, 0.3, 0.5}, g};
+    MediumText reversed = m;
+    reversed.g = g == 0 ? 0.3 : -g;
+    const std::string scene = head(1) + m.text() + R"(MediumInterface "" "m"
+LookAt 0 0 5  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -1e-4 1e-4 -1e-4 1e-4 ]
+WorldBegin
+LightSource "point" "rgb I" )" +
+                              rgb(intensity) + " \"point3 from\" [ 1 0 0 ]\n";
+    for (const char* way : {"path", "path:mis=balance"})
+      expect_means(
+          scene, way, 512, [&](std::size_t c) { return single_scattering(m, c, intensity[c]); },
+          [&](std::size_t c) { return single_scattering(reversed, c, intensity[c]); });
+  }
+}
+
+// A white medium in a uniform sky cannot be seen: what it scatters out of a ray it scatters into it.
+TEST(WhiteMedium, cannot_be_seen_in_a_furnace) {
+  const Coefficients sky{1, 0.5, 2};
+  const auto ball = [&](const Coefficients& absorption, const std::string& surface) {
+    const MediumText m{absorption, {0.5, 2, 5}, 0.6};
+    return head(100000) + "LookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 20\n" + m.text() +
+           "WorldBegin\nLightSource \"infinite\" \"rgb L\" " + rgb(sky) + "\nMediumInterface \"m\" \"\"\nMaterial " +
+           surface + "\nShape \"sphere\"\n";
+  };
+  for (const char* surface : {"\"interface\"", "\"dielectric\""}) {
+    expect_means(
+        ball({0, 0, 0}, surface), "path", 128, [&](std::size_t c) { return sky[c]; },
+        [&](std::size_t c) { return 1.05 * sky[c]; });
+    const Mean gray = measure(TestScene(ball({0.1, 0.1, 0.1}, surface)), "path", 128, 1);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_LT(p_value(gray.mean[c], gray.standard_error[c], sky[c]), family_level) << surface;
+  }
+}
+
+// A point light within a ball of a medium that absorbs: shadow rays cross its boundary and lose what it takes.
+TEST(AbsorbingBall, dims_the_light_within_it) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = head(1) + R"(LookAt 0 5 1  0 -2 0  0 0 1
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + m.text() + R"(WorldBegin
+LightSource "point" "rgb I" [ 1 1 1 ]
+AttributeBegin
+Material "interface"
+MediumInterface "m" ""
+Shape "sphere" "float radius" 1
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
+Translate 0 -2 0
+Rotate -90 1 0 0
+Shape "disk" "float radius" 50
+)";
+  // The camera's ray to the point below the light crosses the ball, too; its chord follows from the geometry.
+  const double length = std::sqrt(7 * 7 + 1.0), along = 7 * 5 / length + 1 / length;  // to the point nearest the centre
+  const double distance2 = 5 * 5 + 1 - along * along, chord = 2 * std::sqrt(1 - distance2);
+  const auto radiance = [&](std::size_t c, double inside) {
+    return 0.5 / std::numbers::pi / 4 * std::exp(-m.absorption[c] * (inside + chord));
+  };
+  expect_means(
+      scene, "path", 16, [&](std::size_t c) { return radiance(c, 1); },
+      [&](std::size_t c) { return radiance(c, 0.9); });
+}
+
+TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
+  const TestScene scene(slab_scene({{1, 1, 1}, {0, 0, 0}}, 1, 3));
+  for (const char* way : {"direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "ao"}) try {
+      (void)scene.integrator(way);
+      ADD_FAILURE() << way;
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find("participating media"), std::string::npos) << e.what();
+    }
+}
+
+}  // namespace
+
+}  // namespace montelux::test

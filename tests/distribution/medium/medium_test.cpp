@@ -1,0 +1,106 @@
+// Distances to events in media, and the directions of phase functions, against closed forms.
+#include "medium/medium.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "mc/random.h"
+#include "statistics.h"
+
+namespace montelux::test {
+namespace {
+
+constexpr int samples = 200000;
+
+// Sums of x and x^2.
+struct Sums {
+  double x = 0, square = 0;
+  void add(double value) { x += value, square += value * value; }
+  double mean() const { return x / samples; }
+  double standard_error() const { return std::sqrt((square / samples - mean() * mean()) / (samples - 1)); }
+  double p_value(double truth) const {
+    const double error = standard_error();
+    if (!(error > 0)) return std::abs(mean() - truth) <= 1e-6 * std::abs(truth) ? 1 : 0;
+    return 2 * normal_cdf(-std::abs(mean() - truth) / error);
+  }
+};
+
+TEST(DistanceSample, has_the_means_of_transmittance_and_of_what_scatters) {
+  const Rgb absorption{{0.1f, 0.5f, 0.0f}}, scattering{{0.3f, 2.0f, 8.0f}};
+  MediumSet media;
+  const std::uint32_t medium = media.add({absorption, scattering, {}, 0});
+  const double level = sidak_level(family_level, 3 * 2 * 2);
+  for (const Rgb& throughput : {Rgb{{1, 1, 1}}, Rgb{{0.5f, 0.1f, 0.01f}}})
+    for (const float length : {0.4f, 3.0f}) {
+      RandomStream<float> random(3, 1);
+      std::array<Sums, 3> events, ends;
+      for (int i = 0; i < samples; ++i) {
+        const float u = random.next();
+        const DistanceSample<float> s = media.sample_distance<float>(medium, throughput, length, {u, random.next()});
+        double total = 0, before = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          events[c].add(s.is_event ? double(s.weight.c[c]) : 0), ends[c].add(s.is_event ? 0 : double(s.weight.c[c]));
+          total += double(s.weight.c[c] * throughput.c[c]), before += double(throughput.c[c]);
+        }
+        // The balance heuristic bounds the throughput.
+        EXPECT_LE(total, before * 1.0001);
+        EXPECT_TRUE(!s.is_event || s.distance < length);
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double extinction = double(absorption.c[c]) + double(scattering.c[c]);
+        const double left = std::exp(-extinction * double(length));
+        const double scattered = double(scattering.c[c]) * (1 - left) / extinction;
+        EXPECT_GT(ends[c].p_value(left), level) << c << ": " << ends[c].mean() << " for " << left;
+        EXPECT_GT(events[c].p_value(scattered), level) << c << ": " << events[c].mean() << " for " << scattered;
+        EXPECT_LT(events[c].p_value(1.05 * scattered), level) << c;
+      }
+    }
+}
+
+TEST(DistanceSample, of_a_medium_that_only_absorbs_is_the_transmittance) {
+  MediumSet media;
+  const std::uint32_t medium = media.add({{{0.1f, 0.5f, 2.0f}}, {}, {}, 0});
+  for (const float u : {0.0f, 0.5f, 0.999f}) {
+    const auto s = media.sample_distance<float>(medium, gray(1.0f), 1.5f, {u, u});
+    EXPECT_FALSE(s.is_event);
+    EXPECT_NEAR(s.weight.c[0], std::exp(-0.15), 1e-6);
+    EXPECT_NEAR(s.weight.c[2], std::exp(-3.0), 1e-6);
+  }
+  // Empty space, however far.
+  const auto far = media.sample_distance<float>(empty_space, gray(1.0f), 1e30f, {0.5f, 0.5f});
+  EXPECT_FALSE(far.is_event);
+  EXPECT_EQ(far.weight.c[0], 1.0f);
+}
+
+// The first two Legendre moments of the phase function are g and g^2.
+TEST(HenyeyGreenstein, has_the_moments_of_its_mean_cosine) {
+  const double level = sidak_level(family_level, 2 * 5);
+  const Vec3f wo = normalize(Vec3f{0.3f, -0.5f, 0.7f});
+  for (const float g : {-0.7f, -0.2f, 0.0f, 0.4f, 0.95f}) {
+    const HenyeyGreenstein<float> phase(g);
+    RandomStream<float> random(7, 2);
+    Sums first, second;
+    for (int i = 0; i < samples; ++i) {
+      const PhaseSample<float> s = phase.sample(wo, random.next2());
+      const double cosine = double(-dot(wo, s.wi));
+      first.add(cosine), second.add((3 * cosine * cosine - 1) / 2);
+      EXPECT_NEAR(double(length(s.wi)), 1, 1e-5);
+    }
+    EXPECT_GT(first.p_value(double(g)), level) << g;
+    EXPECT_GT(second.p_value(double(g) * double(g)), level) << g;
+    EXPECT_LT(first.p_value(double(g) + 0.02), level) << g;
+    // The density integrates to 1, by Simpson's rule over the cosine.
+    constexpr int steps = 20000;
+    double sum = 0;
+    for (int i = 0; i <= steps; ++i) {
+      const double cosine = -1 + 2.0 * i / steps;
+      const double weight = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
+      sum += weight * double(henyey_greenstein(float(cosine), g)) * 2 * std::numbers::pi;
+    }
+    EXPECT_NEAR(sum * 2 / (3.0 * steps), 1, 2e-4) << g;
+  }
+}
+
+}  // namespace
+}  // namespace montelux::test
