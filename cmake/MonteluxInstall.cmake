@@ -4,8 +4,7 @@ include(CMakePackageConfigHelpers)
 
 # The layers are archives of their own, of which a user needs none: the installed library holds all of their objects.
 set(objects "")
-foreach(layer math work mc color image parameter geometry texture filter material phase medium light camera
-        scene film accel integrator render denoise io lab api montelux dist page)
+foreach(layer ${montelux_layers} page)
   if(TARGET montelux_${layer})
     get_target_property(type montelux_${layer} TYPE)
     if(type STREQUAL "STATIC_LIBRARY")
