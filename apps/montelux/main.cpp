@@ -88,8 +88,8 @@ int run(int argc, char** argv) {
   app.footer(notes);
   app.require_subcommand(1);
   Action chosen;
-  for (auto add : {add_render, add_integrate, add_merge, add_info, add_diff, add_compare, add_tonemap, add_list,
-                   add_lab, add_completion})
+  for (auto add : {add_render, add_integrate, add_merge, add_info, add_trace, add_diff, add_compare, add_tonemap,
+                   add_list, add_lab, add_completion})
     add(app, chosen);
   for (CLI::App* verb : app.get_subcommands({})) verb->group("Verbs");
   try {

@@ -15,6 +15,7 @@ void add_render(CLI::App& app, Action& chosen);
 void add_integrate(CLI::App& app, Action& chosen);
 void add_merge(CLI::App& app, Action& chosen);
 void add_info(CLI::App& app, Action& chosen);
+void add_trace(CLI::App& app, Action& chosen);
 void add_diff(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
 void add_tonemap(CLI::App& app, Action& chosen);

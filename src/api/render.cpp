@@ -9,6 +9,7 @@
 #include "api/film_keeper.h"
 #include "api/parts.h"
 #include "api/shortcomings.h"
+#include "api/trace.h"
 #include "integrator/catalogue.h"
 #include "integrator/direct/settings.h"
 #include "integrator/missing_light.h"
@@ -372,5 +373,51 @@ std::vector<std::pair<std::string, std::string>> preset_names() {
 }
 
 std::string version() { return std::string(montelux_version); }
+
+Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& options, int x, int y,
+                                 std::optional<int> sample) {
+  const LoadedScene::Parts& parts = scene.parts();
+  Result<Plan> planned = plan_render(parts, options);
+  if (!planned) return planned.failure();
+  const Plan& plan = *planned;
+  const RenderSettings& r = plan.render;
+  const PixelBounds& b = r.bounds;
+  if (x < b.x0 || y < b.y0 || x >= b.x1 || y >= b.y1)
+    return Failure{fmt::format("pixel {},{} is outside of the picture, whose pixels are {},{} to {},{}", x, y, b.x0,
+                               b.y0, b.x1 - 1, b.y1 - 1)};
+  const int in_pass = r.plan.samples_per_pass, all = in_pass * r.plan.passes;
+  if (sample && (*sample < 0 || *sample >= all))
+    return Failure{fmt::format("the pixel has samples 0 to {}; found {}", all - 1, *sample)};
+  const auto trace = [&](int number) -> std::optional<TracedPath> {
+    const PointSet points{r.sampler,
+                          r.seed,
+                          std::uint32_t(r.first_pass + number / in_pass),
+                          std::uint32_t(in_pass),
+                          std::uint32_t(r.width),
+                          std::uint32_t(r.height)};
+    TilePass pass{{x, y, x + 1, y + 1}, points, r.shutter};
+    pass.only = std::uint32_t(number % in_pass);
+    return plan.chosen.integrator ? plan.chosen.integrator->trace_path(pass) : std::nullopt;
+  };
+  if (!trace(0))
+    return Failure{fmt::format("the integrator {} has no paths to show; path and naive have", plan.chosen.name)};
+  SampleTrace result{x, y, 0, all, 0, 0, r.seed, {}, plan.chosen.name, std::string(name_of(r.sampler)), {}, {}, {}};
+  std::array<double, spectrum_size> sum{};
+  float largest = -1;
+  for (int k = 0; k < all; ++k) {
+    TracedPath path = *trace(k);
+    for (int c = 0; c < spectrum_size; ++c) sum[std::size_t(c)] += double(path.radiance.c[c]);
+    const bool brightest = std::abs(luminance(path.radiance)) > largest;
+    if (sample ? k != *sample : !brightest) continue;
+    largest = std::abs(luminance(path.radiance));
+    result.sample = k, result.path = std::move(path);
+  }
+  for (int c = 0; c < spectrum_size; ++c) result.pixel_mean.c[c] = float(sum[std::size_t(c)] / all);
+  result.pass = r.first_pass + result.sample / in_pass, result.index = result.sample % in_pass;
+  result.materials = parts.info.materials_by_number;
+  for (std::uint32_t i = 0; i < parts.scene.lights.count(); ++i)
+    result.light_names.emplace_back(light_kind_names[std::size_t(parts.scene.lights.kind(LightId(i)))]);
+  return result;
+}
 
 }  // namespace montelux

@@ -80,8 +80,10 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   info.states_exposure = desc.film.parameters.find("iso") != nullptr;
   count_geometry(parts.scene.geometry, info);
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
-  for (const MaterialDesc& material : desc.materials)
+  for (const MaterialDesc& material : desc.materials) {
+    info.materials_by_number.push_back(material.name);
     info.material_names.push_back({material.name, material.entity.type});
+  }
   for (const TextureDesc& texture : desc.textures) info.texture_names.push_back({texture.name, texture.entity.type});
   const auto has_name = [](const NamedThing& thing) { return !thing.name.empty(); };
   std::stable_partition(info.material_names.begin(), info.material_names.end(), has_name);

@@ -76,6 +76,7 @@ struct SceneInfo {
   std::size_t instanced_triangles = 0;  // as rays see them
   std::size_t quadrics = 0, patches = 0, curve_segments = 0, instances = 0, objects = 0;
   std::size_t materials = 0, textures = 0, images = 0;
+  std::vector<std::string> materials_by_number;  // names as the scene numbers them; empty for one without a name
   std::vector<NamedThing> material_names, texture_names;  // the named ones first, both in the order of the file
   std::vector<std::string> cameras;                       // of a file that may hold several; a name may be empty
   std::vector<AnimationInfo> animations;

@@ -23,6 +23,15 @@ class ClampedIntegrator final : public PixelIntegrator {
     clamp_samples(out, most_);
     return counts;
   }
+  std::optional<TracedPath> trace_path(const TilePass& pass) const override {
+    std::optional<TracedPath> path = inner_->trace_path(pass);
+    if (!path) return path;
+    PixelSample sample;
+    sample.radiance = path->radiance;
+    clamp_samples({&sample, 1}, most_);
+    path->radiance = sample.radiance;
+    return path;
+  }
 
  private:
   std::unique_ptr<PixelIntegrator> inner_;

@@ -9,6 +9,7 @@
 #include "camera/shutter.h"
 #include "image/layers.h"
 #include "image/pixel_sample.h"
+#include "integrator/traced_path.h"
 #include "mc/point_set.h"
 
 namespace montelux {
@@ -63,6 +64,9 @@ class PixelIntegrator {
   virtual RayCounts trace_layers(const TilePass&, const LayerPlan&, std::span<PixelSample>, std::span<ExactRgb>) const {
     throw std::logic_error("this integrator has no layers");
   }
+
+  // The path of the sample `pass.only` of the first pixel of the tile; none: the integrator cannot show it.
+  virtual std::optional<TracedPath> trace_path(const TilePass&) const { return std::nullopt; }
 };
 
 // ---- pixels that learn from each other

@@ -215,7 +215,7 @@ class LightTracingLoop {
     F time;
     RandomStream<F> random;  // for what half-open surfaces do on the way
   };
-  static Media<F> zero_media() { return {gray(F(0.0f)), gray(F(0.0f))}; }
+  static Media<F> zero_media() { return no_media<F>(); }
 
   // Splats the light that a place sends to the lens, where nothing is in between.
   void connect(const Place& from, const Way& way, const Spectrum<F>& light, M on) {

@@ -31,8 +31,9 @@ class FirstHits {
 
  private:
   // The sky that a camera ray sees, light by light.
+  template <class Tally>
   static void tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
-                        LayerTally& tally);
+                        Tally& tally);
 
   std::vector<PathStart<float>> starts_;
   Media<F> media_;  // of the camera
@@ -91,13 +92,14 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, 
 }
 
 template <class F>
+template <class Tally>
 void FirstHits<F>::tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
-                             LayerTally& tally) {
+                             Tally& tally) {
   const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
   for (int i = 0; i < scene.lights.infinite_count(); ++i) {
     const LightHit<F> sky = scene.lights.template escaped<F>(i, start.o, nowhere, start.d, left);
     const Uint<F> light = Uint<F>(std::uint32_t(scene.lights.infinite_light(i)));
-    tally.add(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
+    tally.template add<F>(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
   }
   for_each_lane(left, [&](int k) { tally.finish(k, lane(start.slot, k), out[lane(start.slot, k)]); });
 }

@@ -3,6 +3,7 @@
 #include "integrator/arrival.h"
 #include "integrator/path/dimensions.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/path/path_recorder.h"
 #include "integrator/path/settings.h"
 #include "integrator/path/survival.h"
 #include "integrator/resampled_light.h"
@@ -210,6 +211,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const Vec3<F> wo = bsdf.frame.to_local(-path.d);
     const MediaAt<F> media(path.media, {scene.media, x, bsdf}, path.d);
     path.throughput = select(on, path.throughput * left_of(media.along_wo(), x.distance), path.throughput);
+    [[maybe_unused]] const Spectrum<F> arriving = path.throughput;
 
     // A direction toward a light, and one by the BSDF.
     const M wants_light = scatters & !bsdf.is_delta;
@@ -280,8 +282,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     path.depth = path.depth + select(goes_on, U(1u), U(0u));
     if constexpr (requires { tally.scattered(path, goes_on); }) tally.scattered(path, goes_on);
     const M plays = goes_on & (path.depth > U(std::uint32_t(settings.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, survival_probability(settings, path), F(1.0f)),
-                                          sampler.get1(dimension + U(path_dimension::roulette)));
+    const F chance = select(plays, survival_probability(settings, path), F(1.0f));
+    const Roulette<F> survival = roulette(chance, sampler.get1(dimension + U(path_dimension::roulette)));
     goes_on = goes_on & survival.survives;
     path.throughput = select(goes_on, path.throughput * survival.weight, path.throughput);
     Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
@@ -289,6 +291,9 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     path.media = select_media<F>(moves, media.toward(wi), path.media);
     path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
     path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
+
+    if constexpr (requires { Tally::records_vertices; })
+      tally.visit(VertexVisit<F>{x, bsdf, arriving, wi, path.density, chance, on, passes, in_medium, moves});
 
     // The next vertex, or the sky. In media a ray that meets no surface may still scatter.
     path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;

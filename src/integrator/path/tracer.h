@@ -13,6 +13,7 @@ class PathTracer final : public LayeredIntegrator<PathTracer> {
  public:
   // Scene and accel must outlive the tracer.
   PathTracer(const Scene& scene, const Accel& accel, const PathSettings& settings);
+  std::optional<TracedPath> trace_path(const TilePass& pass) const override;
 
  private:
   friend LayeredIntegrator<PathTracer>;

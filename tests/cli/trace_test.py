@@ -1,0 +1,82 @@
+"""montelux trace: one sample of a pixel, traced again."""
+import array
+import json
+import unittest
+
+from program import SCENE, ProgramTest
+
+FOG = """Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ .1 .2 .3 ] "rgb sigma_s" [ 1 2 3 ]
+MediumInterface "" "fog"
+LookAt 0 0 5  0 0 0  0 1 0
+Camera "perspective" "float fov" 30
+WorldBegin
+LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 0 0 ]
+"""
+
+
+class Trace(ProgramTest):
+    def fog(self):
+        path = self.folder / "fog.pbrt"
+        path.write_text(FOG)
+        return path
+
+    def traced(self, scene, *options):
+        return json.loads(self.run_program("trace", scene, *options, "--json").stdout)
+
+    def pixel(self, scene, x, y, width, height, *options):
+        """A pixel as render has it, from a .pfm, whose rows begin at the bottom."""
+        self.run_program("render", scene, "-o", "out.pfm", "--resolution", f"{width}x{height}", *options)
+        data = (self.folder / "out.pfm").read_bytes()
+        values = array.array("f", data[-12 * width * height:])
+        return values[3 * ((height - 1 - y) * width + x):][:3]
+
+    def test_the_samples_of_a_pixel_are_those_of_the_render(self):
+        for scene, options in ((SCENE, ["--spp", "32"]), (self.fog(), ["--spp", "16", "--sampler", "independent"])):
+            shown = self.pixel(scene, 3, 2, 4, 4, *options, "--seed", "5")
+            found = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "5")
+            for a, b in zip(shown, found["pixel_mean"]):
+                self.assertAlmostEqual(a, b, delta=2e-6 * abs(b))
+            other = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "6")
+            self.assertNotAlmostEqual(shown[0], other["pixel_mean"][0], delta=1e-4 * shown[0])
+
+    def test_a_sample_is_the_sum_of_its_contributions(self):
+        for scene in SCENE, self.fog():
+            for k in 0, 3, 7:
+                t = self.traced(scene, "--resolution", "4x4", "--pixel", "1,2", "--spp", "8", "--sample", str(k))
+                self.assertEqual(t["sample"], k)
+                for c in range(3):
+                    total = sum(contribution["light"][c] for contribution in t["contributions"])
+                    self.assertAlmostEqual(total, t["radiance"][c], delta=1e-5 * abs(total) + 1e-12)
+                self.assertTrue(all(c["vertex"] <= len(t["vertices"]) for c in t["contributions"]))
+                for before, after in zip(t["vertices"], t["vertices"][1:]):
+                    self.assertTrue(before["continues"])
+                    way = [after["position"][i] - before["position"][i] for i in range(3)]
+                    self.assertAlmostEqual(sum(w * w for w in way) ** 0.5, after["distance"], delta=1e-3)
+
+    def test_the_brightest_is_found(self):
+        common = SCENE, "--resolution", "8x6", "--pixel", "4,3", "--spp", "16"
+        brightness = lambda t: sum(w * c for w, c in zip((0.212639, 0.715169, 0.072192), t["radiance"]))
+        all_samples = [brightness(self.traced(*common, "--sample", str(k))) for k in range(16)]
+        self.assertEqual(self.traced(*common)["sample"], all_samples.index(max(all_samples)))
+
+    def test_vertices_are_of_media_and_surfaces(self):
+        kinds = {v["kind"] for v in self.traced(self.fog(), "--pixel", "1,1", "--spp", "4")["vertices"]}
+        self.assertEqual(kinds, {"medium"})
+        surfaces = self.traced(SCENE, "--resolution", "8x6", "--pixel", "4,3", "--spp", "4")["vertices"]
+        self.assertEqual({v["kind"] for v in surfaces}, {"surface"})
+        self.assertTrue(all(v["model"] for v in surfaces))
+        text = self.run_program("trace", SCENE, "--resolution", "8x6", "--pixel", "4,3", "--spp", "4").stdout
+        for word in "radiance", "camera", "throughput", "ends here":
+            self.assertIn(word, text)
+
+    def test_mistakes_are_named(self):
+        for options, words in ((["--pixel", "900,0"], "outside"), (["--pixel", "1"], "two whole numbers"),
+                               (["--pixel", "1,1", "--sample", "9", "--spp", "8"], "samples 0 to 7"),
+                               (["--pixel", "1,1", "--sample", "x"], "brightest"),
+                               (["--pixel", "1,1", "--integrator", "direct"], "no paths to show"), ([], "--pixel")):
+            self.assertIn(words, self.run_program("trace", SCENE, *options, status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
