@@ -139,6 +139,8 @@ int run_trace(const TraceArguments& arguments) {
   const Result<SampleTrace> traced =
       trace_sample(*loaded.scene, arguments.render, arguments.pixel.first, arguments.pixel.second, arguments.sample);
   if (!traced) return complain(traced.error());
+  if (!arguments.quiet)
+    for (const std::string& note : traced->notes) warn(note);
   if (arguments.json)
     print_json(*traced);
   else

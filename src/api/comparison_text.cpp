@@ -137,7 +137,7 @@ std::string budget_text(const ComparisonOptions& o) {
   if (o.seconds)
     return fmt::format("{:.4g} s for each method, {:.4g} s in each of its repeats", *o.seconds, *o.seconds / o.repeats);
   const int samples = o.samples.value_or(lab::ComparisonSettings{}.samples);
-  return fmt::format("{} {} a pixel in each repeat", samples, samples == 1 ? "sample" : "samples");
+  return fmt::format("{} {} per pixel in each repeat", samples, samples == 1 ? "sample" : "samples");
 }
 
 }  // namespace

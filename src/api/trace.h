@@ -12,6 +12,7 @@ struct SampleTrace {
   std::uint32_t seed = 0;
   Rgb pixel_mean{};  // over all samples of the pixel
   std::string integrator, sampler;
+  std::vector<std::string> notes;  // for the user, as a render has them
   TracedPath path;
   std::vector<std::string> materials;    // name of material number i; empty for one without a name
   std::vector<std::string> light_names;  // kind of light number i

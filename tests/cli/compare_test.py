@@ -85,7 +85,7 @@ class Compare(ProgramTest):
         # Omissions are stated in every form of the results.
         result = self.compare(*methods, "--warm-frames", "-o", "report.html")
         self.assertRegex(result.stdout, r"not counted: \S+ m?s of warm-up in each repeat; efficiency including it")
-        self.assertRegex(result.stdout, r"the warm-up of restir-di:\S+ is not counted: with it \S+ \(\S+ to \S+\) times")
+        self.assertRegex(result.stdout, r"the warm-up of restir-di:\S+ is not counted: \S+ \(\S+ to \S+\) times including it")
         page = (self.folder / "report.html").read_text()
         for word in "including the warm-up", "frames of a sequence", "--warm-frames":
             self.assertIn(word, page)
@@ -253,7 +253,7 @@ class Compare(ProgramTest):
         text = self.compare("-a", "path", "-b", "path", "-c", "path:mis=power").stdout
         self.assertIn("path (a) and path (b) are the same method with the same settings", text)
         # The default, typed.
-        self.assertIn("path (a) and path:mis=power gave the same pictures, to the bit", text)
+        self.assertIn("path (a) and path:mis=power gave the same images bit for bit", text)
 
     def test_what_pictures_lack_is_named_for_each_method(self):
         ball = GLASS + '\nShape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'

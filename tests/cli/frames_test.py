@@ -167,7 +167,7 @@ class Frames(ProgramTest):
         self.assertEqual([t["mean"] for t in told], [t["mean"] for t in again])
         off = self.told("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
         late = self.told("--frames", "2:2/3", *way, "-o", "late.#.pfm")
-        self.assertEqual([t["history_bytes"] for t in told], [16 * 16 * 4 * 320] * 2 + [0])  # nothing follows the last
+        self.assertEqual([t["history_bytes"] for t in told], [16 * 16 * 4 * 324] * 2 + [0])  # nothing follows the last
         self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
         # The first frame has no history; what begins later has none either.
         same = [(self.folder / f"on.{n}.pfm").read_bytes() == (self.folder / f"off.{n}.pfm").read_bytes()
@@ -211,7 +211,7 @@ class Frames(ProgramTest):
                                   "--no-progress", "-o", "a.#.pfm")
         self.assertIn("over the budget", result.stdout)
         self.assertIn("error    unknown", result.stdout)
-        self.assertIn("2 of 2 pictures took longer", result.stderr)
+        self.assertIn("2 of 2 images took longer", result.stderr)
         for arguments in (["--spp", "2"], ["--time", "1s"], ["--layers", "bounces"]):
             self.run_program("render", "slide.pbrt", "--interactive-budget", "1s", *arguments, status=2)
 

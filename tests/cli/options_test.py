@@ -150,6 +150,7 @@ class EveryVerb(ProgramTest):
     COMMANDS = {
         "render": ["render", "dark.pbrt", "--resolution", "32x24", "--spp", "2", "-o", "a.png"],
         "info": ["info", "flat.pbrt"],
+        "trace": ["trace", "dark.pbrt", "--resolution", "32x24", "--pixel", "16,12", "--spp", "2"],
         "compare": ["compare", SCENE, "--resolution", "32x24", "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2",
                     "--no-cache", "--no-slopes", "--no-attribution"],
         "integrate": ["integrate", "x^-0.9", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--save", "c.json"],

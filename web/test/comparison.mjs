@@ -10,9 +10,9 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await shot("comparison-light", { fullPage: true });
 
   const facts = await page.locator(".facts").textContent();
-  for (const [what, pattern] of [["the resolution", /64 × 48 pixels/], ["the samples", /4 samples a pixel in each repeat/],
+  for (const [what, pattern] of [["the resolution", /64 × 48 pixels/], ["the samples", /4 samples per pixel in each repeat/],
     ["the repeats", /4 of each method/], ["the measure", /relMSE/], ["the version", /Montelux \d+\.\d+/],
-    ["the reference", /reference.*samples a pixel/]])
+    ["the reference", /reference.*samples per pixel/]])
     expect(pattern.test(facts), `the conditions have ${what}`);
   const place = await page.locator(".facts").boundingBox();
   expect(place.y + place.height < 900, `and stand on top (${Math.round(place.y)} to ${Math.round(place.y + place.height)})`);
