@@ -211,6 +211,8 @@ std::optional<int> common_pass(const Film& a, const Film& b) {
 }  // namespace
 
 bool is_saved_film(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;  // opening a pipe that nobody writes to would wait
   std::string begin(64, '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(begin.data(), std::streamsize(begin.size()));

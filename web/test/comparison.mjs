@@ -77,7 +77,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
   await shot("comparison-shares");
   await viewer.locator("select[aria-label=show]").selectOption("pictures");
   expect((await canvases.count()) === 3, "and the pictures come back");
-  expect((await page.locator("figcaption", { hasText: "Shares of the picture's variance" }).count()) === 2,
+  expect((await page.locator("figcaption", { hasText: "Shares of the variance of the image" }).count()) === 2,
     "the shares are charts by bounces and by techniques, but not by the only light group");
 
   for (const [i, family] of ["bounces", "techniques"].entries()) {
