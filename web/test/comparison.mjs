@@ -81,7 +81,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
     "the shares are charts by bounces and by techniques, but not by the only light group");
 
   for (const [i, family] of ["bounces", "techniques"].entries()) {
-    const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance by ${family}` }) });
+    const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance of the image by ${family}` }) });
     await chart.scrollIntoViewIfNeeded();
     await chart.locator(".plot canvas").waitFor({ timeout: 10000 });
     await page.waitForTimeout(100);
@@ -119,7 +119,7 @@ await examineReport(process.argv[2], process.argv[3], async ({ page, expect, sho
     await page.setViewportSize({ width, height: 800 });
     await page.reload();
     for (const family of ["bounces", "techniques"]) {
-      const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance by ${family}` }) });
+      const chart = page.locator("figure", { has: page.locator("figcaption", { hasText: `variance of the image by ${family}` }) });
       await chart.scrollIntoViewIfNeeded();
       await chart.locator(".plot canvas").waitFor({ timeout: 10000 });
       await page.waitForTimeout(200);
