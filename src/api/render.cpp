@@ -401,7 +401,8 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
   };
   if (!trace(0))
     return Failure{fmt::format("the integrator {} has no paths to show; path and naive have", plan.chosen.name)};
-  SampleTrace result{x, y, 0, all, 0, 0, r.seed, {}, plan.chosen.name, std::string(name_of(r.sampler)), plan.chosen.notes, {}, {}, {}};
+  SampleTrace result{
+      x, y, 0, all, 0, 0, r.seed, {}, plan.chosen.name, std::string(name_of(r.sampler)), plan.chosen.notes, {}, {}, {}};
   std::array<double, spectrum_size> sum{};
   float largest = -1;
   for (int k = 0; k < all; ++k) {
