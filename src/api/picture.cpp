@@ -44,7 +44,10 @@ struct LayerRow {
 const std::vector<LayerRow>& layer_rows() {
   using At = const PixelView&;
   static const std::vector<LayerRow> rows{
-      {"", {"R", "G", "B"}, true, [](At at, int c) { return color_at(at.rendering, at.x, at.y, c); }},
+      {"",
+       {"R", "G", "B"},
+       true,
+       [](At at, int c) { return at.rendering.layers ? color_at(at.rendering, at.x, at.y, c) : at.estimate.mean[c]; }},
       {"",
        {"A"},
        true,
