@@ -61,7 +61,7 @@ Hit<F> select_hit(Mask<F> m, const Hit<F>& a, const Hit<F>& b) {
           select(m, a.instance, b.instance)};
 }
 
-// Is told of each light that a ray meets, weighted: in which lanes, how much, its number, and how it was found.
+// Receives each light that a ray meets, weighted: in which lanes, how much, its number, and how it was found.
 struct NoWitness {
   template <class... All>
   MONTELUX_INLINE void operator()(const All&...) const {}

@@ -198,7 +198,7 @@ class ChainJob {
   }
   void end_chain() {
     leave_memory();
-    // A chain that is broken off is begun anew where the film goes on.
+    // An interrupted chain restarts when the film is resumed.
     if (step_.frame < frames_) keep(), is_kept_ = true;
     for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, settings_.first_pass + pass_, tile.pixels);
     ++pass_, has_picture_ = true;

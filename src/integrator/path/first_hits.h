@@ -42,7 +42,7 @@ class FirstHits {
   std::uint64_t rays_ = 0;
 };
 
-// A witness of arrive() for light that the camera sees directly.
+// A callback of arrive() for light that the camera sees directly.
 template <class F, class Tally>
 auto seen_directly([[maybe_unused]] const PathState<F>& path, [[maybe_unused]] Tally& tally) {
   return [&]([[maybe_unused]] Mask<F> on, [[maybe_unused]] const Spectrum<F>& light,
