@@ -123,7 +123,7 @@ void check_shape(const Entity& shape, Reporter& report) {
   float end = is_sphere ? p.number("radius", 1) : 1.0f;
   float low = p.number("zmin", -end), high = p.number("zmax", end);
   if (low == high)
-    report.error(place_of(shape, "zmax"), "'zmin' and 'zmax' are equal: there is nothing left of the " + shape.type);
+    report.error(place_of(shape, "zmax"), "'zmin' and 'zmax' are equal: nothing is left of the " + shape.type);
   if (is_sphere && (std::min(low, high) >= end || std::max(low, high) <= -end))
     report.error(place_of(shape, "zmin"), "nothing is left of the sphere between 'zmin' and 'zmax'");
 }
