@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "api/images.h"
@@ -12,12 +13,30 @@ namespace {
 
 // The colour of a pixel of the picture: the mean of all light, as the layers know it where there are any, so that they
 // sum to it.
-double color_at(const Rendering& rendering, int x, int y, int channel) {
+std::array<double, 3> color_at(const Rendering& rendering, int x, int y) {
   const Film& film = rendering.result.film;
   const PixelGrid& grid = film.grid();
   const int px = grid.bounds.x0 + x, py = grid.bounds.y0 + y;
-  if (rendering.layers) return film.layers()->mean(grid.cell_x(px), grid.cell_y(py), channel);
-  return film.pixel(px, py).mean[channel];
+  if (!rendering.layers) return film.mean(px, py);
+  std::array<double, 3> color{};
+  for (int c = 0; c < 3; ++c) color[std::size_t(c)] = film.layers()->mean(grid.cell_x(px), grid.cell_y(py), c);
+  return color;
+}
+
+// Fills pixels of the rows [first, first + count), `channels` values each. The pixels of a cell are alike: compute(x,
+// y, values) is called for one of them, and the others copy its values.
+template <class Compute>
+void fill_by_cells(const PixelGrid& grid, int first, int count, int channels, float* values, Compute compute) {
+  const int width = grid.bounds.width(), x0 = grid.bounds.x0, y0 = grid.bounds.y0 + first;
+  for (int y = 0; y < count; ++y)
+    for (int x = 0; x < width; ++x, values += channels) {
+      const bool like_left = x > 0 && grid.cell_x(x0 + x) == grid.cell_x(x0 + x - 1);
+      const bool like_above = y > 0 && grid.cell_y(y0 + y) == grid.cell_y(y0 + y - 1);
+      if (like_left || like_above)
+        std::copy_n(values - channels * (like_left ? 1 : width), channels, values);
+      else
+        compute(x, first + y, values);
+    }
 }
 
 // One pixel, as the layers see it.
@@ -47,7 +66,9 @@ const std::vector<LayerRow>& layer_rows() {
       {"",
        {"R", "G", "B"},
        true,
-       [](At at, int c) { return at.rendering.layers ? color_at(at.rendering, at.x, at.y, c) : at.estimate.mean[c]; }},
+       [](At at, int c) {
+         return at.rendering.layers ? color_at(at.rendering, at.x, at.y)[std::size_t(c)] : at.estimate.mean[c];
+       }},
       {"",
        {"A"},
        true,
@@ -71,6 +92,12 @@ std::vector<std::string> channel_names() {
   for (const LayerRow& row : layer_rows())
     for (std::string_view channel : row.channels) names.push_back(channel_name(row, channel));
   return names;
+}
+
+// The number of the channel that counts the samples.
+int samples_channel() {
+  const std::vector<std::string> names = channel_names();
+  return int(std::ranges::find(names, "samples") - names.begin());
 }
 
 // Appends the mean of each layer of light, and its standard error where it is known, for the rows from `first` on.
@@ -122,14 +149,18 @@ PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
   const Film& film = rendering.result.film;
   const PixelBounds& bounds = film.bounds();
   PixelBuffer image = make_pixel_buffer(bounds.width(), count, channel_names());
-  for (int y = 0; y < count; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const int px = bounds.x0 + x, py = bounds.y0 + first + y;
-      const PixelView at{rendering, x, first + y, film.pixel(px, py), film.features(px, py), film.samples(px, py)};
-      int channel = 0;
-      for (const LayerRow& row : layer_rows())
-        for (int c = 0; c < int(row.channels.size()); ++c) image.at(x, y, channel++) = float(row.value(at, c));
-    }
+  fill_by_cells(film.grid(), first, count, image.channel_count(), image.values.data(),
+                [&](int x, int y, float* values) {
+                  const int px = bounds.x0 + x, py = bounds.y0 + y;
+                  const PixelView at{rendering, x, y, film.pixel(px, py), film.features(px, py), film.samples(px, py)};
+                  for (const LayerRow& row : layer_rows())
+                    for (int c = 0; c < int(row.channels.size()); ++c) *values++ = float(row.value(at, c));
+                });
+  // The samples are those of the pixel itself.
+  if (const int of_samples = samples_channel(); film.grid().stride > 1)
+    for (int y = 0; y < count; ++y)
+      for (int x = 0; x < image.width; ++x)
+        image.at(x, y, of_samples) = float(film.samples(bounds.x0 + x, bounds.y0 + first + y));
   if (rendering.motion) append_layer(image, "motion", rows_of(*rendering.motion, first, count));
   if (rendering.layers) append_light(image, first, *film.layers(), film.grid(), layer_names(*rendering.layers));
   return image;
@@ -144,11 +175,11 @@ PixelBuffer layers_of(const Rendering& rendering) {
 namespace {
 
 PixelBuffer colors_of(const Rendering& rendering) {
-  const PixelBounds& bounds = rendering.result.film.bounds();
-  PixelBuffer color = make_pixel_buffer(bounds.width(), bounds.height(), {"R", "G", "B"});
-  for (int y = 0; y < color.height; ++y)
-    for (int x = 0; x < color.width; ++x)
-      for (int c = 0; c < spectrum_size; ++c) color.at(x, y, c) = float(color_at(rendering, x, y, c));
+  const PixelGrid& grid = rendering.result.film.grid();
+  PixelBuffer color = make_pixel_buffer(grid.bounds.width(), grid.bounds.height(), {"R", "G", "B"});
+  fill_by_cells(grid, 0, color.height, 3, color.values.data(), [&](int x, int y, float* values) {
+    for (double channel : color_at(rendering, x, y)) *values++ = float(channel);
+  });
   return color;
 }
 
@@ -170,9 +201,10 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
 }
 
 // Two passes of noise.
-Rendering noise(const PixelBounds& bounds) {
-  Rendering rendering{RenderResult{Film(bounds), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
-  std::vector<PixelSample> samples(std::size_t(bounds.area()));
+Rendering noise(const PixelBounds& bounds, int stride) {
+  Rendering rendering{RenderResult{Film(bounds, {}, stride), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
+  const PixelBounds cells = rendering.result.film.grid().cells();
+  std::vector<PixelSample> samples(std::size_t(cells.area()));
   RandomStream<float> random(0, 0);
   for (int pass = 0; pass < 2; ++pass) {
     for (PixelSample& sample : samples) {
@@ -180,14 +212,17 @@ Rendering noise(const PixelBounds& bounds) {
       sample.features.coverage = 1, sample.features.object = 1;
       sample.features.depth = 1 + 0.001f * random.next();
     }
-    rendering.result.film.add_pass(bounds, pass, 1, samples);
+    rendering.result.film.add_pass(cells, pass, 1, samples);
   }
   return rendering;
 }
 
-// Of a picture of noise; its encoding takes no time where it is not possible.
-FinishTime finish_strip(int width, int height, const FilesToWrite& files) {
-  Rendering strip = noise({0, 0, width, height});
+// Seconds that the error and the files of a picture of noise take. Its encoding takes no time where it is not possible.
+struct StripTime {
+  double error = 0, encoding = 0;
+};
+StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files) {
+  Rendering strip = noise(bounds, stride);
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
   const double error = since_start.seconds();
@@ -212,13 +247,13 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
 
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files) {
   // Without what happens once: libraries are loaded, memory is mapped.
-  (void)finish_strip(bounds.width(), 1, files);
-  // As many rows as an .exr packs together, or some such.
-  constexpr int rows_together = 32;
-  const int rows = std::min((bounds.height() / (32 * rows_together) + 1) * rows_together, bounds.height());
-  const FinishTime strip = finish_strip(bounds.width(), rows, files);
-  const double strips = double(bounds.height()) / rows;
-  return {strips * strip.error, strips * strip.encoding};
+  (void)time_strip({0, 0, 1, 1}, 1, files);
+  // As many rows as an .exr packs together.
+  const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), 32)};
+  const double strips = double(bounds.height()) / strip.height();
+  const StripTime dense = time_strip(strip, 1, files);
+  const double even = time_strip(strip, std::max(bounds.width(), bounds.height()), files).encoding;
+  return {strips * dense.error, strips * dense.encoding, strips * std::min(even, dense.encoding)};
 }
 
 }  // namespace montelux

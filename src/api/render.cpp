@@ -178,10 +178,13 @@ void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSetting
   const auto left = [&](double end) { return std::max(end - before - since_start.seconds(), min_share * all); };
   const FinishTime finish = seconds_to_finish(settings.bounds, plan.files);
   const double end = all - finish.error - finish.encoding;
-  if (left(all - finish.encoding) == min_share * all)
+  const auto announce_if_late = [&](double encoding) {
+    if (left(all - encoding) > min_share * all) return;
     observer.announce(fmt::format("preparing and writing the image takes about {:.2g} s in addition to the time",
-                                  before + finish.encoding));
+                                  before + since_start.seconds() + encoding));
+  };
   if (settings.begun) {
+    announce_if_late(finish.encoding);
     settings.seconds = left(end);
     before += since_start.seconds();
     return;
@@ -196,6 +199,8 @@ void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSetting
     timed.stride = 1;
   }
   settings.plan = timed.plan, settings.stride = timed.stride, settings.max_unit_samples = timed.max_unit_samples;
+  const double encoding = timed.stride > 1 ? finish.encoding_of(timed.stride) : finish.encoding;
+  announce_if_late(encoding);
   if (timed.stride > 1)
     observer.announce(fmt::format("one sample per pixel takes about {:.2g} s, more than the time: {}",
                                   timed.sample_seconds, sparse_text(timed.stride)));
@@ -203,7 +208,7 @@ void plan_timed(const AnyIntegrator& integrator, const Plan& plan, RenderSetting
     observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the image is one frame",
                                   timed.sample_seconds));
   // The error of a sparse picture is not estimated.
-  settings.seconds = left(timed.stride > 1 ? all - finish.encoding : end);
+  settings.seconds = left(timed.stride > 1 ? all - encoding : end);
   before += since_start.seconds();
 }
 

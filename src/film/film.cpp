@@ -125,6 +125,12 @@ PixelEstimate PixelSums::estimate() const {
   return e;
 }
 
+std::array<double, spectrum_size> PixelSums::mean() const {
+  std::array<double, spectrum_size> mean{};
+  for (int c = 0; c < spectrum_size; ++c) mean[std::size_t(c)] = radiance[c].mean(passes);
+  return mean;
+}
+
 PixelFeatures PixelSums::features() const {
   PixelFeatures f;
   f.emission = emission.value(), f.depth = depth.value();

@@ -2,6 +2,7 @@
 // pass's samples there), so the spread over passes is the true spread of the estimator, whatever the correlation of the
 // samples inside a pass.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -72,6 +73,7 @@ struct PixelSums {
   void add_mean(int pass, const double (&mean)[spectrum_size]);
   void merge(const PixelSums& other);
   PixelEstimate estimate() const;
+  std::array<double, spectrum_size> mean() const;
   PixelFeatures features() const;
 };
 
@@ -138,6 +140,8 @@ class Film {
 
   // Of a pixel that is not sampled those of the one that stands for its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
+  // The mean alone, which takes less time than the whole estimate.
+  std::array<double, spectrum_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
   PixelFeatures features(int x, int y) const { return pixels_[index(x, y)].features(); }
   // Samples taken at a pixel.
   double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }

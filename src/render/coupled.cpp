@@ -241,7 +241,7 @@ class ChainJob {
   std::vector<ChainTile> tiles_;
   std::unique_ptr<Chain> chain_;
   ChainStep step_;
-  ErrorWatch error_;
+  ErrorWatch error_{double(settings_.bounds.area()), settings_.seconds};
   int pass_ = 0;  // chains that are in the film, of those that are to be
   int passes_begun_ = 0;
   bool has_picture_ = false;  // some chain is in the film

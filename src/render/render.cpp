@@ -240,7 +240,7 @@ class Job {
   double seconds_before_ = 0;
   std::atomic<bool> stop_{false};
   StopFlag drop_;
-  ErrorWatch error_;
+  ErrorWatch error_{double(settings_.bounds.area()), settings_.seconds};
   KeepingWatch keeping_{settings_.keeping};
   std::mutex mutex_;  // guards what follows
   std::condition_variable finished_;

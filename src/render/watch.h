@@ -63,22 +63,30 @@ class KeepingWatch {
   std::uint64_t kept_ = 0;
 };
 
-// Estimates the error of a picture now and then, so that it takes a small part of the time.
+// Estimates the error of a picture now and then, so that it takes a small part of the time, and ends before the time
+// is over.
 class ErrorWatch {
  public:
+  // Of a picture of so many pixels, which is to end after so many seconds, if it has such a limit.
+  ErrorWatch(double pixels, const std::optional<double>& end) : expected_(pixels * pixel_seconds), end_(end) {}
+
   // The last estimate, or a new one where it is due; `estimate` returns it.
   template <class Estimate>
   const ErrorEstimate& of(double elapsed, Estimate estimate) {
     constexpr double share = 0.02;  // of the time
-    if (elapsed < next_) return error_;
+    if (elapsed < next_ || (end_ && elapsed + expected_ > *end_)) return error_;
     const Stopwatch since_start;
     error_ = estimate();
-    next_ = elapsed + std::max(since_start.seconds() / share, 0.1);
+    expected_ = since_start.seconds();
+    next_ = elapsed + std::max(expected_ / share, 0.1);
     return error_;
   }
 
  private:
+  static constexpr double pixel_seconds = 4e-7;  // until the first estimate shows how long it takes
   ErrorEstimate error_;
+  double expected_;  // seconds of the next estimate
+  std::optional<double> end_;
   double next_ = 0;  // when it is due
 };
 
