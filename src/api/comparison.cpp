@@ -17,15 +17,16 @@ namespace {
 
 Result<lab::ComparisonSettings> settings_of(const LoadedScene::Parts& parts, const ComparisonOptions& options) {
   lab::ComparisonSettings settings;
-  RenderSettings& r = settings.render;
+  ImageSettings& r = settings.render.image;
   r.width = parts.picture.width, r.height = parts.picture.height;
   r.bounds = options.crop.value_or(parts.picture.crop);
   const PixelBounds& b = r.bounds;
   if (b.x0 < 0 || b.y0 < 0 || b.x1 > r.width || b.y1 > r.height || b.x0 >= b.x1 || b.y0 >= b.y1)
     return Failure{fmt::format("the crop is not inside the picture of {} x {} pixels", r.width, r.height)};
-  r.seed = options.seed, r.threads = options.threads;
-  r.warm_up_counts = !options.warm_frames;
-  if (options.processor_time) r.clock = processor_seconds;
+  r.seed = options.seed;
+  settings.render.threads = options.threads;
+  settings.warm_up_counts = !options.warm_frames;
+  if (options.processor_time) settings.render.clock = processor_seconds;
   settings.slopes = options.slopes;
   settings.seconds = options.seconds;
   settings.samples = options.samples.value_or(settings.samples);
@@ -140,7 +141,7 @@ struct Work {
 
 // A reference better than the goal: from the cache, or rendered now.
 void take_reference(const Work& work, const lab::ReferenceGoal& goal, Comparison& comparison) {
-  const PixelBounds& bounds = work.settings.render.bounds;
+  const PixelBounds& bounds = work.settings.render.image.bounds;
   const auto file = comparison.saved.options.cache
                         ? reference_cache(work.parts, bounds, work.field.compared_methods[goal.method])
                         : std::nullopt;
@@ -219,7 +220,7 @@ Result<Comparison> compare_methods(const LoadedScene& scene, const ComparisonOpt
   if (Status warm = check_warm_up(field->compared_methods, options); !warm) return warm.failure();
   auto settings = settings_of(scene.parts(), options);
   if (!settings) return settings.failure();
-  auto source = find_reference(options, field->compared_methods, settings->render.bounds);
+  auto source = find_reference(options, field->compared_methods, settings->render.image.bounds);
   if (!source) return source.failure();
   Comparison comparison;
   comparison.saved.options = options;
@@ -240,7 +241,7 @@ Result<Comparison> continue_comparison(const LoadedScene& scene, SavedComparison
   if (!field) return field.failure();
   auto settings = settings_of(scene.parts(), saved.options);
   if (!settings) return settings.failure();
-  if (Status fits = check_fit(saved, *field, settings->render.bounds); !fits) return fits.failure();
+  if (Status fits = check_fit(saved, *field, settings->render.image.bounds); !fits) return fits.failure();
   int rounds = more.repeats.value_or(settings->repeats);
   if (more.seconds) {
     const std::optional<double> one = seconds_of_repeat(saved.state, *settings);

@@ -1,5 +1,8 @@
 #include "api/shortcomings.h"
 
+#include "api/render.h"
+#include "integrator/missing_light.h"
+
 namespace montelux {
 
 IntegratorDefaults integrator_defaults(const PictureSettings& picture) {
@@ -18,6 +21,16 @@ std::vector<Replacement> replaced_in(const SceneInfo& scene, bool chooses_integr
     return (r.family == "integrator" && chooses_integrator) || (r.family == "sampler" && chooses_sampler);
   });
   return replaced;
+}
+
+std::vector<std::string> missing_light_of(const LoadedScene& scene) {
+  const LoadedScene::Parts& parts = scene.parts();
+  const IntegratorDefaults defaults = integrator_defaults(parts.picture);
+  std::vector<std::string> names;
+  for (const MissingLight& light : missing_light(light_search(parts.picture.integrator), parts.scene, *parts.accel,
+                                                 defaults.width, defaults.height))
+    names.push_back(light.name);
+  return names;
 }
 
 }  // namespace montelux

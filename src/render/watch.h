@@ -1,83 +1,53 @@
-// What the two kinds of render share: the film that they begin with, what an observer receives, and when to look.
+// Watches over the threads of a render: stops, progress, snapshots and estimates of the error, for both kinds of
+// integrator.
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "render/render.h"
 
 namespace montelux {
 
-// The film that a render adds to, with its tiles named; what was begun is moved out of the settings.
-inline Film first_film(const RenderSettings& settings, int tile_side) {
-  Film film =
-      settings.begun ? std::move(settings.begun->film) : Film(settings.bounds, settings.layers, settings.stride);
-  if (film.tiles().empty())
-    for (const PixelBounds& tile : tiles_of(film.grid().cells(), tile_side)) film.name_tile(tile);
-  return film;
-}
-
-inline std::vector<PixelBounds> tiles_of(const Film& film) {
-  std::vector<PixelBounds> tiles;
-  for (const auto& [index, tile] : film.tiles()) tiles.push_back(tile.cells);
-  return tiles;
-}
-
-// How far a render is, as a share of its work, when it begins and now.
-struct Share {
-  double begun = 0, now = 0;
+// How much of a render's plan is done, as shares of it, and the samples of the film.
+struct WorkDone {
+  double begun = 0, now = 0;  // when the render began (the film may have passes then), and now
+  std::uint64_t samples = 0;
 };
 
-// The time that was set, where one was, may be nearer its end. `elapsed` is since the render began, `before` what the
-// film had taken by then.
-inline Progress progress_after(double elapsed, Share share, const std::optional<double>& seconds, bool finished,
-                               double before = 0) {
-  Progress p;
-  p.finished = finished, p.elapsed = before + elapsed;
-  p.fraction = std::min(seconds ? std::max(share.now, elapsed / *seconds) : share.now, 1.0);
-  const double begun = seconds ? 0 : share.begun;
-  p.remaining = p.fraction > begun ? elapsed * (1 - p.fraction) / (p.fraction - begun) : 0;
-  return p;
-}
-
-// When a film is to be left.
-class KeepingWatch {
+// The work that is watched. All functions are called by the watching thread while others work.
+class WatchedWork {
  public:
-  explicit KeepingWatch(const FilmKeeping& keeping) : keeping_(keeping) {}
-  bool is_due(double elapsed) const { return keeping_.keep && elapsed >= next_; }
-  // What `snapshot` returns, of `work` units: none where the film has not grown since.
-  template <class Snapshot>
-  void keep(double elapsed, std::uint64_t work, Snapshot snapshot) {
-    if (!keeping_.keep) return;
-    next_ = elapsed + keeping_.every;
-    if (work == kept_) return;
-    kept_ = work;
-    keeping_.keep(snapshot());
-  }
-
- private:
-  const FilmKeeping& keeping_;
-  double next_ = keeping_.every;
-  std::uint64_t kept_ = 0;
+  virtual ~WatchedWork() = default;
+  virtual RenderState state() = 0;
+  virtual WorkDone done() = 0;
+  virtual std::uint64_t passes() = 0;                // of all tiles of the film
+  virtual std::optional<ErrorEstimate> error() = 0;  // of the film; it needs two passes of every pixel
+  virtual FilmSnapshot snapshot() = 0;               // the watch sets its seconds
+  virtual void drop_unfinished_units() {}            // units in work should end at once, and do not enter the film
 };
 
-// Estimates the error of a picture now and then, so that it takes a small part of the time, and ends before the time
-// is over.
+// Estimates the error of a film now and then, so that this takes a small part of the time.
 class ErrorWatch {
  public:
-  // Of a picture of so many pixels, which is to end after so many seconds, if it has such a limit.
-  ErrorWatch(double pixels, const std::optional<double>& end) : expected_(pixels * pixel_seconds), end_(end) {}
+  explicit ErrorWatch(double pixels) : expected_(pixels * pixel_seconds) {}
 
-  // The last estimate, or a new one where it is due; `estimate` returns it.
+  // The last estimate, or a new one if it is due and takes at most `available` seconds. `estimate` returns it; nothing:
+  // it is not possible yet.
   template <class Estimate>
-  const ErrorEstimate& of(double elapsed, Estimate estimate) {
+  const ErrorEstimate& of(double elapsed, double available, Estimate estimate) {
     constexpr double share = 0.02;  // of the time
-    if (elapsed < next_ || (end_ && elapsed + expected_ > *end_)) return error_;
+    if (elapsed < next_ || expected_ > available) return error_;
     const Stopwatch since_start;
-    error_ = estimate();
-    expected_ = since_start.seconds();
+    const std::optional<ErrorEstimate> error = estimate();
+    if (!error) return error_;
+    error_ = *error, expected_ = since_start.seconds();
     next_ = elapsed + std::max(expected_ / share, 0.1);
     return error_;
   }
@@ -86,14 +56,55 @@ class ErrorWatch {
   static constexpr double pixel_seconds = 4e-7;  // until the first estimate shows how long it takes
   ErrorEstimate error_;
   double expected_;  // seconds of the next estimate
-  std::optional<double> end_;
   double next_ = 0;  // when it is due
 };
 
-// How long to sleep before looking again. Short at first, so that a quick render is not held up; then a few times a
-// second.
-inline std::chrono::milliseconds poll_interval(double elapsed) {
-  return std::chrono::milliseconds(elapsed < 0.5 ? 20 : 200);
-}
+class RenderWatch {
+ public:
+  // The settings must outlive it.
+  explicit RenderWatch(const RenderSettings& settings);
+
+  double seconds() const { return since_start_.seconds(); }
+  double seconds_before() const { return seconds_before_; }  // of the film that is continued
+  // Whether no more work should begin.
+  bool stops() const { return stops_; }
+  // The same after a query of the stopping rule. By any thread.
+  bool query(const RenderState& state);
+
+  // Runs `drive` in a thread of its own, watches over the work until it ends, and saves the film. True if the observer
+  // requested a stop. Throws what `drive` throws.
+  bool run(WatchedWork& work, const std::function<void()>& drive, RenderObserver& observer);
+  // The last progress.
+  void report_end(WatchedWork& work, RenderObserver& observer);
+
+ private:
+  bool wait_for_end(std::chrono::milliseconds most);  // of `drive`; false: the time is over
+  void look(WatchedWork& work, RenderObserver& observer);
+  void drop_late_units(WatchedWork& work);
+  void update_error(WatchedWork& work);
+  Progress progress(WatchedWork& work, bool finished);
+  void keep(WatchedWork& work);
+  // How long to sleep before the next look.
+  std::chrono::milliseconds interval(WatchedWork& work) const;
+
+  const RenderSettings& settings_;
+  const Stopwatch since_start_;
+  const double seconds_before_;
+  std::atomic<bool> stops_{false};
+  std::atomic<double> rule_at_{-1};  // when the rule stopped the render; negative: it did not
+  bool interrupted_ = false;
+  double requested_at_ = 0;  // when the observer requested a stop
+  ErrorWatch error_watch_{double(settings_.image.bounds.area())};
+  FilmKeeper keeper_;
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  ErrorEstimate error_;  // the last one
+  bool ended_ = false;   // `drive`
+  std::exception_ptr failure_;
+};
+
+// The film that a render adds to, with its tiles named; a film that is continued is moved out of the settings.
+Film first_film(const RenderSettings& settings, int tile_side);
+std::vector<PixelBounds> tiles_of(const Film& film);
 
 }  // namespace montelux

@@ -103,7 +103,7 @@ inline Truth truth_of(const Film& film) {
 inline Truth truth_of(const TestScene& scene, PassPlan plan, std::optional<Shutter> shutter = {}) {
   const PathTracer path = scene.tracer();
   RenderSettings s = scene.settings(PointSetKind::padded_sobol, plan, 0x7257u, 0);
-  s.shutter = shutter;
+  s.image.shutter = shutter;
   RenderObserver silent;
   return truth_of(render(path, s, silent).film);
 }

@@ -49,7 +49,7 @@ inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& 
   RenderObserver silent;
   for (int pass = 0; pass < passes; ++pass) {
     RenderSettings s = scene.settings(PointSetKind::blue_noise, {samples_per_pass, 1}, seed, 0);
-    s.first_pass = pass;
+    s.plan.first_pass = pass;
     add_pass(render(chosen.any(), s, silent).film, block, m);
   }
   return m;

@@ -75,8 +75,8 @@ class TestScene {
   RenderSettings settings(PointSetKind sampler, PassPlan plan, std::uint32_t seed, int threads = 1) const {
     const PictureSettings& p = prepared_->picture;
     RenderSettings s;
-    s.bounds = p.crop, s.width = p.width, s.height = p.height;
-    s.sampler = sampler, s.seed = seed, s.plan = plan, s.threads = threads;
+    s.image.bounds = p.crop, s.image.width = p.width, s.image.height = p.height;
+    s.image.sampler = sampler, s.image.seed = seed, s.plan = plan, s.threads = threads;
     return s;
   }
   RenderResult render(PointSetKind sampler, PassPlan plan, std::uint32_t seed, Lanes lanes = Lanes::native,

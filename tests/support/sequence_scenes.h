@@ -74,7 +74,7 @@ inline std::vector<PassMeans> measure_sequence(const TestScene& scene, const Cho
     for (int picture = 0; picture < sequence_pictures; ++picture) {
       RenderSettings s =
           scene.settings(PointSetKind::blue_noise, {plan.frames, 1}, plan.seed * 1000 + std::uint32_t(picture), 0);
-      s.first_pass = pass, s.shutter = sequence_shutter(picture), s.memories = &memories;
+      s.plan.first_pass = pass, s.image.shutter = sequence_shutter(picture), s.sequence.memories = &memories;
       if (change && !memories.empty()) memories[0] = change(std::move(memories[0]), picture);
       add_pass(render(chosen.any(), s, silent).film, plan.block, pictures[std::size_t(picture)]);
     }

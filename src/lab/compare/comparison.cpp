@@ -12,6 +12,7 @@
 #include "lab/compare/passes.h"
 #include "lab/compare/work.h"
 #include "mc/random.h"
+#include "render/timed_plan.h"
 
 namespace montelux::lab {
 
@@ -21,9 +22,17 @@ RenderResult take_turn(const ComparedMethod& compared_method, const ComparisonSe
                        int repeat, RenderObserver& observer) {
   RenderSettings s = settings_for(compared_method, settings);
   s.plan = plan;
-  s.seed = mix_bits(settings.render.seed + 0x9e3779b9u * std::uint32_t(repeat + 1));
-  if (settings.seconds) s.seconds = *settings.seconds / settings.repeats;
+  s.image.seed = mix_bits(settings.render.image.seed + 0x9e3779b9u * std::uint32_t(repeat + 1));
+  if (settings.seconds)
+    s.stop = std::make_shared<TimeLimit>(*settings.seconds / settings.repeats, settings.warm_up_counts);
   return render(compared_method.integrator, s, observer);
+}
+
+// The passes of a repeat in its share of the time. Every pixel is sampled, however short that is.
+PassPlan plan_within(const ComparisonSettings& settings, const ComparedMethod& method, RenderObserver& observer) {
+  const TimeLimit limit(*settings.seconds / settings.repeats, settings.warm_up_counts);
+  const PassPlan plan = plan_for_time(method.integrator, settings_for(method, settings), limit, observer).plan;
+  return {plan.samples_per_pass, plan.passes};
 }
 
 // The order of the methods in one round: random, so that no method is always the first.
@@ -44,9 +53,9 @@ ConvergenceRun run_convergence(const ComparedMethod& compared_method, const Comp
   ConvergenceRun run;
   if (!settings.slopes) return run;
   RenderSettings s = settings_for(compared_method, settings);
-  s.seed = mix_bits(settings.render.seed + 0x85ebca6bu * std::uint32_t(repeat + 1));
+  s.image.seed = mix_bits(settings.render.image.seed + 0x85ebca6bu * std::uint32_t(repeat + 1));
   for (int k = 1, level = 0; k <= max_samples && !observer.stop_requested(); k *= 2, ++level) {
-    s.plan = {k, 1}, s.first_pass = convergence_pass + level;
+    s.plan = {k, 1, convergence_pass + level};
     const RenderResult r = render(compared_method.integrator, s, observer);
     if (r.interrupted) break;
     run.samples.push_back(k), run.seconds.push_back(seconds_that_count(r, settings));
@@ -66,10 +75,10 @@ std::optional<AttributionRound> run_attribution(const ComparedMethod& compared_m
                                                 RenderObserver& observer, PixelShares& pixels) {
   RenderSettings s = settings_for(compared_method, settings);
   s.plan = plan;
-  s.first_pass = attribution_pass;
-  s.seed = mix_bits(settings.render.seed + 0xc2b2ae35u * std::uint32_t(round + 1));
-  s.layers = compared_method.layers;
-  s.layers->spread = true;
+  s.plan.first_pass = attribution_pass;
+  s.image.seed = mix_bits(settings.render.image.seed + 0xc2b2ae35u * std::uint32_t(round + 1));
+  s.image.layers = compared_method.layers;
+  s.image.layers->spread = true;
   const RenderResult r = render(compared_method.integrator, s, observer);
   if (r.interrupted) return std::nullopt;
   return attribute(r.film, pixels);
@@ -166,13 +175,12 @@ bool run_repeat(const ComparedMethod& compared_method, const ComparisonSettings&
 
 RenderSettings settings_for(const ComparedMethod& compared_method, const ComparisonSettings& settings) {
   RenderSettings s = settings.render;
-  s.sampler = compared_method.sampler;
-  s.seconds.reset();
+  s.image.sampler = compared_method.sampler;
   return s;
 }
 
 double seconds_that_count(const RenderResult& r, const ComparisonSettings& settings) {
-  return settings.render.warm_up_counts ? r.seconds : r.shown_seconds();
+  return settings.warm_up_counts ? r.seconds : r.shown_seconds();
 }
 
 double expected_repeat_seconds(const ComparedMethod& compared_method, const ComparisonSettings& settings, PassPlan plan,
@@ -190,9 +198,7 @@ ComparisonState begin_comparison(const std::vector<ComparedMethod>& compared_met
   for (const ComparedMethod& c : compared_methods) {
     MethodState method;
     method.plan =
-        settings.seconds
-            ? plan_for_time(c.integrator, settings_for(c, settings), *settings.seconds / settings.repeats, silent).plan
-            : plan_passes(c.integrator, settings.samples, c.sampler);
+        settings.seconds ? plan_within(settings, c, silent) : plan_passes(c.integrator, settings.samples, c.sampler);
     state.methods.push_back(std::move(method));
   }
   return state;
@@ -204,7 +210,7 @@ bool run_rounds(const std::vector<ComparedMethod>& compared_methods, const Compa
   int first = std::numeric_limits<int>::max();
   for (const MethodState& m : state.methods) first = std::min(first, int(m.repeats.size()));
   for (int round = first; round < first + rounds; ++round)
-    for (std::size_t i : order_of_round(compared_methods.size(), settings.render.seed, round)) {
+    for (std::size_t i : order_of_round(compared_methods.size(), settings.render.image.seed, round)) {
       MethodState& method = state.methods[i];
       if (int(method.repeats.size()) > round) continue;
       if (watch.stopped()) return false;

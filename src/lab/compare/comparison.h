@@ -33,9 +33,9 @@ struct ComparedMethod {
 };
 
 struct ComparisonSettings {
-  // Bounds, size, seed, threads, clock, and whether the time of warm-up frames counts; sampler and plan depend on the
-  // method.
+  // Bounds, size, seed, threads and clock; sampler, plan and stopping rule depend on the method.
   RenderSettings render;
+  bool warm_up_counts = true;     // in seconds; false: only the time of frames that are shown counts
   std::optional<double> seconds;  // for each method, over all repeats; otherwise
   int samples = 64;               // per pixel, in each repeat
   int repeats = 8;

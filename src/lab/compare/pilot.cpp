@@ -29,7 +29,7 @@ Pilot take_pilot(const ComparedMethod& compared_method, const ComparisonSettings
   const Stopwatch wall;
   for (int h = 0; h < 2; ++h) {
     RenderSettings s = settings_for(compared_method, settings);
-    s.plan = plan, s.first_pass = pilot_pass + h * plan.passes;
+    s.plan = plan, s.plan.first_pass = pilot_pass + h * plan.passes;
     PartOfPiece part(piece, 0.5 * h, 0.5 * h + 0.5);
     const RenderResult r = render(compared_method.integrator, s, part);
     pilot.halves[std::size_t(h)] = {mean_of(r.film), variance_of(r.film)};
@@ -90,7 +90,7 @@ std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_met
   std::vector<double> sample_seconds;
   for (std::size_t i = 0; i < compared_methods.size(); ++i) {
     RenderSettings s = settings_for(compared_methods[i], settings);
-    s.plan = {1, 1}, s.first_pass = timing_pass;
+    s.plan = {1, 1, timing_pass};
     const PieceProgress piece(watch, {"timing of " + compared_methods[i].shown_name(), 0});
     PartOfPiece part(piece, 0, 1);
     // The shortest of a few short passes: the first one has cold caches, and any may be delayed by other work.

@@ -37,14 +37,14 @@ Reference make_reference(const std::vector<ComparedMethod>& compared_methods, co
                          const ComparisonSettings& settings, const ComparisonWatch& watch) {
   const ComparedMethod& method = compared_methods[goal.method];
   RenderSettings s = settings_for(method, settings);
-  s.seed = mix_bits(settings.render.seed ^ 0x5bd1e995u);
+  s.image.seed = mix_bits(settings.render.image.seed ^ 0x5bd1e995u);
   const PieceProgress piece(watch, {"reference by " + method.shown_name(), goal.seconds});
   const double expected = std::clamp(goal.samples / samples_per_pass, double(min_more), double(max_passes));
-  Film film(s.bounds);
+  Film film(s.image.bounds);
   Reference reference;
   int passes = 0;
   for (int more = std::max(min_more, int(0.6 * expected)); more > 0 && !watch.stopped();) {
-    s.plan = {samples_per_pass, more}, s.first_pass = reference_pass + passes;
+    s.plan = {samples_per_pass, more, reference_pass + passes};
     const double whole = std::max(expected, double(passes + more));
     PartOfPiece part(piece, passes / whole, std::min(0.99, (passes + more) / whole));
     film.merge(render(method.integrator, s, part).film);

@@ -223,7 +223,7 @@ ComparisonResult result_of(const std::vector<ComparedMethod>& compared_methods, 
                            const ComparisonSettings& settings) {
   ComparisonResult result;
   result.reference = state.reference;
-  result.warm_up_counts = settings.render.warm_up_counts, result.measure = settings.measure;
+  result.warm_up_counts = settings.warm_up_counts, result.measure = settings.measure;
   // For all tests of all methods together.
   const double level = level_of_each_test(0.01, compared_methods.size());
   double smallest_mse = std::numeric_limits<double>::infinity(), smallest_relative = smallest_mse;

@@ -22,8 +22,8 @@ const std::vector<std::string> layered_ways{"path",
 RenderResult render_layers(const TestScene& scene, const PixelIntegrator& integrator, const LayerPlan& plan,
                            PassPlan passes, int threads = 1, int first_pass = 0) {
   RenderSettings settings = scene.settings(PointSetKind::independent, passes, 5, threads);
-  settings.layers = plan;
-  settings.first_pass = first_pass;
+  settings.image.layers = plan;
+  settings.plan.first_pass = first_pass;
   RenderObserver silent;
   return render(integrator, settings, silent);
 }
@@ -227,7 +227,7 @@ TEST(Layers, of_a_light_group_are_the_picture_with_the_other_lights_removed) {
     for (const auto& [group, text] : alone) {
       const TestScene lone(text);
       RenderSettings settings = lone.settings(PointSetKind::independent, {8, 32}, 99);
-      settings.layers = all_layers(lone.scene(), 0);
+      settings.image.layers = all_layers(lone.scene(), 0);
       RenderObserver silent;
       const ChosenIntegrator other = lone.integrator(way);
       const LayerPicture truth = layer_picture(render(*other.integrator, settings, silent).film, -1);

@@ -39,7 +39,7 @@ Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ -2 -0.6 -1   2 -0.
 RenderResult rendered(const TestScene& scene, std::uint32_t seed, std::optional<Shutter> shutter = {}) {
   const PathTracer tracer = scene.tracer();
   RenderSettings settings = scene.settings(PointSetKind::independent, {32, passes}, seed);
-  settings.shutter = shutter;
+  settings.image.shutter = shutter;
   RenderObserver silent;
   return render(tracer, settings, silent);
 }

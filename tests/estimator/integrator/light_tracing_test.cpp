@@ -89,22 +89,18 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
   const LightTracingSettings settings;
   for (int number = 0; number < passes; ++number) {
-    const ChainPass pass{s.bounds,
-                         {s.sampler, s.seed, std::uint32_t(number), std::uint32_t(per_pass), std::uint32_t(s.width),
-                          std::uint32_t(s.height)},
-                         {},
-                         {}};
-    SplatPlane plane(s.bounds, scene.scene().filter);
-    Film film(s.bounds);
-    std::vector<PixelPass> pixels(std::size_t(s.bounds.area()));
+    const ChainPass pass{s.image.bounds, s.image.points(number, per_pass), {}, {}};
+    SplatPlane plane(s.image.bounds, scene.scene().filter);
+    Film film(s.image.bounds);
+    std::vector<PixelPass> pixels(std::size_t(s.image.bounds.area()));
     for (int frame = 0; frame < per_pass; ++frame) {
       const LightTracingScene<Accel> shared{scene.scene(), scene.accel(),        settings, by_power,
                                             pass,          std::uint32_t(frame), false,    plane};
-      LightTracingLoop<NativeFloats, Accel, Correction>(shared).run(s.bounds);
-      for (int y = 0, i = 0; y < s.height; ++y)
-        for (int x = 0; x < s.width; ++x, ++i) pixels[std::size_t(i)].add({plane.take(x, y), {}});
+      LightTracingLoop<NativeFloats, Accel, Correction>(shared).run(s.image.bounds);
+      for (int y = 0, i = 0; y < s.image.height; ++y)
+        for (int x = 0; x < s.image.width; ++x, ++i) pixels[std::size_t(i)].add({plane.take(x, y), {}});
     }
-    film.add_pass(s.bounds, 0, pixels);
+    film.add_pass(s.image.bounds, 0, pixels);
     add_pass(film, {}, means);
   }
   return means;

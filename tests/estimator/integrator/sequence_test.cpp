@@ -109,7 +109,7 @@ bool differs_at_new_vertices(const Measured& m, const char* way) {
   const MemoryChange at_new_vertices = [&](std::shared_ptr<const ChainMemory> memory, int picture) {
     ChainMemories now;
     RenderSettings s = m.scene.settings(PointSetKind::blue_noise, {1, 1}, 77, 0);
-    s.shutter = sequence_shutter(picture), s.memories = &now;
+    s.image.shutter = sequence_shutter(picture), s.sequence.memories = &now;
     render(chosen.any(), s, silent);
     auto wrong = std::make_shared<ReuseMemory>(dynamic_cast<const ReuseMemory&>(*memory));
     wrong->vertices = dynamic_cast<const ReuseMemory&>(*now.at(0)).vertices;

@@ -61,7 +61,7 @@ class LayeredNoise final : public PixelIntegrator {
 
 ComparisonSettings settings(int repeats) {
   ComparisonSettings s;
-  s.render.bounds = {0, 0, 24, 24}, s.render.width = s.render.height = 24, s.render.threads = 1;
+  s.render.image.bounds = {0, 0, 24, 24}, s.render.image.width = s.render.image.height = 24, s.render.threads = 1;
   s.samples = 64, s.repeats = repeats;
   return s;
 }

@@ -69,7 +69,7 @@ class WarmedUp final : public CoupledIntegrator {
 
 ComparisonSettings settings(int samples, int repeats) {
   ComparisonSettings s;
-  s.render.bounds = {0, 0, 32, 32}, s.render.width = s.render.height = 32, s.render.threads = 1;
+  s.render.image.bounds = {0, 0, 32, 32}, s.render.image.width = s.render.image.height = 32, s.render.threads = 1;
   s.samples = samples, s.repeats = repeats;
   return s;
 }
@@ -267,7 +267,7 @@ ComparisonResult comparison_of_warm_frames(bool warm_up_counts) {
   const Noise alone(1, 1, 1024, clock, 0), frame(1, 1, 1024, clock, 3);
   const WarmedUp warmed(frame, 12);
   ComparisonSettings s = settings(16, 8);
-  s.render.clock = clock.clock(), s.render.warm_up_counts = warm_up_counts, s.confidence = 1 - family_level;
+  s.render.clock = clock.clock(), s.warm_up_counts = warm_up_counts, s.confidence = 1 - family_level;
   return run_comparison({compared_method("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s,
                         {});
 }
@@ -311,7 +311,7 @@ TEST(Comparison, gives_warm_frames_as_much_counted_time_as_the_others) {
   const WarmedUp warmed(frame, 12);
   ComparisonSettings s = settings(16, 4);
   const double seconds = 1024e-9 * 32 * 32;
-  s.render.clock = clock.clock(), s.render.warm_up_counts = false, s.slopes = false, s.seconds = 4 * 20 * seconds;
+  s.render.clock = clock.clock(), s.warm_up_counts = false, s.slopes = false, s.seconds = 4 * 20 * seconds;
   const ComparisonResult r =
       run_comparison({compared_method("a", alone), {"b", "b", warmed, PointSetKind::independent, {}}}, exact(1), s, {});
   for (const Repeat& repeat : r.methods[1].repeats) {

@@ -82,7 +82,7 @@ Coverage coverage_of_sequence(const TestScene& scene, const char* way, int count
     RenderObserver silent;
     for (int picture = 0; picture <= last_picture; ++picture) {
       RenderSettings s = scene.settings(PointSetKind::blue_noise, plan, 1000 * seed + std::uint32_t(picture), 0);
-      s.shutter = sequence_shutter(picture), s.memories = &memories;
+      s.image.shutter = sequence_shutter(picture), s.sequence.memories = &memories;
       film = render(chosen.any(), s, silent).film;
     }
     return *film;
@@ -149,7 +149,7 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
         for (int frame = 0; frame < plan.samples_per_pass; ++frame) {
           RenderSettings s =
               scene.settings(PointSetKind::blue_noise, {1, plan.passes}, 1000 * seed + std::uint32_t(frame), 0);
-          s.memories = &memories;
+          s.sequence.memories = &memories;
           const Film one = render(chosen.any(), s, silent).film;
           if (film)
             film->merge(one);

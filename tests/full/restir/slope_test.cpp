@@ -65,7 +65,7 @@ std::vector<Picture> errors_of_blocks(const TestScene& scene, std::string_view w
   RenderObserver silent;
   for (std::size_t chain = 0; chain < chains; ++chain) {
     RenderSettings s = scene.settings(PointSetKind::independent, {frames, 1}, 11, 1);
-    s.first_pass = int(chain);
+    s.plan.first_pass = int(chain);
     const Film film = render(chosen.any(), s, silent).film;
     if (chain % block == 0) errors.emplace_back(known.pixels.size(), 0.0);
     for (std::size_t i = 0; i < known.pixels.size(); ++i) {

@@ -197,13 +197,13 @@ TEST(History, behind_a_mirror_is_that_of_the_pixel_itself) {
   const ChosenIntegrator chosen = scene.integrator("restir-di:neighbours=0,m-cap=100000");
   RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, 1, 2);
   ChainMemories memories;
-  s.memories = &memories, s.shutter = Shutter{0, 0};
+  s.sequence.memories = &memories, s.image.shutter = Shutter{0, 0};
   RenderObserver silent;
   render(chosen.any(), s, silent);
   const auto before = std::make_shared<ReuseMemory>(dynamic_cast<const ReuseMemory&>(*memories.at(0)));
   for (std::size_t i = 0; i < before->lights.size(); ++i) before->lights[i].confidence = float(i + 1);
   memories[0] = before;
-  s.shutter = Shutter{0.5f, 0.5f}, s.seed = 2;
+  s.image.shutter = Shutter{0.5f, 0.5f}, s.image.seed = 2;
   render(chosen.any(), s, silent);
   const auto& after = dynamic_cast<const ReuseMemory&>(*memories.at(0));
   int own = 0, moved = 0;

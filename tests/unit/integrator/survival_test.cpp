@@ -105,7 +105,7 @@ TEST(PathRouletteEfficiency, gives_the_same_bits_for_any_number_of_threads_and_i
   const auto mean = [&](int threads, PixelBounds crop) {
     const ChosenIntegrator chosen = scene.integrator("path:roulette=efficiency");
     RenderSettings settings = scene.settings(PointSetKind::blue_noise, {2, 3}, 5, threads);
-    settings.bounds = crop;
+    settings.image.bounds = crop;
     RenderObserver silent;
     const Film film = render(*chosen.integrator, settings, silent).film;
     std::vector<double> all;

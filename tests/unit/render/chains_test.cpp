@@ -6,6 +6,7 @@
 
 #include "integrator/restir/history.h"
 #include "integrator/restir/pixels.h"
+#include "render/timed_plan.h"
 #include "reuse_scenes.h"
 #include "statistics.h"
 
@@ -21,8 +22,8 @@ RenderResult chains(const char* way, PassPlan plan, int threads, int first_pass 
                     std::optional<PixelBounds> crop = {}) {
   const ChosenIntegrator chosen = scene().integrator(way);
   RenderSettings s = scene().settings(PointSetKind::blue_noise, plan, 5, threads);
-  s.first_pass = first_pass;
-  if (crop) s.bounds = *crop;
+  s.plan.first_pass = first_pass;
+  if (crop) s.image.bounds = *crop;
   RenderObserver silent;
   return render(chosen.any(), s, silent);
 }
@@ -189,7 +190,7 @@ TEST(Chains, that_are_broken_off_are_not_whole) {
   StopsAtOnce observer;
   EXPECT_TRUE(render(chosen.any(), scene().settings(PointSetKind::independent, {1024, 1}, 1, 2), observer).interrupted);
   RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(chosen.any()), 1, 2);
-  s.budget = {600, 0};
+  s.stop = std::make_shared<TimeBudget>(600, 0);
   EXPECT_TRUE(render(chosen.any(), s, observer).interrupted);
 }
 
@@ -203,7 +204,7 @@ TEST(Chains, end_in_time) {
   s.plan = plan_for_time(chosen.any(), s, 0.3, silent).plan;
   EXPECT_EQ(s.plan.samples_per_pass, 4);
   s.clock = {};
-  s.seconds = 0.3;
+  s.stop = std::make_shared<TimeLimit>(0.3);
   const RenderResult r = render(chosen.any(), s, silent);
   EXPECT_FALSE(r.interrupted);
   EXPECT_GE(r.film.image().passes, 1);
@@ -229,11 +230,11 @@ Film second_picture(const char* way, int first_passes, int threads, ChainMemorie
                     std::optional<PixelBounds> crop = {}) {
   const ChosenIntegrator chosen = scene().integrator(way);
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, first_passes}, 5, threads);
-  s.memories = &memories;
-  if (crop) s.bounds = *crop;
+  s.sequence.memories = &memories;
+  if (crop) s.image.bounds = *crop;
   RenderObserver silent;
   render(chosen.any(), s, silent);
-  s.plan.passes = 3, s.seed = 6;
+  s.plan.passes = 3, s.image.seed = 6;
   return render(chosen.any(), s, silent).film;
 }
 
@@ -301,11 +302,11 @@ TEST(Chains, trust_what_they_remember_up_to_the_cap) {
         scene().integrator(fmt::format("restir-di:candidates=2,neighbours=0,m-cap={}", c.cap));
     RenderSettings s = scene().settings(PointSetKind::blue_noise, {8, 1}, 5, 2);
     ChainMemories memories;
-    s.memories = &memories;
+    s.sequence.memories = &memories;
     RenderObserver silent;
     render(chosen.any(), s, silent);
     EXPECT_EQ(largest_confidence(*memories.at(0)), c.after_eight_frames) << c.cap;
-    s.plan.samples_per_pass = 1, s.seed = 6;
+    s.plan.samples_per_pass = 1, s.image.seed = 6;
     render(chosen.any(), s, silent);
     EXPECT_EQ(largest_confidence(*memories.at(0)), c.after_another_picture) << c.cap;
   }
@@ -315,10 +316,10 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   const ChosenIntegrator chosen = scene().integrator("restir-di:candidates=2,neighbours=0");
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, 3}, 5, 2);
   ChainMemories memories;
-  s.memories = &memories;
+  s.sequence.memories = &memories;
   RenderObserver silent;
   constexpr std::size_t of_one = std::size_t(40 * 40) * 324;
-  s.max_memory = of_one + of_one / 2;
+  s.sequence.max_memory = of_one + of_one / 2;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 2);
   ASSERT_EQ(memories.size(), 3u);
   ASSERT_NE(memories[0], nullptr);
@@ -326,7 +327,7 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
   // The next image: chain 0 continues, and the others restart. Their earlier histories use no memory.
-  s.max_memory = 3 * of_one, s.seed = 6;
+  s.sequence.max_memory = 3 * of_one, s.image.seed = 6;
   const RenderResult next = render(chosen.any(), s, silent);
   EXPECT_EQ(next.forgotten, 0);
   EXPECT_EQ(next.film.image().passes, 3);
@@ -336,12 +337,12 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(largest_confidence(*memories[0]), 4);
   EXPECT_EQ(largest_confidence(*memories[1]), 2);
   EXPECT_EQ(largest_confidence(*memories[2]), 2);
-  --s.max_memory;
+  --s.sequence.max_memory;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 1);
   EXPECT_NE(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
   // Of the last picture nothing is kept, and nothing missed.
-  s.max_memory = 0;
+  s.sequence.max_memory = 0;
   EXPECT_EQ(render(chosen.any(), s, silent).forgotten, 0);
   for (const auto& memory : memories) EXPECT_EQ(memory, nullptr);
 }
@@ -375,7 +376,7 @@ TEST(Chains, without_a_picture_before_begin_afresh) {
   // What is of another crop is not looked at.
   const ChosenIntegrator chosen = scene().integrator("restir-di:candidates=2,neighbours=0");
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {1, 1}, 6, 1);
-  s.bounds = {3, 3, 20, 20}, s.memories = &memories;
+  s.image.bounds = {3, 3, 20, 20}, s.sequence.memories = &memories;
   RenderObserver silent;
   render(chosen.any(), s, silent);
   EXPECT_EQ(largest_confidence(*memories[0]), 1);
@@ -410,7 +411,7 @@ class TickingFrames final : public CoupledIntegrator {
 RenderResult within(TimeBudget budget) {
   const TickingFrames integrator;
   RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(integrator), 1, 1);
-  s.budget = budget, s.clock = integrator.clock();
+  s.stop = std::make_shared<TimeBudget>(budget), s.clock = integrator.clock();
   RenderObserver silent;
   return render(integrator, s, silent);
 }
@@ -418,9 +419,9 @@ RenderResult within(TimeBudget budget) {
 TEST(Budget, is_filled_by_whole_frames_of_one_chain) {
   for (auto [budget, frames] : {std::pair{TimeBudget{0.0451, 0}, 4}, {{0.0401, 0.005}, 3}, {{0.0401, 0.015}, 2}}) {
     const RenderResult r = within(budget);
-    EXPECT_EQ(r.film.samples(3, 3), frames) << budget.seconds << " " << budget.ending;
+    EXPECT_EQ(r.film.samples(3, 3), frames) << budget.seconds() << " " << budget.ending();
     EXPECT_EQ(r.film.samples(39, 39), frames);
-    EXPECT_LE(r.seconds, budget.seconds);
+    EXPECT_LE(r.seconds, budget.seconds());
     EXPECT_FALSE(r.interrupted);
     // One chain has no error bar.
     EXPECT_EQ(r.film.image().passes, 1);
@@ -446,7 +447,7 @@ TEST(Budget, is_filled_by_whole_passes_of_other_integrators) {
     }
   } integrator;
   RenderSettings s = scene().settings(PointSetKind::independent, plan_for_budget(integrator), 1, 1);
-  s.budget = {0.0351, 0}, s.clock = [&] { return 0.01 * integrator.ticks; };
+  s.stop = std::make_shared<TimeBudget>(0.0351, 0), s.clock = [&] { return 0.01 * integrator.ticks; };
   RenderObserver silent;
   const RenderResult r = render(integrator, s, silent);
   EXPECT_EQ(r.film.image().passes, 3);

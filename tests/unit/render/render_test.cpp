@@ -1,12 +1,11 @@
 // The scheduler: the same picture for any number of threads, stopping, time limits, plans; lanes against single floats.
-#include "render/render.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
 #include <thread>
 
+#include "render/timed_plan.h"
 #include "render_scenes.h"
 #include "statistics.h"
 
@@ -104,8 +103,8 @@ class StopsAt final : public RenderObserver {
 
 RenderSettings slow_settings(PassPlan plan, int threads) {
   RenderSettings s;
-  s.bounds = {0, 0, 80, 40};
-  s.width = 80, s.height = 40;
+  s.image.bounds = {0, 0, 80, 40};
+  s.image.width = 80, s.image.height = 40;
   s.plan = plan;
   s.threads = threads;
   return s;
@@ -133,7 +132,7 @@ TEST(Render, a_render_that_goes_on_adds_the_passes_that_were_to_come) {
   RenderObserver silent;
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, 3}, 5);
   Film film = render(tracer, s, silent).film;
-  s.first_pass = 3, s.plan.passes = 4;
+  s.plan.first_pass = 3, s.plan.passes = 4;
   film.merge(render(tracer, s, silent).film);
   const Film all = scene().render(PointSetKind::blue_noise, {2, 7}, 5).film;
   const ImageEstimate a = film.image(), b = all.image();
@@ -149,7 +148,7 @@ TEST(Render, a_crop_shows_the_same_pixels_as_the_whole) {
   RenderObserver silent;
   RenderSettings s = scene().settings(PointSetKind::sobol, {2, 2}, 5);
   const Film all = render(tracer, s, silent).film;
-  s.bounds = {7, 5, 29, 23};
+  s.image.bounds = {7, 5, 29, 23};
   const Film part = render(tracer, s, silent).film;
   for (int y = 5; y < 23; ++y)
     for (int x = 7; x < 29; ++x) EXPECT_EQ(all.pixel(x, y).mean[0], part.pixel(x, y).mean[0]);
@@ -227,7 +226,7 @@ RenderResult render_in_time(std::chrono::microseconds pause, double seconds) {
   const Slow slow(pause);
   RenderObserver silent;
   RenderSettings s = slow_settings({1, 1 << 20}, 2);
-  s.seconds = seconds;
+  s.stop = std::make_shared<TimeLimit>(seconds);
   return render(slow, s, silent);
 }
 
@@ -272,7 +271,7 @@ Shape "bilinearmesh" "point3 P" [ 0 -2 0  4 -2 0  0 2 0  4 2 0 ]
     const ChosenIntegrator chosen = panels.integrator(way);
     RenderSettings s = panels.settings(PointSetKind::blue_noise, {1, 2}, 1, 1);
     for (const float time : {0.0f, 1.0f}) {
-      s.shutter = Shutter{time, time};
+      s.image.shutter = Shutter{time, time};
       const ImageEstimate image = render(chosen.any(), s, silent).film.image();
       EXPECT_GT(image.mean[time == 0 ? 0 : 1], 0.9) << way;
       EXPECT_NEAR(image.mean[time == 0 ? 1 : 0], 0, 1e-12) << way;  // colours are rounded
@@ -329,20 +328,20 @@ class SlowSamples final : public PixelIntegrator {
 
 TEST(Render, the_speed_is_measured_on_a_part_of_the_pixels) {
   RenderSettings s;
-  s.bounds = {0, 0, 400, 300}, s.width = 400, s.height = 300, s.threads = 1;
+  s.image.bounds = {0, 0, 400, 300}, s.image.width = 400, s.image.height = 300, s.threads = 1;
   const SlowSamples slow;  // a sample of every pixel takes 6 s
   RenderObserver silent;
   const TimedPlan timed = plan_for_time(slow, s, 1, silent);
   EXPECT_LT(slow.samples(), 400 * 300 / 8);
   EXPECT_GT(timed.sample_seconds, 5.9);
-  EXPECT_GE(timed.stride, 2);
+  EXPECT_GE(timed.plan.stride, 2);
   EXPECT_EQ(timed.plan.samples_per_pass, 1);
 }
 
 TEST(Render, less_time_than_a_sample_of_every_pixel_gives_a_sparse_picture) {
   RenderSettings s;
-  s.bounds = {3, 5, 203, 105}, s.width = 210, s.height = 110, s.threads = 1;
-  s.stride = 7, s.plan = {1, 1};
+  s.image.bounds = {3, 5, 203, 105}, s.image.width = 210, s.image.height = 110, s.threads = 1;
+  s.plan = {1, 1}, s.plan.stride = 7;
   const SlowSamples slow;
   RenderObserver silent;
   const RenderResult result = render(slow, s, silent);
@@ -358,11 +357,11 @@ TEST(Render, sparse_pixels_are_those_of_the_whole_picture) {
   const ChosenIntegrator chosen = scene().integrator("path");
   RenderObserver silent;
   const Film whole = render(chosen.any(), s, silent).film;
-  s.stride = 3;
+  s.plan.stride = 3;
   const Film sparse = render(chosen.any(), s, silent).film;
   int sampled = 0;
-  for (int y = 0; y < s.height; ++y)
-    for (int x = 0; x < s.width; ++x) {
+  for (int y = 0; y < s.image.height; ++y)
+    for (int x = 0; x < s.image.width; ++x) {
       if (!sparse.is_sampled(x, y)) continue;
       ++sampled;
       EXPECT_EQ(sparse.pixel(x, y).mean[0], whole.pixel(x, y).mean[0]) << x << " " << y;

@@ -2,7 +2,7 @@
 // moves on, so that all seconds are exact.
 #include <gtest/gtest.h>
 
-#include "render/render.h"
+#include "render/timed_plan.h"
 #include "work_clock.h"
 
 namespace montelux {
@@ -64,7 +64,7 @@ class Alone final : public PixelIntegrator {
 
 RenderSettings settings(const WorkClock& clock, PassPlan plan, int threads) {
   RenderSettings s;
-  s.bounds = bounds, s.width = bounds.width(), s.height = bounds.height();
+  s.image.bounds = bounds, s.image.width = bounds.width(), s.image.height = bounds.height();
   s.plan = plan, s.threads = threads, s.clock = clock.clock();
   return s;
 }
@@ -88,14 +88,14 @@ TEST(WarmUp, does_not_bring_the_end_nearer_where_it_does_not_count) {
   const Timed timed(clock, 1);
   RenderObserver silent;
   RenderSettings s = settings(clock, {2, 1000}, 2);
-  s.seconds = 2 * (begin_seconds + 2 * frame_seconds);
-  s.warm_up_counts = false;
+  const double seconds = 2 * (begin_seconds + 2 * frame_seconds);
+  s.stop = std::make_shared<TimeLimit>(seconds, false);
   const RenderResult shown = render(timed, s, silent);
-  EXPECT_EQ(shown.shown_seconds(), *s.seconds);
+  EXPECT_EQ(shown.shown_seconds(), seconds);
   EXPECT_EQ(shown.film.samples(0, 0), 4);
   EXPECT_EQ(shown.film.image().passes, 2);
   // The first warm-up takes longer than that, and a picture has a frame all the same.
-  s.warm_up_counts = true;
+  s.stop = std::make_shared<TimeLimit>(seconds, true);
   const RenderResult all = render(timed, s, silent);
   EXPECT_EQ(all.film.samples(0, 0), 1);
   EXPECT_EQ(all.shown_seconds(), begin_seconds + frame_seconds);
@@ -106,12 +106,10 @@ TEST(WarmUp, is_planned_for_where_it_counts) {
   const Timed timed(clock, 1);
   RenderSettings s = settings(clock, {}, 2);
   RenderObserver silent;
-  s.warm_up_counts = false;
   // Sixteen frames in four chains; a chain of one frame is all that is left of that with the warm-up.
   const double seconds = 16 * (begin_seconds + frame_seconds);
-  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).plan.samples_per_pass, 4);
-  s.warm_up_counts = true;
-  EXPECT_EQ(plan_for_time(timed, s, seconds, silent).plan.samples_per_pass, 1);
+  EXPECT_EQ(plan_for_time(timed, s, {seconds, false}, silent).plan.samples_per_pass, 4);
+  EXPECT_EQ(plan_for_time(timed, s, {seconds, true}, silent).plan.samples_per_pass, 1);
 }
 
 TEST(WarmUp, is_none_where_pixels_are_alone) {
@@ -134,10 +132,10 @@ TEST(Chains, that_time_breaks_off_count_if_half_done_or_the_first) {
     const Timed timed(clock, 1);
     RenderObserver silent;
     RenderSettings s = settings(clock, {8, 100}, 2);
-    s.seconds = (c.whole + 1) * begin_seconds + (8 * c.whole + c.more) * frame_seconds;
-    s.warm_up_counts = false;
+    const double seconds = (c.whole + 1) * begin_seconds + (8 * c.whole + c.more) * frame_seconds;
+    s.stop = std::make_shared<TimeLimit>(seconds, false);
     const RenderResult r = render(timed, s, silent);
-    EXPECT_EQ(r.shown_seconds(), *s.seconds);
+    EXPECT_EQ(r.shown_seconds(), seconds);
     EXPECT_EQ(r.film.image().passes, c.passes) << c.whole << " " << c.more;
     EXPECT_EQ(r.film.pixel(39, 23).mean[0], c.mean) << c.whole << " " << c.more;
     // What is not in the mean is not among the samples.
@@ -157,14 +155,14 @@ TEST(Plans, of_points_that_are_fixed_have_one_pass) {
     const PassPlan plan = plan_passes(samples, PointSetKind::uniform_grid);
     EXPECT_EQ(plan.samples_per_pass, samples);
     EXPECT_EQ(plan.passes, 1) << samples;
-    s.sampler = PointSetKind::uniform_grid;
+    s.image.sampler = PointSetKind::uniform_grid;
     const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent).plan;
     // The measurement of the speed takes the time of one or two of them.
     EXPECT_GE(by_time.samples_per_pass, std::clamp(samples - 2, 1, max_fixed_samples));
     EXPECT_LE(by_time.samples_per_pass, std::min(samples, max_fixed_samples));
     EXPECT_EQ(by_time.passes, 1) << samples;
     // As many as time allows of others.
-    s.sampler = PointSetKind::sobol;
+    s.image.sampler = PointSetKind::sobol;
     EXPECT_GT(plan_for_time(alone, s, samples * sample_seconds, silent).plan.passes, 100000);
   }
   EXPECT_GT(plan_passes(2048, PointSetKind::sobol).passes, 1);

@@ -1,17 +1,17 @@
-// Renders by chains of frames, for integrators whose pixels learn from each other.
+// Renders with chains of frames, for integrators whose pixels share information.
 #pragma once
 #include "render/render.h"
 
 namespace montelux {
 
-// As render(), of which it is a part. Threads share the tiles of a step of the chain and wait for each other between
-// steps. A render that is stopped ends between frames, and its last chain counts as a pass of fewer frames: it has the
-// right mean, and passes are independent, so their spread stays an honest error bar.
+// Implements render() for coupled integrators. Threads share the tiles of each step of a chain, and wait for each other
+// between steps. A render that is stopped ends between frames. Its last chain counts as a pass with fewer frames: it
+// has the right mean, and passes are independent, so that their spread is still a valid error bar.
 RenderResult render_chains(const CoupledIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer);
 
-// The passes of a pixel integrator, a sample a pixel each, as chains of one frame: so that all of the picture is as far
-// at every moment, and none of it is left behind where time ends.
+// The passes of a pixel integrator as chains of one frame: at every moment all pixels have equally many passes, and no
+// part of the image lacks samples when time ends.
 class PassesAsChains final : public CoupledIntegrator {
  public:
   // The integrator must outlive this.

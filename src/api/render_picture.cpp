@@ -1,0 +1,103 @@
+// Renders one image: within its time, or with its number of samples.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "api/film_keeper.h"
+#include "api/render_plan.h"
+#include "render/timed_plan.h"
+
+namespace montelux {
+
+namespace {
+
+// The time of an image, from the making of its integrator to its files.
+class TimeOfImage {
+ public:
+  // `before`: the seconds that were used when `since` began.
+  TimeOfImage(double all, double before, Stopwatch since, FinishTime finish)
+      : all_(all), before_(before), since_(std::move(since)), finish_(finish) {}
+
+  double used() const { return before_ + since_.seconds(); }
+  // Seconds for rendering an image whose error is estimated; and one that samples one pixel of each stride x stride.
+  double left() const { return left_until(all_ - finish_.error - finish_.encoding); }
+  double left(int stride) const { return stride > 1 ? left_until(all_ - encoding(stride)) : left(); }
+
+  void announce_if_late(int stride, RenderObserver& observer) const {
+    if (left_until(all_ - encoding(stride)) > min_share * all_) return;
+    observer.announce(fmt::format("preparing and writing the image takes about {:.2g} s in addition to the time",
+                                  used() + encoding(stride)));
+  }
+
+ private:
+  // The share of the time that is rendered in any case.
+  static constexpr double min_share = 0.1;
+  double left_until(double end) const { return std::max(end - used(), min_share * all_); }
+  double encoding(int stride) const { return stride > 1 ? finish_.encoding_of(stride) : finish_.encoding; }
+
+  double all_, before_;
+  Stopwatch since_;
+  FinishTime finish_;
+};
+
+// Plans the passes for the time that is left, and sets the rule that ends it. The time includes the making of the
+// integrator, the measurement of its speed, and the writing of the image. `before` is the time used so far, and grows
+// by what this takes.
+void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before, RenderObserver& observer) {
+  const Stopwatch since_start;
+  const AnyIntegrator integrator = plan.chosen.any();
+  const TimeOfImage time(*plan.seconds, before, since_start, seconds_to_finish(settings.image.bounds, plan.files));
+  if (settings.begun) {
+    time.announce_if_late(1, observer);
+    settings.stop = std::make_shared<TimeLimit>(time.left());
+    before = time.used();
+    return;
+  }
+  TimedPlan timed = plan_for_time(integrator, settings, time.left(), observer);
+  if (plan.samples_per_pass) timed.plan.samples_per_pass = *plan.samples_per_pass;
+  if (settings.keeping.keep && timed.plan.stride > 1) {
+    observer.announce(
+        fmt::format("one sample of every pixel takes about {:.2g} s, more than the time: a film that is "
+                    "saved has one all the same",
+                    timed.sample_seconds));
+    timed.plan.stride = 1;
+  }
+  settings.plan = timed.plan;
+  const int stride = settings.plan.stride;
+  time.announce_if_late(stride, observer);
+  if (stride > 1)
+    observer.announce(fmt::format("one sample per pixel takes about {:.2g} s, more than the time: {}",
+                                  timed.sample_seconds, sparse_text(stride)));
+  else if (integrator.coupled() && timed.sample_seconds > time.left())
+    observer.announce(fmt::format("one frame takes about {:.2g} s, more than the time: the image is one frame",
+                                  timed.sample_seconds));
+  // The error of a sparse image is not estimated.
+  settings.stop = std::make_shared<TimeLimit>(time.left(stride));
+  before = time.used();
+}
+
+}  // namespace
+
+Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
+                         RenderObserver& observer, SavedFilm* film) {
+  // The integrator is made once for all images of a sequence; the first one counts it.
+  double before = std::exchange(plan.preparation, 0.0);
+  if (plan.seconds) plan_timed(plan, settings, before, observer);
+  if (plan.budget) settings.stop = std::make_shared<TimeBudget>(*plan.budget - before, plan.ending);
+  if (film) {
+    film->settings.samples_per_pass = film->facts.samples_per_pass = settings.plan.samples_per_pass;
+    film->begun.seconds = before;
+  }
+  RenderResult result = render(plan.chosen.any(), settings, observer);
+  result.seconds += before;
+  if (plan.budget) {
+    const PixelBounds& b = settings.image.bounds;
+    const int passes = std::max(result.film.image().passes, 1);
+    settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
+    plan.ending = result.ending;
+  }
+  return rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
+}
+
+}  // namespace montelux

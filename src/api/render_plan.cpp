@@ -1,0 +1,188 @@
+#include "api/render_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "api/shortcomings.h"
+#include "integrator/direct/settings.h"
+#include "render/timed_plan.h"
+
+namespace montelux {
+
+namespace {
+
+std::vector<std::string_view> views_of(const std::vector<std::pair<std::string, std::string>>& named) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, description] : named) names.push_back(name);
+  return names;
+}
+
+Result<const DirectPreset*> find_preset(const std::optional<std::string>& name) {
+  if (!name) return nullptr;
+  for (const DirectPreset& preset : direct_presets())
+    if (preset.name == *name) return &preset;
+  const auto names = preset_names();
+  return unknown_name("preset", *name, views_of(names));
+}
+
+// "direct:candidates=4,strategy=ris", in whatever order the settings were given.
+std::string canonical_text(const ChoiceText& choice) {
+  std::vector<std::string> settings;
+  for (const auto& [key, value] : choice.settings) settings.push_back(fmt::format("{}={}", key, value));
+  std::ranges::stable_sort(settings);
+  return choice.name + (settings.empty() ? "" : ":") + fmt::format("{}", fmt::join(settings, ","));
+}
+
+// The integrator, with what its images lack.
+Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& options, const DirectPreset* preset,
+                       RenderPlan& plan) {
+  const PictureSettings& picture = parts.picture;
+  auto choice =
+      parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
+  if (!choice) return choice.failure();
+  choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
+  plan.integrator_text = canonical_text(*choice);
+  const Stopwatch since_choice;
+  auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
+  if (!chosen) return chosen.failure();
+  plan.chosen = *std::move(chosen);
+  note_light(plan.chosen, parts);
+  plan.replaced = replaced_in(parts.info, options.integrator || preset, options.sampler.has_value());
+  plan.preparation = since_choice.seconds();
+  return Done{};
+}
+
+// The requested layers that exist for the scene.
+Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrator& chosen, const Scene& scene) {
+  if (!chosen.integrator || !chosen.integrator->has_layers()) {
+    const bool clamped =
+        std::ranges::any_of(chosen.biases, [](const std::string& bias) { return bias.starts_with("maxcomponent="); });
+    if (clamped)
+      return Failure{
+          "samples that are scaled down to maxcomponent have no layers; --set maxcomponent=none removes the limit"};
+    return Failure{
+        fmt::format("the integrator {} has no layers; path, naive, direct and distribution have them", chosen.name)};
+  }
+  LayerPlan plan;
+  plan.bounces = request.bounces;
+  plan.light_groups = request.light_groups;
+  plan.spread = request.errors;
+  state_light_groups(plan, scene);
+  if (plan.group_names.empty()) plan.group_names = {"default"};
+  return plan;
+}
+
+// What is measured, except for the layers.
+Status plan_image(const PictureSettings& picture, const RenderOptions& options, ChosenIntegrator& chosen,
+                  ImageSettings& image) {
+  image.sampler = picture.sampler;
+  if (options.sampler) {
+    auto kind = point_set_named(*options.sampler);
+    const auto samplers = sampler_names();
+    if (!kind) return unknown_name("sampler", *options.sampler, views_of(samplers));
+    image.sampler = *kind;
+  }
+  if (is_fixed(image.sampler) && (options.budget || chosen.coupled))
+    return Failure{fmt::format("sampler {} uses the same points in every pass, but {} needs different ones",
+                               name_of(image.sampler), options.budget ? "a time budget" : chosen.name)};
+  note_sampler(chosen, image.sampler);
+  image.width = picture.width, image.height = picture.height;
+  image.bounds = options.crop.value_or(picture.crop);
+  const PixelBounds& b = image.bounds;
+  if (b.x0 < 0 || b.y0 < 0 || b.x1 > image.width || b.y1 > image.height || b.x0 >= b.x1 || b.y0 >= b.y1)
+    return Failure{fmt::format("the crop {},{},{},{} is not inside the picture of {} x {} pixels", b.x0, b.y0, b.x1,
+                               b.y1, image.width, image.height)};
+  image.seed = options.seed.value_or(picture.seed);
+  if (options.shutter) image.shutter = shutter_for(*options.shutter, picture);
+  return Done{};
+}
+
+// Passes with the requested number of samples, and of these the requested ones.
+Status adjust_passes(const RenderOptions& options, const AnyIntegrator& integrator, PointSetKind sampler,
+                     PassPlan& plan) {
+  const int samples = plan.samples();
+  if (const auto& k = options.samples_per_pass; k && *k != plan.samples_per_pass) {
+    if (*k < 1 || *k > max_fixed_samples)
+      return Failure{fmt::format("a pass has from 1 to {} samples per pixel; found {}", max_fixed_samples, *k)};
+    // The passes of a saved film have a number of their own.
+    const bool as_saved = options.resume && !options.samples;
+    if (is_fixed(sampler) && !as_saved)
+      return Failure{fmt::format("sampler {} takes all its samples in one pass, and has no others", name_of(sampler))};
+    if (integrator.coupled() && *k > integrator.coupled()->frames())
+      return Failure{fmt::format("a pass is a chain of at most {} frames here; found {} samples a pass",
+                                 integrator.coupled()->frames(), *k)};
+    plan.samples_per_pass = *k, plan.passes = is_fixed(sampler) ? 1 : (samples + *k - 1) / *k;
+  }
+  if (options.resume && options.seconds && !is_fixed(sampler)) plan.passes = endless_passes;
+  if (const auto& range = options.passes) {
+    const bool further = options.resume && !options.samples;  // than the scene's number of samples
+    if (!further && range->last >= plan.passes)
+      return Failure{fmt::format("there is no pass {}: {} samples per pixel are {} passes of {}, from 0 to {}",
+                                 range->last, samples, plan.passes, plan.samples_per_pass, plan.passes - 1)};
+    plan.first_pass = range->first, plan.passes = range->count();
+  }
+  return Done{};
+}
+
+// `default_samples`: if the options state none.
+Status plan_samples(const RenderOptions& options, int default_samples, RenderPlan& plan) {
+  if (options.samples && (*options.samples < 1 || *options.samples > (1 << 24)))
+    return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
+  const PointSetKind sampler = plan.settings.image.sampler;
+  const AnyIntegrator integrator = plan.chosen.any();
+  PassPlan& passes = plan.settings.plan;
+  passes = options.budget ? plan_for_budget(integrator)
+                          : plan_passes(integrator, options.samples.value_or(default_samples), sampler);
+  if (Status good = adjust_passes(options, integrator, sampler, passes); !good) return good;
+  if (is_fixed(sampler) && passes.samples_per_pass > max_fixed_samples)
+    return Failure{fmt::format("sampler {} supports at most {} samples, all in one pass; found {}", name_of(sampler),
+                               max_fixed_samples, passes.samples_per_pass)};
+  return Done{};
+}
+
+}  // namespace
+
+Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
+  return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
+}
+
+Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options) {
+  if (options.budget && (options.seconds || options.samples || (options.layers && options.layers->of_light())))
+    return Failure{"a time budget replaces the number of samples and the time, and does not support layers of light"};
+  const auto preset = find_preset(options.preset);
+  if (!preset) return preset.failure();
+  RenderPlan plan;
+  if (Status good = plan_integrator(parts, options, *preset, plan); !good) return good.failure();
+  plan.motion = options.layers && options.layers->motion;
+  if (options.layers && options.layers->of_light()) {
+    auto layers = plan_layers(*options.layers, plan.chosen, parts.scene);
+    if (!layers) return layers.failure();
+    plan.settings.image.layers = *std::move(layers);
+  }
+  if (Status good = plan_image(parts.picture, options, plan.chosen, plan.settings.image); !good) return good.failure();
+  const int samples = *preset ? (*preset)->eye_rays : parts.picture.samples;
+  if (Status good = plan_samples(options, samples, plan); !good) return good.failure();
+  plan.settings.threads = options.threads;
+  plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
+  plan.seconds = options.seconds, plan.budget = options.budget;
+  return plan;
+}
+
+PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderSettings& settings) {
+  return {std::filesystem::path(parts.info.file).filename().string(),
+          plan.chosen.name,
+          std::string(name_of(settings.image.sampler)),
+          settings.image.seed,
+          settings.plan.samples_per_pass,
+          plan.chosen.biases,
+          plan.chosen.notes,
+          plan.chosen.missing,
+          parts.info.left_out,
+          plan.replaced,
+          plan.chosen.content,
+          parts.info.states_exposure,
+          settings.image.layers};
+}
+
+}  // namespace montelux

@@ -1,0 +1,37 @@
+// A render as planned by the options and the scene. Internal to the facade.
+#pragma once
+#include "api/parts.h"
+#include "api/render.h"
+#include "api/saved_film.h"
+#include "integrator/catalogue.h"
+
+namespace montelux {
+
+// Everything that determines a render, checked.
+struct RenderPlan {
+  RenderSettings settings;  // without stopping rule
+  ChosenIntegrator chosen;
+  std::vector<Replacement> replaced;
+  FilesToWrite files;
+  std::string integrator_text;          // the integrator, with its settings in a canonical order
+  std::optional<double> seconds;        // the time, including preparation and writing; or
+  std::optional<double> budget;         // the time of each image, without writing
+  std::optional<int> samples_per_pass;  // as requested
+  bool motion = false;                  // of a sequence: with motion vectors
+  double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
+                           // image has counted them
+  double ending = 0;       // seconds from the last frame of the image before to its end
+};
+
+Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options);
+
+Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture);
+
+PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderSettings& settings);
+
+// Renders one image: that of the plan, with settings whose seed, shutter, memories and film may differ. `film`, if
+// there is one, receives the length of the passes and the time of the preparation before it is saved.
+Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
+                         RenderObserver& observer, SavedFilm* film = nullptr);
+
+}  // namespace montelux

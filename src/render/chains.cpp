@@ -1,0 +1,228 @@
+#include "render/chains.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "render/float_mode.h"
+#include "render/watch.h"
+#include "work/scheduler.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr int tile_side = 16;
+
+struct ChainTile {
+  PixelBounds bounds;
+  std::vector<PixelPass> pixels;  // of the current chain
+};
+
+// The shared state of one render. Each step of a chain is a stage of the scheduler, with one unit for each tile.
+class ChainJob final : public WatchedWork {
+ public:
+  ChainJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
+      : integrator_(integrator),
+        settings_(settings),
+        frames_(integrator.warm_up() + settings.plan.samples_per_pass),
+        film_(first_film(settings, tile_side)) {
+    for (const PixelBounds& tile : tiles_of(film_))
+      tiles_.push_back({tile, std::vector<PixelPass>(std::size_t(tile.area()))});
+    skip_passes();
+    passes_begun_ = pass_;
+    if (settings.begun) {
+      rays_ = settings.begun->rays;
+      has_image_ = film_.passes(tiles_.front().bounds) > 0;
+      samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
+    }
+    over_ = is_whole_ = pass_ == settings.plan.passes;
+    if (!over_) begin_chain();
+  }
+
+  RenderResult run(RenderObserver& observer) {
+    const bool requested = watch_.run(
+        *this, [this] { drive(); }, observer);
+    // An incomplete chain is in the image, but not in the saved film: it restarts when the film is continued.
+    if (incomplete_) add_to_film(*incomplete_);
+    watch_.report_end(*this, observer);
+    memories_.keep_first(std::size_t(pass_));
+    const double seconds = watch_.seconds();
+    return {std::move(film_),
+            rays_,
+            watch_.seconds_before() + seconds,
+            requested && !is_whole_,
+            seconds - frame_began_,
+            warm_up_seconds(seconds),
+            memories_.forgotten()};
+  }
+
+  RenderState state() override {
+    const std::scoped_lock lock(mutex_);
+    return state_now();
+  }
+
+  WorkDone done() override {
+    const std::scoped_lock lock(mutex_);
+    const double frames = double(pass_) * frames_ + (over_ ? 0 : step_.frame);
+    const double all = double(settings_.plan.passes) * frames_;
+    return {double(passes_begun_) * frames_ / all, frames / all,
+            std::uint64_t(settings_.image.bounds.area()) * (samples_before_ + shown_frames_)};
+  }
+
+  std::uint64_t passes() override {
+    const std::scoped_lock lock(mutex_);
+    return std::uint64_t(film_.passes(tiles_.front().bounds));
+  }
+
+  std::optional<ErrorEstimate> error() override {
+    const std::scoped_lock lock(mutex_);
+    if (film_.passes(tiles_.front().bounds) < 2) return std::nullopt;
+    return film_.error();
+  }
+
+  FilmSnapshot snapshot() override {
+    const std::scoped_lock lock(mutex_);
+    FilmSnapshot snapshot;
+    for (const ChainTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
+    const PixelBounds& first = tiles_.front().bounds;
+    snapshot.tile_side = std::max(first.width(), first.height());
+    snapshot.rays = rays_;
+    return snapshot;
+  }
+
+ private:
+  struct Worker {
+    RayCounts rays;
+    std::vector<PixelSample> samples;
+  };
+
+  // Runs the steps of all chains, one after the other.
+  void drive() {
+    Scheduler scheduler(settings_.threads);
+    std::vector<Worker> workers(std::size_t(scheduler.threads()));
+    const auto run_tile = [&](std::size_t i, int number) {
+      FlushDenormals flush;
+      Worker& worker = workers[std::size_t(number)];
+      worker.rays += do_tile(tiles_[i], worker.samples);
+    };
+    while (!over_) {
+      scheduler.run(tiles_.size(), run_tile);
+      const std::scoped_lock lock(mutex_);
+      for (Worker& worker : workers) rays_ += std::exchange(worker.rays, {});
+      finish_step();
+    }
+  }
+
+  bool is_shown(int frame) const { return frame >= integrator_.warm_up(); }
+  int pass_number() const { return settings_.plan.first_pass + pass_; }
+
+  // A tile belongs to one thread at a time.
+  RayCounts do_tile(ChainTile& tile, std::vector<PixelSample>& samples) {
+    samples.assign(std::size_t(tile.bounds.area()), {});
+    const RayCounts rays = chain_->run(step_, tile.bounds, samples);
+    if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
+    for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
+    return rays;
+  }
+
+  // What follows is called with the mutex held.
+
+  // When all tiles of a step are done.
+  void finish_step() {
+    if (++step_.stage == integrator_.stages()) finish_frame();
+  }
+
+  void finish_frame() {
+    step_.stage = 0;
+    if (is_shown(step_.frame)) ++shown_frames_;
+    ++step_.frame;
+    const double now = watch_.seconds();
+    if (step_.frame == integrator_.warm_up()) warm_up_ += now - warm_up_began_;
+    RenderState state = state_now();
+    state.next_frame = state.seconds - std::exchange(frame_began_, state.seconds);
+    const bool stops = watch_.query(state);
+    const bool ends = step_.frame == frames_ || (stops && chain_counts());
+    if (ends) end_chain();
+    over_ = stops || pass_ == settings_.plan.passes;
+    is_whole_ = pass_ == settings_.plan.passes && step_.frame == frames_;
+    if (ends && !over_) begin_chain();
+  }
+
+  RenderState state_now() const {
+    RenderState now;
+    now.seconds = watch_.seconds(), now.warm_up = warm_up_seconds(now.seconds);
+    now.is_covered = now.is_complete = has_image_ || shown_frames_ > 0;
+    return now;
+  }
+
+  // Seconds of frames that are not shown, including the warm-up of the current chain. All threads work on one frame at
+  // a time.
+  double warm_up_seconds(double now) const { return warm_up_ + (is_shown(step_.frame) ? 0 : now - warm_up_began_); }
+
+  // Whether an incomplete chain is a pass: much shorter ones would only add noise.
+  bool chain_counts() const {
+    const int shown = step_.frame - integrator_.warm_up();
+    return shown > 0 && (!has_image_ || 2 * shown >= settings_.plan.samples_per_pass);
+  }
+
+  // Skips the passes that the film has.
+  void skip_passes() {
+    while (pass_ < settings_.plan.passes && film_.has(tiles_.front().bounds, pass_number())) ++pass_;
+  }
+
+  void begin_chain() {
+    chain_ = integrator_.begin({settings_.image.bounds, settings_.image.points(pass_number(), frames_),
+                                settings_.image.shutter, memories_.take(std::size_t(pass_))});
+    step_ = {};
+    for (ChainTile& tile : tiles_) std::fill(tile.pixels.begin(), tile.pixels.end(), PixelPass{});
+    warm_up_began_ = watch_.seconds();
+  }
+
+  void end_chain() {
+    memories_.store(std::size_t(pass_), *chain_, step_.frame);
+    if (step_.frame == frames_)
+      add_to_film(pass_number());
+    else
+      incomplete_ = pass_number();
+    ++pass_, has_image_ = true;
+    skip_passes();
+  }
+
+  void add_to_film(int pass) {
+    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass, tile.pixels);
+  }
+
+  const CoupledIntegrator& integrator_;
+  const RenderSettings& settings_;
+  const int frames_;  // of a chain, including the warm-up
+  RenderWatch watch_{settings_};
+  std::mutex mutex_;  // guards what follows, except for what a unit of work writes
+  Film film_;
+  std::vector<ChainTile> tiles_;
+  MemoryExchange memories_{settings_.sequence};
+  std::unique_ptr<Chain> chain_;
+  ChainStep step_;
+  int pass_ = 0;  // chains of the plan that are done
+  int passes_begun_ = 0;
+  std::optional<int> incomplete_;  // the pass of the last chain, if it ended early
+  bool has_image_ = false;         // a chain is done
+  std::uint64_t samples_before_ = 0;
+  std::uint64_t shown_frames_ = 0;
+  double frame_began_ = 0;    // seconds since the start
+  double warm_up_began_ = 0;  // of the current chain, likewise
+  double warm_up_ = 0;        // seconds of all that have ended
+  bool over_ = false;
+  bool is_whole_ = false;  // all chains have all frames
+  RayCounts rays_;
+};
+
+}  // namespace
+
+RenderResult render_chains(const CoupledIntegrator& integrator, const RenderSettings& settings,
+                           RenderObserver& observer) {
+  return ChainJob(integrator, settings).run(observer);
+}
+
+}  // namespace montelux

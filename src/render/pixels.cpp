@@ -1,0 +1,198 @@
+#include "render/pixels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+#include "render/float_mode.h"
+#include "render/watch.h"
+#include "work/scheduler.h"
+
+namespace montelux {
+
+namespace {
+
+// Set once, by any thread.
+class StopFlag final : public StopQuery {
+ public:
+  bool stop_requested() const override { return set_; }
+  void request_stop() { set_ = true; }
+
+ private:
+  std::atomic<bool> set_{false};
+};
+
+struct TileState {
+  PixelBounds bounds;
+  std::mutex mutex;                // guards the tile's part of the film
+  std::atomic<bool> begun{false};  // it has a pass, or one in work
+  explicit TileState(const PixelBounds& b) : bounds(b) {}
+};
+
+// The shared state of one render.
+class PixelJob final : public WatchedWork {
+ public:
+  PixelJob(const PixelIntegrator& integrator, const RenderSettings& settings)
+      : integrator_(integrator),
+        settings_(settings),
+        film_(first_film(settings, settings.plan.tile_side())),
+        units_(plan().expected_units(film_, settings.plan)),
+        units_before_(units_of(film_, settings.plan)),
+        units_done_(units_before_) {
+    for (const PixelBounds& bounds : tiles_of(film_)) {
+      TileState& tile = tiles_.emplace_back(bounds);
+      const int passes = film_.passes(bounds);
+      if (passes > 0) tile.begun = true, ++tiles_begun_, ++tiles_with_one_;
+      if (passes > 1) ++tiles_with_two_;
+    }
+    if (settings.begun) rays_ = settings.begun->rays;
+  }
+
+  RenderResult run(RenderObserver& observer) {
+    const bool requested = watch_.run(
+        *this, [this] { drive(); }, observer);
+    watch_.report_end(*this, observer);
+    const bool is_done = plan().next_round(film_, settings_.plan).count == 0;
+    return {std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), requested && !is_done};
+  }
+
+  RenderState state() override {
+    RenderState now;
+    now.seconds = watch_.seconds();
+    // A tile that is begun is completed: the first pass of a tile is never dropped because of the rule.
+    now.is_covered = tiles_begun_ == tiles_.size(), now.is_complete = tiles_with_one_ == tiles_.size();
+    return now;
+  }
+
+  WorkDone done() override {
+    const auto all = double(std::max<std::uint64_t>(units_, 1));
+    WorkDone done{double(units_before_) / all, double(units_done_) / all, 0};
+    for (TileState& tile : tiles_) {
+      const std::scoped_lock lock(tile.mutex);
+      done.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(film_.passes(tile.bounds)) *
+                      std::uint64_t(settings_.plan.samples_per_pass);
+    }
+    return done;
+  }
+
+  std::uint64_t passes() override { return units_done_; }
+
+  std::optional<ErrorEstimate> error() override {
+    const bool has_two_passes = tiles_with_two_ == tiles_.size();
+    if (!has_two_passes || settings_.plan.stride > 1) return std::nullopt;
+    FilmPlanes planes(settings_.image.bounds);
+    for (TileState& tile : tiles_) {
+      const std::scoped_lock lock(tile.mutex);
+      planes.copy(film_, tile.bounds);
+    }
+    return estimate_error(planes);
+  }
+
+  FilmSnapshot snapshot() override {
+    FilmSnapshot snapshot;
+    for (TileState& tile : tiles_) {
+      const std::scoped_lock lock(tile.mutex);
+      film_.write_tile(tile.bounds, snapshot.tiles);
+    }
+    snapshot.tile_side = std::max(tiles_.front().bounds.width(), tiles_.front().bounds.height());
+    const std::scoped_lock lock(rays_mutex_);
+    snapshot.rays = rays_;
+    return snapshot;
+  }
+
+  void drop_unfinished_units() override { drop_.request_stop(); }
+
+ private:
+  // The memory of one worker, reused for all its units.
+  struct Workspace {
+    std::vector<PixelSample> samples;
+    std::vector<ExactRgb> sums;
+  };
+
+  const WorkPlan& plan() const {
+    static const PassByPass pass_by_pass;
+    return settings_.work ? *settings_.work : pass_by_pass;
+  }
+
+  // Runs the rounds of the plan, each as one stage of the scheduler.
+  void drive() {
+    Scheduler scheduler(settings_.threads);
+    std::vector<Workspace> spaces(std::size_t(scheduler.threads()));
+    while (!watch_.stops()) {
+      const WorkRound round = plan().next_round(film_, settings_.plan);
+      if (round.count == 0) return;
+      const std::uint64_t before = units_done_;
+      const auto run_unit = [&](std::size_t i, int worker) { run(round.unit(i), spaces[std::size_t(worker)]); };
+      scheduler.run(round.count, run_unit, {.stop = [this] { return watch_.stops(); }});
+      if (units_done_ == before && !watch_.stops()) throw std::logic_error("the plan has a round without new passes");
+    }
+  }
+
+  void run(const WorkUnit& unit, Workspace& space) {
+    FlushDenormals flush;
+    TileState& tile = tiles_.at(unit.tile);
+    if (!tile.begun.exchange(true)) ++tiles_begun_;
+    try {
+      do_unit(tile, unit.pass, space);
+    } catch (...) {
+      drop_.request_stop();
+      throw;
+    }
+    watch_.query(state());
+  }
+
+  void do_unit(TileState& tile, int pass, Workspace& space) {
+    if (has(tile, pass)) return;
+    const int k = settings_.plan.samples_per_pass;
+    space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
+    TilePass request{tile.bounds, settings_.image.points(pass, k), settings_.image.shutter};
+    if (settings_.plan.stride > 1) request.grid = film_.grid();
+    request.stop = &drop_;
+    const RayCounts rays = trace(request, space);
+    {
+      const std::scoped_lock lock(tile.mutex);
+      if (drop_.stop_requested()) return;
+      film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
+      const int passes = film_.passes(tile.bounds);
+      ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
+    }
+    const std::scoped_lock lock(rays_mutex_);
+    rays_ += rays;
+  }
+
+  bool has(TileState& tile, int pass) {
+    const std::scoped_lock lock(tile.mutex);
+    return film_.has(tile.bounds, pass);
+  }
+
+  RayCounts trace(const TilePass& request, Workspace& space) {
+    const auto& layers = settings_.image.layers;
+    if (!layers) return integrator_.trace(request, space.samples);
+    space.sums.assign(std::size_t(request.tile.area()) * (std::size_t(layers->count()) + 1), {});
+    return integrator_.trace_layers(request, *layers, space.samples, space.sums);
+  }
+
+  const PixelIntegrator& integrator_;
+  const RenderSettings& settings_;
+  RenderWatch watch_{settings_};
+  Film film_;
+  std::deque<TileState> tiles_;
+  const std::uint64_t units_, units_before_;  // of the plan: all, and those that the film had before
+  std::atomic<std::uint64_t> units_done_;
+  std::atomic<std::size_t> tiles_begun_{0}, tiles_with_one_{0}, tiles_with_two_{0};  // with so many passes, or more
+  StopFlag drop_;
+  std::mutex rays_mutex_;
+  RayCounts rays_;
+};
+
+}  // namespace
+
+RenderResult render_pixels(const PixelIntegrator& integrator, const RenderSettings& settings,
+                           RenderObserver& observer) {
+  return PixelJob(integrator, settings).run(observer);
+}
+
+}  // namespace montelux
