@@ -13,7 +13,7 @@ LightSet triangles(int count, LightSelection selection) {
   LightSetBuilder b;
   for (int i = 0; i < count; ++i) {
     Vec3f p = in_box(20);
-    b.add(TriangleShape{p, p + in_box(0.5f), p + in_box(0.5f)}, {.radiance = gray(r.next())});
+    b.add(TriangleShape{p, p + in_box(0.5f), p + in_box(0.5f)}, {.radiance = gray_rgb(r.next())});
   }
   return std::move(b).build({selection}, {0, 0, 0}, 20);
 }

@@ -16,6 +16,10 @@ endif()
 
 set(MONTELUX_ARCH "native" CACHE STRING "Instruction set, as the compiler's -march takes it (native, x86-64-v3, x86-64-v4, ...)")
 set(MONTELUX_SANITIZE "" CACHE STRING "Sanitizers, comma-separated, as -fsanitize takes them")
+set(MONTELUX_SPECTRUM_SIZE 3 CACHE STRING "Components of what a path carries: 3, or 4 (src/color/spectrum.h)")
+if(NOT MONTELUX_SPECTRUM_SIZE MATCHES "^[34]$")
+  message(FATAL_ERROR "MONTELUX_SPECTRUM_SIZE must be 3 or 4, not \"${MONTELUX_SPECTRUM_SIZE}\"")
+endif()
 option(MONTELUX_TESTS "Build the tests" ON)
 option(MONTELUX_BENCH "Build the benchmarks" OFF)
 option(MONTELUX_WERROR "Treat warnings as errors" ON)
@@ -27,6 +31,7 @@ endif()
 
 add_library(montelux_options INTERFACE)
 target_include_directories(montelux_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
+target_compile_definitions(montelux_options INTERFACE MONTELUX_SPECTRUM_SIZE=${MONTELUX_SPECTRUM_SIZE})
 # No contraction and no reassociation: a lane of a pack and a single float round alike.
 target_compile_options(montelux_options INTERFACE
   -march=${MONTELUX_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math

@@ -34,7 +34,7 @@ constexpr double confidence = 0.95;
 // The interval of each channel of the picture's mean, with its confidence; null where there is no error bar.
 Json interval_to_json(const Rendering& rendering) {
   Json low = Json::array(), high = Json::array();
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     const std::optional<Interval> interval = rendering.interval_of_mean(c, confidence);
     if (!interval) return Json();
     low.push_back(interval->low), high.push_back(interval->high);
@@ -59,8 +59,8 @@ Json layers_to_json(const Rendering& rendering) {
   Json json = Json::object();
   const std::vector<std::string> names = layer_names(*rendering.layers);
   for (int i = 0; i < film.count(); ++i) {
-    double mean[spectrum_size] = {};
-    for (int c = 0; c < spectrum_size; ++c) {
+    double mean[rgb_size] = {};
+    for (int c = 0; c < rgb_size; ++c) {
       for (int y = b.y0; y < b.y1; ++y)
         for (int x = b.x0; x < b.x1; ++x) mean[c] += film.layer_mean(x, y, i, c);
       mean[c] /= double(b.area());
@@ -84,7 +84,7 @@ void print_mean(const Rendering& rendering) {
     return;
   }
   std::string mean = "mean    ", interval = fmt::format("         {:.0f} %:", 100 * confidence);
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     mean += fmt::format(" {} {:.6g}", "RGB"[c], rendering.image.mean[c]);
     if (const auto range = rendering.interval_of_mean(c, confidence)) {
       mean += fmt::format(" ± {:.2g}", rendering.image.standard_error[c]);

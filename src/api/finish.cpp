@@ -22,7 +22,7 @@ bool is_black(const Film& film) {
     for (int x = b.x0; x < b.x1; ++x) {
       const PixelEstimate& pixel = film.pixel(x, y);
       sampled |= pixel.passes > 0;
-      for (int c = 0; c < spectrum_size; ++c)
+      for (int c = 0; c < rgb_size; ++c)
         if (pixel.mean[c] != 0 || pixel.m2[c] != 0) return false;
     }
   return sampled;
@@ -65,7 +65,7 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
     add("estimatedRelativeMSEHigh", error.relative_high);
     if (error.is_unsure()) add("unsureError", std::string("few bright samples determine the error"));
   }
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
     if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
   }

@@ -109,7 +109,7 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
   const auto append = [&](const std::string& name, auto value) {
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
-        for (int c = 0; c < spectrum_size; ++c) added.at(x, y, c) = float(value(cell_x(x), cell_y(y), c));
+        for (int c = 0; c < rgb_size; ++c) added.at(x, y, c) = float(value(cell_x(x), cell_y(y), c));
     append_layer(image, name, added);
   };
   for (int i = 0; i < film.count(); ++i) {

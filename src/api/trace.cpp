@@ -33,17 +33,17 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
   SampleTrace result{
       x,  y,  0, all, 0, 0, image.seed, {}, plan.chosen.name, std::string(name_of(image.sampler)), plan.chosen.notes,
       {}, {}, {}};
-  std::array<double, spectrum_size> sum{};
+  std::array<double, rgb_size> sum{};
   float largest = -1;
   for (int k = 0; k < all; ++k) {
     TracedPath path = *trace(k);
-    for (int c = 0; c < spectrum_size; ++c) sum[std::size_t(c)] += double(path.radiance.c[c]);
+    for (int c = 0; c < rgb_size; ++c) sum[std::size_t(c)] += double(path.radiance.c[c]);
     const bool brightest = std::abs(luminance(path.radiance)) > largest;
     if (sample ? k != *sample : !brightest) continue;
     largest = std::abs(luminance(path.radiance));
     result.sample = k, result.path = std::move(path);
   }
-  for (int c = 0; c < spectrum_size; ++c) result.pixel_mean.c[c] = float(sum[std::size_t(c)] / all);
+  for (int c = 0; c < rgb_size; ++c) result.pixel_mean.c[c] = float(sum[std::size_t(c)] / all);
   result.pass = passes.first_pass + result.sample / in_pass, result.index = result.sample % in_pass;
   result.materials = parts.info.materials_by_number;
   for (std::uint32_t i = 0; i < parts.scene.lights.count(); ++i)

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 
 namespace montelux {
 

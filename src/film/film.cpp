@@ -39,14 +39,14 @@ std::vector<int> all_numbers(const std::map<std::size_t, FilmTile>& tiles) {
 
 // What the passes of one tile say of its mean.
 struct TileMean {
-  double mean[spectrum_size] = {};
+  double mean[rgb_size] = {};
   double pixels = 0;  // that have a finite sample, in the mean over passes
   int passes = 0;     // in which there are such pixels
   explicit TileMean(const FilmTile& tile) {
     for (const FilmPass& pass : tile.passes) {
       if (pass.pixels == 0) continue;
       ++passes, pixels += pass.pixels;
-      for (int c = 0; c < spectrum_size; ++c) mean[c] += pass.sum[c] / pass.pixels;
+      for (int c = 0; c < rgb_size; ++c) mean[c] += pass.sum[c] / pass.pixels;
     }
     for (double& m : mean) m /= std::max(passes, 1);
     pixels /= std::max(passes, 1);
@@ -66,8 +66,8 @@ void PixelFeatures::add(const Features& f) {
   samples += 1;
   if (f.coverage <= 0) return;
   hits += 1;
-  for (int i = 0; i < spectrum_size; ++i) {
-    emission += std::isfinite(f.emission.c[i]) ? f.emission.c[i] / spectrum_size : 0;
+  for (int i = 0; i < rgb_size; ++i) {
+    emission += std::isfinite(f.emission.c[i]) ? f.emission.c[i] / rgb_size : 0;
     albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
   }
   const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
@@ -83,7 +83,7 @@ void PixelPass::add(const PixelSample& sample) {
     return;
   }
   ++finite;
-  for (int i = 0; i < spectrum_size; ++i) sum[i] += sample.radiance.c[i];
+  for (int i = 0; i < rgb_size; ++i) sum[i] += sample.radiance.c[i];
 }
 
 void PixelSums::add(int pass, const PixelPass& sums) {
@@ -92,23 +92,23 @@ void PixelSums::add(int pass, const PixelPass& sums) {
   if (f.hits == 0) return;
   constexpr double largest = ExactSum::largest, largest_albedo = 64;
   emission.add(within(f.emission, largest));
-  for (int c = 0; c < spectrum_size; ++c) albedo[c].add(within(f.albedo[c], largest_albedo * f.hits));
+  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], largest_albedo * f.hits));
   for (int c = 0; c < 3; ++c)
     normal[c].add(within(f.normal[c], f.hits)), position[c].add(within(f.position[c], largest));
   depth.add(within(f.depth, largest));
   if (f.object != 0 && (object == 0 || pass < object_pass)) object = f.object, object_pass = pass;
 }
 
-void PixelSums::add_mean(int pass, const double (&mean)[spectrum_size]) {
+void PixelSums::add_mean(int pass, const double (&mean)[rgb_size]) {
   ++passes;
-  for (int c = 0; c < spectrum_size; ++c) radiance[c].add(mean[c]);
+  for (int c = 0; c < rgb_size; ++c) radiance[c].add(mean[c]);
   if (pass % 2 != 0) return;
   ++half_passes;
-  for (double channel : mean) half.add(channel / spectrum_size);
+  for (double channel : mean) half.add(channel / rgb_size);
 }
 
 void PixelSums::merge(const PixelSums& other) {
-  for (int c = 0; c < spectrum_size; ++c) radiance[c].merge(other.radiance[c]), albedo[c] += other.albedo[c];
+  for (int c = 0; c < rgb_size; ++c) radiance[c].merge(other.radiance[c]), albedo[c] += other.albedo[c];
   for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
   half += other.half, emission += other.emission, depth += other.depth;
   passes += other.passes, half_passes += other.half_passes, non_finite += other.non_finite;
@@ -119,29 +119,29 @@ void PixelSums::merge(const PixelSums& other) {
 
 PixelEstimate PixelSums::estimate() const {
   PixelEstimate e;
-  for (int c = 0; c < spectrum_size; ++c) e.mean[c] = radiance[c].mean(passes), e.m2[c] = radiance[c].m2(passes);
+  for (int c = 0; c < rgb_size; ++c) e.mean[c] = radiance[c].mean(passes), e.m2[c] = radiance[c].m2(passes);
   e.half_sum = half.value(), e.half_passes = half_passes;
   e.passes = passes, e.non_finite = non_finite;
   return e;
 }
 
-std::array<double, spectrum_size> PixelSums::mean() const {
-  std::array<double, spectrum_size> mean{};
-  for (int c = 0; c < spectrum_size; ++c) mean[std::size_t(c)] = radiance[c].mean(passes);
+std::array<double, rgb_size> PixelSums::mean() const {
+  std::array<double, rgb_size> mean{};
+  for (int c = 0; c < rgb_size; ++c) mean[std::size_t(c)] = radiance[c].mean(passes);
   return mean;
 }
 
 PixelFeatures PixelSums::features() const {
   PixelFeatures f;
   f.emission = emission.value(), f.depth = depth.value();
-  for (int c = 0; c < spectrum_size; ++c) f.albedo[c] = albedo[c].value();
+  for (int c = 0; c < rgb_size; ++c) f.albedo[c] = albedo[c].value();
   for (int c = 0; c < 3; ++c) f.normal[c] = normal[c].value(), f.position[c] = position[c].value();
   f.hits = hits, f.samples = samples, f.object = object;
   return f;
 }
 
 void PixelEstimate::merge(const PixelEstimate& other) {
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     Moments both{passes, 0, mean[c], m2[c]};
     both.merge({other.passes, 0, other.mean[c], other.m2[c]});
     mean[c] = both.mean, m2[c] = both.m2;
@@ -201,7 +201,7 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
         const auto own = sums.subspan(
             std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
         layers_->add(x, y, of_pixel.finite, own);
-        for (int i = 0; i < spectrum_size; ++i) of_pixel.sum[i] = own.front().c[i].value();
+        for (int i = 0; i < rgb_size; ++i) of_pixel.sum[i] = own.front().c[i].value();
       }
       add_pixel(pixels_[index_of_cell(x, y)], of_pixel, whole);
     }
@@ -224,8 +224,8 @@ FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
 void Film::add_pixel(PixelSums& pixel, const PixelPass& sums, FilmPass& whole) {
   pixel.add(whole.pass, sums);
   if (sums.finite == 0) return;
-  double mean[spectrum_size] = {};
-  for (int c = 0; c < spectrum_size; ++c) whole.sum[c] += mean[c] = sums.sum[c] / sums.finite;
+  double mean[rgb_size] = {};
+  for (int c = 0; c < rgb_size; ++c) whole.sum[c] += mean[c] = sums.sum[c] / sums.finite;
   ++whole.pixels;
   pixel.add_mean(whole.pass, mean);
 }
@@ -272,20 +272,20 @@ ImageEstimate Film::image() const {
   if (cells < cells_.area() || pixels == 0) return image;
   image.passes = fewest;
   const std::vector<int> numbers = all_numbers(tiles_);
-  std::vector<std::array<double, spectrum_size>> deviations(numbers.size());
+  std::vector<std::array<double, rgb_size>> deviations(numbers.size());
   auto own = means.begin();
   for (auto tile = tiles_.begin(); tile != tiles_.end(); ++tile, ++own) {
     if (own->passes == 0) continue;
     const double n = own->passes, share = own->pixels / pixels, weight = share / std::sqrt(n * std::max(n - 1, 1.0));
-    for (int c = 0; c < spectrum_size; ++c) image.mean[c] += share * own->mean[c];
+    for (int c = 0; c < rgb_size; ++c) image.mean[c] += share * own->mean[c];
     std::size_t at = 0;
     for (const FilmPass& pass : tile->second.passes) {
       while (numbers[at] != pass.pass) ++at;
-      for (int c = 0; c < spectrum_size && pass.pixels > 0; ++c)
+      for (int c = 0; c < rgb_size && pass.pixels > 0; ++c)
         deviations[at][std::size_t(c)] += weight * (pass.sum[c] / pass.pixels - own->mean[c]);
     }
   }
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     double variance = 0;
     for (const auto& deviation : deviations) variance += deviation[std::size_t(c)] * deviation[std::size_t(c)];
     image.standard_error[c] = fewest < 2 ? std::numeric_limits<double>::infinity() : std::sqrt(variance);
@@ -306,7 +306,7 @@ double Film::mse() const {
   for (const PixelSums& sums : pixels_) {
     if (sums.passes < 2) continue;
     const PixelEstimate pixel = sums.estimate();
-    for (int c = 0; c < spectrum_size; ++c) sum += pixel.variance_of_mean(c) / spectrum_size;
+    for (int c = 0; c < rgb_size; ++c) sum += pixel.variance_of_mean(c) / rgb_size;
     pixels += 1;
   }
   return pixels > 0 ? sum / pixels : 0;

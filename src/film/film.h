@@ -26,8 +26,8 @@ inline constexpr std::uint32_t max_pass_number = 0x7fffffff;
 
 // Mean and spread of one pixel over passes, by channel.
 struct PixelEstimate {
-  double mean[spectrum_size] = {};
-  double m2[spectrum_size] = {};  // sum of squared deviations of the pass means
+  double mean[rgb_size] = {};
+  double m2[rgb_size] = {};  // sum of squared deviations of the pass means
   // The sum over the passes of even number of the mean of the channels: with the rest an independent half.
   double half_sum = 0;
   std::uint32_t half_passes = 0;
@@ -43,7 +43,7 @@ struct PixelEstimate {
 struct PixelFeatures {
   double emission = 0;  // sum over samples of the mean of the channels
   // Sums over samples that hit.
-  double albedo[spectrum_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
+  double albedo[rgb_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
@@ -51,7 +51,7 @@ struct PixelFeatures {
 
 // The samples of one pixel in one pass, summed: the radiance of those that are finite, and the features.
 struct PixelPass {
-  double sum[spectrum_size] = {};
+  double sum[rgb_size] = {};
   int finite = 0, non_finite = 0;
   PixelFeatures features;
   void add(const PixelSample& sample);
@@ -59,10 +59,10 @@ struct PixelPass {
 
 // What a film keeps of a pixel: sums over passes that no order changes.
 struct PixelSums {
-  ExactMoments radiance[spectrum_size];  // of the pass means
+  ExactMoments radiance[rgb_size];  // of the pass means
   ExactSum half;
   ExactSum emission, position[3], depth;  // of the sums over the samples of a pass, as PixelFeatures has them
-  SmallExactSum albedo[spectrum_size], normal[3];
+  SmallExactSum albedo[rgb_size], normal[3];
   std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
   std::uint32_t hits = 0, samples = 0;
   std::uint32_t object = 0;
@@ -70,25 +70,25 @@ struct PixelSums {
 
   // A pass; of the radiance only the mean of its finite samples, where there are any.
   void add(int pass, const PixelPass& sums);
-  void add_mean(int pass, const double (&mean)[spectrum_size]);
+  void add_mean(int pass, const double (&mean)[rgb_size]);
   void merge(const PixelSums& other);
   PixelEstimate estimate() const;
-  std::array<double, spectrum_size> mean() const;
+  std::array<double, rgb_size> mean() const;
   PixelFeatures features() const;
 };
 
 // The mean of the whole image over passes, with the error that correlations between pixels leave it.
 struct ImageEstimate {
-  double mean[spectrum_size] = {};
-  double standard_error[spectrum_size] = {};  // infinite below two passes
-  int passes = 0;                             // of the tile that has fewest
+  double mean[rgb_size] = {};
+  double standard_error[rgb_size] = {};  // infinite below two passes
+  int passes = 0;                        // of the tile that has fewest
 };
 
 // A tile of a film in one pass: the sums of the pass means of its pixels, in their order.
 struct FilmPass {
   int pass = 0;
   int pixels = 0;  // that have a finite sample
-  double sum[spectrum_size] = {};
+  double sum[rgb_size] = {};
 };
 
 // The passes that a tile has, by their numbers.
@@ -141,7 +141,7 @@ class Film {
   // Of a pixel that is not sampled those of the one that stands for its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
   // The mean alone, which takes less time than the whole estimate.
-  std::array<double, spectrum_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
+  std::array<double, rgb_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
   PixelFeatures features(int x, int y) const { return pixels_[index(x, y)].features(); }
   // Samples taken at a pixel.
   double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }

@@ -198,7 +198,7 @@ void LayerFilm::write_pixel(int x, int y, ByteWriter& out) const {
   for (std::size_t i = first; i < first + stride; ++i)
     for (const ExactSum& channel : sums_[i].c) out.sum(channel);
   for (std::size_t i = first; has_spread() && i < first + stride; ++i)
-    for (int c = 0; c < spectrum_size; ++c) {
+    for (int c = 0; c < rgb_size; ++c) {
       out.sum(spreads_[i].own[c].sum()), out.sum(spreads_[i].own[c].squares());
       out.sum(spreads_[i].with_all[c]);
     }
@@ -211,7 +211,7 @@ void LayerFilm::read_pixel(int x, int y, const PixelSums& film, ByteReader& in) 
   for (std::size_t i = first; i < first + stride; ++i)
     for (ExactSum& channel : sums_[i].c) channel = in.sum(counts.samples);
   for (std::size_t i = first; has_spread() && i < first + stride; ++i)
-    for (int c = 0; c < spectrum_size; ++c) {
+    for (int c = 0; c < rgb_size; ++c) {
       const ExactSum sum = in.sum(film.passes);
       spreads_[i].own[c] = ExactMoments::of(sum, in.products());
       spreads_[i].with_all[c] = in.products();

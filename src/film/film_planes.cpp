@@ -8,10 +8,10 @@ namespace montelux {
 
 namespace {
 
-double mean_of(const double (&channels)[spectrum_size]) {
+double mean_of(const double (&channels)[rgb_size]) {
   double sum = 0;
   for (double c : channels) sum += c;
-  return sum / spectrum_size;
+  return sum / rgb_size;
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
       const double hits = std::max(features.hits, 1.0), samples = std::max(features.samples, 1.0);
       passes[i] = std::uint8_t(std::min(pixel.passes, 2u));
       expected[i] = film.is_sampled(x, y) && (pixel.passes > 0 || pixel.non_finite == 0);
-      for (int c = 0; c < spectrum_size; ++c) {
+      for (int c = 0; c < rgb_size; ++c) {
         mean[std::size_t(c)][i] = float(pixel.mean[c]);
         variance[std::size_t(c)][i] = pixel.passes < 2 ? 0.0f : float(pixel.variance_of_mean(c));
         albedo[std::size_t(c)][i] = float(features.albedo[c] / hits);

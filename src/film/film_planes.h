@@ -11,7 +11,7 @@ namespace montelux {
 class Film;
 
 using Plane = std::vector<float>;
-using ColorPlanes = std::array<Plane, spectrum_size>;
+using ColorPlanes = std::array<Plane, rgb_size>;
 
 // Planes hold the rows of the bounds from the top.
 struct FilmPlanes {

@@ -19,7 +19,7 @@ void LayerFilm::add(int x, int y, int samples, std::span<const ExactRgb> sums) {
   const std::size_t first = first_sum(x, y);
   for (std::size_t i = 0; i < sums.size(); ++i) sums_[first + i] += sums[i];
   if (!has_spread()) return;
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     const ExactSum all(sums[0].c[c].value() / samples);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       SpreadSums& s = spreads_[first + i];
@@ -35,7 +35,7 @@ void LayerFilm::merge(const LayerFilm& other) {
     throw std::invalid_argument("films of different layers cannot be merged");
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
   for (std::size_t i = 0; i < spreads_.size(); ++i)
-    for (int c = 0; c < spectrum_size; ++c) {
+    for (int c = 0; c < rgb_size; ++c) {
       spreads_[i].own[c].merge(other.spreads_[i].own[c]);
       spreads_[i].with_all[c] += other.spreads_[i].with_all[c];
     }
@@ -48,7 +48,7 @@ LayerSpread LayerFilm::spread(int x, int y, int number) const {
   const SpreadSums &all = spreads_[first], &sums = spreads_[first + std::size_t(number + 1)];
   const auto n = std::uint32_t(passes(x, y));
   LayerSpread s;
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     s.mean[c] = sums.own[c].mean(n), s.m2[c] = sums.own[c].m2(n);
     s.co_moment[c] = sums.with_all[c].co_moment(n, sums.own[c].sum(), all.own[c].sum());
   }

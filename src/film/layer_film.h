@@ -12,9 +12,9 @@ namespace montelux {
 
 // How the pass means of one layer spread, and how they go with those of all light, by channel.
 struct LayerSpread {
-  double mean[spectrum_size] = {};
-  double m2[spectrum_size] = {};         // sum of squared deviations
-  double co_moment[spectrum_size] = {};  // sum of products with the deviations of all light
+  double mean[rgb_size] = {};
+  double m2[rgb_size] = {};         // sum of squared deviations
+  double co_moment[rgb_size] = {};  // sum of products with the deviations of all light
 };
 
 class ByteReader;
@@ -59,8 +59,8 @@ class LayerFilm {
   };
   // Of the pass means of one layer, by channel.
   struct SpreadSums {
-    ExactMoments own[spectrum_size];
-    ExactProducts with_all[spectrum_size];  // products with those of all light
+    ExactMoments own[rgb_size];
+    ExactProducts with_all[rgb_size];  // products with those of all light
   };
   std::size_t index(int x, int y) const {
     return std::size_t(y - bounds_.y0) * std::size_t(bounds_.width()) + std::size_t(x - bounds_.x0);

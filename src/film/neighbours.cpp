@@ -17,7 +17,7 @@ constexpr float albedo_scale = 0.02f, normal_scale = 0.1f, other_object = 0.1f;
 float mean_of_channels(const ColorPlanes& planes, std::size_t i) {
   float sum = 0;
   for (const Plane& channel : planes) sum += channel[i];
-  return sum / spectrum_size;
+  return sum / rgb_size;
 }
 
 // Means over the neighbours of each pixel.
@@ -75,14 +75,14 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
   // Nothing else points to the sums.
   float* __restrict weights = sums.weight.data(), * __restrict squares = sums.square.data();
   float* __restrict variances = sums.variance.data(), * __restrict emissions = sums.emission.data();
-  std::array<float*, spectrum_size> light;
-  for (std::size_t c = 0; c < spectrum_size; ++c) light[c] = sums.light[c].data();
+  std::array<float*, rgb_size> light;
+  for (std::size_t c = 0; c < rgb_size; ++c) light[c] = sums.light[c].data();
 #ifndef __clang__  // which sees by itself that no iteration depends on another
 #pragma GCC ivdep
 #endif
   for (int x = x0; x < x1; ++x) {
     float albedos = 0, normals = 0;
-    for (std::size_t c = 0; c < spectrum_size; ++c) {
+    for (std::size_t c = 0; c < rgb_size; ++c) {
       const float d = albedo[c][x] - albedo_there[c][x];
       albedos += d * d;
     }
@@ -93,7 +93,7 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
     const float alike = 1 / (1 + albedos * (1 / albedo_scale) + normals * (1 / normal_scale));
     const float same = object[x] == object_there[x] ? 1.0f : other_object;
     const float w = near * same * alike * alike * float(passes_there[x] > 0);
-    for (std::size_t c = 0; c < spectrum_size; ++c) light[c][x] += w * mean_there[c][x];
+    for (std::size_t c = 0; c < rgb_size; ++c) light[c][x] += w * mean_there[c][x];
     weights[x] += w, squares[x] += w * w;
     variances[x] += w * variance_there[x], emissions[x] += w * emission_there[x];
   }
@@ -120,7 +120,7 @@ Neighbours near_neighbours(const FilmPlanes& p) {
       const float weight = sums.weight[x];
       if (weight <= 0) continue;
       const std::size_t i = std::size_t(row) * width + x;
-      for (std::size_t c = 0; c < spectrum_size; ++c) near.mean[c][i] = sums.light[c][x] / weight;
+      for (std::size_t c = 0; c < rgb_size; ++c) near.mean[c][i] = sums.light[c][x] / weight;
       near.variance[i] = sums.variance[x] / weight, near.emission[i] = sums.emission[x] / weight;
       near.count[i] = weight * weight / sums.square[x];
     }
@@ -132,7 +132,7 @@ constexpr int block = 4;  // pixels a side
 
 // Adds a pixel to its block; sums are divided later.
 void add_to_block(const FilmPlanes& p, std::size_t i, FilmPlanes& blocks, std::size_t k, Plane& count) {
-  for (std::size_t c = 0; c < spectrum_size; ++c) {
+  for (std::size_t c = 0; c < rgb_size; ++c) {
     blocks.mean[c][k] += p.mean[c][i], blocks.variance[c][k] += p.variance[c][i];
     blocks.albedo[c][k] += p.albedo[c][i];
   }
@@ -159,7 +159,7 @@ FilmPlanes blocks_of(const FilmPlanes& p) {
     }
   for (std::size_t k = 0; k < count.size(); ++k) {
     if (count[k] == 0) continue;
-    for (std::size_t c = 0; c < spectrum_size; ++c) {
+    for (std::size_t c = 0; c < rgb_size; ++c) {
       blocks.mean[c][k] /= count[k], blocks.albedo[c][k] /= count[k];
       blocks.variance[c][k] /= count[k];
     }
@@ -177,7 +177,7 @@ void shrink(Neighbours& near, std::size_t i, const Neighbours& far, std::size_t 
   const float variance = std::max(near.variance[i], far.variance[k]) / pixels;
   const float noise = variance * (1 / near.count[i] + 1 / (block * block * far.count[k]));
   const float square = difference * difference, share = square > noise ? 1 - noise / square : 0.0f;
-  for (std::size_t c = 0; c < spectrum_size; ++c)
+  for (std::size_t c = 0; c < rgb_size; ++c)
     near.mean[c][i] = far.mean[c][k] + share * (near.mean[c][i] - far.mean[c][k]);
 }
 

@@ -27,9 +27,9 @@ struct Excess {
 
 Excess excess_of(const FilmPlanes& p, const ColorPlanes& neighbours, std::size_t i) {
   Excess e;
-  for (std::size_t c = 0; c < spectrum_size; ++c) {
-    e.own += double(p.mean[c][i]) / spectrum_size, e.neighbours += double(neighbours[c][i]) / spectrum_size;
-    e.variance += double(p.variance[c][i]) / spectrum_size;
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    e.own += double(p.mean[c][i]) / rgb_size, e.neighbours += double(neighbours[c][i]) / rgb_size;
+    e.variance += double(p.variance[c][i]) / rgb_size;
   }
   e.first = double(p.first_half[i]) - e.neighbours, e.second = double(p.second_half[i]) - e.neighbours;
   e.emission = double(p.emission[i]);
@@ -134,8 +134,8 @@ void add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreeme
   const Excess e = excess_of(p, neighbours, i);
   const Belief belief = belief_of(e, agreement);
   double relative = 0;
-  for (std::size_t c = 0; c < spectrum_size; ++c) {
-    const double variance = double(p.variance[c][i]) / spectrum_size;
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    const double variance = double(p.variance[c][i]) / rgb_size;
     sums.squared += variance;
     relative += variance * reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
   }

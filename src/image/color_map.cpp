@@ -67,7 +67,7 @@ Rgb color_at(ColorMap map, float t) {
 }
 
 Rgb color_of_number(std::uint32_t number) {
-  if (number == 0) return gray(0.0f);
+  if (number == 0) return Rgb{};
   const float hue = 2 * pi * std::fmod(float(number % 100000u) * 0.6180339887f, 1.0f);
   const float lightness = 0.55f + 0.15f * float((number * 0x9e3779b9u >> 16) % 3u), chroma = 0.11f;
   return from_oklab({lightness, chroma * std::cos(hue), chroma * std::sin(hue)});

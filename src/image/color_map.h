@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 
 namespace montelux {
 

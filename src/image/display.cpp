@@ -40,9 +40,9 @@ bool is_nothing(Content content, float value) {
 Rgb plain_color(const Rgb& color, const DisplayTransform& transform) {
   switch (transform.content) {
     case Content::number:
-      return color.c[0] > 0 ? color_of_number(std::uint32_t(std::min(color.c[0], 4e9f))) : gray(0.0f);
+      return color.c[0] > 0 ? color_of_number(std::uint32_t(std::min(color.c[0], 4e9f))) : Rgb{};
     case Content::direction:
-      if (is_black(per_component([](float x) { return std::fabs(x); }, color))) return gray(0.0f);
+      if (is_black(per_component([](float x) { return std::fabs(x); }, color))) return Rgb{};
       return per_component([](float x) { return srgb_decode(share_of({-1, 1}, x)); }, color);
     case Content::encoded:
       return per_component([](float x) { return srgb_decode(share_of({0, 1}, x)); }, color);
@@ -61,7 +61,7 @@ Rgb shown_color(const PixelBuffer& image, const std::array<int, 3>& rgb, const D
                 int y) {
   if (transform.map) {
     const float value = value_at(image, rgb, transform.content, x, y);
-    if (is_nothing(transform.content, value)) return gray(0.0f);
+    if (is_nothing(transform.content, value)) return Rgb{};
     return color_at(*transform.map, share_of(transform.range.value_or(ValueRange{}), value));
   }
   const Rgb color = rgb_at(image, rgb, x, y);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "math/exact_sum.h"
 
 namespace montelux {
@@ -47,9 +47,9 @@ std::vector<LayerFamily> layer_families(const LayerPlan& plan);
 
 // The light of one layer, in each channel.
 struct ExactRgb {
-  ExactSum c[spectrum_size];
+  ExactSum c[rgb_size];
   ExactRgb& operator+=(const ExactRgb& other) {
-    for (int i = 0; i < spectrum_size; ++i) c[i] += other.c[i];
+    for (int i = 0; i < rgb_size; ++i) c[i] += other.c[i];
     return *this;
   }
   bool operator==(const ExactRgb&) const = default;

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "math/vec.h"
 
 namespace montelux {

@@ -152,8 +152,8 @@ void write_features(const Arrival<F>& at, const Spectrum<F>& albedo, const PathS
   const Vec3<F> normal = face_forward(at.x.point.ns, -at.d);
   const Spectrum<F> emission = at.light * path.weight;
   for_each_lane(on, [&](int k) {
-    out[lane(path.slot, k)].features = {lane(emission, k),     lane(albedo, k),      lane(normal, k),
-                                        lane(at.x.point.p, k), lane(at.distance, k), 1.0f,
+    out[lane(path.slot, k)].features = {to_rgb(lane(emission, k)), to_rgb(lane(albedo, k)), lane(normal, k),
+                                        lane(at.x.point.p, k),     lane(at.distance, k),    1.0f,
                                         lane(at.x.object, k)};
   });
 }

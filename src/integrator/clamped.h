@@ -10,7 +10,7 @@ namespace montelux {
 inline void clamp_samples(std::span<PixelSample> samples, float most) {
   for (PixelSample& sample : samples) {
     const float brightest = max_component(sample.radiance);
-    if (brightest > most) sample.radiance *= gray(most / brightest);
+    if (brightest > most) sample.radiance = sample.radiance * (most / brightest);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "color/spectrum.h"
 #include "image/layers.h"
 #include "image/pixel_sample.h"
 
@@ -56,18 +57,19 @@ class LayerTally {
     if (good)
       for (std::size_t i = 0; i < stride_; ++i) sums_[slot / samples_per_pixel_ * stride_ + i] += lane_sums[i];
     else
-      sample.radiance = gray(std::numeric_limits<float>::quiet_NaN());
+      sample.radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
     std::fill(lane_sums.begin(), lane_sums.end(), ExactRgb{});
     brightness = 0;
   }
 
  private:
-  void add_lane(int k, const Rgb& light, const LightOrigin<float>& from) {
+  void add_lane(int k, const Spectrum<float>& carried, const LightOrigin<float>& from) {
+    const Rgb light = to_rgb(carried);
     float& brightness = brightness_[std::size_t(k)];
     for (float x : light.c) brightness += x < 0 ? -x : x;
     if (!(brightness < ExactSum::largest)) return;
     ExactRgb exact;
-    for (int i = 0; i < spectrum_size; ++i) exact.c[i].add(light.c[i]);
+    for (int i = 0; i < rgb_size; ++i) exact.c[i].add(light.c[i]);
     ExactRgb* sums = &lanes_[std::size_t(k) * stride_];
     *sums++ += exact;
     if (plan_.bounces) {

@@ -31,12 +31,6 @@ double mean_over_square(AreaAt area_at, int n) {
   return sum / (double(n) * n);
 }
 
-Rgb row_emission(const LightRow& row) {
-  Rgb e;
-  for (int i = 0; i < spectrum_size; ++i) e.c[i] = row.v[light_slot::emission + i];
-  return e;
-}
-
 // The mean of the texels in the box around the triangle's part of an image, plus one texel on each side because
 // look-ups are bilinear; a large box is sampled by 64 x 64 texels. If all of these are black, others may still emit:
 // the result is then a thousandth of `whole`, the mean of the image, so that only what is certainly black has no power.
@@ -50,7 +44,7 @@ Rgb texel_mean(const LightImage& image, const Rgb& whole, const TriangleShape& s
   const auto [x0, x1] = range(shape.uv0.x, shape.uv1.x, shape.uv2.x, image.width);
   const auto [y0, y1] = range(1 - shape.uv0.y, 1 - shape.uv1.y, 1 - shape.uv2.y, image.height);
   const int x_step = (x1 - x0) / 64 + 1, y_step = (y1 - y0) / 64 + 1;
-  Rgb sum = gray(0.0f);
+  Rgb sum{};
   int count = 0;
   for (int y = y0; y <= y1; y += y_step)
     for (int x = x0; x <= x1; x += x_step, ++count) sum += image.at(x, y);
@@ -107,14 +101,14 @@ LightSetBuilder::Surface LightSetBuilder::surface(const Emission& emission, floa
   Surface s{};
   Rgb factor = emission.image ? emission.tint * emission.scale : emission.radiance * emission.scale;
   const bool known = emission.image && emission.image_mean;
-  Rgb mean = known ? *emission.image_mean : emission.image ? emission.image->mean() : gray(1.0f);
+  Rgb mean = known ? *emission.image_mean : emission.image ? emission.image->mean() : gray_rgb(1);
   float sides = emission.two_sided ? 2.0f : 1.0f;
   if (emission.power && area > 0) {
     // Without an image, L is taken to have luminance 1.
     float exitance = pi * (emission.image ? luminance(mean) : 1.0f) * sides;
-    if (exitance > 0) factor *= gray(*emission.power / (exitance * area));
+    if (exitance > 0) factor = factor * (*emission.power / (exitance * area));
   }
-  s.row.set(light_slot::emission, factor);
+  s.row.set_emission(factor);
   s.row.set_bits(light_slot::flags, (emission.two_sided ? light_two_sided : 0) | (flip ? light_flipped : 0) |
                                         (emission.masked ? light_masked : 0));
   if (emission.image) s.row.set_bits(light_slot::image, number_of(emission.image));
@@ -134,7 +128,7 @@ LightId LightSetBuilder::add(const TriangleShape& shape, const Emission& emissio
   auto [row, bounds, power] = surface(emission, area, shape.flip);
   if (emission.image && emission.local_power && !emission.masked) {
     const Rgb whole = emission.image_mean ? *emission.image_mean : emission.image->mean();
-    const float local = average(texel_mean(*emission.image, whole, shape) * row_emission(row)) * area;
+    const float local = average(texel_mean(*emission.image, whole, shape) * to_rgb(row.emission())) * area;
     power *= bounds.intensity > 0 ? local / bounds.intensity : 0.0f;
     bounds.intensity = local;
   }
@@ -265,7 +259,7 @@ LightId LightSetBuilder::add(const CylinderShape& shape, const Emission& emissio
 
 LightId LightSetBuilder::add_point(Vec3f p, Rgb intensity) {
   LightRow row;
-  row.set(light_slot::emission, intensity);
+  row.set_emission(intensity);
   row.set(light_slot::shape, p);
   LightBounds b;
   b.low = b.high = p;
@@ -283,7 +277,7 @@ LightId LightSetBuilder::add_spot(Vec3f p, Vec3f axis, const SpotCone& cone, Rgb
   using T = SpotEmitter<float>;
   LightRow row;
   float cos_end = std::cos(radians(cone.end)), cos_edge = std::cos(radians(std::max(cone.edge, 0.0f)));
-  row.set(light_slot::emission, intensity);
+  row.set_emission(intensity);
   row.set(T::place, p), row.set(T::axis, unit_or_z(axis)), row.set(T::cos_end, cos_end), row.set(T::cos_edge, cos_edge);
   row.set(T::bend, cone.squared ? 0.0f : 2.0f);
   LightBounds b;
@@ -302,7 +296,7 @@ LightId LightSetBuilder::add_goniometric(const Transform& to_world, Rgb intensit
   LightBounds b;
   b.low = b.high = to_world.point(Vec3f{0, 0, 0});
   b.intensity = average(intensity) * (image ? average(image->mean()) : 1.0f);
-  row.set(light_slot::emission, intensity);
+  row.set_emission(intensity);
   row.set(light_slot::shape, b.low);
   row.set_bits(light_slot::transform, number_of(to_world * Transform(swap, swap)));
   if (image) row.set_bits(light_slot::image, number_of_directions(std::move(image)));
@@ -322,7 +316,7 @@ LightId LightSetBuilder::add_projection(const Transform& to_world, float fov, Rg
   b.cos_spread = 1 / std::sqrt(1 + square(tangent) * (square(width) + square(height)));
   b.cos_emission = 1;
   b.intensity = average(factor * image->mean());
-  row.set(light_slot::emission, factor);
+  row.set_emission(factor);
   row.set(projection_place, b.low), row.set(projection_cotangent, 1 / tangent);
   row.set(projection_half_width, width), row.set(projection_half_height, height);
   row.set_bits(light_slot::transform, number_of(slide));
@@ -336,21 +330,21 @@ LightId LightSetBuilder::add_projection(const Transform& to_world, float fov, Rg
 
 LightId LightSetBuilder::add_distant(Vec3f toward, Rgb irradiance) {
   LightRow row;
-  row.set(light_slot::emission, irradiance);
+  row.set_emission(irradiance);
   row.set(light_slot::shape, unit_or_z(toward));
   return add_row(LightKind::distant, row, std::nullopt, pi * average(irradiance));
 }
 
 LightId LightSetBuilder::add_uniform_infinite(Rgb radiance) {
   LightRow row;
-  row.set(light_slot::emission, radiance);
+  row.set_emission(radiance);
   return add_row(LightKind::uniform_infinite, row, std::nullopt, 4 * pi * pi * average(radiance));
 }
 
 LightId LightSetBuilder::add_image_infinite(const Transform& to_world, Rgb factor,
                                             std::shared_ptr<const LightImage> image) {
   LightRow row;
-  row.set(light_slot::emission, factor);
+  row.set_emission(factor);
   row.set_bits(light_slot::transform, number_of(to_world));
   float power = 4 * pi * pi * average(factor * image->mean());
   row.set_bits(light_slot::image, number_of_directions(std::move(image)));

@@ -16,7 +16,7 @@ struct Emission {
   bool two_sided = false;                     // false: only on the side of the normal
   std::shared_ptr<const LightImage> image{};  // instead of L, by uv with v upward; none: L everywhere
   std::string group = "default";              // of lights that share a layer of an image
-  Rgb tint = gray(1.0f);                      // factor of the image
+  Rgb tint = gray_rgb(1.0f);                  // factor of the image
   std::optional<Rgb> image_mean{};            // mean of the image, if already computed: images are large
   bool local_power = false;  // triangles are chosen by the texels of the image on them instead of by its mean
   // The shape has an alpha mask. Light sampling would sample points in its holes, so the light is found only by rays

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "math/vec.h"
 
 namespace montelux {
@@ -29,11 +29,11 @@ struct LightImage {
            (at(i, j + 1) * (1 - dx) + at(i + 1, j + 1) * dx) * dy;
   }
   Rgb mean() const {
-    double sum[spectrum_size] = {};
+    double sum[rgb_size] = {};
     for (const Rgb& t : texels)
-      for (int i = 0; i < spectrum_size; ++i) sum[i] += t.c[i];
+      for (int i = 0; i < rgb_size; ++i) sum[i] += t.c[i];
     Rgb r;
-    for (int i = 0; i < spectrum_size; ++i) r.c[i] = float(sum[i] / double(std::max<std::size_t>(texels.size(), 1)));
+    for (int i = 0; i < rgb_size; ++i) r.c[i] = float(sum[i] / double(std::max<std::size_t>(texels.size(), 1)));
     return r;
   }
 };

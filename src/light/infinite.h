@@ -58,7 +58,7 @@ struct ImageInfinite {
  private:
   MONTELUX_INLINE Spectrum<F> texels(Vec2<F> uv, Mask<F> on) const {
     Spectrum<F> r = gray(F(0.0f));
-    for_each_lane(on, [&](int k) { set_lane(r, k, image.nearest(lane(uv, k))); });
+    for_each_lane(on, [&](int k) { set_lane(r, k, from_rgb(image.nearest(lane(uv, k)))); });
     return r;
   }
 };

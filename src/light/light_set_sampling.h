@@ -44,7 +44,7 @@ Spectrum<F> LightSet::surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mas
   for_each_lane(Mask<F>(on & (image != Uint<F>(0u))), [&](int k) {
     // Images have their origin at the top, surfaces at the bottom.
     Vec2f at = lane(uv, k);
-    set_lane(e, k, lane(e, k) * tables_.images[lane(image, k) - 1]->bilinear({at.x, 1 - at.y}));
+    set_lane(e, k, lane(e, k) * from_rgb(tables_.images[lane(image, k) - 1]->bilinear({at.x, 1 - at.y})));
   });
   return e;
 }

@@ -17,7 +17,7 @@ struct Reader {
 
   Rgb spectrum(std::string_view name) const {
     auto value = light.parameters.spectrum(name);
-    return value ? inputs.emission(*value) : gray(1.0f);
+    return value ? inputs.emission(*value) : gray_rgb(1.0f);
   }
   float scale() const { return light.parameters.number("scale", 1); }
   Vec3f from() const { return light.parameters.vec3("from", {0, 0, 0}); }
@@ -90,7 +90,7 @@ LightImage equal_area_image(const LightImage& angles) {
   square.texels.resize(std::size_t(square.width) * std::size_t(square.height));
   for (int y = 0; y < square.height; ++y)
     for (int x = 0; x < square.width; ++x) {
-      Rgb sum = gray(0.0f);
+      Rgb sum = Rgb{};
       for (int part = 0; part < parts * parts; ++part) {
         const float u = (float(x) + (float(part % parts) + 0.5f) / float(parts)) / float(square.width);
         const float v = (float(y) + (float(part / parts) + 0.5f) / float(parts)) / float(square.height);
@@ -120,7 +120,7 @@ std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read
   }
   if (by_angles) image = std::make_shared<const LightImage>(equal_area_image(*image));
   float factor = read.scale() * read.factor_for("illuminance", illuminance(*image));
-  return builder.add_image_infinite(read.to_world, gray(factor), image);
+  return builder.add_image_infinite(read.to_world, gray_rgb(factor), image);
 }
 
 std::optional<LightId> add_spot(LightSetBuilder& builder, const Reader& read) {
@@ -171,7 +171,7 @@ Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagno
   Emission e;
   e.group = light_group(area_light, diagnostics);
   auto stated = list.spectrum("L");
-  e.radiance = stated ? inputs.emission(*stated) : gray(1.0f);
+  e.radiance = stated ? inputs.emission(*stated) : gray_rgb(1.0f);
   e.scale = list.number("scale", 1);
   if (float power = list.number("power", -1); power > 0) e.power = power;
   e.two_sided = list.boolean("twosided", false);

@@ -18,8 +18,11 @@ struct ParallelogramEmitter {
     uv00,
     uv10 = uv00 + 2,
     uv01 = uv10 + 2,
-    uv11 = uv01 + 2
+    uv11 = uv01 + 2,
+    end = uv11 + 2
   };
+  static_assert(fill_light_row(
+      end, {{corner, 3}, {edge1, 3}, {edge2, 3}, {normal, 3}, {area, 1}, {uv00, 2}, {uv10, 2}, {uv01, 2}, {uv11, 2}}));
   LightRows<F> rows;
   Vec3<F> p0, e1, e2, n;
 
@@ -75,8 +78,11 @@ struct BilinearPatchEmitter {
     uv00 = twist + 3,
     uv10 = uv00 + 2,
     uv01 = uv10 + 2,
-    uv11 = uv01 + 2
+    uv11 = uv01 + 2,
+    end = uv11 + 2
   };
+  static_assert(fill_light_row(
+      end, {{corner, 3}, {along_x, 3}, {along_y, 3}, {twist, 3}, {uv00, 2}, {uv10, 2}, {uv01, 2}, {uv11, 2}}));
   LightRows<F> rows;
   Vec3<F> p00, a, b, c;
 

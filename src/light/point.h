@@ -29,7 +29,8 @@ MONTELUX_INLINE F soft_step(F x, F low, F high, F bend) {
 // A cone with a soft edge, by the cosines of its whole half angle and of where the edge begins.
 template <class F>
 struct SpotEmitter {
-  enum Slot { place = light_slot::shape, axis = place + 3, cos_end = axis + 3, cos_edge, bend };
+  enum Slot { place = light_slot::shape, axis = place + 3, cos_end = axis + 3, cos_edge, bend, end };
+  static_assert(fill_light_row(end, {{place, 3}, {axis, 3}, {cos_end, 1}, {cos_edge, 1}, {bend, 1}}));
   Vec3<F> p;
   LightRows<F> rows;
 
@@ -79,8 +80,12 @@ enum ProjectionSlot {
   projection_place = light_slot::shape,
   projection_cotangent = projection_place + 3,
   projection_half_width,
-  projection_half_height
+  projection_half_height,
+  projection_end
 };
+static_assert(fill_light_row(
+    projection_end,
+    {{projection_place, 3}, {projection_cotangent, 1}, {projection_half_width, 1}, {projection_half_height, 1}}));
 
 // The plane z = 1 of a projector's own space, on which its image lies.
 template <class F>
@@ -126,7 +131,7 @@ struct ProjectionEmitter {
     Mask<F> lit = (own.z >= F(ProjectionPlane<F>::near)) & (uv.x >= F(0.0f)) & (uv.x <= F(1.0f)) & (uv.y >= F(0.0f)) &
                   (uv.y <= F(1.0f));
     return light.times_image(Mask<F>(on & lit),
-                             [&](const LightImage& image, int k) { return image.nearest(lane(uv, k)); });
+                             [&](const LightImage& image, int k) { return from_rgb(image.nearest(lane(uv, k))); });
   }
 };
 

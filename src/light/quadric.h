@@ -15,8 +15,11 @@ struct DiskEmitter {
     normal = axis2 + 3,
     area = normal + 3,
     inner,
-    turn
+    turn,
+    end
   };
+  static_assert(fill_light_row(end,
+                               {{centre, 3}, {axis1, 3}, {axis2, 3}, {normal, 3}, {area, 1}, {inner, 1}, {turn, 1}}));
   LightRows<F> rows;
   Vec3<F> n;
 
@@ -49,8 +52,17 @@ enum QuadricSlot {
   quadric_high,
   quadric_turn,  // the existing fraction of a full turn
   quadric_area,
-  quadric_volume_scale  // |determinant| of the transform
+  quadric_volume_scale,  // |determinant| of the transform
+  quadric_end
 };
+static_assert(fill_light_row(quadric_end, {{quadric_centre, 3},
+                                           {quadric_world_radius, 1},
+                                           {quadric_radius, 1},
+                                           {quadric_low, 1},
+                                           {quadric_high, 1},
+                                           {quadric_turn, 1},
+                                           {quadric_area, 1},
+                                           {quadric_volume_scale, 1}}));
 
 // A part of a sphere or cylinder about z, under any affine map: sampled uniformly in area before the map.
 template <class F, bool is_sphere>

@@ -6,30 +6,44 @@
 
 #include "light/light.h"
 #include "math/transform.h"
+#include "parameter/slots.h"
 
 namespace montelux {
 
+// Slots that all kinds share.
+namespace light_slot {
+inline constexpr int emission = 0;  // radiance, or intensity, or irradiance, with the scale; factor of an image
+inline constexpr int flags = spectrum_size;  // bits below
+inline constexpr int image = flags + 1;      // bits: number of the image + 1, or 0
+inline constexpr int transform = image + 1;  // bits: number of the transform
+inline constexpr int shape = transform + 1;  // first slot of the kind's own
+static_assert(fill_slots(0, shape, {{emission, spectrum_size}, {flags, 1}, {image, 1}, {transform, 1}}));
+}  // namespace light_slot
+
 inline constexpr int light_row_size = 32;
+// Whether a kind's own parameters, in the order of their slots, take every slot up to `end` once, and a row has that
+// many.
+constexpr bool fill_light_row(int end, std::initializer_list<SlotRange> parameters) {
+  return fill_slots(light_slot::shape, end, parameters) && end <= light_row_size;
+}
+
 struct alignas(64) LightRow {
   float v[light_row_size] = {};
 
   void set(int slot, float x) { v[slot] = x; }
   void set(int slot, Vec2f a) { v[slot] = a.x, v[slot + 1] = a.y; }
   void set(int slot, Vec3f a) { v[slot] = a.x, v[slot + 1] = a.y, v[slot + 2] = a.z; }
-  void set(int slot, const Rgb& a) {
-    for (int i = 0; i < spectrum_size; ++i) v[slot + i] = a.c[i];
+  void set_emission(const Rgb& a) {
+    const Spectrum<float> e = from_rgb(a);
+    std::copy(e.c, e.c + spectrum_size, v + light_slot::emission);
+  }
+  Spectrum<float> emission() const {
+    Spectrum<float> e;
+    std::copy_n(v + light_slot::emission, spectrum_size, e.c);
+    return e;
   }
   void set_bits(int slot, std::uint32_t x) { v[slot] = std::bit_cast<float>(x); }
 };
-
-// Slots that all kinds share.
-namespace light_slot {
-inline constexpr int emission = 0;   // radiance, or intensity, or irradiance, including the scale; factor of an image
-inline constexpr int flags = 3;      // bits below
-inline constexpr int image = 4;      // bits: number of the image + 1, or 0
-inline constexpr int transform = 5;  // bits: number of the transform
-inline constexpr int shape = 6;      // first slot of the kind's own
-}  // namespace light_slot
 
 inline constexpr std::uint32_t light_two_sided = 1;  // emits on both sides
 inline constexpr std::uint32_t light_flipped = 2;    // the normal is the negative of the shape's own

@@ -17,8 +17,11 @@ struct TriangleEmitter {
     area = normal + 3,
     uv0,
     uv1 = uv0 + 2,
-    uv2 = uv1 + 2
+    uv2 = uv1 + 2,
+    end = uv2 + 2
   };
+  static_assert(
+      fill_light_row(end, {{corner, 3}, {edge1, 3}, {edge2, 3}, {normal, 3}, {area, 1}, {uv0, 2}, {uv1, 2}, {uv2, 2}}));
   LightRows<F> rows;
   Vec3<F> p0, e1, e2, n;
 

@@ -7,6 +7,7 @@
 #include "color/spectrum.h"
 #include "mc/density.h"
 #include "mc/random.h"
+#include "parameter/slots.h"
 
 namespace montelux {
 
@@ -19,6 +20,10 @@ struct BsdfSlots {
 struct alignas(32) BsdfRow : BsdfSlots<float> {
   BsdfRow() : BsdfSlots<float>{} {}
 };
+// Whether parameters, in the order of their slots, take every slot up to `end` once, and a row has that many.
+constexpr bool fill_bsdf_row(int end, std::initializer_list<SlotRange> parameters) {
+  return fill_slots(0, end, parameters) && end <= bsdf_row_size;
+}
 
 // The slots of all lanes. A model that contains another passes it the slots from `first` on.
 template <class F>
@@ -76,6 +81,7 @@ struct BsdfSample {
 // Besides these two functions, models define:
 //   static constexpr std::string_view name;
 //   static constexpr bool has_reflection, has_transmission;
+//   static constexpr int slot_count: how many slots of the row it reads, starting with the first;
 //   explicit Model(const BsdfRows<F>&);
 //   Mask<F> is_delta(): where the model consists only of deltas, so that connecting it to a light is useless.
 template <class Model, class F>
@@ -85,6 +91,8 @@ concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, con
   { Model::name } -> std::convertible_to<std::string_view>;
   { Model::has_reflection } -> std::convertible_to<bool>;
   { Model::has_transmission } -> std::convertible_to<bool>;
+  { Model::slot_count } -> std::convertible_to<int>;
+  requires Model::slot_count <= bsdf_row_size;
   { model.is_delta() } -> std::same_as<Mask<F>>;
   { model.evaluate(w, w, context) } -> std::same_as<BsdfValue<F>>;
   { model.sample(w, u, u2, context) } -> std::same_as<BsdfSample<F>>;

@@ -42,7 +42,8 @@ class RowBuilder {
 
   void put(int slot, float value) { material_.row.v[slot] = value; }
   void put(int slot, const Rgb& value) {
-    for (int i = 0; i < spectrum_size; ++i) put(slot + i, value.c[i]);
+    const Spectrum<float> carried = from_rgb(value);
+    for (int i = 0; i < spectrum_size; ++i) put(slot + i, carried.c[i]);
   }
   void number(int slot, std::string_view name, float otherwise, RowEncoding encoding = RowEncoding::plain) {
     bind({std::uint8_t(slot), encoding, false, std::uint32_t(inputs_.textures.number(entity_, name, otherwise)), 1});
@@ -55,7 +56,7 @@ class RowBuilder {
   // A spectrum that is not a reflectance, stated directly; default 0.
   void coefficients(int slot, std::string_view name) {
     const auto stated = entity_.parameters.spectrum(name);
-    put(slot, stated ? inputs_.unbounded(*stated) : gray(0.0f));
+    put(slot, stated ? inputs_.unbounded(*stated) : gray_rgb(0.0f));
   }
 
   // A factor that may exceed one.
@@ -85,9 +86,9 @@ class RowBuilder {
   void metal(int eta_slot, int k_slot, const std::string& prefix, float outer_index) {
     const float scale = 1 / outer_index;
     if (entity_.parameters.find("reflectance")) {
-      put(eta_slot, gray(scale));
+      put(eta_slot, gray_rgb(scale));
       bind({std::uint8_t(k_slot), RowEncoding::reflectance_to_k, true,
-            std::uint32_t(inputs_.textures.spectrum(entity_, "reflectance", gray(0.5f))), scale});
+            std::uint32_t(inputs_.textures.spectrum(entity_, "reflectance", gray_rgb(0.5f))), scale});
       return;
     }
     const std::string eta_name = prefix + "eta", k_name = prefix + "k";
@@ -105,14 +106,14 @@ class RowBuilder {
   void texture_instead(int slot, const std::string& name, float scale) {
     if (!entity_.parameters.texture(name)) return;
     bind({std::uint8_t(slot), RowEncoding::plain, true,
-          std::uint32_t(inputs_.textures.spectrum(entity_, name, gray(1.0f))), scale});
+          std::uint32_t(inputs_.textures.spectrum(entity_, name, gray_rgb(1.0f))), scale});
   }
   // Sets a constant, or leaves the slot to be looked up at each point.
   void bind(const RowBinding& binding) {
     const TextureSet& set = inputs_.textures.textures();
     if (binding.is_spectrum) {
       if (auto constant = set.constant(SpectrumTextureId(binding.texture))) {
-        for (int i = 0; i < spectrum_size; ++i) put(binding.slot + i, encoded(constant->c[i], binding));
+        put(binding.slot, per_component([&](float x) { return encoded(x, binding); }, *constant));
         return;
       }
     } else if (auto constant = set.constant(NumberTextureId(binding.texture))) {
@@ -133,7 +134,7 @@ void layers(RowBuilder& b, const Entity& entity, const std::string& prefix) {
   b.roughness(Slots::alpha_x, prefix);
   b.number(Slots::thickness, "thickness", 0.01f);
   b.number(Slots::g, "g", 0);
-  b.spectrum(Slots::albedo, "albedo", gray(0.0f));
+  b.spectrum(Slots::albedo, "albedo", gray_rgb(0.0f));
   b.put(Slots::max_depth, float(entity.parameters.integer("maxdepth", 10)));
   b.put(Slots::samples, float(entity.parameters.integer("nsamples", 1)));
 }
@@ -144,7 +145,7 @@ void sum_reflections(Material& material) {
   float* v = material.row.v;
   for (const RowBinding& binding : material.bindings)
     if (binding.slot < Slots::max_depth) return;
-  if (v[Slots::albedo] > 0 || v[Slots::albedo + 1] > 0 || v[Slots::albedo + 2] > 0) return;
+  if (!is_black(BsdfRows<float>{&material.row}.spectrum(Slots::albedo))) return;
   v[Slots::internal] =
       internal_reflectance({{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]});
 }
@@ -180,11 +181,11 @@ struct MaterialRow {
 
 void metallic_roughness(RowBuilder& b) {
   using Slots = MetallicRoughnessSlots;
-  b.spectrum(Slots::base, "basecolor", gray(1.0f));
+  b.spectrum(Slots::base, "basecolor", gray_rgb(1.0f));
   b.number(Slots::metallic, "metallic", 1, RowEncoding::unit);
   b.number(Slots::roughness, "roughness", 1, RowEncoding::unit);
   b.number(Slots::specular, "specular", 1, RowEncoding::unit);
-  b.unbounded(Slots::specular_color, "specularcolor", gray(1.0f));
+  b.unbounded(Slots::specular_color, "specularcolor", gray_rgb(1.0f));
   const float eta = b.index("eta", 1.5f), ratio = (eta - 1) / (eta + 1);
   b.put(Slots::reflected, ratio * ratio);
 }
@@ -206,7 +207,7 @@ void coat_and_grain(RowBuilder& b, const Entity& entity) {
 const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
   static const std::array<MaterialRow, bsdf_kind_count> rows{{
       {"diffuse", BsdfKind::diffuse,
-       [](RowBuilder& b, const Entity&) { b.spectrum(DiffuseSlots::reflectance, "reflectance", gray(0.5f)); }},
+       [](RowBuilder& b, const Entity&) { b.spectrum(DiffuseSlots::reflectance, "reflectance", gray_rgb(0.5f)); }},
       {"conductor", BsdfKind::conductor,
        [](RowBuilder& b, const Entity&) {
          b.roughness(ConductorSlots::alpha_x, "");
@@ -220,7 +221,7 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
       {"coateddiffuse", BsdfKind::coated_diffuse,
        [](RowBuilder& b, const Entity& entity) {
          layers(b, entity, "");
-         b.spectrum(CoatedDiffuseSlots::reflectance, "reflectance", gray(0.5f));
+         b.spectrum(CoatedDiffuseSlots::reflectance, "reflectance", gray_rgb(0.5f));
          sum_reflections(b.material());
        }},
       {"coatedconductor", BsdfKind::coated_conductor,
@@ -233,20 +234,20 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
       {"diffusetransmission", BsdfKind::diffuse_transmission,
        [](RowBuilder& b, const Entity& entity) {
          const float scale = entity.parameters.number("scale", 1);
-         b.spectrum(DiffuseTransmissionSlots::reflectance, "reflectance", gray(0.25f), scale);
-         b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray(0.25f), scale);
+         b.spectrum(DiffuseTransmissionSlots::reflectance, "reflectance", gray_rgb(0.25f), scale);
+         b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray_rgb(0.25f), scale);
        }},
       {"thindielectric", BsdfKind::thin_dielectric,
        [](RowBuilder& b, const Entity& entity) {
          b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f));
-         b.spectrum(ThinDielectricSlots::tint, "tint", gray(1.0f));
+         b.spectrum(ThinDielectricSlots::tint, "tint", gray_rgb(1.0f));
          const bool remaps = entity.parameters.boolean("remaproughness", true);
          b.number(ThinDielectricSlots::alpha, "roughness", 0, remaps ? RowEncoding::roughness : RowEncoding::plain);
        }},
       {"phong", BsdfKind::phong,
        [](RowBuilder& b, const Entity&) {
-         b.spectrum(PhongSlots::diffuse, "kd", gray(0.5f));
-         b.spectrum(PhongSlots::specular, "ks", gray(0.3f));
+         b.spectrum(PhongSlots::diffuse, "kd", gray_rgb(0.5f));
+         b.spectrum(PhongSlots::specular, "ks", gray_rgb(0.3f));
          b.number(PhongSlots::exponent, "exponent", 32);
        }},
       {"metallicroughness", BsdfKind::metallic_roughness, [](RowBuilder& b, const Entity&) { metallic_roughness(b); }},
@@ -257,7 +258,7 @@ const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
          using Slots = TintedDielectricSlots;
          b.roughness(Slots::alpha_x, "");
          b.put(Slots::eta, b.index("eta", 1.5f));
-         b.spectrum(Slots::tint, "tint", gray(1.0f));
+         b.spectrum(Slots::tint, "tint", gray_rgb(1.0f));
          b.coefficients(Slots::absorption, "absorption");
        }},
   }};
@@ -284,11 +285,11 @@ Material build_material(const Entity& entity, const MaterialInputs& inputs) {
   if (entity.parameters.find("normalmap"))
     b.material().normal_map = inputs.textures.image(entity, "normalmap", ColorEncoding{});
   if (entity.parameters.find("normaltexture"))
-    b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray(0.5f));
+    b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray_rgb(0.5f));
   if (const auto& scale = entity.parameters.array<float>("normalscale"); scale.size() == 2)
     b.material().normal_scale = {scale[0], scale[1]};
   if (entity.parameters.find("coatnormaltexture"))
-    b.material().coat_normal_texture = inputs.textures.spectrum(entity, "coatnormaltexture", gray(0.5f));
+    b.material().coat_normal_texture = inputs.textures.spectrum(entity, "coatnormaltexture", gray_rgb(0.5f));
   if (const auto& scale = entity.parameters.array<float>("coatnormalscale"); scale.size() == 2)
     b.material().coat_normal_scale = {scale[0], scale[1]};
   return std::move(b).take();
@@ -340,7 +341,7 @@ BsdfRow material_row(const Material& material, const TextureSet& textures, const
 
 // The direction that an image stores as a colour, with x and y scaled.
 template <class F>
-static Vec3<F> normal_of(const Spectrum<F>& c, const Vec2f& scale) {
+static Vec3<F> normal_of(const RgbOf<F>& c, const Vec2f& scale) {
   return {scale.x * (2.0f * c.c[0] - 1.0f), scale.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};
 }
 
@@ -348,9 +349,9 @@ template <class F>
 Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
                       Mask<F> on) {
   const Vec2<F> st{points.uv.x, 1.0f - points.uv.y};
-  Spectrum<F> c;
+  RgbOf<F> c;
   if (material.normal_texture)
-    c = textures.spectrum(*material.normal_texture, points, on);
+    c = textures.color(*material.normal_texture, points, on);
   else if constexpr (lanes_of<F> == 1)
     c = material.normal_map->bilinear(st, Wrap::repeat);
   else
@@ -361,7 +362,7 @@ Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, cons
 template <class F>
 Vec3<F> mapped_coat_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
                            Mask<F> on) {
-  return normal_of(textures.spectrum(*material.coat_normal_texture, points, on), material.coat_normal_scale);
+  return normal_of(textures.color(*material.coat_normal_texture, points, on), material.coat_normal_scale);
 }
 
 template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<float>&, bool, BsdfSlots<float>&);

@@ -8,7 +8,8 @@ namespace montelux {
 struct CoatedConductorSlots : LayeredSlots {
   static constexpr int conductor_alpha_x = base + ConductorSlots::alpha_x,
                        conductor_alpha_y = base + ConductorSlots::alpha_y, conductor_eta = base + ConductorSlots::eta,
-                       conductor_k = base + ConductorSlots::k;
+                       conductor_k = base + ConductorSlots::k, end = base + ConductorSlots::end;
+  static_assert(fill_bsdf_row(end, {{0, base}, {base, ConductorSlots::end}}));
 };
 
 // One reflection by the metal, seen through a plane coat, plus a constant cosine lobe. The facets are widened by the
@@ -68,6 +69,7 @@ template <class F>
 class CoatedConductor : public Layered<F, Conductor<F>, MetalUnderCoat<F>> {
  public:
   static constexpr std::string_view name = "coatedconductor";
+  static constexpr int slot_count = CoatedConductorSlots::end;
   using Layered<F, Conductor<F>, MetalUnderCoat<F>>::Layered;
 };
 

@@ -8,7 +8,8 @@ namespace montelux {
 struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int reflectance = base + DiffuseSlots::reflectance;
   // The result of internal_reflectance() for the coat; 0: unknown, or there are scatterers under the coat.
-  static constexpr int internal = reflectance + spectrum_size;
+  static constexpr int internal = base + DiffuseSlots::end, end = internal + 1;
+  static_assert(fill_bsdf_row(end, {{0, base}, {base, DiffuseSlots::end}, {internal, 1}}));
 };
 
 // Lambert's law does not depend on where light came from.
@@ -28,6 +29,7 @@ template <class F>
 class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
   static constexpr std::string_view name = "coateddiffuse";
+  static constexpr int slot_count = CoatedDiffuseSlots::end;
 
   explicit CoatedDiffuse(const BsdfRows<F>& rows)
       : Layered<F, Diffuse<F>, CosineLobe<F>>(rows),

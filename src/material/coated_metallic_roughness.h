@@ -8,8 +8,19 @@ namespace montelux {
 // of any positive length, rotated by the angle with cosine `turn_cos` and sine `turn_sin`; `side` is -1 where the
 // parametrisation is mirrored, else 1. `coat_normal`: of the coat, unit, in the frame of the base; its z is >= 0.
 struct CoatedMetallicRoughnessSlots {
-  static constexpr int anisotropy = 10, grain_x = 11, grain_y = 12, turn_cos = 13, turn_sin = 14, coat = 15,
-                       coat_roughness = 16, side = 17, coat_normal = 18;
+  static constexpr int anisotropy = MetallicRoughnessSlots::end, grain_x = anisotropy + 1, grain_y = grain_x + 1,
+                       turn_cos = grain_y + 1, turn_sin = turn_cos + 1, coat = turn_sin + 1, coat_roughness = coat + 1,
+                       side = coat_roughness + 1, coat_normal = side + 1, end = coat_normal + 3;
+  static_assert(fill_bsdf_row(end, {{0, MetallicRoughnessSlots::end},
+                                    {anisotropy, 1},
+                                    {grain_x, 1},
+                                    {grain_y, 1},
+                                    {turn_cos, 1},
+                                    {turn_sin, 1},
+                                    {coat, 1},
+                                    {coat_roughness, 1},
+                                    {side, 1},
+                                    {coat_normal, 3}}));
 };
 
 // f = (1 - c F(cos o)) (1 - c F(cos i)) f_base + c D V F(wo.h): the share c of a coat of GGX facets of index 1.5, with
@@ -22,6 +33,7 @@ class CoatedMetallicRoughness {
  public:
   static constexpr std::string_view name = "coatedmetallicroughness";
   static constexpr bool has_reflection = true, has_transmission = false;
+  static constexpr int slot_count = CoatedMetallicRoughnessSlots::end;
 
   MONTELUX_INLINE explicit CoatedMetallicRoughness(const BsdfRows<F>& rows)
       : coat_(rows.number(S::coat)),

@@ -8,7 +8,8 @@
 namespace montelux {
 
 struct ConductorSlots {
-  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, k = 5;
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, k = eta + spectrum_size, end = k + spectrum_size;
+  static_assert(fill_bsdf_row(end, {{alpha_x, 1}, {alpha_y, 1}, {eta, spectrum_size}, {k, spectrum_size}}));
 };
 
 // f = D G F / (4 cos cos) (Cook and Torrance 1982, Walter et al. 2007), on both sides; a mirror where both roughnesses
@@ -18,6 +19,7 @@ class Conductor {
  public:
   static constexpr std::string_view name = "conductor";
   static constexpr bool has_reflection = true, has_transmission = false;
+  static constexpr int slot_count = ConductorSlots::end;
 
   MONTELUX_INLINE explicit Conductor(const BsdfRows<F>& rows)
       : Conductor({rows.number(ConductorSlots::alpha_x), rows.number(ConductorSlots::alpha_y)},

@@ -8,7 +8,8 @@
 namespace montelux {
 
 struct DielectricSlots {
-  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2;
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, end = 3;
+  static_assert(fill_bsdf_row(end, {{alpha_x, 1}, {alpha_y, 1}, {eta, 1}}));
 };
 
 // Which lobes of an interface are wanted. If one is excluded, the other is sampled with certainty.
@@ -22,6 +23,7 @@ class Dielectric {
  public:
   static constexpr std::string_view name = "dielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
+  static constexpr int slot_count = DielectricSlots::end;
 
   MONTELUX_INLINE explicit Dielectric(const BsdfRows<F>& rows)
       : Dielectric({rows.number(DielectricSlots::alpha_x), rows.number(DielectricSlots::alpha_y)},

@@ -6,7 +6,8 @@
 namespace montelux {
 
 struct DiffuseSlots {
-  static constexpr int reflectance = 0;
+  static constexpr int reflectance = 0, end = spectrum_size;
+  static_assert(fill_bsdf_row(end, {{reflectance, spectrum_size}}));
 };
 
 // Reflects uniformly into all directions, on both sides: f = reflectance / pi.
@@ -15,6 +16,7 @@ class Diffuse {
  public:
   static constexpr std::string_view name = "diffuse";
   static constexpr bool has_reflection = true, has_transmission = false;
+  static constexpr int slot_count = DiffuseSlots::end;
 
   MONTELUX_INLINE explicit Diffuse(const BsdfRows<F>& rows) : reflectance_(rows.spectrum(DiffuseSlots::reflectance)) {}
   MONTELUX_INLINE explicit Diffuse(const Spectrum<F>& reflectance) : reflectance_(reflectance) {}

@@ -6,7 +6,8 @@
 namespace montelux {
 
 struct DiffuseTransmissionSlots {
-  static constexpr int reflectance = 0, transmittance = 3;
+  static constexpr int reflectance = 0, transmittance = spectrum_size, end = transmittance + spectrum_size;
+  static_assert(fill_bsdf_row(end, {{reflectance, spectrum_size}, {transmittance, spectrum_size}}));
 };
 
 // f = reflectance / pi on the side of wo, transmittance / pi on the other.
@@ -15,6 +16,7 @@ class DiffuseTransmission {
  public:
   static constexpr std::string_view name = "diffusetransmission";
   static constexpr bool has_reflection = true, has_transmission = true;
+  static constexpr int slot_count = DiffuseTransmissionSlots::end;
 
   MONTELUX_INLINE explicit DiffuseTransmission(const BsdfRows<F>& rows)
       : reflectance_(rows.spectrum(DiffuseTransmissionSlots::reflectance)),

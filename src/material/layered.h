@@ -10,8 +10,16 @@ namespace montelux {
 // The slots of every coated model; those of its base start at `base`. Indices of a metallic base are relative to
 // that of the coat.
 struct LayeredSlots {
-  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, thickness = 3, g = 4, albedo = 5, max_depth = 8, samples = 9,
-                       base = 10;
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, thickness = 3, g = 4, albedo = 5,
+                       max_depth = albedo + spectrum_size, samples = max_depth + 1, base = samples + 1;
+  static_assert(fill_bsdf_row(base, {{alpha_x, 1},
+                                     {alpha_y, 1},
+                                     {eta, 1},
+                                     {thickness, 1},
+                                     {g, 1},
+                                     {albedo, spectrum_size},
+                                     {max_depth, 1},
+                                     {samples, 1}}));
 };
 
 // Light enters through the coat, is reflected between base and coat and scattered in the medium, and leaves through the

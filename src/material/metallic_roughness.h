@@ -8,7 +8,14 @@ namespace montelux {
 
 struct MetallicRoughnessSlots {
   // `reflected`: the reflectance of a dielectric at normal incidence, ((eta - 1) / (eta + 1))^2.
-  static constexpr int base = 0, metallic = 3, roughness = 4, specular = 5, specular_color = 6, reflected = 9;
+  static constexpr int base = 0, metallic = spectrum_size, roughness = metallic + 1, specular = roughness + 1,
+                       specular_color = specular + 1, reflected = specular_color + spectrum_size, end = reflected + 1;
+  static_assert(fill_bsdf_row(end, {{base, spectrum_size},
+                                    {metallic, 1},
+                                    {roughness, 1},
+                                    {specular, 1},
+                                    {specular_color, spectrum_size},
+                                    {reflected, 1}}));
 };
 
 // f = (1 - metallic) base / pi (1 - F') + D V F (glTF 2.0, appendix B.3): GGX of alpha = roughness^2 with Smith's
@@ -23,6 +30,7 @@ class MetallicRoughness {
  public:
   static constexpr std::string_view name = "metallicroughness";
   static constexpr bool has_reflection = true, has_transmission = false;
+  static constexpr int slot_count = MetallicRoughnessSlots::end;
 
   MetallicRoughness() = default;
   MONTELUX_INLINE explicit MetallicRoughness(const BsdfRows<F>& rows)

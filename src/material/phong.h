@@ -7,7 +7,8 @@
 namespace montelux {
 
 struct PhongSlots {
-  static constexpr int diffuse = 0, specular = 3, exponent = 6;
+  static constexpr int diffuse = 0, specular = spectrum_size, exponent = specular + spectrum_size, end = exponent + 1;
+  static_assert(fill_bsdf_row(end, {{diffuse, spectrum_size}, {specular, spectrum_size}, {exponent, 1}}));
 };
 
 // f = kd / pi + ks (n + 2) / (2 pi) cos^n alpha, alpha the angle between wi and the mirror direction of wo; on both
@@ -17,12 +18,13 @@ class Phong {
  public:
   static constexpr std::string_view name = "phong";
   static constexpr bool has_reflection = true, has_transmission = false;
+  static constexpr int slot_count = PhongSlots::end;
 
   MONTELUX_INLINE explicit Phong(const BsdfRows<F>& rows)
       : kd_(rows.spectrum(PhongSlots::diffuse)),
         ks_(rows.spectrum(PhongSlots::specular)),
         exponent_(rows.number(PhongSlots::exponent)) {
-    F d = luminance(kd_), s = luminance(ks_);
+    F d = luminance(to_rgb(kd_)), s = luminance(to_rgb(ks_));
     diffuse_ = d / max(d + s, F(1e-30f));
     black_ = d + s <= F(0.0f);
   }

@@ -8,7 +8,8 @@
 namespace montelux {
 
 struct ThinDielectricSlots {
-  static constexpr int eta = 0, tint = 1, alpha = 4;
+  static constexpr int eta = 0, tint = 1, alpha = tint + spectrum_size, end = alpha + 1;
+  static_assert(fill_bsdf_row(end, {{eta, 1}, {tint, spectrum_size}, {alpha, 1}}));
 };
 
 // Reflects R' = R + T^2 R / (1 - R^2), the sum over all internal reflections (Stokes 1862), and transmits the rest,
@@ -20,6 +21,7 @@ class ThinDielectric {
  public:
   static constexpr std::string_view name = "thindielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
+  static constexpr int slot_count = ThinDielectricSlots::end;
 
   MONTELUX_INLINE explicit ThinDielectric(const BsdfRows<F>& rows)
       : eta_(rows.number(ThinDielectricSlots::eta)),

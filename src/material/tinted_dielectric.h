@@ -7,7 +7,10 @@ namespace montelux {
 // The first slots are those of Dielectric. `absorption`, per unit of length, is that of the body inside: paths apply it
 // along their segments, not the surface.
 struct TintedDielectricSlots {
-  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = 6;
+  static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, tint = 3, absorption = tint + spectrum_size,
+                       end = absorption + spectrum_size;
+  static_assert(
+      fill_bsdf_row(end, {{alpha_x, 1}, {alpha_y, 1}, {eta, 1}, {tint, spectrum_size}, {absorption, spectrum_size}}));
 };
 
 // A Dielectric whose transmission is multiplied by `tint` (KHR_materials_transmission).
@@ -16,6 +19,7 @@ class TintedDielectric {
  public:
   static constexpr std::string_view name = "tinteddielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
+  static constexpr int slot_count = TintedDielectricSlots::end;
 
   MONTELUX_INLINE explicit TintedDielectric(const BsdfRows<F>& rows)
       : glass_(rows), tint_(rows.spectrum(TintedDielectricSlots::tint)) {}

@@ -39,7 +39,8 @@ class MediumSet {
   MediumSet() : rows_(1) {}
   // The number of the medium.
   std::uint32_t add(const Medium& medium) {
-    rows_.push_back({medium.absorption, medium.scattering, medium.emission, medium.mean_cosine});
+    rows_.push_back(
+        {from_rgb(medium.absorption), from_rgb(medium.scattering), from_rgb(medium.emission), medium.mean_cosine});
     scatters_ = scatters_ || !is_black(medium.scattering), emits_ = emits_ || !is_black(medium.emission);
     return std::uint32_t(rows_.size() - 1);
   }
@@ -121,15 +122,16 @@ class MediumSet {
 
  private:
   struct Row {
-    Rgb absorption{}, scattering{}, emission{};
+    Spectrum<float> absorption{}, scattering{}, emission{};
     float mean_cosine = 0.0f;
   };
+  static_assert(sizeof(Row) == (3 * spectrum_size + 1) * sizeof(float));
   template <class F>
   static MONTELUX_INLINE Uint<F> at(Uint<F> medium) {
     return medium * Uint<F>(std::uint32_t(sizeof(Row) / sizeof(float)));
   }
   template <class F>
-  MONTELUX_INLINE Spectrum<F> spectrum(Rgb Row::*member, Uint<F> medium) const {
+  MONTELUX_INLINE Spectrum<F> spectrum(Spectrum<float> Row::*member, Uint<F> medium) const {
     const float* first = (rows_.data()->*member).c;
     Spectrum<F> s;
     for (int c = 0; c < spectrum_size; ++c) s.c[c] = gather(first + c, at<F>(medium));

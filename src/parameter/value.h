@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "math/vec.h"
 #include "parameter/diagnostic.h"
 

@@ -8,32 +8,10 @@ namespace {
 
 // How many slots a model reads, starting with the first.
 std::uint32_t slots_of(BsdfKind kind) {
-  constexpr auto spectrum = std::uint32_t(spectrum_size);
-  switch (kind) {
-    case BsdfKind::diffuse:
-      return DiffuseSlots::reflectance + spectrum;
-    case BsdfKind::conductor:
-      return ConductorSlots::k + spectrum;
-    case BsdfKind::dielectric:
-      return DielectricSlots::eta + 1;
-    case BsdfKind::coated_diffuse:
-      return CoatedDiffuseSlots::internal + 1;
-    case BsdfKind::thin_dielectric:
-      return ThinDielectricSlots::alpha + 1;
-    case BsdfKind::diffuse_transmission:
-      return DiffuseTransmissionSlots::transmittance + spectrum;
-    case BsdfKind::phong:
-      return PhongSlots::exponent + 1;
-    case BsdfKind::metallic_roughness:
-      return MetallicRoughnessSlots::reflected + 1;
-    case BsdfKind::coated_metallic_roughness:
-      return CoatedMetallicRoughnessSlots::coat_normal + 3;
-    case BsdfKind::tinted_dielectric:
-      return TintedDielectricSlots::absorption + spectrum;
-    case BsdfKind::coated_conductor:
-      break;
-  }
-  return std::uint32_t(bsdf_row_size);
+  std::uint32_t slots = 0;
+  for_each_present_model<float>(std::uint32_t(kind), true,
+                                [&]<class Model>(bool) { slots = std::uint32_t(Model::slot_count); });
+  return slots;
 }
 
 // The frame rotated by a tangent-space normal (components in [-1, 1], z outward); keeps the side of the surface.

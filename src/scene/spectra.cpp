@@ -24,13 +24,13 @@ std::optional<SampledSpectrum> sampled(const SpectrumValue& value) {
 Rgb reflectance_rgb(const SpectrumValue& value) {
   if (const auto* rgb = std::get_if<RgbValue>(&value)) return reflectance_to_srgb(space_of(*rgb)) * rgb->rgb;
   auto spectrum = sampled(value);
-  return spectrum ? to_rgb_reflectance(*spectrum) : gray(0.0f);
+  return spectrum ? to_rgb_reflectance(*spectrum) : Rgb{};
 }
 
 Rgb emission_rgb(const SpectrumValue& value) {
   if (const auto* rgb = std::get_if<RgbValue>(&value)) return emission_to_srgb(space_of(*rgb)) * rgb->rgb;
   auto spectrum = sampled(value);
-  return spectrum ? to_rgb_emission(scaled(*spectrum, photometric_scale(*spectrum))) : gray(0.0f);
+  return spectrum ? to_rgb_emission(scaled(*spectrum, photometric_scale(*spectrum))) : Rgb{};
 }
 
 ConductorRgb metal_rgb(const SpectrumValue& eta, const SpectrumValue& k) {
@@ -47,7 +47,7 @@ float index_of_refraction(const SpectrumValue& value) {
 Rgb unbounded_rgb(const SpectrumValue& value) {
   if (const auto* rgb = std::get_if<RgbValue>(&value)) return rgb->rgb;
   auto spectrum = sampled(value);
-  return spectrum ? to_rgb_unbounded(*spectrum) : gray(0.0f);
+  return spectrum ? to_rgb_unbounded(*spectrum) : Rgb{};
 }
 
 }  // namespace montelux

@@ -11,7 +11,7 @@ V uniform(float x) {
   if constexpr (std::is_same_v<V, float>)
     return x;
   else
-    return gray(x);
+    return gray_rgb(x);
 }
 
 std::string in_quotes(std::string_view name) {
@@ -51,8 +51,8 @@ NumberTextureId TextureBuilder::constant(float value) {
   return place->second;
 }
 SpectrumTextureId TextureBuilder::constant(Rgb value) {
-  std::array<std::uint32_t, spectrum_size> key;
-  for (int c = 0; c < spectrum_size; ++c) key[c] = float_bits(value[c]);
+  std::array<std::uint32_t, rgb_size> key;
+  for (int c = 0; c < rgb_size; ++c) key[c] = float_bits(value[c]);
   auto [place, is_new] = spectrum_constants_.try_emplace(key);
   if (is_new) place->second = textures_.add(SpectrumTexture(ConstantTexture<Rgb>{value}));
   return place->second;

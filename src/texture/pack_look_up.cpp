@@ -36,13 +36,13 @@ struct InPack<float> {
 };
 template <>
 struct InPack<Rgb> {
-  using Type = Spectrum<F>;
-  static Spectrum<F> splat(const Rgb& x) { return montelux::splat<F>(x); }
+  using Type = RgbOf<F>;
+  static RgbOf<F> splat(const Rgb& x) { return montelux::splat<F>(x); }
 };
 
 F value(const TextureSet& set, NumberTextureId id, const Points& at, Mask<F> on) { return set.number(id, at, on); }
-Spectrum<F> value(const TextureSet& set, SpectrumTextureId id, const Points& at, Mask<F> on) {
-  return set.spectrum(id, at, on);
+RgbOf<F> value(const TextureSet& set, SpectrumTextureId id, const Points& at, Mask<F> on) {
+  return set.color(id, at, on);
 }
 
 template <class V>
@@ -91,8 +91,8 @@ struct PackLookUp {
         Vec2<F> st = map_points(t.mapping, at, on);
         st.y = 1.0f - st.y;
         st = t.folded(st);
-        const Spectrum<F> x = t.image->bilinear(st, t.wrap, on) * F(t.scale);
-        const Spectrum<F> y = per_component([&](F c) { return max(t.invert ? 1.0f - c : c, 0.0f); }, x);
+        const RgbOf<F> x = t.image->bilinear(st, t.wrap, on) * F(t.scale);
+        const RgbOf<F> y = per_component([&](F c) { return max(t.invert ? 1.0f - c : c, 0.0f); }, x);
         return t.tint ? y * splat<F>(*t.tint) : y;
       }
     }
@@ -120,8 +120,8 @@ NativeFloats TextureSet::number(NumberTextureId id, const TexturePoints<NativeFl
                                 Mask<NativeFloats> on) const {
   return std::visit(PackLookUp<float>{*this, id, points, on}, numbers_[std::size_t(id)]);
 }
-Spectrum<NativeFloats> TextureSet::spectrum(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
-                                            Mask<NativeFloats> on) const {
+RgbOf<NativeFloats> TextureSet::color(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
+                                      Mask<NativeFloats> on) const {
   return std::visit(PackLookUp<Rgb>{*this, id, points, on}, spectra_[std::size_t(id)]);
 }
 

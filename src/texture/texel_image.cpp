@@ -231,27 +231,27 @@ float TexelImage::bilinear_channel(Vec2f st, Wrap wrap, int channel) const {
   return bilinear_of(st, wrap, [this, channel](int x, int y) { return channel_texel(x, y, channel); });
 }
 
-Spectrum<NativeFloats> TexelImage::texels(Uint<NativeFloats> number) const {
+RgbOf<NativeFloats> TexelImage::texels(Uint<NativeFloats> number) const {
   using U = Uint<NativeFloats>;
-  Spectrum<NativeFloats> r;
+  RgbOf<NativeFloats> r;
   const U first = number * U(std::uint32_t(channels()));
   if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&texels_)) {
     const U word = gather_bytes(codes->data(), first);
-    for (int i = 0; i < spectrum_size; ++i)
+    for (int i = 0; i < rgb_size; ++i)
       r.c[i] = i > 0 && is_gray() ? r.c[0] : gather(decoded_.data(), (word >> (8 * i)) & U(0xffu));
     return r;
   }
   const float* floats = std::get<std::vector<float>>(texels_).data();
-  for (int i = 0; i < spectrum_size; ++i) r.c[i] = i > 0 && is_gray() ? r.c[0] : gather(floats + i, first);
+  for (int i = 0; i < rgb_size; ++i) r.c[i] = i > 0 && is_gray() ? r.c[0] : gather(floats + i, first);
   return r;
 }
 
-Spectrum<NativeFloats> TexelImage::bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const {
+RgbOf<NativeFloats> TexelImage::bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const {
   using F = NativeFloats;
-  const Spectrum<F> black = gray(F(0.0f));
+  const RgbOf<F> black = splat<F>(Rgb{});
   const bool is_small = bytes() < (std::size_t(1) << 30);
   if (!is_small || wrap == Wrap::octahedral || std::holds_alternative<std::vector<std::uint16_t>>(texels_)) {
-    Spectrum<F> r = black;
+    RgbOf<F> r = black;
     for_each_lane(on, [&](int k) { set_lane(r, k, bilinear(lane(st, k), wrap)); });
     return r;
   }
@@ -259,26 +259,26 @@ Spectrum<NativeFloats> TexelImage::bilinear(const Vec2<NativeFloats>& st, Wrap w
   const F x0 = floor(x), y0 = floor(y), tx = x - x0, ty = y - y0;
   const Neighbours column = neighbours(x0, width_, wrap), row = neighbours(y0, height_, wrap);
   const auto corner = [&](Uint<F> i, Mask<F> i_inside, Uint<F> j, Mask<F> j_inside) {
-    const Spectrum<F> t = texels(j * std::uint32_t(width_) + i);
+    const RgbOf<F> t = texels(j * std::uint32_t(width_) + i);
     return wrap == Wrap::black ? select(i_inside & j_inside, t, black) : t;
   };
-  const Spectrum<F> t00 = corner(column.first, column.first_inside, row.first, row.first_inside);
-  const Spectrum<F> t10 = corner(column.second, column.second_inside, row.first, row.first_inside);
-  const Spectrum<F> t01 = corner(column.first, column.first_inside, row.second, row.second_inside);
-  const Spectrum<F> t11 = corner(column.second, column.second_inside, row.second, row.second_inside);
+  const RgbOf<F> t00 = corner(column.first, column.first_inside, row.first, row.first_inside);
+  const RgbOf<F> t10 = corner(column.second, column.second_inside, row.first, row.first_inside);
+  const RgbOf<F> t01 = corner(column.first, column.first_inside, row.second, row.second_inside);
+  const RgbOf<F> t11 = corner(column.second, column.second_inside, row.second, row.second_inside);
   const F sx = 1.0f - tx, sy = 1.0f - ty;
   return select(on, (t00 * sx + t10 * tx) * sy + (t01 * sx + t11 * tx) * ty, black);
 }
 
 Rgb TexelImage::average(int x0, int y0, int x1, int y1) const {
-  std::array<double, spectrum_size> sum{};
+  std::array<double, rgb_size> sum{};
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       Rgb t = texel(x, y);
-      for (int c = 0; c < spectrum_size; ++c) sum[c] += double(t[c]);
+      for (int c = 0; c < rgb_size; ++c) sum[c] += double(t[c]);
     }
   Rgb mean;
-  for (int c = 0; c < spectrum_size; ++c) mean[c] = float(sum[c] / (double(x1 - x0) * double(y1 - y0)));
+  for (int c = 0; c < rgb_size; ++c) mean[c] = float(sum[c] / (double(x1 - x0) * double(y1 - y0)));
   return mean;
 }
 

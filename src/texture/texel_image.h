@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "color/transfer.h"
 #include "image/image_file.h"
 
@@ -55,7 +55,7 @@ class TexelImage {
   float nearest_channel(Vec2f st, Wrap wrap, int channel) const;
   float bilinear_channel(Vec2f st, Wrap wrap, int channel) const;
   // bilinear() for a pack, bit for bit, with the look-ups of all lanes in flight together. Zero in idle lanes.
-  Spectrum<NativeFloats> bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const;
+  RgbOf<NativeFloats> bilinear(const Vec2<NativeFloats>& st, Wrap wrap, Mask<NativeFloats> on) const;
 
   // The mean of the texels with x in [x0, x1) and y in [y0, y1), which must not be empty.
   Rgb average(int x0, int y0, int x1, int y1) const;
@@ -75,7 +75,7 @@ class TexelImage {
   template <class Texel>
   auto bilinear_of(Vec2f st, Wrap wrap, Texel texel) const;
   // The texels with these numbers, counted along rows. Not for halves.
-  Spectrum<NativeFloats> texels(Uint<NativeFloats> number) const;
+  RgbOf<NativeFloats> texels(Uint<NativeFloats> number) const;
 
   int width_, height_, color_channels_;
   bool has_alpha_;

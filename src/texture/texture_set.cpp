@@ -136,7 +136,7 @@ SpectrumTextureId TextureSet::add(SpectrumTexture texture) {
 float TextureSet::number(NumberTextureId id, const TexturePoint& point) const {
   return std::visit(LookUp<float>{*this, point}, numbers_[std::size_t(id)]);
 }
-Rgb TextureSet::spectrum(SpectrumTextureId id, const TexturePoint& point) const {
+Rgb TextureSet::color(SpectrumTextureId id, const TexturePoint& point) const {
   return std::visit(LookUp<Rgb>{*this, point}, spectra_[std::size_t(id)]);
 }
 

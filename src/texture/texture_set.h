@@ -21,19 +21,24 @@ class TextureSet {
 
   // The value at a point. May be called from any number of threads; allocates nothing.
   float number(NumberTextureId id, const TexturePoint& point) const;
-  Rgb spectrum(SpectrumTextureId id, const TexturePoint& point) const;
+  Rgb color(SpectrumTextureId id, const TexturePoint& point) const;
   float value(NumberTextureId id, const TexturePoint& point) const { return number(id, point); }
-  Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return spectrum(id, point); }
+  Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return color(id, point); }
 
   // The same at the points of a pack, bit for bit; idle lanes may contain anything.
   NativeFloats number(NumberTextureId id, const TexturePoints<NativeFloats>& points, Mask<NativeFloats> on) const;
-  Spectrum<NativeFloats> spectrum(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
-                                  Mask<NativeFloats> on) const;
+  RgbOf<NativeFloats> color(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
+                            Mask<NativeFloats> on) const;
   float number(NumberTextureId id, const TexturePoints<float>& at, bool) const {
     return number(id, TexturePoint{at.uv, at.p, at.n});
   }
-  Rgb spectrum(SpectrumTextureId id, const TexturePoints<float>& at, bool) const {
-    return spectrum(id, TexturePoint{at.uv, at.p, at.n});
+  Rgb color(SpectrumTextureId id, const TexturePoints<float>& at, bool) const {
+    return color(id, TexturePoint{at.uv, at.p, at.n});
+  }
+  // As paths carry it.
+  template <class F>
+  Spectrum<F> spectrum(SpectrumTextureId id, const TexturePoints<F>& at, Mask<F> on) const {
+    return from_rgb(color(id, at, on));
   }
 
   // The value of a texture that is the same everywhere; nothing for one that may vary.

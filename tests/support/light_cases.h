@@ -132,7 +132,7 @@ LightCase quadric_case(std::string name, Shape s, Emission e, Vec3f reference) {
 
 inline LightCase uniform_infinite_case(std::string name, Vec3f n) {
   LightSetBuilder b;
-  b.add_uniform_infinite(gray(2.0f));
+  b.add_uniform_infinite(gray_rgb(2.0f));
   Frame<float> frame = Frame<float>::from_normal(dot(n, n) > 0 ? n : Vec3f{0, 0, 1});
   auto at = [=](double x, double y) {
     double z = 2 * x - 1, r = std::sqrt(1 - z * z), phi = 2 * double(pi) * y;
@@ -158,7 +158,7 @@ inline std::shared_ptr<LightImage> test_image() {
 inline LightCase image_infinite_case() {
   LightSetBuilder b;
   Transform turned = rotate(50, 1, 2, 3);
-  b.add_image_infinite(turned, gray(0.5f), test_image());
+  b.add_image_infinite(turned, gray_rgb(0.5f), test_image());
   auto at = [=](double x, double y) {
     Vec3f w = turned.direction(sphere_from_square(Vec2f{float(x), float(y)}));
     return LightPoint{w, -w, {0, 0}, 4 * double(pi)};
@@ -169,7 +169,7 @@ inline LightCase image_infinite_case() {
 
 // Every way in which a light of the kind is sampled by a density; none for delta lights.
 inline std::vector<LightCase> light_cases(LightKind kind) {
-  Emission one{.radiance = {2, 1, 0.5f}}, both{.radiance = gray(1.5f), .two_sided = true};
+  Emission one{.radiance = {2, 1, 0.5f}}, both{.radiance = gray_rgb(1.5f), .two_sided = true};
   Transform skew = translate(0.3, -0.2, 0.1) * rotate(40, 1, 1, 0) * scale(1, 1.7, 0.6);
   switch (kind) {
     case LightKind::triangle: {

@@ -91,6 +91,6 @@ class TestScene {
   std::unique_ptr<Accel> accel_;
 };
 
-inline double mean_of_channels(const double (&x)[spectrum_size]) { return (x[0] + x[1] + x[2]) / 3; }
+inline double mean_of_channels(const double (&x)[rgb_size]) { return (x[0] + x[1] + x[2]) / 3; }
 
 }  // namespace montelux::test

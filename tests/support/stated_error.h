@@ -17,9 +17,9 @@ inline double error_over_own_mean(const Film& film) {
   const PixelBounds& b = film.bounds();
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x)
-      for (int c = 0; c < spectrum_size; ++c) {
+      for (int c = 0; c < rgb_size; ++c) {
         const PixelEstimate& p = film.pixel(x, y);
-        sum += p.variance_of_mean(c) / (p.mean[c] * p.mean[c] + 0.01) / spectrum_size;
+        sum += p.variance_of_mean(c) / (p.mean[c] * p.mean[c] + 0.01) / rgb_size;
       }
   return sum / b.area();
 }
@@ -81,7 +81,7 @@ class StatedErrors {
     const PixelBounds& b = film.bounds();
     for (int y = b.y0; y < b.y1; ++y)
       for (int x = b.x0; x < b.x1; ++x)
-        for (int c = 0; c < spectrum_size; ++c) {
+        for (int c = 0; c < rgb_size; ++c) {
           picture.mean.push_back(film.pixel(x, y).mean[c]);
           picture.variance.push_back(film.pixel(x, y).variance_of_mean(c));
         }

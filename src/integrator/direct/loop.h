@@ -196,7 +196,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
       sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
     const Spectrum<F> reflected = select(at.found, at.left * sum * (1.0f / float(n)), gray(F(0.0f)));
     const Spectrum<F> radiance = (at.light + reflected) * path.weight;
-    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
     if constexpr (Tally::records)
       for_each_lane(on, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
 

@@ -20,8 +20,8 @@ int at_depth(const std::vector<int>& counts, U depth) {
 
 // The way from the camera to a surface.
 struct Way {
-  Rgb throughput;  // as the roulette takes it: of one of the branches
-  Rgb share;       // of what the surface sends on in the pixel
+  Spectrum<float> throughput;  // as the roulette takes it: of one of the branches
+  Spectrum<float> share;       // of what the surface sends on in the pixel
 };
 
 // The tree of rays that grows from one camera ray.
@@ -36,7 +36,7 @@ struct Tree {
   Tally& tally;
 
   // Light that the surface sends back beside what it emits. `vertex` tells apart the surfaces of the tree.
-  Rgb reflected(const Arrival<F>& at, U depth, U vertex, const Way& way) {
+  Spectrum<float> reflected(const Arrival<F>& at, U depth, U vertex, const Way& way) {
     if (settings.max_depth && depth >= U(*settings.max_depth)) return gray(0.0f);
     const auto directions = U(at_depth(settings.branching, depth));
     // Lights that no ray can meet need a shadow ray.
@@ -45,7 +45,7 @@ struct Tree {
     const U first = path_dimension::first_vertex + depth * path_dimension::per_vertex;
     const Branches<F> lights(pass, site, first, vertex, std::max(points, 1u));
     const Branches<F> numbers(pass, site, first, vertex, directions);
-    Rgb sum = gray(0.0f);
+    Spectrum<float> sum = gray(0.0f);
     for (U i = 0; i < points; ++i) sum += toward_light(at, lights, i, {points, directions}, depth, way);
     for (U i = 0; i < directions; ++i)
       sum += along_bsdf(at, numbers, i, {points, directions}, depth, mix_bits(vertex * 0x9e3779b9u + i + 1), way);
@@ -57,7 +57,8 @@ struct Tree {
     U points, directions;  // samples of each technique at a vertex
   };
 
-  Rgb toward_light(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, const Way& way) {
+  Spectrum<float> toward_light(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth,
+                               const Way& way) {
     const Departure<F> from = at.departure();
     const F u_choice = numbers.get1(i, path_dimension::light_choice);
     const LightSample<F> light =
@@ -67,8 +68,8 @@ struct Tree {
     const float weight =
         light.delta ? 1.0f
                     : power_weight(float(n.points) * light.density.value, float(n.directions) * value.density.value);
-    const Rgb arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    const Rgb direct = value.f_cos * arrives * (weight / (light.density.value * float(n.points)));
+    const Spectrum<float> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
+    const Spectrum<float> direct = value.f_cos * arrives * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     ++counts.shadow;
     const Ray<F> ray = at.shadow_ray_to(light.wi, light.distance);
@@ -80,16 +81,16 @@ struct Tree {
     return direct;
   }
 
-  Rgb along_bsdf(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, U vertex,
-                 const Way& way) {
+  Spectrum<float> along_bsdf(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, U vertex,
+                             const Way& way) {
     const Vec2f u = numbers.get2(i, path_dimension::direction);
     BsdfContext<F> context = at.context;
     context.random = context.random.fork(i);
     const BsdfSample<F> next =
         sample<F>(at.bsdf.lanes(true), at.wo, Vec3f{numbers.get1(i, path_dimension::lobe), u.x, u.y}, context);
     if (!next.valid || !(max_component(next.weight) > 0)) return gray(0.0f);
-    Rgb weight = next.weight * (1.0f / float(n.directions));
-    const Rgb onward = way.throughput * weight;
+    Spectrum<float> weight = next.weight * (1.0f / float(n.directions));
+    const Spectrum<float> onward = way.throughput * weight;
     // Where the tree has become a path, it ends by roulette.
     if (n.directions == 1 && depth >= 2) {
       const Roulette<F> survival = roulette(std::min(std::sqrt(max_component(onward)), most_survival),
@@ -107,12 +108,12 @@ struct Tree {
                      ? 1.0f
                      : power_weight(float(n.directions) * next.density.value, float(n.points) * by_light);
         },
-        [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Rgb& light, [[maybe_unused]] U number,
+        [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Spectrum<float>& light, [[maybe_unused]] U number,
             [[maybe_unused]] Technique technique) {
           if constexpr (Tally::records)
             tally.template add<F>(meets, light * weight * way.share, {depth + 1, number, technique});
         });
-    Rgb light = there.light;
+    Spectrum<float> light = there.light;
     if (there.found)
       light += there.left * reflected(there, depth + 1, vertex,
                                       {way.throughput * weight * there.left * gray(float(n.directions)),
@@ -138,7 +139,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
     const Arrival<F> at = arrive<F>(
         scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
         sampler.stream(first + path_dimension::own), counts, [](float) { return 1.0f; }, seen_directly(path, tally));
-    Rgb radiance = at.light;
+    Spectrum<float> radiance = at.light;
     if (at.found) {
       Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};
       radiance += at.left * tree.reflected(at, 0, 0, {gray(1.0f), at.left * path.weight});
@@ -147,7 +148,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
                                            Vec3f{sampler.get1(first + path_dimension::lobe), u.x, u.y}, at.context);
       write_features(at, next.valid ? next.weight : gray(0.0f), path, true, out);
     }
-    out[path.slot].radiance = radiance * path.weight;
+    out[path.slot].radiance = to_rgb(radiance * path.weight);
     if constexpr (Tally::records) tally.finish(0, path.slot, out[path.slot]);
   }
   return counts;

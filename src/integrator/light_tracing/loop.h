@@ -245,7 +245,7 @@ class LightTracingLoop {
 
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on) {
     for_each_lane(on, [&](int k) {
-      const Rgb value = lane(light, k);
+      const Rgb value = to_rgb(lane(light, k));
       scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { shared_.plane.add(place, value); });
     });
   }

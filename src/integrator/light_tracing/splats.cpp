@@ -16,7 +16,7 @@ void SplatPlane::add(Vec2f raster, const Rgb& value) {
   if (x0 > x1 || y0 > y1) return;
   const int across = x1 - x0 + 1, count = across * (y1 - y0 + 1);
   float largest = 0;  // of the components, and not a number where one is not
-  for (int i = 0; i < spectrum_size; ++i) largest += std::abs(value.c[i]);
+  for (int i = 0; i < rgb_size; ++i) largest += std::abs(value.c[i]);
   for (int begin = 0; begin < count; begin += lanes_of<F>) {
     Vec2<F> offset{F(0.0f), F(0.0f)};
     const int n = std::min(count - begin, lanes_of<F>);
@@ -33,7 +33,7 @@ void SplatPlane::add(Vec2f raster, const Rgb& value) {
         pixel.broken.store(true, std::memory_order_relaxed);
         continue;
       }
-      for (int i = 0; i < spectrum_size; ++i) pixel.sums[i].add(value.c[i] * w);
+      for (int i = 0; i < rgb_size; ++i) pixel.sums[i].add(value.c[i] * w);
     }
   }
 }
@@ -41,8 +41,8 @@ void SplatPlane::add(Vec2f raster, const Rgb& value) {
 Rgb SplatPlane::take(int x, int y) {
   Pixel& pixel = pixels_[std::size_t((y - bounds_.y0) * bounds_.width() + x - bounds_.x0)];
   Rgb sum;
-  for (int i = 0; i < spectrum_size; ++i) sum.c[i] = float(pixel.sums[i].take().value());
-  if (pixel.broken.exchange(false, std::memory_order_relaxed)) sum = gray(std::numeric_limits<float>::quiet_NaN());
+  for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(pixel.sums[i].take().value());
+  if (pixel.broken.exchange(false, std::memory_order_relaxed)) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
   return sum;
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "color/spectrum.h"
+#include "color/rgb.h"
 #include "filter/filter.h"
 #include "image/pixel_sample.h"
 #include "math/shared_exact_sum.h"
@@ -34,7 +34,7 @@ class SplatPlane {
 
  private:
   struct Pixel {
-    SharedExactSum sums[spectrum_size];
+    SharedExactSum sums[rgb_size];
     std::atomic<bool> broken{false};
   };
   PixelBounds bounds_;

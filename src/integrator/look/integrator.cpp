@@ -84,7 +84,7 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
   FirstHits<F> first_hits(scene_, accel_, pass, out);
   // Where nothing is met, everything is open, and there is nothing else to see.
   const float beyond = settings_.look == Look::ambient_occlusion ? 1.0f : 0.0f;
-  for (PixelSample& sample : out) sample.radiance = gray(beyond);
+  for (PixelSample& sample : out) sample.radiance = gray_rgb(beyond);
   RayCounts counts;
   counts.camera = first_hits.rays();
   PathState<F> path{};
@@ -104,7 +104,7 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
     for (std::uint32_t i = 0; i < n; ++i) sum += view.value(i);
     const Spectrum<F> radiance =
         select(at.found, sum * (1.0f / float(n)), gray(F(beyond))) * (path.weight / scene_.imaging_ratio);
-    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
     write_features(at, view.albedo(0), path, at.found, out);
   }
 }

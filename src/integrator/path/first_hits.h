@@ -142,7 +142,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         Mask<F> left = on & !starts;
         if (any(left)) {
           Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
-          for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = lane(sky, k); });
+          for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = to_rgb(lane(sky, k)); });
           if constexpr (Tally::records) tally_sky(scene, state, left, out, tally);
         }
       }

@@ -27,8 +27,13 @@ void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const 
   // Before its first event a path has gathered what it saw directly, and nothing else.
   const Spectrum<F> emission = path.radiance * path.weight;
   for_each_lane(first, [&](int k) {
-    out[lane(path.slot, k)].features = {
-        lane(emission, k), lane(albedo, k), lane(normal, k), lane(at.p, k), lane(depth, k), 1.0f, lane(object, k)};
+    out[lane(path.slot, k)].features = {to_rgb(lane(emission, k)),
+                                        to_rgb(lane(albedo, k)),
+                                        lane(normal, k),
+                                        lane(at.p, k),
+                                        lane(depth, k),
+                                        1.0f,
+                                        lane(object, k)};
   });
 }
 
@@ -146,7 +151,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
   const auto finish = [&](M ended) {
     if (!any(ended)) return;
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
     if constexpr (Tally::records)
       for_each_lane(ended, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
   };

@@ -26,7 +26,8 @@ class PathRecorder {
   template <class F>
   void add(Mask<F> on, const Spectrum<F>& light, const LightOrigin<F>& from) {
     for_each_lane(on & (max_component(light) != F(0.0f)), [&](int k) {
-      path_.contributions.push_back({path_.vertices.size(), lane(light, k), lane(from.bounces, k), lane(from.light, k),
+      path_.contributions.push_back({path_.vertices.size(), to_rgb(lane(light, k)), lane(from.bounces, k),
+                                     lane(from.light, k),
                                      lane(from.bounces, k) == 0 ? Technique::emission : from.technique});
     });
   }
@@ -40,7 +41,7 @@ class PathRecorder {
       const Vec3f normal = is_medium ? Vec3f{0, 0, 0} : lane(v.bsdf.frame.n, k);
       path_.vertices.push_back({is_medium ? medium : lane_of_mask(v.passes, k) ? interface : surface,
                                 lane(v.x.point.p, k), normal, lane(v.x.distance, k), lane(v.x.object, k),
-                                lane(v.x.material, k), BsdfKind(lane(v.bsdf.kind, k)), lane(v.throughput, k), lane(v.direction, k),
+                                lane(v.x.material, k), BsdfKind(lane(v.bsdf.kind, k)), to_rgb(lane(v.throughput, k)), lane(v.direction, k),
                                 lane(v.density, k), lane(v.survival, k), lane_of_mask(v.continues, k)});
     });
   }

@@ -171,7 +171,7 @@ class RadiosityChain final : public Chain {
         leaves =
             point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, gathering(pass, path), counts, on);
       const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
-      for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = lane(radiance, k); });
+      for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
       write_features(at, point.albedo, path, on, out);
     }
     return counts;

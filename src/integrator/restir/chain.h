@@ -252,7 +252,7 @@ class ReuseChain final : public Chain {
         for (std::size_t i = 0; i < members.size(); ++i) {
           get(inputs.lights[i], int(k), lights_.after(writes)[members[i]]);
           if (reuses_paths()) get(inputs.paths[i], int(k), paths_.after(writes)[members[i]]);
-          if (last) frame_[members[i]].radiance += lane(inputs.vertices[i].throughput * light[i], int(k));
+          if (last) frame_[members[i]].radiance += to_rgb(lane(inputs.vertices[i].throughput * light[i], int(k)));
         }
       }
     }
@@ -346,7 +346,7 @@ class ReuseChain final : public Chain {
     add_light(light, at, open, out);
   }
   void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {
-    for_each_lane(on, [&](int k) { out[lane(at.slot, k)].radiance += lane(light, k); });
+    for_each_lane(on, [&](int k) { out[lane(at.slot, k)].radiance += to_rgb(lane(light, k)); });
   }
 
   // Targets of paths know what is in the way.

@@ -59,7 +59,7 @@ class FirstStage {
     }
     if (reuses_paths()) {
       paths_.run([&](const U& slot, const PathReservoir<F>& reservoir, const Spectrum<F>& plain, M done) {
-        for_each_lane(done, [&](int k) { out_[lane(slot, k)].radiance += lane(plain, k); });
+        for_each_lane(done, [&](int k) { out_[lane(slot, k)].radiance += to_rgb(lane(plain, k)); });
         keep_.paths(reservoir, slot, done);
       });
       return counts_;
@@ -155,7 +155,7 @@ class FirstStage {
 
     const M ended = on & (rough | !found | !moves);
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out_[lane(path.slot, k)].radiance = lane(radiance, k); });
+    for_each_lane(ended, [&](int k) { out_[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
     return on & !ended;
   }
 

@@ -23,19 +23,21 @@ struct Recursion {
 
   // TracePath(p', d): the radiance that leaves the surface at `at` toward where the ray came from.
   // `throughput` is that of the way from the camera, for roulette alone.
-  Rgb radiance(const Arrival<float>& at, RandomStream<float> random, int depth, const Rgb& throughput) const {
+  Spectrum<float> radiance(const Arrival<float>& at, RandomStream<float> random, int depth,
+                           const Spectrum<float>& throughput) const {
     const bool emits = max_component(at.light) > 0;
     const float p_emit = !at.found ? 1.0f : emits ? settings.p_emit : 0.0f;
     if (random.next() < p_emit) return at.light * (1.0f / p_emit);
-    const Rgb arrives = at.left * (1.0f / (1.0f - p_emit));
+    const Spectrum<float> arrives = at.left * (1.0f / (1.0f - p_emit));
     return arrives * reflected(at, random, depth, throughput * arrives);
   }
 
  private:
-  Rgb reflected(const Arrival<float>& at, RandomStream<float>& random, int depth, const Rgb& throughput) const {
+  Spectrum<float> reflected(const Arrival<float>& at, RandomStream<float>& random, int depth,
+                            const Spectrum<float>& throughput) const {
     if (settings.max_depth && depth >= *settings.max_depth) return gray(0.0f);
     if (at.bsdf.is_delta) return along_bsdf(at, random, depth, throughput, {});
-    Rgb sum = delta_lights(at, random);
+    Spectrum<float> sum = delta_lights(at, random);
     if (polygons.empty()) return sum + along_bsdf(at, random, depth, throughput, {});
 
     // Pick a light: whichever it is, the two directions together cover the hemisphere.
@@ -52,8 +54,8 @@ struct Recursion {
   }
 
   // A direction uniform over the rest of the hemisphere: by rejection.
-  Rgb elsewhere(const Arrival<float>& at, const SeenPolygon& seen, RandomStream<float>& random, int depth,
-                const Rgb& throughput) const {
+  Spectrum<float> elsewhere(const Arrival<float>& at, const SeenPolygon& seen, RandomStream<float>& random, int depth,
+                            const Spectrum<float>& throughput) const {
     const float rest = 2 * pi - solid_angle(above_horizon(seen, at.bsdf.light_normal));
     if (rest < 1e-4f) return gray(0.0f);
     const Frame<float> frame = Frame<float>::from_normal(at.bsdf.light_normal);
@@ -70,8 +72,8 @@ struct Recursion {
   }
 
   // f cos / density x TracePath in the direction wi.
-  Rgb continued(const Arrival<float>& at, const Vec3f& wi, float density, RandomStream<float>& random, int depth,
-                const Rgb& throughput) const {
+  Spectrum<float> continued(const Arrival<float>& at, const Vec3f& wi, float density, RandomStream<float>& random,
+                            int depth, const Spectrum<float>& throughput) const {
     BsdfContext<float> context = at.context;
     context.random = own_stream(random);
     const BsdfValue<float> value = evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(wi), context);
@@ -79,8 +81,8 @@ struct Recursion {
   }
 
   // A direction by the BSDF; none where it is one of `taken`, which another term serves.
-  Rgb along_bsdf(const Arrival<float>& at, RandomStream<float>& random, int depth, const Rgb& throughput,
-                 const SeenPolygon& taken) const {
+  Spectrum<float> along_bsdf(const Arrival<float>& at, RandomStream<float>& random, int depth,
+                             const Spectrum<float>& throughput, const SeenPolygon& taken) const {
     const float lobe = random.next();
     const Vec2f u = random.next2();
     const BsdfSample<float> next = sample<float>(at.bsdf.lanes(true), at.wo, Vec3f{lobe, u.x, u.y}, at.context);
@@ -90,8 +92,8 @@ struct Recursion {
     return next_call(at, wi, next.weight, random, depth, throughput);
   }
 
-  Rgb next_call(const Arrival<float>& at, const Vec3f& wi, Rgb weight, RandomStream<float>& random, int depth,
-                const Rgb& throughput) const {
+  Spectrum<float> next_call(const Arrival<float>& at, const Vec3f& wi, Spectrum<float> weight,
+                            RandomStream<float>& random, int depth, const Spectrum<float>& throughput) const {
     const float u = random.next();
     if (!(max_component(weight) > 0)) return gray(0.0f);
     if (depth >= settings.roulette_depth) {
@@ -106,7 +108,7 @@ struct Recursion {
   }
 
   // Lights that no ray can meet are outside the recursion.
-  Rgb delta_lights(const Arrival<float>& at, RandomStream<float>& random) const {
+  Spectrum<float> delta_lights(const Arrival<float>& at, RandomStream<float>& random) const {
     if (!scene.lights.has_delta()) return gray(0.0f);
     const Departure<float> from = at.departure();
     const float u = random.next();
@@ -151,7 +153,7 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
     const Arrival<float> at =
         arrive<float>(scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
                       random.fork(1u), counts, [](float) { return 1.0f; });
-    out[path.slot].radiance = recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight;
+    out[path.slot].radiance = to_rgb(recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight);
     if (at.found) {
       RandomStream<float> own = random.fork(3u);
       const float lobe = own.next();

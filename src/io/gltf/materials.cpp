@@ -79,10 +79,10 @@ void MaterialReader::put_specular(Entity& e, const Element& extensions) {
   }
   const Element specular = extensions["KHR_materials_specular"];
   if (!specular) return;
-  Factor weight{gray(float(share(specular["specularFactor"], 1))), textures_.use(specular["specularTexture"])};
+  Factor weight{gray_rgb(float(share(specular["specularFactor"], 1))), textures_.use(specular["specularTexture"])};
   note_uv_set(weight.texture, specular);
   put_channel(e, "specular", weight, "a");
-  Factor color{gray(1.0f), textures_.use(specular["specularColorTexture"])};
+  Factor color{gray_rgb(1.0f), textures_.use(specular["specularColorTexture"])};
   note_uv_set(color.texture, specular);
   if (const auto stated = specular["specularColorFactor"].numbers(3)) {
     if (std::any_of(stated->begin(), stated->end(), [](double x) { return x < 0; }))
@@ -96,9 +96,10 @@ void MaterialReader::put_specular(Entity& e, const Element& extensions) {
 // KHR_materials_clearcoat and KHR_materials_anisotropy.
 void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
   const Element coat = extensions["KHR_materials_clearcoat"], grain = extensions["KHR_materials_anisotropy"];
-  const Factor amount{gray(float(share(coat["clearcoatFactor"], 0))), textures_.use(coat["clearcoatTexture"])};
-  const Factor strength{gray(float(share(grain["anisotropyStrength"], 0))), textures_.use(grain["anisotropyTexture"])};
-  const Factor roughness{gray(float(share(coat["clearcoatRoughnessFactor"], 0))),
+  const Factor amount{gray_rgb(float(share(coat["clearcoatFactor"], 0))), textures_.use(coat["clearcoatTexture"])};
+  const Factor strength{gray_rgb(float(share(grain["anisotropyStrength"], 0))),
+                        textures_.use(grain["anisotropyTexture"])};
+  const Factor roughness{gray_rgb(float(share(coat["clearcoatRoughnessFactor"], 0))),
                          textures_.use(coat["clearcoatRoughnessTexture"])};
   if (is_black(amount.value) && is_black(strength.value)) return;
   for (const Factor* factor : {&amount, &roughness, &strength}) note_uv_set(factor->texture, coat ? coat : grain);
@@ -110,7 +111,7 @@ void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
   put_channel(e, "anisotropy", strength, "b");
   put_number(e, "anisotropyrotation", grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
   if (!strength.texture) return;
-  const Factor direction{gray(1.0f), strength.texture};
+  const Factor direction{gray_rgb(1.0f), strength.texture};
   put_channel(e, "grainx", direction, "r");
   put_channel(e, "grainy", direction, "g");
 }
@@ -124,7 +125,7 @@ void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
   if (!(*distance > 0)) return stated.error("must be above 0");
   Rgb absorption;
   // A black component absorbs everything over that distance, but not immediately.
-  for (int i = 0; i < spectrum_size; ++i)
+  for (int i = 0; i < rgb_size; ++i)
     absorption.c[i] = float(-std::log(std::max(left[std::size_t(i)], 1e-6)) / *distance);
   if (!is_black(absorption)) put_rgb(glass, "absorption", absorption);
 }
@@ -133,7 +134,7 @@ void MaterialReader::put_normal_map(Entity& e, const Element& info, const Normal
   const auto use = textures_.use(info);
   if (!use) return;
   note_uv_set(use, info);
-  put_texture(e, names.texture, textures_.spectrum(*use, gray(1.0f), TexelMeaning::data));
+  put_texture(e, names.texture, textures_.spectrum(*use, gray_rgb(1.0f), TexelMeaning::data));
   const double scale = info["scale"].number().value_or(1);
   if (scale != 1) put_numbers(e, names.scale, {float(scale), float(scale)});
 }
@@ -169,7 +170,7 @@ MaterialDescId MaterialReader::add(Entity e, const std::string& name) {
 MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& material, const std::string& name) {
   const Element extensions = material["extensions"], transmission = extensions["KHR_materials_transmission"];
   const Element volume = extensions["KHR_materials_volume"], model = material["pbrMetallicRoughness"];
-  Factor amount{gray(float(share(transmission["transmissionFactor"], 0))),
+  Factor amount{gray_rgb(float(share(transmission["transmissionFactor"], 0))),
                 textures_.use(transmission["transmissionTexture"])};
   note_uv_set(amount.texture, material);
   if (is_black(amount.value)) return add(base, name);
@@ -253,7 +254,7 @@ std::optional<Parameter> MaterialReader::alpha(const Element& material) {
 MaterialUse MaterialReader::read_unlit(const Element& material) {
   MaterialUse use;
   Entity black{"diffuse", {}, material.where()};
-  put_rgb(black, "reflectance", gray(0.0f));
+  put_rgb(black, "reflectance", Rgb{});
   use.id = add(std::move(black), material["name"].text().value_or(""));
   use.area_light = emission_of(base_color(material), 1, material);
   use.one_sided = !is_double_sided(material);
@@ -274,8 +275,8 @@ MaterialUse MaterialReader::read(const Element& material) {
   const Element model = material["pbrMetallicRoughness"];
   const std::string name = material["name"].text().value_or("");
   const Factor base = base_color(material);
-  Factor metallic{gray(float(share(model["metallicFactor"], 1))), textures_.use(model["metallicRoughnessTexture"])};
-  Factor roughness{gray(float(share(model["roughnessFactor"], 1))), metallic.texture};
+  Factor metallic{gray_rgb(float(share(model["metallicFactor"], 1))), textures_.use(model["metallicRoughnessTexture"])};
+  Factor roughness{gray_rgb(float(share(model["roughnessFactor"], 1))), metallic.texture};
   note_uv_set(metallic.texture, material);
 
   Entity e{"metallicroughness", {}, material.where()};

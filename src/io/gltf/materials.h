@@ -27,7 +27,7 @@ class MaterialReader {
  private:
   // A factor, and the texture that it multiplies.
   struct Factor {
-    Rgb value = gray(1.0f);
+    Rgb value = gray_rgb(1.0f);
     std::optional<TextureUse> texture;
   };
   MaterialUse read(const Element& material);

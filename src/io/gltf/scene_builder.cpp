@@ -245,7 +245,7 @@ void SceneBuilder::place_lights() {
   if (!scene_.lights.empty() || shines) return;
   document_.report().note(document_.whole(), "the scene has no light: a uniform sky of radiance 1 is used");
   Entity sky{"infinite", {}, document_.whole()};
-  put_rgb(sky, "L", gray(1.0f));
+  put_rgb(sky, "L", gray_rgb(1.0f));
   scene_.lights.push_back({std::move(sky), {}});
 }
 

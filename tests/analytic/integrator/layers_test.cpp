@@ -40,7 +40,7 @@ class Misbooked final : public PixelIntegrator {
     const RayCounts counts = inner_.trace_layers(pass, plan, out, sums);
     const std::size_t stride = std::size_t(plan.count()) + 1;
     for (std::size_t first = 1; first < sums.size(); first += stride)
-      for (int c = 0; c < spectrum_size; ++c) {
+      for (int c = 0; c < rgb_size; ++c) {
         ExactSum& light = sums[first + std::size_t(from_)].c[c];
         ExactSum part;
         part.add(0.1f * float(light.value()));

@@ -96,10 +96,10 @@ std::vector<double> squared_biases(const TestScene& scene, const std::string& wa
     const PixelBounds& bounds = a.bounds();
     for (int y = bounds.y0; y < bounds.y1; ++y)
       for (int x = bounds.x0; x < bounds.x1; ++x)
-        for (int c = 0; c < spectrum_size; ++c)
+        for (int c = 0; c < rgb_size; ++c)
           sum += (a.pixel(x, y).mean[c] - truths[i].pixel(x, y).mean[c]) *
                  (b.pixel(x, y).mean[c] - truths[i + 1].pixel(x, y).mean[c]);
-    products.push_back(sum / double(bounds.area() * spectrum_size));
+    products.push_back(sum / double(bounds.area() * rgb_size));
   }
   return products;
 }

@@ -29,15 +29,15 @@ LightSet mixed_lights(int triangles, std::uint32_t seed, LightSelection selectio
     Vec3f p = in_box(r, 10);
     float size = exp(-6 * r.next());
     Emission e;
-    e.radiance = gray(exp(4 * r.next()));
+    e.radiance = gray_rgb(exp(4 * r.next()));
     e.two_sided = r.next() < 0.2f;
     builder.add(TriangleShape{p, p + on_sphere(r) * size, p + on_sphere(r) * size}, e);
     if (i % 8 != 3) continue;
     const Vec3f q = in_box(r, 10);
-    builder.add_point(q, gray(r.next()));
+    builder.add_point(q, gray_rgb(r.next()));
   }
-  builder.add_uniform_infinite(gray(0.5f));
-  builder.add_distant({0, 0, 1}, gray(1.0f));
+  builder.add_uniform_infinite(gray_rgb(0.5f));
+  builder.add_distant({0, 0, 1}, gray_rgb(1.0f));
   return std::move(builder).build({selection}, {5, 5, 5}, 9);
 }
 

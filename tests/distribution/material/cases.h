@@ -16,8 +16,18 @@ struct BsdfCase {
   bool reciprocal = true;  // not where parts have normals of their own: each has the cosine to its own
 };
 
-inline void put(BsdfRow& row, int slot, std::initializer_list<float> values) {
-  for (float v : values) row.v[slot++] = v;
+// A number, or a colour as paths carry it.
+struct SlotValue {
+  SlotValue(float x) : numbers{x} {}
+  SlotValue(const Rgb& x) {
+    const Spectrum<float> carried = from_rgb(x);
+    numbers.assign(carried.c, carried.c + spectrum_size);
+  }
+  std::vector<float> numbers;
+};
+inline void put(BsdfRow& row, int slot, std::initializer_list<SlotValue> values) {
+  for (const SlotValue& value : values)
+    for (float v : value.numbers) row.v[slot++] = v;
 }
 
 template <BsdfKind kind>
@@ -27,8 +37,8 @@ template <>
 struct CasesOf<BsdfKind::diffuse> {
   static std::vector<BsdfCase> all() {
     BsdfCase grey{"coloured", {}}, white{"white", {}, true};
-    put(grey.row, DiffuseSlots::reflectance, {0.8f, 0.5f, 0.1f});
-    put(white.row, DiffuseSlots::reflectance, {1, 1, 1});
+    put(grey.row, DiffuseSlots::reflectance, {Rgb{{0.8f, 0.5f, 0.1f}}});
+    put(white.row, DiffuseSlots::reflectance, {gray_rgb(1)});
     return {grey, white};
   }
 };
@@ -37,34 +47,34 @@ template <>
 struct CasesOf<BsdfKind::phong> {
   static std::vector<BsdfCase> all() {
     BsdfCase broad{"broad", {}}, sharp{"sharp", {}}, pure{"without a diffuse part", {}};
-    put(broad.row, PhongSlots::diffuse, {0.3f, 0.2f, 0.1f, 0.4f, 0.5f, 0.6f, 5});
-    put(sharp.row, PhongSlots::diffuse, {0.5f, 0.5f, 0.5f, 0.4f, 0.4f, 0.4f, 80});
-    put(pure.row, PhongSlots::diffuse, {0, 0, 0, 0.9f, 0.9f, 0.9f, 20});
+    put(broad.row, PhongSlots::diffuse, {Rgb{{0.3f, 0.2f, 0.1f}}, Rgb{{0.4f, 0.5f, 0.6f}}, 5});
+    put(sharp.row, PhongSlots::diffuse, {gray_rgb(0.5f), gray_rgb(0.4f), 80});
+    put(pure.row, PhongSlots::diffuse, {Rgb{}, gray_rgb(0.9f), 20});
     return {broad, sharp, pure};
   }
 };
 
-inline BsdfCase metallic_roughness_case(std::string label, std::initializer_list<float> base, float metallic,
-                                        float roughness, float specular = 1) {
+inline BsdfCase metallic_roughness_case(std::string label, const Rgb& base, float metallic, float roughness,
+                                        float specular = 1) {
   BsdfCase c{std::move(label), {}};
   using Slots = MetallicRoughnessSlots;
-  put(c.row, Slots::base, base);
-  put(c.row, Slots::metallic, {metallic, roughness, specular, 1, 1, 1, 0.04f});
+  put(c.row, Slots::base, {base});
+  put(c.row, Slots::metallic, {metallic, roughness, specular, gray_rgb(1), 0.04f});
   return c;
 }
 template <>
 struct CasesOf<BsdfKind::metallic_roughness> {
   static std::vector<BsdfCase> all() {
-    BsdfCase tinted = metallic_roughness_case("strong tinted reflection", {0.6f, 0.7f, 0.8f}, 0.1f, 0.5f, 0.7f);
-    put(tinted.row, MetallicRoughnessSlots::specular_color, {9, 4, 1});
-    return {metallic_roughness_case("plastic", {0.8f, 0.4f, 0.2f}, 0, 0.4f),
-            metallic_roughness_case("white plastic", {1, 1, 1}, 0, 0.3f),
-            metallic_roughness_case("white, rough", {1, 1, 1}, 0, 1),
-            metallic_roughness_case("white, smooth", {1, 1, 1}, 0, 0),
-            metallic_roughness_case("metal", {0.9f, 0.7f, 0.3f}, 1, 0.45f),
-            metallic_roughness_case("mirror", {0.9f, 0.7f, 0.3f}, 1, 0),
-            metallic_roughness_case("half a metal", {0.5f, 0.6f, 0.7f}, 0.5f, 0.6f),
-            metallic_roughness_case("no reflection", {0.5f, 0.6f, 0.7f}, 0, 0.5f, 0),
+    BsdfCase tinted = metallic_roughness_case("strong tinted reflection", {{0.6f, 0.7f, 0.8f}}, 0.1f, 0.5f, 0.7f);
+    put(tinted.row, MetallicRoughnessSlots::specular_color, {Rgb{{9, 4, 1}}});
+    return {metallic_roughness_case("plastic", {{0.8f, 0.4f, 0.2f}}, 0, 0.4f),
+            metallic_roughness_case("white plastic", gray_rgb(1), 0, 0.3f),
+            metallic_roughness_case("white, rough", gray_rgb(1), 0, 1),
+            metallic_roughness_case("white, smooth", gray_rgb(1), 0, 0),
+            metallic_roughness_case("metal", {{0.9f, 0.7f, 0.3f}}, 1, 0.45f),
+            metallic_roughness_case("mirror", {{0.9f, 0.7f, 0.3f}}, 1, 0),
+            metallic_roughness_case("half a metal", {{0.5f, 0.6f, 0.7f}}, 0.5f, 0.6f),
+            metallic_roughness_case("no reflection", {{0.5f, 0.6f, 0.7f}}, 0, 0.5f, 0),
             tinted};
   }
 };
@@ -72,7 +82,7 @@ struct CasesOf<BsdfKind::metallic_roughness> {
 // A grain of this strength along the turned x axis under a share of a coat.
 inline BsdfCase coated_metallic_case(std::string label, float metallic, float roughness, float anisotropy, float coat,
                                      float coat_roughness) {
-  BsdfCase c = metallic_roughness_case(std::move(label), {0.9f, 0.5f, 0.2f}, metallic, roughness);
+  BsdfCase c = metallic_roughness_case(std::move(label), {{0.9f, 0.5f, 0.2f}}, metallic, roughness);
   put(c.row, CoatedMetallicRoughnessSlots::anisotropy,
       {anisotropy, 0.6f, -0.3f, 0.8f, 0.6f, coat, coat_roughness, -1, 0, 0, 1});
   return c;
@@ -81,9 +91,9 @@ template <>
 struct CasesOf<BsdfKind::coated_metallic_roughness> {
   static std::vector<BsdfCase> all() {
     BsdfCase white = coated_metallic_case("white under a rough coat", 0, 0.8f, 0, 1, 1);
-    put(white.row, MetallicRoughnessSlots::base, {1, 1, 1});
+    put(white.row, MetallicRoughnessSlots::base, {gray_rgb(1)});
     BsdfCase mirror = coated_metallic_case("white mirror under a smooth coat", 1, 0, 0, 1, 0);
-    put(mirror.row, MetallicRoughnessSlots::base, {1, 1, 1});
+    put(mirror.row, MetallicRoughnessSlots::base, {gray_rgb(1)});
     BsdfCase turned = coated_metallic_case("a grain of no direction", 1, 0.5f, 0.7f, 0.2f, 0.7f);
     put(turned.row, CoatedMetallicRoughnessSlots::grain_x, {0, 0});
     BsdfCase bent = coated_metallic_case("metal with a grain under a coat that looks away", 1, 0.4f, 0.5f, 1, 0.5f);
@@ -102,7 +112,7 @@ struct CasesOf<BsdfKind::coated_metallic_roughness> {
 
 inline BsdfCase conductor_case(std::string label, float alpha_x, float alpha_y, int first = 0) {
   BsdfCase c{std::move(label), {}};
-  put(c.row, first + ConductorSlots::alpha_x, {alpha_x, alpha_y, 0.2f, 0.92f, 1.1f, 3.9f, 2.45f, 2.14f});
+  put(c.row, first + ConductorSlots::alpha_x, {alpha_x, alpha_y, Rgb{{0.2f, 0.92f, 1.1f}}, Rgb{{3.9f, 2.45f, 2.14f}}});
   return c;
 }
 template <>
@@ -135,7 +145,7 @@ struct CasesOf<BsdfKind::tinted_dielectric> {
                                 dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f),
                                 dielectric_case("smooth", 0, 0, 1.5f)};
     for (BsdfCase& c : cases) {
-      put(c.row, TintedDielectricSlots::tint, {0.3f, 0.9f, 0.6f, 1, 2, 3});
+      put(c.row, TintedDielectricSlots::tint, {Rgb{{0.3f, 0.9f, 0.6f}}, Rgb{{1, 2, 3}}});
       c.lossless = false;
     }
     return cases;
@@ -146,11 +156,11 @@ template <>
 struct CasesOf<BsdfKind::thin_dielectric> {
   static std::vector<BsdfCase> all() {
     BsdfCase pane{"pane", {}, true}, green{"green pane", {}};
-    put(pane.row, ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
-    put(green.row, ThinDielectricSlots::eta, {1.5f, 0.2f, 0.8f, 0.4f});
+    put(pane.row, ThinDielectricSlots::eta, {1.5f, gray_rgb(1)});
+    put(green.row, ThinDielectricSlots::eta, {1.5f, Rgb{{0.2f, 0.8f, 0.4f}}});
     BsdfCase rough{"rough pane", {}}, frosted{"frosted green pane", {}};
-    put(rough.row, ThinDielectricSlots::eta, {1.5f, 1, 1, 1, 0.3f});
-    put(frosted.row, ThinDielectricSlots::eta, {1.33f, 0.2f, 0.8f, 0.4f, 0.7f});
+    put(rough.row, ThinDielectricSlots::eta, {1.5f, gray_rgb(1), 0.3f});
+    put(frosted.row, ThinDielectricSlots::eta, {1.33f, Rgb{{0.2f, 0.8f, 0.4f}}, 0.7f});
     return {pane, green, rough, frosted};
   }
 };
@@ -159,8 +169,8 @@ template <>
 struct CasesOf<BsdfKind::diffuse_transmission> {
   static std::vector<BsdfCase> all() {
     BsdfCase leaf{"leaf", {}}, lossless{"lossless", {}, true};
-    put(leaf.row, DiffuseTransmissionSlots::reflectance, {0.3f, 0.2f, 0.1f, 0.1f, 0.6f, 0.2f});
-    put(lossless.row, DiffuseTransmissionSlots::reflectance, {0.3f, 0.3f, 0.3f, 0.7f, 0.7f, 0.7f});
+    put(leaf.row, DiffuseTransmissionSlots::reflectance, {Rgb{{0.3f, 0.2f, 0.1f}}, Rgb{{0.1f, 0.6f, 0.2f}}});
+    put(lossless.row, DiffuseTransmissionSlots::reflectance, {gray_rgb(0.3f), gray_rgb(0.7f)});
     return {leaf, lossless};
   }
 };
@@ -170,12 +180,12 @@ struct CoatCase {
 };
 inline void put(BsdfRow& row, const CoatCase& c) {
   put(row, LayeredSlots::alpha_x,
-      {c.alpha_x, c.alpha_y, c.eta, c.thickness, c.g, c.albedo, c.albedo, c.albedo, c.max_depth, c.samples});
+      {c.alpha_x, c.alpha_y, c.eta, c.thickness, c.g, gray_rgb(c.albedo), c.max_depth, c.samples});
 }
 inline BsdfCase coated_diffuse_case(std::string label, const CoatCase& coat, float reflectance) {
   BsdfCase c{std::move(label), {}};
   put(c.row, coat);
-  put(c.row, CoatedDiffuseSlots::reflectance, {reflectance, 0.5f * reflectance, 0.25f * reflectance});
+  put(c.row, CoatedDiffuseSlots::reflectance, {Rgb{{reflectance, 0.5f * reflectance, 0.25f * reflectance}}});
   return c;
 }
 // The same with its walks summed in closed form.

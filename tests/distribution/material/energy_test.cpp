@@ -62,8 +62,8 @@ TEST(BsdfEnergy, coats_over_white_return_all_light) {
   const CoatCase coat{.thickness = 1e-30f, .max_depth = 2000};
   BsdfCase diffuse{"", {}}, mirror{"", {}};
   put(diffuse.row, coat), put(mirror.row, coat);
-  put(diffuse.row, CoatedDiffuseSlots::reflectance, {1, 1, 1});
-  put(mirror.row, CoatedConductorSlots::conductor_alpha_x, {0, 0, 1, 1, 1, 1e9f, 1e9f, 1e9f});
+  put(diffuse.row, CoatedDiffuseSlots::reflectance, {gray_rgb(1)});
+  put(mirror.row, CoatedConductorSlots::conductor_alpha_x, {0, 0, gray_rgb(1), gray_rgb(1e9f)});
   const BsdfCase summed = summed_coat_case("", coat, 1);
   for (const Vec3f wo : outgoing_directions()) {
     const SampleSummary c = albedo(CoatedDiffuse<float>(BsdfRows<float>{&summed.row}), wo, 0);
@@ -83,7 +83,7 @@ TEST(BsdfEnergy, results_are_finite_at_the_edges) {
   const float numbers[] = {0, 0.5f, one_minus_epsilon};
   RandomStream<float> stream(51, 52);
   const auto finite = [](const Spectrum<float>& x, float p) {
-    return is_finite(x[0]) && is_finite(x[1]) && is_finite(x[2]) && is_finite(p) && p >= 0;
+    return std::all_of(x.c, x.c + spectrum_size, [](float c) { return is_finite(c); }) && is_finite(p) && p >= 0;
   };
   for_each_case([&]<class Model>(const Model& model, const BsdfCase& c) {
     for (const Vec3f wo : edges)
@@ -178,12 +178,13 @@ TEST(BsdfLanes, pack_equals_single_lanes) {
       const std::string where = std::string(name(BsdfKind(lane(kind, k)))) + " in round " + std::to_string(round);
       ASSERT_EQ(lane(pack.next.valid, k), one.next.valid) << where;
       ASSERT_EQ(lane(pack.toward_light.density.value, k), one.toward_light.density.value) << where;
-      ASSERT_EQ(lane(pack.toward_light.f_cos[1], k), one.toward_light.f_cos[1]) << where;
+      for (int c = 0; c < spectrum_size; ++c)
+        ASSERT_EQ(lane(pack.toward_light.f_cos[c], k), one.toward_light.f_cos[c]) << where;
       if (!one.next.valid) continue;
       ASSERT_EQ(lane(pack.next.delta, k), one.next.delta) << where;
       ASSERT_EQ(lane(pack.next.wi.x, k), one.next.wi.x) << where;
       ASSERT_EQ(lane(pack.next.wi.z, k), one.next.wi.z) << where;
-      ASSERT_EQ(lane(pack.next.weight[2], k), one.next.weight[2]) << where;
+      for (int c = 0; c < spectrum_size; ++c) ASSERT_EQ(lane(pack.next.weight[c], k), one.next.weight[c]) << where;
       ASSERT_EQ(lane(pack.next.eta_scale, k), one.next.eta_scale) << where;
       if (one.next.delta) continue;
       ASSERT_EQ(lane(pack.next.density.value, k), one.next.density.value) << where;

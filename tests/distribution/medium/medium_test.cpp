@@ -27,19 +27,20 @@ struct Sums {
 };
 
 TEST(DistanceSample, has_the_means_of_transmittance_and_of_what_scatters) {
-  const Rgb absorption{{0.1f, 0.5f, 0.0f}}, scattering{{0.3f, 2.0f, 8.0f}};
+  const Medium stated{{{0.1f, 0.5f, 0.0f}}, {{0.3f, 2.0f, 8.0f}}, {}, 0};
+  const Spectrum<float> absorption = from_rgb(stated.absorption), scattering = from_rgb(stated.scattering);
   MediumSet media;
-  const std::uint32_t medium = media.add({absorption, scattering, {}, 0});
-  const double level = sidak_level(family_level, 3 * 2 * 2);
-  for (const Rgb& throughput : {Rgb{{1, 1, 1}}, Rgb{{0.5f, 0.1f, 0.01f}}})
+  const std::uint32_t medium = media.add(stated);
+  const double level = sidak_level(family_level, spectrum_size * 2 * 2);
+  for (const Spectrum<float>& throughput : {gray(1.0f), from_rgb(Rgb{{0.5f, 0.1f, 0.01f}})})
     for (const float length : {0.4f, 3.0f}) {
       RandomStream<float> random(3, 1);
-      std::array<Sums, 3> events, ends;
+      std::array<Sums, spectrum_size> events, ends;
       for (int i = 0; i < samples; ++i) {
         const float u = random.next();
         const DistanceSample<float> s = media.sample_distance<float>(medium, throughput, length, {u, random.next()});
         double total = 0, before = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < spectrum_size; ++c) {
           events[c].add(s.is_event ? double(s.weight.c[c]) : 0), ends[c].add(s.is_event ? 0 : double(s.weight.c[c]));
           total += double(s.weight.c[c] * throughput.c[c]), before += double(throughput.c[c]);
         }
@@ -47,7 +48,7 @@ TEST(DistanceSample, has_the_means_of_transmittance_and_of_what_scatters) {
         EXPECT_LE(total, before * 1.0001);
         EXPECT_TRUE(!s.is_event || s.distance < length);
       }
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < spectrum_size; ++c) {
         const double extinction = double(absorption.c[c]) + double(scattering.c[c]);
         const double left = std::exp(-extinction * double(length));
         const double scattered = double(scattering.c[c]) * (1 - left) / extinction;

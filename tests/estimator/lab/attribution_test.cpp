@@ -29,7 +29,7 @@ class LayeredNoise final : public PixelIntegrator {
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     for_each_sample(pass, [&](std::size_t i, float x, float y, float z) {
       out[i] = {};
-      out[i].radiance = gray(1 + x + y + (z - 0.5f * x));
+      out[i].radiance = gray_rgb(1 + x + y + (z - 0.5f * x));
     });
     return {};
   }
@@ -41,7 +41,7 @@ class LayeredNoise final : public PixelIntegrator {
       ExactRgb* pixel = &sums[i / pass.points.samples_per_pass * stride];
       const float parts[4] = {1, x, y, z - 0.5f * x};
       for (std::size_t k = 0; k < 4; ++k)
-        for (int c = 0; c < spectrum_size; ++c) {
+        for (int c = 0; c < rgb_size; ++c) {
           pixel[0].c[c].add(parts[k]);
           pixel[first + k].c[c].add(parts[k]);
           if (plan.bounces) pixel[k == 0 ? 1 : 2].c[c].add(parts[k]);

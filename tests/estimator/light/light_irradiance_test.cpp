@@ -67,7 +67,7 @@ double by_quadrature(const LightCase& c, Vec3f n) {
 
 std::vector<Expected> expectations() {
   std::vector<Expected> all;
-  Emission one{.radiance = gray(1.0f)};
+  Emission one{.radiance = gray_rgb(1.0f)};
   Vec3f up{0, 0, 1}, origin{0, 0, 0};
   for (float height : {0.3f, 2.0f, 300.0f}) {
     TriangleShape t{{-1, -0.7f, height}, {0.2f, 1.1f, height + 0.1f}, {1.3f, -0.2f, height}};
@@ -93,18 +93,18 @@ std::vector<Expected> expectations() {
   LightCase cylinder = quadric_case("cylinder", CylinderShape{rotate(90, 1, 0, 0), 0.5f, -1, 1}, one, {0, 0.3f, -2});
   all.push_back({cylinder.name, cylinder.lights, cylinder.reference, up, by_quadrature(cylinder, up)});
   LightSetBuilder sky, dome;
-  sky.add_uniform_infinite(gray(1.0f));
+  sky.add_uniform_infinite(gray_rgb(1.0f));
   all.push_back({"uniform sky", alone(std::move(sky)), origin, normalize(Vec3f{1, 2, -1}), std::numbers::pi});
   // A radiance of 1 in the directions with positive z, which are the inner half of the map, and in the 128 texels that
   // the equator halves: what they have beyond it cannot reach a plane that looks up.
-  auto half = std::make_shared<LightImage>(LightImage{64, 64, std::vector<Rgb>(64 * 64, gray(0.0f))});
+  auto half = std::make_shared<LightImage>(LightImage{64, 64, std::vector<Rgb>(64 * 64, gray_rgb(0.0f))});
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
-      if (std::abs(x - 31.5) + std::abs(y - 31.5) < 32.1) half->texels[std::size_t(64 * y + x)] = gray(1.0f);
+      if (std::abs(x - 31.5) + std::abs(y - 31.5) < 32.1) half->texels[std::size_t(64 * y + x)] = gray_rgb(1.0f);
   double lit = 0;
   for (const Rgb& t : half->texels) lit += double(t[0]);
   EXPECT_EQ(lit, 64 * 64 / 2 + 128 / 2);
-  dome.add_image_infinite(rotate(90, 1, 0, 0), gray(1.0f), half);
+  dome.add_image_infinite(rotate(90, 1, 0, 0), gray_rgb(1.0f), half);
   LightSet dome_set = alone(std::move(dome));
   all.push_back({"image of a half sky", dome_set, origin, {0, -1, 0}, std::numbers::pi});
   return all;
@@ -141,13 +141,13 @@ TEST(LightIrradiance, many_lights_add_up_whatever_the_choice) {
     for (int i = 0; i < 30; ++i) {
       Vec3f p{4 * r.next() - 2, 4 * r.next() - 2, 1 + r.next()};
       TriangleShape t{p, p + Vec3f{0, 0.5f, 0.1f}, p + Vec3f{0.4f, 0, 0}};
-      b.add(t, {.radiance = gray(1.0f), .two_sided = i % 2 == 0});
+      b.add(t, {.radiance = gray_rgb(1.0f), .two_sided = i % 2 == 0});
       truth += polygon_irradiance({t.p0, t.p1, t.p2}, {0, 0, 0}, up);
-      b.add_point(p, gray(0.02f));
+      b.add_point(p, gray_rgb(0.02f));
       truth += 0.02 * double(p.z / (length(p) * length_squared(p)));
     }
-    b.add_uniform_infinite(gray(0.1f));
-    b.add_distant({0.3f, 0, 1}, gray(0.2f));
+    b.add_uniform_infinite(gray_rgb(0.1f));
+    b.add_distant({0.3f, 0, 1}, gray_rgb(0.2f));
     truth += 0.1 * std::numbers::pi + 0.2 / std::sqrt(1.09);
     LightSet lights = std::move(b).build({selection}, {0, 0, 0}, 5);
     SampleSummary s = irradiance(lights, {0, 0, 0}, up, true);

@@ -24,7 +24,7 @@ float sample_of(std::uint32_t film, int pass, int x, int y) {
 void add(Film& film, std::uint32_t number, const PixelBounds& tile, int pass, int known_as) {
   std::vector<PixelSample> samples;
   for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x) samples.push_back({gray(sample_of(number, pass, x, y)), {}});
+    for (int x = tile.x0; x < tile.x1; ++x) samples.push_back({gray_rgb(sample_of(number, pass, x, y)), {}});
   film.add_pass(tile, known_as, 1, samples);
 }
 

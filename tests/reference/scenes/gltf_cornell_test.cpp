@@ -11,7 +11,7 @@ namespace montelux::test {
 namespace {
 
 Parameter gray_parameter(const std::string& name, float value) {
-  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{gray(value), "srgb"}}, {}};
+  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{gray_rgb(value), "srgb"}}, {}};
 }
 
 // As the grey twin has it: colours by their luminance, and emission in the same way.

@@ -30,9 +30,9 @@ TEST(ColorSpace, reflectances_of_aces_are_adapted_and_its_lights_are_not) {
   // The matrix of the ACES system from AP0 to Rec. 709 with the Bradford transform.
   expect_matrix(reflectance_to_srgb(aces),
                 {{2.5217, -1.1341, -0.3876}, {-0.2765, 1.3727, -0.0962}, {-0.0154, -0.1530, 1.1684}}, 2e-4);
-  Rgb white = reflectance_to_srgb(aces) * gray(1.0f);
+  Rgb white = reflectance_to_srgb(aces) * gray_rgb(1.0f);
   for (float c : white.c) EXPECT_NEAR(c, 1.0f, 1e-6f);
-  Rgb light = emission_to_srgb(aces) * gray(1.0f);
+  Rgb light = emission_to_srgb(aces) * gray_rgb(1.0f);
   EXPECT_GT(light.c[0], light.c[2] * 1.05f);
   EXPECT_NEAR(luminance(light), 1.0f, 1e-5f);
 }

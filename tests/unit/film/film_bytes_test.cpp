@@ -37,7 +37,7 @@ Film film_of(const std::optional<LayerPlan>& layers) {
         s.features.coverage = random.next() < 0.4f ? 1.0f : 0.0f;
         s.features.depth = 1e4f * random.next(), s.features.object = std::uint32_t(3e9f * random.next());
         s.features.position = {-random.next(), 1e-6f * random.next(), -1e6f};
-        s.features.normal = {-1, 0, 0}, s.features.albedo = gray(random.next());
+        s.features.normal = {-1, 0, 0}, s.features.albedo = gray_rgb(random.next());
       }
       std::vector<ExactRgb> sums;
       if (layers) {

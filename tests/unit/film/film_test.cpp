@@ -52,7 +52,7 @@ void expect_same(const Film& a, const Film& b, double tolerance) {
       const PixelEstimate &p = a.pixel(x, y), &q = b.pixel(x, y);
       EXPECT_EQ(p.passes, q.passes);
       EXPECT_EQ(p.non_finite, q.non_finite);
-      for (int c = 0; c < spectrum_size; ++c) {
+      for (int c = 0; c < rgb_size; ++c) {
         expect_near_relative(p.mean[c], q.mean[c], tolerance);
         expect_near_relative(p.m2[c], q.m2[c], tolerance);
       }
@@ -63,7 +63,7 @@ void expect_same(const Film& a, const Film& b, double tolerance) {
     }
   const ImageEstimate i = a.image(), j = b.image();
   EXPECT_EQ(i.passes, j.passes);
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     expect_near_relative(i.mean[c], j.mean[c], tolerance);
     expect_near_relative(i.standard_error[c], j.standard_error[c], tolerance);
   }
@@ -179,8 +179,8 @@ TEST(Film, samples_that_are_not_finite_are_counted_and_kept_out) {
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
   for (int pass = 0; pass < 4; ++pass) {
     std::vector<PixelSample> samples(3);
-    samples[0].radiance = gray(1.0f), samples[1].radiance = gray(3.0f);
-    samples[2].radiance = gray(2.0f);
+    samples[0].radiance = gray_rgb(1.0f), samples[1].radiance = gray_rgb(3.0f);
+    samples[2].radiance = gray_rgb(2.0f);
     samples[2].radiance.c[pass % 3] = bad[pass % 2];
     film.add_pass(one, pass, 3, samples);
   }
@@ -195,8 +195,8 @@ TEST(Film, a_pass_without_a_finite_sample_is_no_pass_of_that_pixel) {
   Film film(two);
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<PixelSample> samples(2);
-    samples[0].radiance = gray(pass == 1 ? std::numeric_limits<float>::infinity() : 1.0f);
-    samples[1].radiance = gray(2.0f);
+    samples[0].radiance = gray_rgb(pass == 1 ? std::numeric_limits<float>::infinity() : 1.0f);
+    samples[1].radiance = gray_rgb(2.0f);
     film.add_pass(two, pass, 1, samples);
   }
   EXPECT_EQ(film.pixel(0, 0).passes, 2u);
@@ -239,9 +239,9 @@ TEST(Film, image_of_tiles_with_different_passes_has_the_mean_and_the_error_of_th
         const double a = double(random.next()) - 0.5, b = double(random.next()) - 0.5;
         const double other = correlation * a + std::sqrt(1 - correlation * correlation) * b;
         std::vector<PixelSample> sample(1);
-        sample[0].radiance = gray(float(1 + a));
+        sample[0].radiance = gray_rgb(float(1 + a));
         film.add_pass(left, pass, 1, sample);
-        sample[0].radiance = gray(float(3 + other));
+        sample[0].radiance = gray_rgb(float(3 + other));
         if (pass < right_passes) film.add_pass(right, pass, 1, sample);
       }
       const ImageEstimate image = film.image();
@@ -269,13 +269,13 @@ TEST(Film, a_sample_that_is_not_finite_hides_no_pass_of_the_image) {
   Film film(two);
   for (int pass = 0; pass < 5; ++pass) {
     std::vector<PixelSample> samples(2);
-    samples[0].radiance = gray(pass == 0 ? std::numeric_limits<float>::infinity() : 1.0f);
-    samples[1].radiance = gray(1.0f);
+    samples[0].radiance = gray_rgb(pass == 0 ? std::numeric_limits<float>::infinity() : 1.0f);
+    samples[1].radiance = gray_rgb(1.0f);
     film.add_pass(two, pass, 1, samples);
   }
   const ImageEstimate image = film.image();
   EXPECT_EQ(image.passes, 5);
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     EXPECT_EQ(image.mean[c], 1);
     EXPECT_EQ(image.standard_error[c], 0);
   }
@@ -287,7 +287,7 @@ TEST(Film, error_is_the_mean_variance_of_the_pixels) {
   double mse = 0;
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x)
-      for (int c = 0; c < spectrum_size; ++c) mse += film.pixel(x, y).variance_of_mean(c) / (3 * bounds.area());
+      for (int c = 0; c < rgb_size; ++c) mse += film.pixel(x, y).variance_of_mean(c) / (3 * bounds.area());
   const ErrorEstimate e = film.error();
   EXPECT_EQ(e.pixels, std::size_t(bounds.area()));
   EXPECT_TRUE(e.whole());
@@ -309,7 +309,7 @@ TEST(Film, a_sparse_film_repeats_the_pixels_that_are_sampled) {
   const PixelBounds cells = film.grid().cells();
   EXPECT_EQ(cells, (PixelBounds{0, 0, 3, 2}));
   std::vector<PixelSample> samples(6);
-  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].radiance = gray(float(i));
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].radiance = gray_rgb(float(i));
   film.add_pass(cells, 0, 1, samples);
   int sampled = 0;
   for (int y = 20; y < 25; ++y)
@@ -331,7 +331,7 @@ TEST(Film, of_a_sparse_picture_states_no_error) {
     const PixelBounds cells = film.grid().cells();
     std::vector<PixelSample> samples(std::size_t(cells.area()));
     for (int pass = 0; pass < 4; ++pass) {
-      for (PixelSample& s : samples) s.radiance = gray(float(1 + pass));
+      for (PixelSample& s : samples) s.radiance = gray_rgb(float(1 + pass));
       film.add_pass(cells, pass, 1, samples);
     }
     EXPECT_EQ(film.error().whole(), stride == 1);

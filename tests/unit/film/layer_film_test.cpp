@@ -22,7 +22,7 @@ std::vector<ExactRgb> pass_of(int x, int y, int pass) {
   std::vector<ExactRgb> sums(layers + 1);
   const float common = random.next();
   for (int i = 1; i <= layers; ++i)
-    for (int c = 0; c < spectrum_size; ++c) sums[std::size_t(i)].c[c].add(float(i) * common + random.next());
+    for (int c = 0; c < rgb_size; ++c) sums[std::size_t(i)].c[c].add(float(i) * common + random.next());
   for (int i = 1; i <= layers; ++i) sums[0] += sums[std::size_t(i)];
   return sums;
 }
@@ -38,7 +38,7 @@ LayerFilm film_of(int first, int count) {
 // By their definitions, from all passes at once.
 LayerSpread spread_of(int x, int y, int layer) {
   LayerSpread s;
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     double all_mean = 0;
     const auto value = [&](int p, int i) { return pass_of(x, y, p)[std::size_t(i)].c[c].value() / samples; };
     for (int p = 0; p < passes; ++p) s.mean[c] += value(p, layer + 1) / passes, all_mean += value(p, 0) / passes;
@@ -55,7 +55,7 @@ void expect_right(const LayerFilm& film) {
     for (int x = bounds.x0; x < bounds.x1; ++x)
       for (int i = -1; i < layers; ++i) {
         const LayerSpread found = film.spread(x, y, i), right = spread_of(x, y, i);
-        for (int c = 0; c < spectrum_size; ++c) {
+        for (int c = 0; c < rgb_size; ++c) {
           EXPECT_NEAR(found.mean[c], right.mean[c], 1e-13);
           EXPECT_NEAR(found.m2[c], right.m2[c], 1e-13);
           EXPECT_NEAR(found.co_moment[c], right.co_moment[c], 1e-13);
@@ -97,9 +97,9 @@ TEST(Film, leaves_a_sample_that_is_not_finite_out_of_the_layers_too) {
   const PixelBounds one{0, 0, 1, 1};
   Film film(one, plan);
   std::vector<PixelSample> pixel(3);
-  pixel[0].radiance = gray(1.0f), pixel[1].radiance = gray(std::nanf("")), pixel[2].radiance = gray(2.0f);
+  pixel[0].radiance = gray_rgb(1.0f), pixel[1].radiance = gray_rgb(std::nanf("")), pixel[2].radiance = gray_rgb(2.0f);
   std::vector<ExactRgb> sums(std::size_t(plan.count()) + 1);
-  for (int c = 0; c < spectrum_size; ++c) sums[0].c[c].add(3), sums[2].c[c].add(3);
+  for (int c = 0; c < rgb_size; ++c) sums[0].c[c].add(3), sums[2].c[c].add(3);
   film.add_pass(one, 0, 3, pixel, sums);
   EXPECT_EQ(film.non_finite(), 1u);
   EXPECT_EQ(film.pixel(0, 0).mean[0], 1.5);

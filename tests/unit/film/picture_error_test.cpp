@@ -39,9 +39,9 @@ Picture picture_of(Law law, std::uint32_t seed) {
       const RareLight light = law(i % side, i / side);
       const bool hit = double(random.at(std::uint32_t(pass * bounds.area() + i))) < light.probability;
       PixelSample& s = samples[std::size_t(i)];
-      s.radiance = gray(light.base + (hit ? light.bright : 0.0f));
-      s.features.coverage = 1, s.features.object = 1, s.features.albedo = gray(0.5f);
-      if (hit && light.emits) s.features.emission = gray(light.bright);
+      s.radiance = gray_rgb(light.base + (hit ? light.bright : 0.0f));
+      s.features.coverage = 1, s.features.object = 1, s.features.albedo = gray_rgb(0.5f);
+      if (hit && light.emits) s.features.emission = gray_rgb(light.bright);
     }
     picture.film.add_pass(bounds, pass, 1, samples);
   }

@@ -67,7 +67,7 @@ TEST(SplatPlane, gives_each_pixel_its_filtered_share_whatever_the_order) {
           wrong += double(filter.evaluate(Vec2f{offset.x - 0.5f, offset.y})) * double(s.value[1]);
         }
         const Rgb a = forward.take(x, y), b = backward.take(x, y);
-        for (int i = 0; i < spectrum_size; ++i) EXPECT_EQ(a[i], b[i]);
+        for (int i = 0; i < rgb_size; ++i) EXPECT_EQ(a[i], b[i]);
         EXPECT_NEAR(double(a[1]), expected, 1e-5 * size);
         EXPECT_GT(std::abs(double(a[1]) - wrong), 1e-5 * size);
         EXPECT_EQ(forward.take(x, y)[1], 0);
@@ -80,7 +80,7 @@ TEST(SplatPlane, reaches_exactly_the_places_within_the_filter_of_a_pixel) {
   const Filter filter;
   SplatPlane plane(bounds, filter);
   for (const Splat& s : splats(bounds, 500)) {
-    plane.add(s.raster, gray(1.0f));
+    plane.add(s.raster, gray_rgb(1.0f));
     bool any = false;
     for (int y = bounds.y0; y < bounds.y1; ++y)
       for (int x = bounds.x0; x < bounds.x1; ++x) any |= plane.take(x, y)[0] != 0;

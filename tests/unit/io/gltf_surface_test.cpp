@@ -27,7 +27,7 @@ const Entity& material_of(const ReadResult& result) {
 Rgb rgb_of(const Entity& e, const char* name) {
   const auto stated = e.parameters.spectrum(name);
   EXPECT_TRUE(stated) << name;
-  return stated ? std::get<RgbValue>(*stated).rgb : gray(-1.0f);
+  return stated ? std::get<RgbValue>(*stated).rgb : gray_rgb(-1.0f);
 }
 
 bool is_one_sided(const ReadResult& result) {

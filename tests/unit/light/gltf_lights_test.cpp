@@ -38,14 +38,14 @@ TEST(SpotEdge, keeps_its_share_of_the_sphere) {
 TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   auto image = std::make_shared<LightImage>();
   image->width = 64, image->height = 32;
-  image->texels.assign(64 * 32, gray(0.0f));
+  image->texels.assign(64 * 32, gray_rgb(0.0f));
   // Azimuth (20.5 / 64) of a turn from +x toward +y, polar angle (9.5 / 32) of half a turn from +z.
   for (int y = 7; y <= 11; ++y)
-    for (int x = 18; x <= 22; ++x) image->texels[std::size_t(y * 64 + x)] = gray(100.0f);
+    for (int x = 18; x <= 22; ++x) image->texels[std::size_t(y * 64 + x)] = gray_rgb(100.0f);
   Entity light{"infinite", {}, {}};
   light.parameters.add({"filename", ParameterType::string, std::vector<std::string>{"sky"}, {}});
   light.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"latlong"}, {}});
-  const LightInputs inputs{[](const SpectrumValue&) { return gray(1.0f); },
+  const LightInputs inputs{[](const SpectrumValue&) { return gray_rgb(1.0f); },
                            [&](const std::string&, const SourceLocation&) { return image; }};
   LightSetBuilder builder;
   Diagnostics diagnostics;
@@ -75,14 +75,14 @@ TEST(LatitudeImage, shines_from_where_it_has_its_light) {
 double share_of_triangle(Vec2f low, Vec2f high, int bright_x, int bright_y) {
   auto image = std::make_shared<LightImage>();
   image->width = image->height = 256;
-  image->texels.assign(256 * 256, gray(0.0f));
-  image->texels[std::size_t(bright_y) * 256 + std::size_t(bright_x)] = gray(1000.0f);
+  image->texels.assign(256 * 256, gray_rgb(0.0f));
+  image->texels[std::size_t(bright_y) * 256 + std::size_t(bright_x)] = gray_rgb(1000.0f);
   Emission emission;
   emission.image = image, emission.local_power = true;
   LightSetBuilder builder;
   const TriangleShape triangle{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, low, {high.x, low.y}, high};
   const LightId mapped = builder.add(triangle, emission);
-  builder.add(triangle, Emission{gray(1.0f)});
+  builder.add(triangle, Emission{gray_rgb(1.0f)});
   LightSettings settings;
   settings.selection = LightSelection::power;
   const LightSet lights = LightSet(std::move(builder).build({}, {0, 0, 0}, 1)).with(settings);

@@ -28,7 +28,7 @@ TEST(PointLight, falls_with_the_square_of_the_distance) {
 
 TEST(SpotLight, falls_off_by_a_smooth_step_in_the_cosine) {
   LightSetBuilder b;
-  b.add_spot({0, 0, 0}, {0, 0, 2}, {30, 20}, gray(1.0f));
+  b.add_spot({0, 0, 0}, {0, 0, 2}, {30, 20}, gray_rgb(1.0f));
   LightSet lights = alone(std::move(b));
   auto at = [&](double degrees) {
     double a = degrees * std::numbers::pi / 180;
@@ -45,7 +45,7 @@ TEST(SpotLight, falls_off_by_a_smooth_step_in_the_cosine) {
 
 TEST(DistantLight, shines_along_one_direction_from_beyond_the_scene) {
   LightSetBuilder b;
-  b.add_distant({0, 3, 4}, gray(2.5f));
+  b.add_distant({0, 3, 4}, gray_rgb(2.5f));
   LightSample<float> s = from(alone(std::move(b)), {5, 5, 5});
   EXPECT_FLOAT_EQ(s.wi.y, 0.6f);
   EXPECT_FLOAT_EQ(s.wi.z, 0.8f);
@@ -56,9 +56,9 @@ TEST(DistantLight, shines_along_one_direction_from_beyond_the_scene) {
 TEST(GoniometricLight, has_the_pole_of_its_image_along_y) {
   // Only directions in the map's inner half shine: those within a quarter turn of the pole.
   auto image = std::make_shared<LightImage>(LightImage{2, 2, {}});
-  image->texels = {gray(1.0f), gray(2.0f), gray(3.0f), gray(4.0f)};
+  image->texels = {gray_rgb(1.0f), gray_rgb(2.0f), gray_rgb(3.0f), gray_rgb(4.0f)};
   LightSetBuilder b;
-  b.add_goniometric({}, gray(1.0f), image);
+  b.add_goniometric({}, gray_rgb(1.0f), image);
   LightSet lights = alone(std::move(b));
   // In the light's space x is the map's u and z its v.
   EXPECT_FLOAT_EQ(from(lights, {-1, 0.1f, -1}).radiance[0] * 2.01f, 1);
@@ -69,9 +69,9 @@ TEST(GoniometricLight, has_the_pole_of_its_image_along_y) {
 
 TEST(ProjectionLight, throws_the_slide_upright_within_its_field_of_view) {
   auto image = std::make_shared<LightImage>(LightImage{4, 2, {}});
-  for (int i = 0; i < 8; ++i) image->texels.push_back(gray(float(i + 1)));
+  for (int i = 0; i < 8; ++i) image->texels.push_back(gray_rgb(float(i + 1)));
   LightSetBuilder b;
-  b.add_projection({}, 90, gray(1.0f), image);
+  b.add_projection({}, 90, gray_rgb(1.0f), image);
   LightSet lights = alone(std::move(b));
   auto at = [&](float x, float y) {
     LightSample<float> s = from(lights, {x, y, 1});
@@ -87,7 +87,8 @@ TEST(ProjectionLight, throws_the_slide_upright_within_its_field_of_view) {
 }
 
 TEST(ImageOnSurface, is_looked_up_by_uv_with_v_upward) {
-  auto image = std::make_shared<LightImage>(LightImage{2, 2, {gray(1.0f), gray(2.0f), gray(3.0f), gray(4.0f)}});
+  auto image =
+      std::make_shared<LightImage>(LightImage{2, 2, {gray_rgb(1.0f), gray_rgb(2.0f), gray_rgb(3.0f), gray_rgb(4.0f)}});
   LightSetBuilder b;
   b.add(PatchShape{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}, {.scale = 10, .image = image});
   LightSet lights = alone(std::move(b));
@@ -109,17 +110,17 @@ LightSet one_of_each(LightSelection selection) {
   b.add(DiskShape{translate(-3, 0, 0) * rotate(90, 0, 1, 0), 0.7f}, picture);
   b.add(SphereShape{translate(-3, 3, 0), 0.7f}, picture);
   b.add(CylinderShape{translate(0, -3, 0), 0.3f}, picture);
-  b.add_point({0, 4, 0}, gray(2.0f));
-  b.add_spot({4, 4, 0}, {-1, -1, 0}, {60, 20}, gray(2.0f));
-  b.add_goniometric(translate(4, 0, 0), gray(1.0f), test_image());
-  b.add_projection(translate(0, 0, -5), 90, gray(1.0f), test_image());
-  b.add_distant({1, 1, 1}, gray(1.0f));
-  b.add_uniform_infinite(gray(0.3f));
-  b.add_image_infinite(rotate(30, 1, 0, 0), gray(0.3f), test_image());
+  b.add_point({0, 4, 0}, gray_rgb(2.0f));
+  b.add_spot({4, 4, 0}, {-1, -1, 0}, {60, 20}, gray_rgb(2.0f));
+  b.add_goniometric(translate(4, 0, 0), gray_rgb(1.0f), test_image());
+  b.add_projection(translate(0, 0, -5), 90, gray_rgb(1.0f), test_image());
+  b.add_distant({1, 1, 1}, gray_rgb(1.0f));
+  b.add_uniform_infinite(gray_rgb(0.3f));
+  b.add_image_infinite(rotate(30, 1, 0, 0), gray_rgb(0.3f), test_image());
   return std::move(b).build({selection}, {0, 0, 0}, 8);
 }
 
-void expect_same(const Spectrum<P>& pack, const Rgb& one, int k) {
+void expect_same(const Spectrum<P>& pack, const Spectrum<float>& one, int k) {
   for (int i = 0; i < spectrum_size; ++i) EXPECT_EQ(lane(pack[i], k), one[i]);
 }
 

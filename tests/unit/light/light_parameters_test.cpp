@@ -18,7 +18,7 @@ Made make(Entity entity, const Transform& to_world = {}) {
                      [](const std::string& name, const SourceLocation&) -> std::shared_ptr<const LightImage> {
                        if (name == "square") return test_image();
                        if (name == "wide")
-                         return std::make_shared<LightImage>(LightImage{2, 1, {gray(1.0f), gray(1.0f)}});
+                         return std::make_shared<LightImage>(LightImage{2, 1, {gray_rgb(1.0f), gray_rgb(1.0f)}});
                        return nullptr;
                      }};
   Made made;
@@ -54,7 +54,7 @@ float sent(const LightSet& lights, Vec3f place) {
     for (int j = 0; j < n; ++j) {
       Vec3f w = sphere_from_square(Vec2f{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n});
       LightSample<float> s = lights.sample<float>(place + w, {0, 0, 0}, 0.5f, Vec2f{0.5f, 0.5f}, true);
-      if (s.valid) sum += double(luminance(s.radiance));
+      if (s.valid) sum += double(luminance(to_rgb(s.radiance)));
     }
   return float(4 * std::numbers::pi * sum / (n * n));
 }
@@ -85,7 +85,7 @@ TEST(LightParameters, illuminance_is_what_the_upward_plane_receives) {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         Vec3f w = sphere_from_square(Vec2f{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n});
-        sum += double(luminance(made.lights.escaped_radiance<float>(w, true)) * max(w.z, 0.0f));
+        sum += double(luminance(to_rgb(made.lights.escaped_radiance<float>(w, true))) * max(w.z, 0.0f));
       }
     // The sum over cells, whose error falls as 1 / n^2, but where the edges of the file's texels cut them.
     EXPECT_NEAR(4 * std::numbers::pi * sum / (n * n), 5, 5e-4) << file;
@@ -124,7 +124,7 @@ TEST(LightParameters, lights_belong_to_the_group_that_they_state) {
   const LightInputs inputs{};
   b.add(entity("point", {text("group", "key")}), Transform(), inputs, diagnostics);
   b.add(entity("point", {}), Transform(), inputs, diagnostics);
-  b.add(TriangleShape{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {.radiance = gray(1.0f), .group = "key"});
+  b.add(TriangleShape{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {.radiance = gray_rgb(1.0f), .group = "key"});
   b.add(entity("distant", {text("group", "far_2")}), Transform(), inputs, diagnostics);
   const LightSet lights = alone(std::move(b));
   EXPECT_EQ(lights.group_names(), (std::vector<std::string>{"key", "default", "far_2"}));
@@ -138,7 +138,7 @@ TEST(LightParameters, power_of_a_surface_is_what_it_emits_in_all) {
   for (bool two_sided : {false, true}) {
     LightSetBuilder b;
     b.add(PatchShape{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {2, 3, 0}},
-          {.radiance = gray(1.0f), .power = 60.0f, .two_sided = two_sided});
+          {.radiance = gray_rgb(1.0f), .power = 60.0f, .two_sided = two_sided});
     LightSet lights = alone(std::move(b));
     float radiance = lights.hit_radiance<float>(0, {0, 0, 1}, {0.5f, 0.5f}, {0, 0, -1}, true)[0];
     EXPECT_NEAR(radiance * pi * 6 * (two_sided ? 2 : 1), 60, 1e-3);

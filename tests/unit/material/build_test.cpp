@@ -19,7 +19,7 @@ struct Workshop {
       builder,
       [](const SpectrumValue& eta, const SpectrumValue&) {
         const bool copper = std::holds_alternative<NamedSpectrum>(eta);
-        return ConductorRgb{gray(copper ? 0.3f : std::get<RgbValue>(eta).rgb.c[0]), gray(3.0f)};
+        return ConductorRgb{gray_rgb(copper ? 0.3f : std::get<RgbValue>(eta).rgb.c[0]), gray_rgb(3.0f)};
       },
       [](const SpectrumValue& value) { return std::get<RgbValue>(value).rgb; },
       [](const SpectrumValue&) { return 1.52f; },
@@ -82,7 +82,7 @@ TEST(BuildMaterial, metal_under_a_coat_is_relative_to_the_coat) {
   EXPECT_FLOAT_EQ(copper.v[Slots::conductor_eta], 0.15f);
   EXPECT_FLOAT_EQ(copper.v[Slots::conductor_k], 1.5f);
   const BsdfRow by_reflectance =
-      shop.build(entity("coatedconductor", {number("interface.eta", 2), spectrum("reflectance", gray(0.5f))})).row;
+      shop.build(entity("coatedconductor", {number("interface.eta", 2), spectrum("reflectance", gray_rgb(0.5f))})).row;
   EXPECT_FLOAT_EQ(by_reflectance.v[Slots::conductor_eta], 0.5f);
   EXPECT_FLOAT_EQ(by_reflectance.v[Slots::conductor_k], 1.0f);
 }
@@ -111,8 +111,8 @@ TEST(BuildMaterial, roughness_is_remapped_unless_told_not_to) {
 TEST(BuildMaterial, scaled_reflectance_is_clamped_after_scaling) {
   Workshop shop;
   const BsdfRow row =
-      shop.build(entity("diffusetransmission", {spectrum("reflectance", gray(0.6f)),
-                                                spectrum("transmittance", gray(1.5f)), number("scale", 0.5f)}))
+      shop.build(entity("diffusetransmission", {spectrum("reflectance", gray_rgb(0.6f)),
+                                                spectrum("transmittance", gray_rgb(1.5f)), number("scale", 0.5f)}))
           .row;
   EXPECT_FLOAT_EQ(row.v[DiffuseTransmissionSlots::reflectance], 0.3f);
   EXPECT_FLOAT_EQ(row.v[DiffuseTransmissionSlots::transmittance], 0.75f);
@@ -122,7 +122,8 @@ TEST(BuildMaterial, scaled_reflectance_is_clamped_after_scaling) {
 
 TEST(BuildMaterial, varying_texture_is_bound_and_looked_up_at_the_point) {
   Workshop shop;
-  shop.builder.add("board", true, entity("checkerboard", {spectrum("tex1", gray(0.9f)), spectrum("tex2", gray(0.1f))}),
+  shop.builder.add("board", true,
+                   entity("checkerboard", {spectrum("tex1", gray_rgb(0.9f)), spectrum("tex2", gray_rgb(0.1f))}),
                    Transform{});
   const Material m = shop.build(entity("diffuse", {texture("reflectance", "board")}));
   ASSERT_EQ(m.bindings.size(), 1u);

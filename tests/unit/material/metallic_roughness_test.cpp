@@ -16,7 +16,8 @@ struct Parameters {
 MetallicRoughness<float> model_of(const Parameters& p) {
   BsdfRow row;
   using Slots = MetallicRoughnessSlots;
-  for (int i = 0; i < 3; ++i) row.v[Slots::base + i] = float(p.base), row.v[Slots::specular_color + i] = float(p.color);
+  for (int i = 0; i < spectrum_size; ++i)
+    row.v[Slots::base + i] = float(p.base), row.v[Slots::specular_color + i] = float(p.color);
   row.v[Slots::metallic] = float(p.metallic), row.v[Slots::roughness] = float(p.roughness);
   row.v[Slots::specular] = float(p.specular), row.v[Slots::reflected] = float(p.reflected);
   return MetallicRoughness<float>(BsdfRows<float>{&row});

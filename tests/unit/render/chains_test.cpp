@@ -31,7 +31,7 @@ RenderResult chains(const char* way, PassPlan plan, int threads, int first_pass 
 void expect_same(const Film& a, const Film& b) {
   for (int y = a.bounds().y0; y < a.bounds().y1; ++y)
     for (int x = a.bounds().x0; x < a.bounds().x1; ++x)
-      for (int c = 0; c < spectrum_size; ++c) {
+      for (int c = 0; c < rgb_size; ++c) {
         ASSERT_EQ(a.pixel(x, y).mean[c], b.pixel(x, y).mean[c]) << x << " " << y;
         ASSERT_EQ(a.pixel(x, y).m2[c], b.pixel(x, y).m2[c]) << x << " " << y;
         ASSERT_EQ(a.features(x, y).albedo[c], b.features(x, y).albedo[c]) << x << " " << y;
@@ -98,13 +98,13 @@ TEST(Chains, have_one_mean_in_one_lane_and_in_packs) {
     return SampleSummary{e.mean[c], e.standard_error[c] * e.standard_error[c] * e.passes, double(e.passes)};
   };
   const std::string ways[] = {"restir-di:candidates=2", "restir-pt:candidates=2"};
-  const double level = sidak_level(family_level, 2.0 * double(std::size(ways)) * spectrum_size);
+  const double level = sidak_level(family_level, 2.0 * double(std::size(ways)) * rgb_size);
   for (const std::string& way : ways) {
     const Film one = film(way + ",lanes=one", 1), pack = film(way, 2);
     EXPECT_EQ(one.non_finite() + pack.non_finite(), 0u) << way;
     EXPECT_EQ(one.image().passes, 16) << way;
     EXPECT_EQ(pack.image().passes, 16) << way;
-    for (int c = 0; c < spectrum_size; ++c) {
+    for (int c = 0; c < rgb_size; ++c) {
       EXPECT_GE(welch_test(image(one, c), image(pack, c)).p_value, level) << way;
       SampleSummary wrong = image(pack, c);
       wrong.mean *= 1.05;
@@ -118,7 +118,7 @@ TEST(Chains, add_up_to_the_film_of_one_render) {
   Film first = chains(way, {4, 2}, 1).film;
   first.merge(chains(way, {4, 3}, 1, 2).film);
   const Film whole = chains(way, {4, 5}, 1).film;
-  for (int c = 0; c < spectrum_size; ++c) EXPECT_NEAR(first.image().mean[c], whole.image().mean[c], 1e-12);
+  for (int c = 0; c < rgb_size; ++c) EXPECT_NEAR(first.image().mean[c], whole.image().mean[c], 1e-12);
   EXPECT_EQ(first.image().passes, 5);
 }
 
@@ -441,7 +441,7 @@ TEST(Budget, is_filled_by_whole_passes_of_other_integrators) {
     mutable std::atomic<int> ticks{0};
     RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
       EXPECT_EQ(out.size(), std::size_t(pass.tile.area()));
-      for (PixelSample& sample : out) sample.radiance = gray(float(pass.points.pass));
+      for (PixelSample& sample : out) sample.radiance = gray_rgb(float(pass.points.pass));
       ticks += pass.tile.x1 == 40 && pass.tile.y1 == 40;
       return {};
     }

@@ -20,7 +20,7 @@ class Noise final : public PixelIntegrator {
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     const std::uint32_t tile = std::uint32_t(1000 * pass.tile.y0 + pass.tile.x0);
     RandomStream<float> random(mix_bits(pass.points.pass + 1), tile);
-    for (PixelSample& s : out) s.radiance = gray((pass.tile.x0 < 40 ? 1.0f : 10.0f) * random.next());
+    for (PixelSample& s : out) s.radiance = gray_rgb((pass.tile.x0 < 40 ? 1.0f : 10.0f) * random.next());
     return {out.size(), 0, 0};
   }
 };

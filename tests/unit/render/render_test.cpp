@@ -56,12 +56,12 @@ bool same_bits(const Film& a, const Film& b) {
       if (p.passes != q.passes || p.non_finite != q.non_finite || f.object != g.object || f.hits != g.hits ||
           f.depth != g.depth)
         return false;
-      for (int c = 0; c < spectrum_size; ++c)
+      for (int c = 0; c < rgb_size; ++c)
         if (p.mean[c] != q.mean[c] || p.m2[c] != q.m2[c] || f.albedo[c] != g.albedo[c] || f.normal[c] != g.normal[c])
           return false;
     }
   const ImageEstimate i = a.image(), j = b.image();
-  for (int c = 0; c < spectrum_size; ++c)
+  for (int c = 0; c < rgb_size; ++c)
     if (i.mean[c] != j.mean[c] || i.standard_error[c] != j.standard_error[c]) return false;
   return i.passes == j.passes;
 }
@@ -72,7 +72,7 @@ class Slow final : public PixelIntegrator {
   explicit Slow(std::chrono::microseconds pause) : pause_(pause) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     std::this_thread::sleep_for(pause_);
-    for (PixelSample& s : out) s.radiance = gray(float(pass.points.pass));
+    for (PixelSample& s : out) s.radiance = gray_rgb(float(pass.points.pass));
     ++calls_;
     return {out.size(), 0, 0};
   }
@@ -137,7 +137,7 @@ TEST(Render, a_render_that_goes_on_adds_the_passes_that_were_to_come) {
   const Film all = scene().render(PointSetKind::blue_noise, {2, 7}, 5).film;
   const ImageEstimate a = film.image(), b = all.image();
   EXPECT_EQ(a.passes, b.passes);
-  for (int c = 0; c < spectrum_size; ++c) {
+  for (int c = 0; c < rgb_size; ++c) {
     EXPECT_NEAR(a.mean[c], b.mean[c], 1e-12 * b.mean[c]);
     EXPECT_NEAR(a.standard_error[c], b.standard_error[c], 1e-12 * b.mean[c]);
   }
@@ -162,8 +162,8 @@ TEST(Render, one_lane_and_the_native_pack_agree) {
     const ImageEstimate e = film.image();
     return SampleSummary{e.mean[c], e.standard_error[c] * e.standard_error[c] * e.passes, double(e.passes)};
   };
-  const double level = sidak_level(family_level, 2 * spectrum_size);
-  for (int c = 0; c < spectrum_size; ++c) {
+  const double level = sidak_level(family_level, 2 * rgb_size);
+  for (int c = 0; c < rgb_size; ++c) {
     EXPECT_GE(welch_test(image(one, c), image(pack, c)).p_value, level);
     SampleSummary wrong = image(pack, c);
     wrong.mean *= 1.05;
@@ -315,7 +315,7 @@ class SlowSamples final : public PixelIntegrator {
  public:
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     std::this_thread::sleep_for(out.size() * std::chrono::microseconds(50));
-    for (PixelSample& s : out) s.radiance = gray(1.0f);
+    for (PixelSample& s : out) s.radiance = gray_rgb(1.0f);
     samples_ += int(out.size());
     if (pass.grid) stride_ = pass.grid->stride;
     return {out.size(), 0, 0};
@@ -377,7 +377,7 @@ class Endless final : public PixelIntegrator {
       for (int i = 0; i < 10000 && !pass.stop_requested(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    for (PixelSample& s : out) s.radiance = gray(1.0f);
+    for (PixelSample& s : out) s.radiance = gray_rgb(1.0f);
     return {out.size(), 0, 0};
   }
 };

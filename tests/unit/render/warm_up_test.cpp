@@ -36,7 +36,7 @@ class Timed final : public CoupledIntegrator {
     RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample> out) override {
       of_.clock_->pass(step.frame < montelux::warm_up ? of_.warm_up_tile_ : tile_seconds);
       if (step.stage + 1 == montelux::stages)
-        for (PixelSample& sample : out) sample.radiance = gray(radiance_);
+        for (PixelSample& sample : out) sample.radiance = gray_rgb(radiance_);
       return {};
     }
 

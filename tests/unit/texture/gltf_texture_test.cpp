@@ -31,7 +31,7 @@ TEST(ImageTexture, may_be_tinted) {
   ImageTexture t;
   t.image = two_texels();
   t.tint = Rgb{{2, 3, 0}};
-  const Rgb c = set.spectrum(set.add(SpectrumTexture(t)), at(0.25f, 0.5f));
+  const Rgb c = set.color(set.add(SpectrumTexture(t)), at(0.25f, 0.5f));
   EXPECT_FLOAT_EQ(c[0], 0.2f);
   EXPECT_FLOAT_EQ(c[1], 0.6f);
   EXPECT_FLOAT_EQ(c[2], 0);
@@ -80,16 +80,16 @@ TEST(ImageTexture, may_lie_by_any_affine_map_and_is_the_same_in_lanes) {
   t.tint = Rgb{{1, 2, 3}};
   t.folds = {Fold::mirror, Fold::clamp};
   const SpectrumTextureId id = set.add(SpectrumTexture(t));
-  EXPECT_FLOAT_EQ(set.spectrum(id, at(0.3f, 0.5f))[0], 0.5f);
+  EXPECT_FLOAT_EQ(set.color(id, at(0.3f, 0.5f))[0], 0.5f);
   TexturePoints<NativeFloats> points;
   for (int k = 0; k < lanes_of<NativeFloats>; ++k) {
     set_lane(points.uv, k, Vec2f{0.3f * float(k) - 1, 0.37f * float(k) - 2});
     set_lane(points.p, k, Vec3f{0, 0, 0});
     set_lane(points.n, k, Vec3f{0, 0, 1});
   }
-  const Spectrum<NativeFloats> all = set.spectrum(id, points, Mask<NativeFloats>(true));
+  const RgbOf<NativeFloats> all = set.color(id, points, Mask<NativeFloats>(true));
   for (int k = 0; k < lanes_of<NativeFloats>; ++k) {
-    const Rgb one = set.spectrum(id, TexturePoint{lane(points.uv, k), lane(points.p, k), lane(points.n, k)});
+    const Rgb one = set.color(id, TexturePoint{lane(points.uv, k), lane(points.p, k), lane(points.n, k)});
     for (int c = 0; c < 3; ++c) EXPECT_EQ(lane(all.c[c], k), one[c]) << k;
   }
 }

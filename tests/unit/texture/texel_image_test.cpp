@@ -141,10 +141,10 @@ TEST(TexelImage, packs_find_what_single_look_ups_find) {
           set_lane(st, k, at);
         }
         const Mask<F> on = mask_of_bits<F>(std::uint32_t(random.next() * 0x1p16f) | 1u);
-        const Spectrum<F> pack = image.bilinear(st, wrap, on);
+        const RgbOf<F> pack = image.bilinear(st, wrap, on);
         for (int k = 0; k < native_lanes; ++k) {
           const Rgb one = lane(on, k) ? image.bilinear(lane(st, k), wrap) : Rgb{};
-          for (int i = 0; i < spectrum_size; ++i) ASSERT_EQ(lane(pack.c[i], k), one.c[i]) << int(wrap) << round;
+          for (int i = 0; i < rgb_size; ++i) ASSERT_EQ(lane(pack.c[i], k), one.c[i]) << int(wrap) << round;
         }
       }
   };

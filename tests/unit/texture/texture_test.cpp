@@ -64,9 +64,9 @@ TEST(Bilerp, corners_have_their_values_and_the_middle_their_mean) {
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(1, 1)), 6);
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0.5f, 0.5f)), 3);
   SpectrumTextureId colors = b.spectrum_texture(entity("bilerp", {rgb("v00", {{1, 0, 0}}), rgb("v11", {{0, 0, 4}})}));
-  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(1, 1))[2], 4);
-  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(0, 0))[0], 1);
-  EXPECT_FLOAT_EQ(b.set.spectrum(colors, at_uv(0, 1))[0], 1);
+  EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(1, 1))[2], 4);
+  EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(0, 0))[0], 1);
+  EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(0, 1))[0], 1);
 }
 
 TEST(Checkerboard, cells_alternate_in_the_plane_and_in_space) {
@@ -88,7 +88,7 @@ TEST(Combinations, scale_mix_and_directionmix_follow_their_definitions) {
   b.builder.add("ramp", false, entity("bilerp", {number("v01", 0), number("v10", 1)}), {});  // is u
   b.builder.add("color", true, entity("constant", {rgb("value", {{0.2f, 0.4f, 0.8f}})}), {});
   SpectrumTextureId scaled = b.spectrum_texture(entity("scale", {link("tex", "color"), link("scale", "ramp")}));
-  EXPECT_FLOAT_EQ(b.set.spectrum(scaled, at_uv(0.25f, 0.9f))[2], 0.2f);
+  EXPECT_FLOAT_EQ(b.set.color(scaled, at_uv(0.25f, 0.9f))[2], 0.2f);
   NumberTextureId mixed =
       b.number_texture(entity("mix", {number("tex1", 10), number("tex2", 20), link("amount", "ramp")}));
   EXPECT_FLOAT_EQ(b.set.number(mixed, at_uv(0.25f, 0.1f)), 12.5f);
@@ -177,7 +177,7 @@ TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_pa
   EXPECT_EQ(b.set.number(windy, at_point({0, 0, 0})), 0);
   RandomStream<float> random(3u, 3u);
   for (int k = 0; k < 1000; ++k) {
-    Rgb c = b.set.spectrum(marble, at_point({9 * random.next(), 9 * random.next(), 9 * random.next()}));
+    Rgb c = b.set.color(marble, at_point({9 * random.next(), 9 * random.next(), 9 * random.next()}));
     for (int i = 0; i < 3; ++i) {
       EXPECT_GE(c[i], 1.5f * 0.2f);
       EXPECT_LE(c[i], 1.5f * 0.6001f);
@@ -227,10 +227,10 @@ TEST(ImageMap, shows_the_picture_upright_with_v_up) {
   Bench b;
   SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name)}));
   ASSERT_FALSE(b.diagnostics.has_errors());
-  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.75f, 0.75f))[0], 1);  // red: upper right
-  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.25f, 0.25f))[1], 1);  // green: lower left
-  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.75f, 0.25f))[2], 1);  // blue: lower right
-  EXPECT_FLOAT_EQ(b.set.spectrum(id, at_uv(0.5f, 0.5f))[1], 0.25f);
+  EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.75f, 0.75f))[0], 1);  // red: upper right
+  EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.25f, 0.25f))[1], 1);  // green: lower left
+  EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.75f, 0.25f))[2], 1);  // blue: lower right
+  EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.5f, 0.5f))[1], 0.25f);
   NumberTextureId mean = b.number_texture(entity("imagemap", {text("filename", picture.name)}));
   EXPECT_FLOAT_EQ(b.set.number(mean, at_uv(0.75f, 0.75f)), 1.0f / 3);
 }
@@ -240,12 +240,12 @@ TEST(ImageMap, scale_invert_and_point_filter_apply) {
   Bench b;
   SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name), number("scale", 0.25f),
                                                                 flag("invert", true), text("filter", "point")}));
-  Rgb c = b.set.spectrum(id, at_uv(0.51f, 0.51f));
+  Rgb c = b.set.color(id, at_uv(0.51f, 0.51f));
   EXPECT_FLOAT_EQ(c[0], 0.75f);
   EXPECT_FLOAT_EQ(c[1], 1);
   SpectrumTextureId dark = b.spectrum_texture(
       entity("imagemap", {text("filename", picture.name), number("scale", 3), flag("invert", true)}));
-  EXPECT_EQ(b.set.spectrum(dark, at_uv(0.75f, 0.75f))[0], 0);
+  EXPECT_EQ(b.set.color(dark, at_uv(0.75f, 0.75f))[0], 0);
 }
 
 TEST(ImageMap, one_file_is_held_once_an_encoding_and_prefilters_are_noted_once) {
@@ -266,8 +266,8 @@ TEST(TextureBuilder, parameters_are_values_or_names_and_the_default_where_absent
   Entity user = entity("diffuse", {number("a", 0.5f), link("b", "wavy"), rgb("c", {{1, 2, 3}}), number("d", 7)});
   EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "a", 0)), 0.5f);
   EXPECT_EQ(b.builder.number(user, "b", 0), *b.builder.find_number("wavy"));
-  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "c", gray(0.0f))))[2], 3);
-  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "d", gray(0.0f))))[0], 7);
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "c", Rgb{})))[2], 3);
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "d", Rgb{})))[0], 7);
   EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "z", 0.125f)), 0.125f);
   EXPECT_FALSE(b.builder.number_if_stated(user, "z"));
   EXPECT_EQ(b.builder.constant(0.5f), b.builder.number(user, "a", 0));
@@ -334,19 +334,19 @@ TEST(TextureSet, packs_and_threads_find_the_values_of_single_points) {
       const auto compare = [&](auto id) {
         const auto pack = [&] {
           if constexpr (std::is_same_v<decltype(id), NumberTextureId>)
-            return gray(b.set.number(id, points, on));
+            return RgbOf<F>{{b.set.number(id, points, on)}};
           else
-            return b.set.spectrum(id, points, on);
+            return b.set.color(id, points, on);
         }();
         for_each_lane(on, [&](int k) {
           const TexturePoint point{lane(points.uv, k), lane(points.p, k), lane(points.n, k)};
           const auto one = [&] {
             if constexpr (std::is_same_v<decltype(id), NumberTextureId>)
-              return gray(b.set.number(id, point));
+              return Rgb{{b.set.number(id, point)}};
             else
-              return b.set.spectrum(id, point);
+              return b.set.color(id, point);
           }();
-          for (int i = 0; i < spectrum_size; ++i) EXPECT_EQ(lane(pack.c[i], k), one.c[i]) << int(id);
+          for (int i = 0; i < rgb_size; ++i) EXPECT_EQ(lane(pack.c[i], k), one.c[i]) << int(id);
         });
       };
       for (const NumberTextureId id : number_ids) compare(id);
