@@ -36,10 +36,8 @@ Result<lab::ComparisonSettings> settings_of(const LoadedScene::Parts& parts, con
   return settings;
 }
 
-// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names) {
-  if (names.size() < 2) return names.empty() ? "" : names.front();
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+  return montelux::listed(std::vector<std::string_view>(names.begin(), names.end()));
 }
 
 // Why there is no verdict; empty if there is one.

@@ -61,8 +61,8 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
     if (clamped)
       return Failure{
           "samples that are scaled down to maxcomponent have no layers; --set maxcomponent=none removes the limit"};
-    return Failure{
-        fmt::format("the integrator {} has no layers; path, naive, direct and distribution have them", chosen.name)};
+    return Failure{fmt::format("the integrator {} has no layers; {} have them", chosen.name,
+                               listed(integrators_with(Ability::layers)))};
   }
   LayerPlan plan;
   plan.bounces = request.bounces;

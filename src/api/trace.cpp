@@ -29,7 +29,8 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
     return plan.chosen.integrator ? plan.chosen.integrator->trace_path(pass) : std::nullopt;
   };
   if (!trace(0))
-    return Failure{fmt::format("the integrator {} has no paths to show; path and naive have", plan.chosen.name)};
+    return Failure{fmt::format("the integrator {} has no paths to show; {} have", plan.chosen.name,
+                               listed(integrators_with(Ability::paths)))};
   SampleTrace result{
       x,  y,  0, all, 0, 0, image.seed, {}, plan.chosen.name, std::string(name_of(image.sampler)), plan.chosen.notes,
       {}, {}, {}};

@@ -20,7 +20,7 @@ struct SampleTrace {
 
 // The path of sample `sample` of the pixel, in a render with these options; no number: the sample with the largest
 // luminance among all of the pixel. Fails where the pixel or the sample is not in the picture, the options are wrong,
-// or the integrator has no paths to show (path and naive have).
+// or the integrator has no paths to show.
 Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& options, int x, int y,
                                  std::optional<int> sample);
 

@@ -197,16 +197,20 @@ struct Row {
   Made (*make)(const Request&);
   LightSearch search = LightSearch::any_length;
   Content content = Content::light;
-  bool crosses_media = false;  // participating ones
+  std::uint32_t abilities = 0;
+  bool can(Ability ability) const { return (abilities & std::uint32_t(ability)) != 0; }
 };
+
+constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
+                        all_abilities = only_layers | std::uint32_t(Ability::media) | std::uint32_t(Ability::paths);
 
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path<false>, LightSearch::any_length, Content::light, true},
-                         {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, true},
-                         {direct_spec(), make_direct, LightSearch::one_event},
-                         {distribution_spec(), make_distribution},
+    std::vector<Row> all{{path_spec(), make_path<false>, LightSearch::any_length, Content::light, all_abilities},
+                         {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, all_abilities},
+                         {direct_spec(), make_direct, LightSearch::one_event, Content::light, only_layers},
+                         {distribution_spec(), make_distribution, LightSearch::any_length, Content::light, only_layers},
                          {tracepath_spec(), make_tracepath},
                          {restir_di_spec(), make_restir<restir_di>},
                          {restir_gi_spec(), make_restir<restir_gi>},
@@ -268,6 +272,13 @@ std::span<const EntitySpec> integrator_catalogue() {
   return specs;
 }
 
+std::vector<std::string_view> integrators_with(Ability ability) {
+  std::vector<std::string_view> names;
+  for (const Row& row : rows())
+    if (row.can(ability)) names.push_back(row.spec.name);
+  return names;
+}
+
 void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
   if (!is_fixed(kind)) return;
   chosen.biases.push_back(fmt::format("sampler={}", name_of(kind)));
@@ -297,9 +308,9 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   if (!read) return read.failure();
   const auto& [row, list] = *read;
 
-  if (!scene.media.empty() && !row->crosses_media)
-    return Failure{
-        fmt::format("the scene has participating media, which {} cannot cross; path and naive can", row->spec.name)};
+  if (!scene.media.empty() && !row->can(Ability::media))
+    return Failure{fmt::format("the scene has participating media, which {} cannot cross; {} can", row->spec.name,
+                               listed(integrators_with(Ability::media)))};
 
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
   const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;

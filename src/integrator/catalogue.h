@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "accel/accel.h"
 #include "image/display.h"
@@ -16,6 +17,14 @@ namespace montelux {
 
 // For parsers, --help and documentation.
 std::span<const EntitySpec> integrator_catalogue();
+
+// What only some integrators can do.
+enum class Ability : std::uint32_t {
+  media = 1,   // cross participating media
+  layers = 2,  // PixelIntegrator::trace_layers
+  paths = 4,   // PixelIntegrator::trace_path
+};
+std::vector<std::string_view> integrators_with(Ability ability);
 
 // What a scene file states for all integrators; a setting of the same name wins.
 struct IntegratorDefaults {

@@ -17,5 +17,13 @@ std::vector<std::string_view> names_of(std::span<const EntitySpec> table) {
   for (const EntitySpec& entity : table) names.push_back(entity.name);
   return names;
 }
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 < names.size() ? ", " : " and ";
+    list += names[i];
+  }
+  return list;
+}
 
 }  // namespace montelux

@@ -35,5 +35,7 @@ struct EntitySpec {
 const EntitySpec* find_entity(std::span<const EntitySpec> table, std::string_view name);
 const ParameterSpec* find_parameter(const EntitySpec& entity, std::string_view name);
 std::vector<std::string_view> names_of(std::span<const EntitySpec> table);
+// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string_view>& names);
 
 }  // namespace montelux

@@ -28,6 +28,23 @@ TEST(IntegratorCatalogue, makes_every_integrator_by_its_name_alone) {
   for (const EntitySpec& spec : integrator_catalogue()) EXPECT_EQ(scene.integrator(spec.name).name, spec.name);
 }
 
+TEST(IntegratorCatalogue, states_what_each_integrator_can_do) {
+  const TestScene scene(room), fog(R"(Camera "perspective" WorldBegin LightSource "infinite"
+MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog" Shape "sphere")");
+  const auto can = [](Ability ability, std::string_view name) {
+    return std::ranges::count(integrators_with(ability), name) > 0;
+  };
+  for (const EntitySpec& spec : integrator_catalogue()) {
+    const ChosenIntegrator chosen = scene.integrator(spec.name);
+    TilePass pass{{0, 0, 1, 1}, {PointSetKind::independent, 1, 0, 1, 16, 16}};
+    pass.only = 0;
+    EXPECT_EQ(can(Ability::layers, spec.name), chosen.integrator && chosen.integrator->has_layers()) << spec.name;
+    EXPECT_EQ(can(Ability::paths, spec.name), chosen.integrator && chosen.integrator->trace_path(pass)) << spec.name;
+    EXPECT_EQ(can(Ability::media, spec.name), failure_of(fog, std::string(spec.name)).empty()) << spec.name;
+  }
+  EXPECT_GT(integrators_with(Ability::layers).size(), 3u);
+}
+
 // A value of a setting that is not its default.
 std::string value_of(const ParameterSpec& row) {
   const std::string name(row.name);
