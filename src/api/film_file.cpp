@@ -177,12 +177,16 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
           {std::move(film), rays_from(j.at("rays")), seconds}};
 }
 
-// Of what the passes of a film depend on, the first that differs: "seed is 1 and 2".
+// The first of the values on which the passes of a film depend that differs: "seed is 1 and 2".
 std::optional<std::string> difference(const Json& a, const Json& b) {
+  // Passes are identified by their numbers, so that those of different seeds cannot be in one film.
+  constexpr std::string_view hint =
+      "; to add passes to a film, render others of the same seed, by --passes A:B or --resume";
   for (const auto& [key, value] : a.items()) {
     const auto other = b.find(key);
     const Json theirs = other == b.end() ? Json() : *other;
-    if (theirs != value) return fmt::format("{} is {} and {}", key, value.dump(), theirs.dump());
+    if (theirs != value)
+      return fmt::format("{} is {} and {}{}", key, value.dump(), theirs.dump(), key == "seed" ? hint : "");
   }
   for (const auto& [key, value] : b.items())
     if (!a.contains(key)) return fmt::format("{} is null and {}", key, value.dump());

@@ -11,19 +11,19 @@ namespace montelux {
 
 namespace {
 
-// Finite, and within what sums can hold.
+// Whether it is finite, and within the range of the sums.
 bool is_kept(const Rgb& c) {
   for (float x : c.c)
     if (!(std::abs(x) < ExactSum::largest)) return false;
   return true;
 }
 
-// The number within the bounds; 0 of what is no number.
+// The number clamped to the bounds; 0 for NaN.
 double within(double x, double bound) { return x >= -bound ? std::min(x, bound) : x < -bound ? -bound : 0; }
 
 bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
 
-// Of the tiles that have passes, the numbers of all these.
+// The numbers of all passes that any tile has.
 std::vector<int> all_numbers(const std::map<std::size_t, FilmTile>& tiles) {
   std::vector<int> all;
   for (const auto& [index, tile] : tiles) {
@@ -37,11 +37,11 @@ std::vector<int> all_numbers(const std::map<std::size_t, FilmTile>& tiles) {
   return all;
 }
 
-// What the passes of one tile say of its mean.
+// The mean of one tile over its passes.
 struct TileMean {
   double mean[rgb_size] = {};
-  double pixels = 0;  // that have a finite sample, in the mean over passes
-  int passes = 0;     // in which there are such pixels
+  double pixels = 0;  // pixels with a finite sample, in the mean over passes
+  int passes = 0;     // passes with such pixels
   explicit TileMean(const FilmTile& tile) {
     for (const FilmPass& pass : tile.passes) {
       if (pass.pixels == 0) continue;

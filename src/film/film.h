@@ -1,6 +1,6 @@
-// The film: at every pixel an estimate over independent passes. A pass contributes one number a pixel (the mean of the
-// pass's samples there), so the spread over passes is the true spread of the estimator, whatever the correlation of the
-// samples inside a pass.
+// The film: at every pixel an estimate over independent passes. A pass contributes one number per pixel (the mean
+// of the pass's samples), so that the spread over passes is the true spread of the estimator, whatever the correlation
+// of the samples within a pass.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace montelux {
 // The squares that cover the bounds in row-major order; those at the right and at the bottom may be cut off.
 std::vector<PixelBounds> tiles_of(const PixelBounds& bounds, int side);
 
-// What a film has at most: samples of a pixel, and the number of a pass.
+// Limits of a film: the samples of a pixel, and the number of a pass.
 inline constexpr std::uint32_t max_film_samples = 1u << 24;
 inline constexpr std::uint32_t max_pass_number = 0x7fffffff;
 
@@ -28,13 +28,13 @@ inline constexpr std::uint32_t max_pass_number = 0x7fffffff;
 struct PixelEstimate {
   double mean[rgb_size] = {};
   double m2[rgb_size] = {};  // sum of squared deviations of the pass means
-  // The sum over the passes of even number of the mean of the channels: with the rest an independent half.
+  // The mean of the channels, summed over passes with even numbers: one of two independent halves of the passes.
   double half_sum = 0;
   std::uint32_t half_passes = 0;
   std::uint32_t passes = 0;
-  std::uint32_t non_finite = 0;  // samples kept out of the mean
+  std::uint32_t non_finite = 0;  // samples excluded from the mean
 
-  // The passes of both.
+  // Adds the passes of the other one.
   void merge(const PixelEstimate& other);
   // Variance of `mean` (not of one pass), by channel; infinite below two passes.
   double variance_of_mean(int channel) const;
@@ -57,7 +57,7 @@ struct PixelPass {
   void add(const PixelSample& sample);
 };
 
-// What a film keeps of a pixel: sums over passes that no order changes.
+// The state of a pixel: sums over passes that do not depend on their order.
 struct PixelSums {
   ExactMoments radiance[rgb_size];  // of the pass means
   ExactSum half;
@@ -66,9 +66,9 @@ struct PixelSums {
   std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
   std::uint32_t hits = 0, samples = 0;
   std::uint32_t object = 0;
-  int object_pass = 0;  // that the object is of: the first in which a sample hit
+  int object_pass = 0;  // the first pass in which a sample hit, and so the pass of the object
 
-  // A pass; of the radiance only the mean of its finite samples, where there are any.
+  // Adds a pass. Its radiance is the mean of its finite samples, if there are any.
   void add(int pass, const PixelPass& sums);
   void add_mean(int pass, const double (&mean)[rgb_size]);
   void merge(const PixelSums& other);
@@ -77,17 +77,17 @@ struct PixelSums {
   PixelFeatures features() const;
 };
 
-// The mean of the whole image over passes, with the error that correlations between pixels leave it.
+// The mean of the whole image over passes, with an error that includes correlations between pixels.
 struct ImageEstimate {
   double mean[rgb_size] = {};
   double standard_error[rgb_size] = {};  // infinite below two passes
-  int passes = 0;                        // of the tile that has fewest
+  int passes = 0;                        // of the tile that has the fewest
 };
 
 // A tile of a film in one pass: the sums of the pass means of its pixels, in their order.
 struct FilmPass {
   int pass = 0;
-  int pixels = 0;  // that have a finite sample
+  int pixels = 0;  // pixels that have a finite sample
   double sum[rgb_size] = {};
 };
 
@@ -98,8 +98,8 @@ struct FilmTile {
   bool has(int pass) const;
 };
 
-// A pass is known by its number: the film of a set of passes is the same bits in whatever order, by whatever threads
-// and in whatever parts they came. Tiles may have different passes.
+// A pass is identified by its number: the film of a set of passes has the same bits for any order, any number of
+// threads and any division into parts. Tiles may have different passes.
 class Film {
  public:
   // `stride`: only the pixels of that grid are sampled.
@@ -107,55 +107,55 @@ class Film {
 
   const PixelBounds& bounds() const { return grid_.bounds; }
   const PixelGrid& grid() const { return grid_; }
-  // The layers, where the film was made with a plan of them. Then the pass means are those of their exact sums.
+  // The layers, if the film was made with a plan of them. The pass means are then computed from their exact sums.
   const std::optional<LayerFilm>& layers() const { return layers_; }
 
-  // Names a tile, which counts cells of the grid. Tiles may not overlap. A tile that add_pass() does not know yet is
-  // named by it; but tiles must be named before threads add passes to them.
+  // Names a tile, which counts cells of the grid. Tiles may not overlap. add_pass() names a tile that has no name
+  // yet, but tiles must be named before threads add passes to them.
   FilmTile& name_tile(const PixelBounds& cells);
-  // All that are named, from top to bottom and from left to right.
+  // All named tiles, from top to bottom and from left to right.
   const std::map<std::size_t, FilmTile>& tiles() const { return tiles_; }
-  // How many passes a tile has, which they are, and whether it has this one.
+  // The number of passes of a tile, their numbers in ascending order, and whether it has this one.
   int passes(const PixelBounds& tile) const;
   std::vector<int> pass_numbers(const PixelBounds& tile) const;
   bool has(const PixelBounds& tile, int pass) const;
 
-  // Adds a pass to a tile, which must not have it: samples in row-major order, those of one pixel consecutive. Tiles
-  // are independent, so different tiles may be added to by different threads at once. `sums`: of a film with layers, as
-  // PixelIntegrator::trace_layers fills them.
+  // Adds a pass to a tile, which must not have it: samples in row-major order, those of one pixel consecutive. Several
+  // threads may add passes to different tiles at the same time. `sums`: for a film with layers, as filled by
+  // PixelIntegrator::trace_layers.
   void add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, std::span<const PixelSample> samples,
                 std::span<const ExactRgb> sums = {});
 
-  // The same of a pass whose samples came one by one, and are summed for each pixel.
+  // The same for a pass whose samples are summed for each pixel already.
   void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> sums);
 
-  // The film of the passes of both; the same grid, layers and tiles are required, and no tile may have a pass in both.
+  // Adds the passes of the other film. Grid, layers and tiles must be the same, and no tile may have a pass in both.
   void merge(const Film& other);
 
-  // Appends a named tile to the bytes, with all that the film has of it.
+  // Appends the complete state of a named tile to the bytes.
   void write_tile(const PixelBounds& tile, std::string& bytes) const;
-  // Adds a tile that the film does not have yet, from the next bytes. Throws std::invalid_argument where these cannot
-  // be those of such a tile.
+  // Adds a tile that the film does not have yet, from the next bytes. Throws std::invalid_argument if these cannot
+  // be the bytes of such a tile.
   void read_tile(const PixelBounds& tile, ByteReader& bytes);
 
-  // Of a pixel that is not sampled those of the one that stands for its cell.
+  // For a pixel that is not sampled, the result is that of the sampled pixel of its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
   // The mean alone, which takes less time than the whole estimate.
   std::array<double, rgb_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
   PixelFeatures features(int x, int y) const { return pixels_[index(x, y)].features(); }
-  // Samples taken at a pixel.
+  // The number of samples of a pixel.
   double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }
   std::uint64_t non_finite() const;
-  // From the estimates of the tiles, each over its own passes. A pixel that has no finite sample in a pass is left out
-  // of that pass. There is no mean until every pixel has a pass.
+  // From the estimates of the tiles, each over its own passes. A pixel without a finite sample in a pass is excluded
+  // from that pass. There is no mean until every pixel has a pass.
   ImageEstimate image() const;
-  // Whether samples are taken at this pixel: all, unless the film has a stride.
+  // Whether this pixel is sampled: all are, unless the film has a stride.
   bool is_sampled(int x, int y) const {
     return grid_.pixel_x(grid_.cell_x(x)) == x && grid_.pixel_y(grid_.cell_y(y)) == y;
   }
-  // Estimated mean squared errors of the picture; of a part of it, as with a stride, none.
+  // The estimated mean squared errors of the image; there is no estimate for a film with a stride.
   ErrorEstimate error() const;
-  // Of them the squared error alone, which takes far less time.
+  // The squared error alone, which takes far less time.
   double mse() const;
 
  private:

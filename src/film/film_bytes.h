@@ -15,7 +15,7 @@ class ByteWriter {
   void count(std::uint64_t x);
   // The eight bytes of the number, the low ones first.
   void real(double x);
-  // Without the zeros below and the copies of the sign above.
+  // Without zeros at the low end and copies of the sign at the high end.
   void sum(const ExactSum& x);
   void sum(const SmallExactSum& x);
   void sum(const ExactProducts& x);
@@ -24,14 +24,14 @@ class ByteWriter {
   std::string& out_;
 };
 
-// Reads what a ByteWriter has written; throws std::invalid_argument where the bytes cannot be that.
+// Reads the bytes of a ByteWriter; throws std::invalid_argument if they cannot be its bytes.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
   bool at_end() const { return rest_.empty(); }
   std::uint64_t count(std::uint64_t max);
   double real();
-  // `terms`: how many numbers below ExactSum::largest were added at most; more than these come to is refused.
+  // `terms`: at most so many numbers below ExactSum::largest were added; a larger sum is an error.
   ExactSum sum(std::uint64_t terms);
   SmallExactSum small_sum();
   ExactProducts products();

@@ -1,4 +1,4 @@
-// What a film knows at one moment, as planes of one number a pixel.
+// The state of a film at one moment, as planes of one number per pixel.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ using ColorPlanes = std::array<Plane, rgb_size>;
 // Planes hold the rows of the bounds from the top.
 struct FilmPlanes {
   explicit FilmPlanes(const PixelBounds& bounds);
-  // Copies the pixels of a part, which only the caller may write to meanwhile.
+  // Copies the pixels of a part, to which no other thread may write meanwhile.
   void copy(const Film& film, const PixelBounds& part);
 
   std::size_t index(int x, int y) const {
@@ -25,13 +25,13 @@ struct FilmPlanes {
 
   PixelBounds bounds;
   ColorPlanes mean, variance;          // over passes; of the mean
-  ColorPlanes albedo;                  // means over samples, as are those that follow
+  ColorPlanes albedo;                  // mean over samples, as in the following planes
   std::array<Plane, 3> normal;         // world space
   Plane emission;                      // mean of the channels
   Plane object;                        // number of the object, 0: none
-  Plane first_half, second_half;       // means over half of the passes and over the rest, mean of the channels
+  Plane first_half, second_half;       // mean over one half of the passes and over the other, mean of the channels
   std::vector<std::uint8_t> passes;    // 0, 1, or 2 for two and more
-  std::vector<std::uint8_t> expected;  // 1 where the pixel could have passes: sampled, with a finite sample
+  std::vector<std::uint8_t> expected;  // 1: the pixel is sampled and has a finite sample
 };
 
 }  // namespace montelux

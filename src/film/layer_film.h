@@ -1,5 +1,5 @@
-// The layers of a film. Their sums are exact, so at every pixel those of each family sum to that of all light, bit for
-// bit, whatever was merged with what and in which order.
+// The layers of a film. Their sums are exact: at every pixel the layers of each family sum to all light, bit for bit,
+// in any order of passes and merges.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace montelux {
 
-// How the pass means of one layer spread, and how they go with those of all light, by channel.
+// The spread of the pass means of one layer, and their correlation with all light, by channel.
 struct LayerSpread {
   double mean[rgb_size] = {};
   double m2[rgb_size] = {};         // sum of squared deviations
@@ -23,32 +23,32 @@ struct PixelSums;
 
 class LayerFilm {
  public:
-  // `spread`: keep that of each layer, too.
+  // `spread`: with the spread of each layer.
   LayerFilm(PixelBounds bounds, int count, bool spread);
 
   int count() const { return count_; }
   bool has_spread() const { return !spreads_.empty(); }
 
-  // One pass of a pixel: the sums over its finite samples, of which there is one at least; all light first.
+  // Adds a pass of a pixel: the sums over its finite samples, of which there is at least one; all light comes first.
   void add(int x, int y, int samples, std::span<const ExactRgb> sums);
-  // The film of the passes of both. Fails where bounds, count or spread differ.
+  // Adds the passes of the other one. Throws if bounds, count or spread differ.
   void merge(const LayerFilm& other);
 
-  // Over all finite samples of the pixel.
+  // Sums over all finite samples of the pixel.
   const ExactRgb& all_light(int x, int y) const { return sums_[first_sum(x, y)]; }
   const ExactRgb& layer(int x, int y, int layer) const { return sums_[first_sum(x, y) + std::size_t(layer) + 1]; }
-  // Those sums over the number of samples; 0 where there is none.
+  // These sums divided by the number of samples; 0 if there is no sample.
   double mean(int x, int y, int channel) const { return over_samples(x, y, all_light(x, y).c[channel]); }
   double layer_mean(int x, int y, int number, int channel) const {
     return over_samples(x, y, layer(x, y, number).c[channel]);
   }
   int passes(int x, int y) const { return counts_[index(x, y)].passes; }
-  // Only where has_spread(). Number -1 is all light, whose co-moment is its m2.
+  // Requires has_spread(). Number -1 is all light, whose co-moment is its m2.
   LayerSpread spread(int x, int y, int number) const;
   // Variance of a layer's mean, infinite below two passes.
   double variance_of_mean(int x, int y, int number, int channel) const;
 
-  // As Film::write_tile() and Film::read_tile(), of one pixel; `film` is what the film has of it.
+  // As Film::write_tile() and Film::read_tile(), for one pixel; `film` is its state in the film.
   void write_pixel(int x, int y, ByteWriter& out) const;
   void read_pixel(int x, int y, const PixelSums& film, ByteReader& in);
 

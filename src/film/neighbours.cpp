@@ -25,7 +25,7 @@ struct Neighbours {
   ColorPlanes mean;
   Plane variance;  // of one of them
   Plane emission;
-  Plane count;  // so many neighbours of equal weight would be as sure (Kish 1965); 0: there are none
+  Plane count;  // number of neighbours of equal weight with the same variance (Kish 1965); 0: none
 
   // `mean` is that of the pixels themselves until it is known.
   explicit Neighbours(const FilmPlanes& p)
@@ -48,7 +48,7 @@ struct RowSums {
   std::size_t width_;
 };
 
-// A neighbour, by where it lies.
+// A neighbour, by its offset.
 struct Offset {
   int dx, dy;
 };
@@ -72,7 +72,7 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
   const float *object = p.object.data() + own, *object_there = p.object.data() + other;
   const std::uint8_t* passes_there = p.passes.data() + other;
   const float *emission_there = p.emission.data() + other, *variance_there = variance.data() + other;
-  // Nothing else points to the sums.
+  // No other pointer aliases the sums.
   float* __restrict weights = sums.weight.data(), * __restrict squares = sums.square.data();
   float* __restrict variances = sums.variance.data(), * __restrict emissions = sums.emission.data();
   std::array<float*, rgb_size> light;
@@ -128,7 +128,7 @@ Neighbours near_neighbours(const FilmPlanes& p) {
   return near;
 }
 
-constexpr int block = 4;  // pixels a side
+constexpr int block = 4;  // pixels per side
 
 // Adds a pixel to its block; sums are divided later.
 void add_to_block(const FilmPlanes& p, std::size_t i, FilmPlanes& blocks, std::size_t k, Plane& count) {
@@ -141,12 +141,12 @@ void add_to_block(const FilmPlanes& p, std::size_t i, FilmPlanes& blocks, std::s
   count[k] += 1;
 }
 
-// Whether emitters that the camera sees make most of the light.
+// Whether most of the light is of emitters that the camera sees.
 bool shows_emitter(const ColorPlanes& mean, const Plane& emission, std::size_t i) {
   return 2 * emission[i] > mean_of_channels(mean, i);
 }
 
-// The picture made of the means of blocks. Their variance is that of one pixel.
+// The image of the means of blocks. Their variance is that of one pixel.
 FilmPlanes blocks_of(const FilmPlanes& p) {
   const int width = p.bounds.width(), height = p.bounds.height();
   FilmPlanes blocks({0, 0, (width + block - 1) / block, (height + block - 1) / block});

@@ -1,4 +1,4 @@
-// How far a picture is from its expectation, estimated from the spread of its pixels over passes.
+// The error of an image against its expectation, estimated from the spread of its pixels over passes.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -13,17 +13,17 @@ struct ErrorEstimate {
   double mse = 0;  // variance of the mean
   // Variance of the mean over (expectation^2 + 0.01) (Rousselle, Knaus and Zwicker 2011, with their epsilon).
   double relative_mse = 0;
-  double relative_low = 0, relative_high = 0;  // about 95 % of the pictures like this one have it between these
-  // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite where there is no
-  // tail. Below 1 their mean has no limit.
+  double relative_low = 0, relative_high = 0;  // its interval: for about 95 % of such images it is between these
+  // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite if there is no
+  // tail. Below 1 they have no finite mean.
   double tail_index = std::numeric_limits<double>::infinity();
-  double effective_pixels = 0;  // so many pixels of equal error would be as sure (Kish 1965)
-  std::size_t pixels = 0;       // that have two passes
-  std::size_t all = 0;          // that could have: sampled, with a finite sample
+  double effective_pixels = 0;  // number of pixels of equal error with the same uncertainty (Kish 1965)
+  std::size_t pixels = 0;       // pixels that have two passes
+  std::size_t all = 0;          // pixels that could have two: sampled, with a finite sample
 
-  // Whether it is that of the whole picture.
+  // Whether it is the error of the whole image.
   bool whole() const { return pixels > 0 && pixels == all; }
-  // Whether few bright samples decide the relative error, which may then be far from the true one.
+  // Whether few bright samples determine the relative error, which may then be far from the true one.
   bool is_unsure() const {
     constexpr double few = 64;  // known to a factor of 1.4 at best
     return pixels > 0 && (tail_index < 1 || effective_pixels < std::min(few, double(pixels) / 8));

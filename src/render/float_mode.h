@@ -1,4 +1,4 @@
-// The processor's treatment of numbers too small to be normal, while a thread renders.
+// How the processor treats denormal numbers while a thread renders.
 #pragma once
 #if defined(__SSE__)
 #include <immintrin.h>
@@ -6,7 +6,7 @@
 
 namespace montelux {
 
-// Denormals count as zero in this thread for the life of the object: the ray-tracing kernel wants it so for speed.
+// Denormals are zero in this thread during the life of the object: the ray-tracing kernel requires this for speed.
 class FlushDenormals {
  public:
 #if defined(__SSE__)

@@ -15,7 +15,7 @@ using U = Uint<F>;
 
 float middle(const Shutter& shutter) { return shutter.time(0.5f); }
 
-// Where the points of a pack of pixels were.
+// The earlier places of the points of a pack of pixels.
 Projection<F> earlier_places(const Scene& scene, const Accel& accel, const MotionRequest& request,
                              const Vec2<F>& raster, Mask<F> on) {
   const F now = middle(request.now), before = middle(request.before);
@@ -24,7 +24,7 @@ Projection<F> earlier_places(const Scene& scene, const Accel& accel, const Motio
   const Mask<F> meets = on & found;
   const VertexOrigin<F> origin{{ray.o, ray.d, hit.t, ray.time}, hit, meets};
   Projection<F> place = earlier_place<F>(scene, origin, before, meets).place;
-  // What is far away moves with the camera's turns alone.
+  // Distant points move only by the camera's rotation.
   const float size = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
   const float far = 1e5f * std::max(size, 1.0f);
   const Projection<F> sky = scene.camera.project(ray.o + ray.d * far, before);

@@ -1,4 +1,4 @@
-// Motion vectors of a picture: where what a pixel shows was in the picture before.
+// Motion vectors: the offset from a pixel to the place where its surface point was in the previous image.
 #pragma once
 #include "accel/accel.h"
 #include "camera/shutter.h"
@@ -14,10 +14,10 @@ struct MotionRequest {
   int threads = 0;  // 0: all of the machine
 };
 
-// Channels X and Y, in pixels, x to the right and y up: the way from the pixel's centre to where its surface point was,
-// half-way through the exposure of each picture, seen through the centre of the lens. The point is that of the first
-// surface, whatever it is made of; where there is none, what is very far away in that direction. Points that were
-// behind the camera have no motion. Round an equirectangular picture it is the shorter way; an equal-area one is not
+// Channels X and Y, in pixels, x to the right and y up: the offset from the pixel's centre to the earlier place of its
+// surface point, at the middle of the exposure of each image, through the centre of the lens. The point is on the first
+// surface of any material; without a surface it is very far away in that direction. Points that were behind the camera
+// have no motion. In an equirectangular image the offset is the shorter of both ways around; an equal-area image is not
 // wrapped.
 PixelBuffer motion_vectors(const Scene& scene, const Accel& accel, const MotionRequest& request);
 

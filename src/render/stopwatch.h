@@ -1,4 +1,4 @@
-// How long work has taken.
+// Measures how long work takes.
 #pragma once
 #include <chrono>
 #include <ctime>
@@ -6,17 +6,17 @@
 
 namespace montelux {
 
-// A moment in seconds; only differences mean anything. An empty one stands for the machine's own clock.
+// Returns the time in seconds from any origin. Empty: the clock of the machine.
 using SecondsClock = std::function<double()>;
 
-// A clock that counts the time that processors spend on this program, over all its threads: the same on a machine that
-// others use, too. Time that threads wait for each other is none.
+// The processor time of this program, summed over its threads. It does not depend on the load of the machine, and
+// excludes the time in which threads wait.
 inline double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 class Stopwatch {
  public:
   explicit Stopwatch(SecondsClock clock = {}) : clock_(std::move(clock)), start_(now()) {}
-  // Since it was made.
+  // Since the construction.
   double seconds() const { return now() - start_; }
 
  private:

@@ -29,8 +29,8 @@ Arena::~Arena() = default;
 
 void Arena::run(int workers, void (*body)(void* data, int worker), void* data) {
   using tbb::global_control;
-  // The limit holds for the process: that of the machine, or a lower one that a device of Embree has set. Workers
-  // beyond it are threads of their own, so that a stage has as many as it was given.
+  // The limit applies to the process: that of the machine, or a lower one that a device of Embree has set. Workers
+  // beyond it are separate threads, so that a stage has as many workers as requested.
   const auto allowed = int(global_control::active_value(global_control::max_allowed_parallelism));
   state_->resize(std::min(state_->threads, allowed));
   const int shared = std::min(workers, state_->size);

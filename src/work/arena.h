@@ -1,4 +1,4 @@
-// Threads of oneTBB, without its types. Inside the scheduler only.
+// Threads of oneTBB, without its types. Internal to the scheduler.
 #pragma once
 #include <memory>
 
@@ -9,8 +9,8 @@ class Arena {
   explicit Arena(int threads);
   ~Arena();
 
-  // Calls body(data, worker) for each worker in [0, workers), side by side as far as there are threads; the calling
-  // thread is one of them. Returns when all calls have. The body must not throw, and no call may wait for another.
+  // Calls body(data, worker) for each worker in [0, workers), in parallel if there are enough threads; the calling
+  // thread is one of them. Returns after all calls. The body must not throw, and no call may wait for another one.
   void run(int workers, void (*body)(void* data, int worker), void* data);
 
  private:

@@ -23,7 +23,7 @@ class Stage {
       : count_(count), work_(work), limits_(limits) {}
 
   void run(int worker) {
-    // With `publish`: what was written before the stage is seen by its units, and what they wrote by what follows.
+    // Together with `publish`: units see what was written before the stage, and code after the stage sees their writes.
     published_.load(std::memory_order_acquire);
     for (std::size_t unit; take(unit);) {
       try {

@@ -24,7 +24,7 @@ TEST(SecondsToFinish, fall_where_few_pixels_are_sampled) {
   EXPECT_GT(time.encoding_of(16), 0);
 }
 
-// The pixels of a cell are alike, but for the samples, which only one of them has; the last cells are cut off.
+// The pixels of a cell are alike, except for the samples, which only one of them has; the last cells are cut off.
 TEST(LayersOfASparsePicture, are_those_of_the_film) {
   const PixelBounds bounds{3, 2, 20, 13};
   Rendering rendering{RenderResult{Film(bounds, {}, 4), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
