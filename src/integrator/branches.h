@@ -3,15 +3,10 @@
 #include <optional>
 
 #include "integrator/integrator.h"
-#include "integrator/path/dimensions.h"
+#include "integrator/path/path_state.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
-
-// Which point of which pixel a path belongs to, in every lane.
-template <class F>
-struct PathSite {
-  Uint<F> x, y, index;
-};
 
 // A single branch takes its numbers from the render's own point set, so that it is as well spread over the pixel's
 // samples as a path is. Several branches, or a pattern asked for by name, take those of a point set of their own,

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "integrator/arrival.h"
 #include "integrator/catalogue.h"
+#include "integrator/first_vertex.h"
 #include "scene/smoothness.h"
 
 namespace montelux {
@@ -75,10 +75,10 @@ std::optional<BsdfKind> follow(const Scene& scene, const Accel& accel, LightId l
   if (!from.valid || !(max_component(from.radiance) > 0)) return std::nullopt;
   Ray<F> ray{target + from.wi * from.distance, -from.wi, ray_infinity, scene.shutter.time(random.next())};
   std::optional<BsdfKind> first;
-  RayCounts counts;
+  std::uint64_t traced = 0;
   for (int depth = 0; depth < deepest; ++depth) {
-    const Arrival<F> at = trace_to_arrival<F>(scene, accel, {ray.o, zero}, ray, true, random.fork(std::uint32_t(depth)),
-                                              counts, [](F) { return F(0); });
+    const NextVertex<F> at = next_vertex<F>(scene, accel, free_point(ray.o), ray, true,
+                                            random.fork(std::uint32_t(depth)), traced, NoWeight{});
     if (!at.found) return std::nullopt;
     if (first && !at.bsdf.is_delta) return first;
     const Vec2f u = random.next2();
@@ -116,11 +116,10 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
 std::optional<BsdfKind> look(const Scene& scene, const Accel& accel, const Ray<float>& eye,
                              RandomStream<float> random) {
   using F = float;
-  const Vec3f zero{0, 0, 0};
-  const auto all = [](F) { return F(1); };
-  RayCounts counts;
+  std::uint64_t traced = 0;
   const auto [found, hit] = accel.trace<F>(eye, true, RayUse::camera);
-  Arrival<F> at = arrive<F>(scene, accel, {eye.o, zero}, eye, hit, found, random.fork(0), counts, all);
+  NextVertex<F> at =
+      follow_ray<F>(scene, accel, free_point(eye.o), eye, hit, found, random.fork(0), traced, FullWeight{});
   std::optional<BsdfKind> first;
   for (int depth = 1; at.found && depth <= deepest; ++depth) {
     const Vec2f u = random.next2();
@@ -128,7 +127,8 @@ std::optional<BsdfKind> look(const Scene& scene, const Accel& accel, const Ray<f
     if (!next.valid || !next.delta || !(max_component(next.weight) > 0)) return std::nullopt;
     if (!first) first = BsdfKind(at.bsdf.kind);
     const Ray<F> ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
-    at = trace_to_arrival<F>(scene, accel, {ray.o, zero}, ray, true, random.fork(std::uint32_t(depth)), counts, all);
+    at = next_vertex<F>(scene, accel, free_point(ray.o), ray, true, random.fork(std::uint32_t(depth)), traced,
+                        FullWeight{});
     if (!is_black(at.light) || (at.found && !at.bsdf.is_delta)) return first;
   }
   return std::nullopt;

@@ -35,6 +35,16 @@ MONTELUX_INLINE F power_weight(F n_own, Density<Measure, F> own, F n_other, Dens
   return power_weight(n_own * own.value, n_other * other.value);
 }
 
+// One sample of each.
+template <class Measure, class F>
+MONTELUX_INLINE F balance_weight(Density<Measure, F> own, Density<Measure, F> other) {
+  return balance_weight(own.value, other.value);
+}
+template <class Measure, class F>
+MONTELUX_INLINE F power_weight(Density<Measure, F> own, Density<Measure, F> other) {
+  return power_weight(own.value, other.value);
+}
+
 // ---- any number of techniques
 // -------------------------------------------------------------------------------------------
 

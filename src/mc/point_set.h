@@ -79,6 +79,8 @@ class Sampler {
   Vec2<F> get2(Uint<F> dimension) const;
   // Independent numbers for this point and dimension alone, for walks of unknown length.
   RandomStream<F> stream(Uint<F> dimension) const { return own_.fork(dimension); }
+  // What all these streams are forked from.
+  const RandomStream<F>& own() const { return own_; }
 
  private:
   PointSet set_;

@@ -4,6 +4,9 @@
 
 namespace montelux {
 
+// Roulette lets no path survive with certainty, or one between white walls would never end.
+inline constexpr float max_survival = 0.97f;
+
 template <class F>
 struct Roulette {
   Mask<F> survives;

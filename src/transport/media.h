@@ -113,8 +113,10 @@ class Boundary {
 template <class F>
 class MediaAt {
  public:
-  MONTELUX_INLINE MediaAt(const Media<F>& media, const Boundary<F>& boundary, const Vec3<F>& d)
-      : boundary_(boundary), media_(boundary.before(media, d)), d_(d) {}
+  // The last arguments are those of the boundary.
+  template <class... Args>
+  MONTELUX_INLINE MediaAt(const Media<F>& media, const Vec3<F>& d, const Args&... boundary)
+      : boundary_(boundary...), media_(boundary_.before(media, d)), d_(d) {}
 
   const Media<F>& along_wo() const { return media_; }
   MONTELUX_INLINE Media<F> toward(const Vec3<F>& wi) const { return boundary_.behind(media_, d_, wi); }

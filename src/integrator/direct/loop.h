@@ -1,11 +1,12 @@
 // Direct light at the first surface, by every strategy: for one camera ray (F = float) and for a pack of them.
 #pragma once
-#include "integrator/arrival.h"
 #include "integrator/branches.h"
 #include "integrator/direct/settings.h"
+#include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/resampled_light.h"
 #include "mc/hemisphere.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -17,7 +18,7 @@ struct DirectLight {
   const Scene& scene;
   const Rays& rays;
   const DirectSettings& settings;
-  const Arrival<F>& at;
+  const NextVertex<F>& at;
   const Branches<F>& numbers;
   RayCounts& counts;
   Tally& tally;
@@ -50,47 +51,45 @@ struct DirectLight {
   }
 
  private:
-  F heuristic(F own, F other) const {
-    const F products[2] = {own, other};
+  F heuristic(const Density<SolidAngle, F>& own, const Density<SolidAngle, F>& other) const {
+    const F products[2] = {own.value, other.value};
     return mis_weight<F>(settings.heuristic, products, 0);
   }
   // A light that was chosen by u_choice brings `light`.
   void record_sample(F u_choice, const Spectrum<F>& light, M on) const {
     if constexpr (Tally::records) {
-      const Departure<F> from = at.departure();
+      const ReferencePoint<F> from = at.reference();
       tally.template add<F>(
           on, light * share,
           {U(1u), scene.lights.template choose<F>(from.p, from.n, u_choice, on).light, Technique::light_sampling});
     }
   }
   LightSample<F> draw_light(F u_choice, Vec2<F> u, LightMeasure measure, M on) const {
-    const Departure<F> from = at.departure();
+    const ReferencePoint<F> from = at.reference();
     return scene.lights.template sample<F>(from.p, from.n, u_choice, u, on, measure);
   }
   BsdfValue<F> scattered(const Vec3<F>& wi, M on) const {
     return evaluate<F>(at.bsdf.lanes(on), at.wo, at.bsdf.frame.to_local(wi), at.context);
   }
   // What is left of `light` behind what blocks the way.
-  Spectrum<F> unblocked(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on) const {
-    const M asks = on & (max_component(light) > F(0.0f));
-    if (!any(asks)) return gray(F(0.0f));
-    counts.shadow += std::uint64_t(count(asks));
-    const M blocked = rays.template occluded<F>(at.shadow_ray_to(wi, distance), asks);
-    return select(asks & !blocked, light, gray(F(0.0f)));
+  Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on) const {
+    const M arrives =
+        unblocked<F>(rays, at.shadow_ray_to(wi, distance), on & (max_component(light) > F(0.0f)), counts.shadow);
+    return select(arrives, light, gray(F(0.0f)));
   }
 
   // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
   Spectrum<F> toward_light(std::uint32_t ray, M on, LightMeasure measure, bool shared) const {
     const F u_choice = numbers.get1(ray, path_dimension::light_choice);
     const LightSample<F> light = draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), measure, on);
-    const M asks = on & light.valid;
-    const BsdfValue<F> value = scattered(light.wi, asks);
+    const M queries = on & light.valid;
+    const BsdfValue<F> value = scattered(light.wi, queries);
     F weight = F(1.0f) / light.density.value;
-    if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density.value, value.density.value));
+    if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density, value.density));
     const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    const Spectrum<F> brought = unblocked(light.wi, light.distance, value.f_cos * arrives * weight, asks);
-    record_sample(u_choice, brought, asks);
-    return brought;
+    const Spectrum<F> contribution = arriving(light.wi, light.distance, value.f_cos * arrives * weight, queries);
+    record_sample(u_choice, contribution, queries);
+    return contribution;
   }
 
   // Lights that no direction can meet by chance, where the strategy draws directions.
@@ -99,24 +98,25 @@ struct DirectLight {
     const F u_choice = numbers.get1(ray, path_dimension::light_choice);
     const LightSample<F> light =
         draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), LightMeasure::solid_angle, on);
-    const M asks = on & light.valid & light.delta;
+    const M queries = on & light.valid & light.delta;
     const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    const Spectrum<F> brought = unblocked(light.wi, light.distance, scattered(light.wi, asks).f_cos * arrives, asks);
-    record_sample(u_choice, brought, asks);
-    return brought;
+    const Spectrum<F> contribution =
+        arriving(light.wi, light.distance, scattered(light.wi, queries).f_cos * arrives, queries);
+    record_sample(u_choice, contribution, queries);
+    return contribution;
   }
 
   // What a direction of the world brings; weight(density) as for arrive(). `factor` is what becomes of it in the end.
   template <class Weight>
   Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
                        Weight weight) const {
-    return trace_to_arrival<F>(scene, rays, at.departure_toward(wi), at.ray_toward(wi), on,
-                               numbers.stream(ray, path_dimension::per_vertex), counts, weight,
-                               [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
-                                   [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
-                                 if constexpr (Tally::records)
-                                   tally.template add<F>(meets, light * factor * share, {U(1u), number, technique});
-                               })
+    return next_vertex<F>(scene, rays, at.reference_toward(wi), at.ray_toward(wi), on,
+                          numbers.stream(ray, path_dimension::per_vertex), counts.scattered, weight,
+                          [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
+                              [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
+                            if constexpr (Tally::records)
+                              tally.template add<F>(meets, light * factor * share, {U(1u), number, technique});
+                          })
         .light;
   }
 
@@ -126,9 +126,10 @@ struct DirectLight {
         sample<F>(at.bsdf.lanes(on), at.wo, Vec3<F>{numbers.get1(ray, path_dimension::lobe), u.x, u.y}, at.context);
     const M goes = on & next.valid & (max_component(next.weight) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light = incoming(at.bsdf.frame.to_world(next.wi), ray, goes, next.weight, [&](F by_light) {
-      return shared ? select(next.delta, F(1.0f), heuristic(next.density.value, by_light)) : F(1.0f);
-    });
+    const Spectrum<F> light =
+        incoming(at.bsdf.frame.to_world(next.wi), ray, goes, next.weight, [&](const Density<SolidAngle, F>& by_light) {
+          return shared ? select(next.delta, F(1.0f), heuristic(next.density, by_light)) : F(1.0f);
+        });
     return select(goes, next.weight * light, gray(F(0.0f)));
   }
 
@@ -150,7 +151,7 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(world, on);
     const M goes = on & (density > F(0.0f)) & (max_component(value.f_cos) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light = incoming(world, ray, goes, value.f_cos * (F(1.0f) / density), [](F) { return F(1.0f); });
+    const Spectrum<F> light = incoming(world, ray, goes, value.f_cos * (F(1.0f) / density), FullWeight{});
     return select(goes, value.f_cos * light * (F(1.0f) / density), gray(F(0.0f)));
   }
 
@@ -158,12 +159,12 @@ struct DirectLight {
     const ResampledLight<F> chosen = resample_light<F>(
         settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
-        [&](const LightSample<F>& light, M asks) {
-          return scattered(light.wi, asks).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
+        [&](const LightSample<F>& light, M queries) {
+          return scattered(light.wi, queries).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
         });
-    const Spectrum<F> brought = unblocked(chosen.wi, chosen.distance, chosen.value, on);
-    record_sample(chosen.u_choice, brought, on & (max_component(brought) > F(0.0f)));
-    return brought;
+    const Spectrum<F> contribution = arriving(chosen.wi, chosen.distance, chosen.value, on);
+    record_sample(chosen.u_choice, contribution, on & (max_component(contribution) > F(0.0f)));
+    return contribution;
   }
 };
 
@@ -182,10 +183,8 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     if (!any(on)) return counts;
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const U first = U(path_dimension::first_vertex);
-    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-    const Arrival<F> at = arrive<F>(
-        scene, rays, {path.o, zero}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-        sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); }, seen_directly(path, tally));
+    const NextVertex<F> at = first_vertex<F>(scene, rays, path, on, sampler.stream(first + U(path_dimension::own)),
+                                             counts, seen_directly(path, tally));
 
     const std::uint32_t points = settings.fixed ? 1u : n;
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), points, settings.pattern);

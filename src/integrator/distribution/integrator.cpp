@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "integrator/arrival.h"
 #include "integrator/branches.h"
+#include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "mc/roulette.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -36,7 +37,7 @@ struct Tree {
   Tally& tally;
 
   // Light that the surface sends back beside what it emits. `vertex` tells apart the surfaces of the tree.
-  Spectrum<float> reflected(const Arrival<F>& at, U depth, U vertex, const Way& way) {
+  Spectrum<float> reflected(const NextVertex<F>& at, U depth, U vertex, const Way& way) {
     if (settings.max_depth && depth >= U(*settings.max_depth)) return gray(0.0f);
     const auto directions = U(at_depth(settings.branching, depth));
     // Lights that no ray can meet need a shadow ray.
@@ -57,23 +58,20 @@ struct Tree {
     U points, directions;  // samples of each technique at a vertex
   };
 
-  Spectrum<float> toward_light(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth,
+  Spectrum<float> toward_light(const NextVertex<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth,
                                const Way& way) {
-    const Departure<F> from = at.departure();
+    const ReferencePoint<F> from = at.reference();
     const F u_choice = numbers.get1(i, path_dimension::light_choice);
     const LightSample<F> light =
         scene.lights.sample<F>(from.p, from.n, u_choice, numbers.get2(i, path_dimension::light_point), true);
     if (!light.valid) return gray(0.0f);
     const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     const float weight =
-        light.delta ? 1.0f
-                    : power_weight(float(n.points) * light.density.value, float(n.directions) * value.density.value);
+        light.delta ? 1.0f : power_weight(float(n.points), light.density, float(n.directions), value.density);
     const Spectrum<float> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
     const Spectrum<float> direct = value.f_cos * arrives * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
-    ++counts.shadow;
-    const Ray<F> ray = at.shadow_ray_to(light.wi, light.distance);
-    if (accel.occluded<F>(ray, true)) return gray(0.0f);
+    if (!unblocked<F>(accel, at.shadow_ray_to(light.wi, light.distance), true, counts.shadow)) return gray(0.0f);
     if constexpr (Tally::records)
       tally.template add<F>(
           true, direct * way.share,
@@ -81,7 +79,7 @@ struct Tree {
     return direct;
   }
 
-  Spectrum<float> along_bsdf(const Arrival<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, U vertex,
+  Spectrum<float> along_bsdf(const NextVertex<F>& at, const Branches<F>& numbers, U i, Techniques n, U depth, U vertex,
                              const Way& way) {
     const Vec2f u = numbers.get2(i, path_dimension::direction);
     BsdfContext<F> context = at.context;
@@ -93,20 +91,20 @@ struct Tree {
     const Spectrum<float> onward = way.throughput * weight;
     // Where the tree has become a path, it ends by roulette.
     if (n.directions == 1 && depth >= 2) {
-      const Roulette<F> survival = roulette(std::min(std::sqrt(max_component(onward)), most_survival),
-                                            numbers.get1(i, path_dimension::roulette));
+      const Roulette<F> survival =
+          roulette(std::min(std::sqrt(max_component(onward)), max_survival), numbers.get1(i, path_dimension::roulette));
       if (!survival.survives) return gray(0.0f);
       weight *= gray(survival.weight);
     }
     const Vec3f wi = at.bsdf.frame.to_world(next.wi);
     count_ray(depth + 1);
-    const Arrival<F> there = trace_to_arrival<F>(
-        scene, accel, at.departure_toward(wi), at.ray_toward(wi), true,
-        numbers.stream(i, path_dimension::own).fork(vertex), counts,
-        [&](float by_light) {
+    const NextVertex<F> there = next_vertex<F>(
+        scene, accel, at.reference_toward(wi), at.ray_toward(wi), true,
+        numbers.stream(i, path_dimension::own).fork(vertex), counts.scattered,
+        [&](const Density<SolidAngle>& by_light) {
           return next.delta || n.points == 0
                      ? 1.0f
-                     : power_weight(float(n.directions) * next.density.value, float(n.points) * by_light);
+                     : power_weight(float(n.directions), next.density, float(n.points), by_light);
         },
         [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Spectrum<float>& light, [[maybe_unused]] U number,
             [[maybe_unused]] Technique technique) {
@@ -136,9 +134,8 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
   const U first = path_dimension::first_vertex;
   while (first_hits.refill(path, false)) {
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
-    const Arrival<F> at = arrive<F>(
-        scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
-        sampler.stream(first + path_dimension::own), counts, [](float) { return 1.0f; }, seen_directly(path, tally));
+    const NextVertex<F> at = first_vertex<F>(scene_, accel_, path, true, sampler.stream(first + path_dimension::own),
+                                             counts, seen_directly(path, tally));
     Spectrum<float> radiance = at.light;
     if (at.found) {
       Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};

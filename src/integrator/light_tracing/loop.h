@@ -1,10 +1,10 @@
 // The loop of light tracing, for one path (F = float) and for a pack of them.
 #pragma once
-#include "integrator/arrival.h"
-#include "integrator/light_tracing/dimensions.h"
+#include "integrator/first_vertex.h"
 #include "integrator/light_tracing/settings.h"
 #include "integrator/light_tracing/splats.h"
 #include "mc/roulette.h"
+#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -24,12 +24,12 @@ struct LightTracingScene {
 // A path on its way, one a lane.
 template <class F>
 struct LightPathState {
-  Ray<F> ray;         // to the next vertex
-  Departure<F> from;  // where it starts
-  Spectrum<F> flux;   // that the path carries: what the light sends over the path's density
-  F start;            // the greatest component of the flux with which it left the light
-  Uint<F> depth;      // scattering events so far
-  Uint<F> x, y;       // the site of its sample point
+  Ray<F> ray;              // to the next vertex
+  ReferencePoint<F> from;  // where it starts
+  Spectrum<F> flux;        // that the path carries: what the light sends over the path's density
+  F start;                 // the greatest component of the flux with which it left the light
+  Uint<F> depth;           // scattering events so far
+  Uint<F> x, y;            // the site of its sample point
 };
 
 template <class F>
@@ -130,7 +130,7 @@ class LightTracingLoop {
       const M lit = surfaces & lens.seen & shared_.plane.reaches(lens.raster) & ((cos > F(0.0f)) | e.both_sides);
       const Spectrum<F> light =
           e.radiance * (abs(cos) * lens.across.value / (choice.mass.value * e.position.value) * scale_);
-      connect({e.p, e.p_error, e.n}, {zero_media(), lens, time, random}, light, lit);
+      connect({e.p, e.p_error, e.n}, {no_media<F>(), lens, time, random}, light, lit);
     }
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
@@ -145,9 +145,9 @@ class LightTracingLoop {
   M step(LightPathState<F>& path, M on) {
     const Sampler<F> numbers = sampler(path.x, path.y);
     const U dimension = U(light_dimension::first_vertex) + path.depth * U(light_dimension::per_vertex);
-    const Arrival<F> at =
-        trace_to_arrival<F>(scene_, shared_.rays, path.from, path.ray, on,
-                            numbers.stream(dimension + U(light_dimension::own)), counts_, [](F) { return F(0.0f); });
+    const NextVertex<F> at =
+        next_vertex<F>(scene_, shared_.rays, path.from, path.ray, on,
+                       numbers.stream(dimension + U(light_dimension::own)), counts_.scattered, NoWeight{});
     on = on & at.found;
     path.flux = select(on, path.flux * at.left, path.flux);
     BsdfContext<F> context = at.context;
@@ -185,7 +185,7 @@ class LightTracingLoop {
     // Survivors carry the same flux.
     const F share = max_component(flux) / path.start;
     const M plays = continues & (events > U(std::uint32_t(shared_.settings.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, min(share, F(most_survival)), F(1.0f)),
+    const Roulette<F> survival = roulette(select(plays, min(share, F(max_survival)), F(1.0f)),
                                           numbers.get1(dimension + U(light_dimension::roulette)));
     continues = continues & survival.survives;
     path.flux = select(continues, flux * survival.weight, path.flux);
@@ -215,7 +215,6 @@ class LightTracingLoop {
     F time;
     RandomStream<F> random;  // for what half-open surfaces do on the way
   };
-  static Media<F> zero_media() { return no_media<F>(); }
 
   // Splats the light that a place sends to the lens, where nothing is in between.
   void connect(const Place& from, const Way& way, const Spectrum<F>& light, M on) {
@@ -229,7 +228,7 @@ class LightTracingLoop {
       return shared_.rays.template occluded<F>(
           shadow_ray(from.p, from.p_error, from.ng, -lens.d, lens.distance, way.time), on);
     // As the camera sees it, which passes by the backs of one-sided surfaces: what it sees must be the place.
-    const Arrival<F> seen = camera_ray({lens.p, lens.d, F(ray_infinity), way.time}, way.random, on);
+    const NextVertex<F> seen = camera_ray({lens.p, lens.d, F(ray_infinity), way.time}, way.random, on);
     return on & !(seen.found & (abs(seen.distance - lens.distance) <= F(shadow_shortening) * lens.distance));
   }
   M sees_sky(const Ray<F>& ray, const RandomStream<F>& random, M on) {
@@ -237,10 +236,10 @@ class LightTracingLoop {
     if (!shared_.one_sided) return on & !shared_.rays.template occluded<F>(ray, on);
     return on & !camera_ray(ray, random, on).found;
   }
-  Arrival<F> camera_ray(const Ray<F>& ray, const RandomStream<F>& random, M on) {
-    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
+  NextVertex<F> camera_ray(const Ray<F>& ray, const RandomStream<F>& random, M on) {
     const auto [found, hit] = shared_.rays.template trace<F>(ray, on, RayUse::camera);
-    return arrive<F>(scene_, shared_.rays, {ray.o, zero}, ray, hit, found, random, counts_, [](F) { return F(0.0f); });
+    return follow_ray<F>(scene_, shared_.rays, free_point(ray.o), ray, hit, found, random, counts_.scattered,
+                         NoWeight{});
   }
 
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on) {

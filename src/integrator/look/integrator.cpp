@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "integrator/arrival.h"
 #include "integrator/branches.h"
+#include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "mc/hemisphere.h"
 #include "parameter/fields.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -20,16 +21,13 @@ struct View {
   const Scene& scene;
   const Accel& accel;
   const LookSettings& settings;
-  const Arrival<F>& at;
+  const NextVertex<F>& at;
   const Branches<F>& numbers;
   RayCounts& counts;
 
   Vec3<F> normal() const { return face_forward(at.bsdf.frame.n, -at.d); }
 
-  M blocked(const Ray<F>& ray, M on) const {
-    counts.shadow += std::uint64_t(count(on));
-    return accel.occluded<F>(ray, on);
-  }
+  M is_open(const Ray<F>& ray, M on) const { return unblocked<F>(accel, ray, on, counts.shadow); }
 
   Spectrum<F> openness(std::uint32_t sample) const {
     const Vec2<F> u = numbers.get2(sample, path_dimension::direction);
@@ -38,7 +36,7 @@ struct View {
     // The density that is wanted over the one that was drawn by.
     const F weight =
         settings.by_cosine ? F(1.0f) : cosine_hemisphere_density(local.z).value / hemisphere_density(local.z).value;
-    return gray(select(blocked(at.ray_toward(wi, F(settings.distance)), at.found), F(0.0f), weight));
+    return gray(select(is_open(at.ray_toward(wi, F(settings.distance)), at.found), weight, F(0.0f)));
   }
 
   Spectrum<F> irradiance(std::uint32_t sample) const {
@@ -46,8 +44,8 @@ struct View {
         scene.lights.sample<F>(at.x.point.p, normal(), numbers.get1(sample, path_dimension::light_choice),
                                numbers.get2(sample, path_dimension::light_point), at.found);
     const F cos = dot(light.wi, normal());
-    const M asks = at.found & light.valid & (cos > F(0.0f));
-    const M lit = asks & !blocked(at.shadow_ray_to(light.wi, light.distance), asks);
+    const M queries = at.found & light.valid & (cos > F(0.0f));
+    const M lit = is_open(at.shadow_ray_to(light.wi, light.distance), queries);
     const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
     return select(lit, arrives * (cos / light.density.value), gray(F(0.0f)));
   }
@@ -94,10 +92,8 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
     const M on = first_hits.refill(path, M(false));
     if (!any(on)) return counts;
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
-    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-    const Arrival<F> at =
-        arrive<F>(scene_, accel_, {path.o, zero}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-                  sampler.stream(first + U(path_dimension::own)), counts, [](F) { return F(1.0f); });
+    const NextVertex<F> at =
+        first_vertex<F>(scene_, accel_, path, on, sampler.stream(first + U(path_dimension::own)), counts);
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), n);
     const View view{scene_, accel_, settings_, at, numbers, counts};
     Spectrum<F> sum = gray(F(0.0f));

@@ -6,10 +6,10 @@
 
 #include "accel/accel.h"
 #include "integrator/integrator.h"
-#include "integrator/path/dimensions.h"
 #include "integrator/path/path_state.h"
 #include "integrator/tally.h"
 #include "scene/scene.h"
+#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -69,16 +69,17 @@ std::pair<Uint<F>, Uint<F>> pixels_of(const TilePass& pass, Uint<F> x, Uint<F> y
   return {x, y};
 }
 
-template <class F>
-PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, Uint<F> y, Uint<F> index) {
-  Sampler<F> sampler(pass.points, x, y, index);
-  FilterSample<F> filtered = scene.filter.sample(sampler.get2(Uint<F>(path_dimension::film)));
-  Vec2<F> on_lens = sampler.get2(Uint<F>(path_dimension::lens));
+// The camera ray of a sample of a pixel, by the numbers of its sample point.
+template <class F, NumberSource<F> Numbers>
+PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site, const Numbers& numbers) {
+  const auto& [x, y, index] = site;
+  FilterSample<F> filtered = scene.filter.sample(numbers.get2(Uint<F>(path_dimension::film)));
+  Vec2<F> on_lens = numbers.get2(Uint<F>(path_dimension::lens));
   if (scene.pixel_centres) filtered = {{F(0.0f), F(0.0f)}, F(1.0f)}, on_lens = {F(0.5f), F(0.5f)};
   Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
   F time = 0.0f;
   if (scene.moves()) {
-    const F drawn = scene.pixel_centres ? F(0.5f) : sampler.get1(Uint<F>(path_dimension::time));
+    const F drawn = scene.pixel_centres ? F(0.5f) : numbers.get1(Uint<F>(path_dimension::time));
     const F moment = pass.moment ? F(*pass.moment) : drawn;
     time = pass.shutter.value_or(scene.shutter).time(moment);
   }
@@ -89,6 +90,12 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, Uint<F> x, 
   state.time = time;
   state.x = x, state.y = y, state.index = index;
   return state;
+}
+
+// By those of the pass.
+template <class F>
+PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site) {
+  return start_of_path<F>(scene, pass, site, Sampler<F>(pass.points, site.x, site.y, site.index));
 }
 
 template <class F>
@@ -127,7 +134,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
         const auto [pixel_x, pixel_y] = pixels_of<F>(pass, x, y);
-        PathStart<F> state = start_of_path<F>(scene, pass, pixel_x, pixel_y, U(first + sample));
+        PathStart<F> state = start_of_path<F>(scene, pass, {pixel_x, pixel_y, U(first + sample)});
         state.slot =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +

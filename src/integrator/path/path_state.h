@@ -9,20 +9,26 @@ namespace montelux {
 
 template <class F>
 struct PathState {
-  Vec3<F> o, d;            // the ray that led to `hit`
-  Hit<F> hit;              // the vertex at hand
-  Spectrum<F> throughput;  // product of the weights so far
-  Spectrum<F> radiance;    // gathered so far
-  Media<F> media;          // along d
-  Vec3<F> p, n;            // the previous vertex and its normal, as the lights' densities take them
-  F density;            // of the direction d at the previous vertex, solid angle; 0: no other technique could draw it
-  F weight;             // of the camera and the filter (which may be negative), for the result
-  F time;               // at which the camera looked
-  F eta_scale;          // squared relative indices of refraction crossed; roulette takes it out
-  Uint<F> depth;        // scattering events so far
-  Uint<F> crossings;    // interfaces gone through so far
-  Uint<F> x, y, index;  // pixel, and number of the sample there
-  Uint<F> slot;         // where the result goes
+  Vec3<F> o, d;                    // the ray that led to `hit`
+  Hit<F> hit;                      // the vertex at hand
+  Spectrum<F> throughput;          // product of the weights so far
+  Spectrum<F> radiance;            // gathered so far
+  Media<F> media;                  // along d
+  Vec3<F> p, n;                    // the previous vertex and its normal, as the lights' densities take them
+  Density<SolidAngle, F> density;  // of the direction d at the previous vertex; 0: no other technique could draw it
+  F weight;                        // of the camera and the filter (which may be negative), for the result
+  F time;                          // at which the camera looked
+  F eta_scale;                     // squared relative indices of refraction crossed; roulette takes it out
+  Uint<F> depth;                   // scattering events so far
+  Uint<F> crossings;               // interfaces gone through so far
+  Uint<F> x, y, index;             // pixel, and number of the sample there
+  Uint<F> slot;                    // where the result goes
+};
+
+// Which point of which pixel a path belongs to, in every lane.
+template <class F>
+struct PathSite {
+  Uint<F> x, y, index;
 };
 
 // A path that has just met its first surface: what differs from path to path there.
@@ -81,7 +87,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
   path.media = select_media<F>(fresh, media, path.media);
   put(path.p, start.o), put(path.n, zero);
-  put_one(path.density, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
+  put_one(path.density.value, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
   put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.slot, start.slot);

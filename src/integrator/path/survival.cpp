@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrator/arrival.h"
+#include "mc/roulette.h"
 
 namespace montelux {
 
@@ -40,7 +40,7 @@ void add_path(const PilotPath& path, const std::vector<float>& factors, int roul
     const int depth = std::min(j, SurvivalMap::depths);
     const double factor = double(factors[std::size_t(path.block * SurvivalMap::depths + depth - 1)]);
     const double q =
-        j <= roulette_depth ? 1.0 : std::clamp(throughput * factor, double(least_survival), double(most_survival));
+        j <= roulette_depth ? 1.0 : std::clamp(throughput * factor, double(min_survival), double(max_survival));
     alive[std::size_t(j)] = alive[std::size_t(j - 1)] * q;
   }
   // From behind: the mean square of what is gathered from decision j on, and the rays, both times S_j.

@@ -36,7 +36,7 @@ class SurvivalMap {
 };
 
 // The survival of a path that lives on with too small a probability would weigh too much.
-inline constexpr float least_survival = 0.05f;
+inline constexpr float min_survival = 0.05f;
 
 // One path of the pilot, without roulette: before each decision its throughput (as roulette takes it) and the light
 // gathered so far, mean of the channels; at last all of its light.

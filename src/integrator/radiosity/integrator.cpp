@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
-#include "integrator/arrival.h"
+#include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "mc/hemisphere.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -29,10 +30,6 @@ using Irradiance = std::vector<Spectrum<float>>;
 std::size_t side_of_element(std::uint32_t element, bool behind) { return 2 * std::size_t(element) + (behind ? 1 : 0); }
 
 // The numbers of one ray of an element, or of one pixel.
-namespace radiosity_dimension {
-inline constexpr std::uint32_t place = 0, direction = 2, light_choice = 4, light_point = 5, own = 8;
-}  // namespace radiosity_dimension
-
 // A surface point, the side from which it is looked at, and how that reflects.
 struct DiffusePoint {
   SurfaceHit<F> x;
@@ -68,21 +65,21 @@ Spectrum<F> reflected(const Radiosity& r, const Irradiance& irradiance, const Di
 // One sample of the irradiance at x on the side of n: a point of a light, and a direction to another element.
 Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const SurfacePoint<F>& x, const Vec3<F>& n,
                               const Sampler<F>& numbers, RayCounts& counts, M on) {
-  using namespace radiosity_dimension;
+  namespace plan = element_dimension;
   const LightSample<F> light =
-      r.scene.lights.sample<F>(x.p, n, numbers.get1(U(light_choice)), numbers.get2(U(light_point)), on);
+      r.scene.lights.sample<F>(x.p, n, numbers.get1(U(plan::light_choice)), numbers.get2(U(plan::light_point)), on);
   const F cos = dot(light.wi, n);
-  const M asks = on & light.valid & (cos > F(0.0f));
-  counts.shadow += std::uint64_t(count(asks));
-  const M lit = asks & !r.accel.occluded<F>(shadow_ray(x.p, x.p_error, x.ng, light.wi, light.distance, F(0.0f)), asks);
+  const M queries = on & light.valid & (cos > F(0.0f));
+  const M lit = unblocked<F>(r.accel, shadow_ray(x.p, x.p_error, x.ng, light.wi, light.distance, F(0.0f)), queries,
+                             counts.shadow);
   Spectrum<F> sum = select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
 
-  const Vec3<F> wi = Frame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(direction))));
+  const Vec3<F> wi = Frame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(plan::direction))));
   const Vec3<F> from = offset_origin(x.p, x.p_error, x.ng, wi);
   counts.scattered += std::uint64_t(count(on));
   const auto [found, hit] = r.accel.trace<F>({from, wi, F(ray_infinity)}, on);
   if (!any(found)) return sum;
-  const DiffusePoint other = diffuse_point(r, {from, wi, hit.t}, hit, numbers.stream(U(own)), found);
+  const DiffusePoint other = diffuse_point(r, {from, wi, hit.t}, hit, numbers.stream(U(plan::own)), found);
   return sum + select(found, reflected(r, known, other, hit, found), gray(F(0.0f)));
 }
 
@@ -130,7 +127,7 @@ class RadiosityChain final : public Chain {
       const U index = lane_index<F>() + U(first);
       const M on = index < U(rays);
       const Sampler<F> numbers(set, U(std::uint32_t(side)), U(0u), select(on, index, U(0u)));
-      const Vec2<F> u = numbers.get2(U(radiosity_dimension::place));
+      const Vec2<F> u = numbers.get2(U(element_dimension::place));
       Hit<F> hit{};
       Vec3<F> o{};
       F weight = F(0.0f);
@@ -160,10 +157,7 @@ class RadiosityChain final : public Chain {
     for (M on = first_hits.refill(path, M(false)); any(on); on = first_hits.refill(path, M(false))) {
       const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
       const U first = U(path_dimension::first_vertex);
-      const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
-      const Arrival<F> at =
-          arrive<F>(shared_.scene, shared_.accel, {path.o, nowhere}, {path.o, path.d, F(ray_infinity)}, path.hit, on,
-                    sampler.stream(first), counts, [](F) { return F(1.0f); });
+      const NextVertex<F> at = first_vertex<F>(shared_.scene, shared_.accel, path, on, sampler.stream(first), counts);
       const DiffusePoint point =
           diffuse_point(shared_, {path.o, path.d, path.hit.t}, path.hit, sampler.stream(first + U(1u)), on);
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);

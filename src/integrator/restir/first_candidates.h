@@ -128,7 +128,7 @@ class FirstCandidates {
     void add(const LightPoint<F>& point, const Connection<F>& to, F product, F w, F u) {
       const Mask<F> taken = chosen.add({point, to.target}, w, u);
       way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
-      way.by_bsdf = select(taken, to.by_bsdf, way.by_bsdf);
+      way.by_bsdf.value = select(taken, to.by_bsdf.value, way.by_bsdf.value);
       by_light = select(taken, product, by_light);
     }
   };
@@ -138,7 +138,8 @@ class FirstCandidates {
     F share = 1.0f;
     if (settings_.bsdf_candidate || settings_.visibility_reuse) {
       const Mask<F> open = is_open<F>(rays_, vertex_, winner.way, found, counts_);
-      if (settings_.bsdf_candidate) share = select(open, balance_weight(winner.by_light, winner.way.by_bsdf), share);
+      if (settings_.bsdf_candidate)
+        share = select(open, balance_weight(winner.by_light, winner.way.by_bsdf.value), share);
       if (settings_.visibility_reuse) share = select(open, share, F(0.0f));
     }
     all_.add(winner.chosen.value, select(found, winner.chosen.weight_sum * share, F(0.0f)), stream.next());
@@ -146,7 +147,7 @@ class FirstCandidates {
   void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
     if (!any(on)) return;
     const Connection<F> to = connect(lights_.bvh, vertex_, point, on);
-    all_.add({point, to.target}, weight(to, product + to.by_bsdf, on), u);
+    all_.add({point, to.target}, weight(to, product + to.by_bsdf.value, on), u);
   }
   // Numbers of samples times probabilities of the choice, over the lights' techniques.
   F products_of_choice(const LightChoice<F>& choice, bool is_power, Mask<F> on) const {

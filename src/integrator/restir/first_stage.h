@@ -47,7 +47,7 @@ class FirstStage {
         behind_(shared.paths()),
         paths_(behind_, shared.settings.path, counts_) {}
 
-  // Fills `out` with all light but what the vertices' reservoirs bring.
+  // Fills `out` with all light but that of the vertices' reservoirs.
   RayCounts run() {
     FirstHits<F> first_hits(shared_.scene, shared_.rays, pass_, out_);
     counts_.camera = first_hits.rays();
@@ -78,33 +78,32 @@ class FirstStage {
   M step(PathState<F>& path, M on) {
     const Scene& scene = shared_.scene;
     const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
-    const SurfaceHit<F> x = surface<F>(scene.geometry, origin.ray, origin.hit, on);
-    if (const M emits = on & (x.light != U(0u)); any(emits)) {
-      const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
-                                                                      x.point.uv, path.d, emits);
-      path.radiance += select(emits, path.throughput * path.media.left(x.distance) * light, gray(F(0.0f)));
-    }
     const M may_scatter = path.depth < max_depth_;
     const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
     const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own), on, Densities::exact};
-    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(
-        x, path.d, on & (may_scatter | M(scene.materials.has_interfaces())), context.random);
+    const Vertex<F> v(scene, {origin.ray, origin.hit, path.media},
+                      {on, M(on & (may_scatter | M(scene.materials.has_interfaces())))}, context);
+    const SurfaceHit<F>& x = v.x;
+    const SurfaceScattering<F>& bsdf = v.bsdf;
+    if (const M emits = on & (x.light != U(0u)); any(emits)) {
+      const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
+                                                                      x.point.uv, path.d, emits);
+      path.radiance += select(emits, path.throughput * path.media.left(x.distance) * light, gray(F(0.0f)));
+    }
     const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
     const M rough = scatters & !bsdf.is_delta;
-    const Vec3<F> wo = bsdf.frame.to_local(-path.d);
-    const MediaAt<F> media(path.media, {bsdf.kind, bsdf.slots, x.point.ng, bsdf.frame}, path.d);
-    path.throughput = select(on, path.throughput * media.along_wo().left(x.distance), path.throughput);
-    path.media = select_media<F>(on, media.along_wo(), path.media);
+    path.throughput = select(on, path.throughput * v.media.along_wo().left(x.distance), path.throughput);
+    path.media = select_media<F>(on, v.media.along_wo(), path.media);
     const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
-    const BsdfSample<F> next = leave(bsdf, wo, sampler, dimension, context, path_numbers, scatters);
+    const BsdfSample<F> next = leave(v, sampler, dimension, path_numbers, scatters);
     if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
       record_features(path, x.point, select(next.valid & scatters, next.weight, gray(F(0.0f))), x.object, first, out_);
 
     // The vertex whose light is reused.
-    const ReuseVertex<F> vertex = vertex_at(path, x, bsdf, wo, numbers);
+    const ReuseVertex<F> vertex = reuse_vertex(path, v, numbers);
     Candidates candidates(shared_.lights, shared_.rays, shared_.settings, vertex, counts_);
     if (any(rough)) {
       RandomStream<F> stream = numbers.fork(U(restir_stream::lights));
@@ -112,25 +111,25 @@ class FirstStage {
     }
 
     // Scatter; roulette, save where other pixels will scatter with the same numbers.
-    M goes_on = scatters & next.valid;
-    const M broken = goes_on & !is_finite(max_component(next.weight));
+    M continues = scatters & next.valid;
+    const M broken = continues & !is_finite(max_component(next.weight));
     if (any(broken)) path.radiance += select(broken, path.throughput * next.weight, gray(F(0.0f)));
-    goes_on = goes_on & !broken;
-    path.throughput = select(goes_on, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(goes_on, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(goes_on, U(1u), U(0u));
-    const M plays =
-        goes_on & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth))) & !(rough & M(reuses_paths()));
+    continues = continues & !broken;
+    path.throughput = select(continues, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(continues, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(continues, U(1u), U(0u));
+    const M plays = continues & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth))) &
+                    !(rough & M(reuses_paths()));
     const Roulette<F> survival = roulette(select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
-    const M lives = goes_on & survival.survives;
+    const M lives = continues & survival.survives;
     path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
-    const M offers = rough & goes_on & !next.delta & M(shared_.settings.bsdf_candidate);
+    const M offers = rough & continues & !next.delta & M(shared_.settings.bsdf_candidate);
     const Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
-    path.media = select_media<F>(goes_on, media.toward(wi), path.media);
-    path.p = select(goes_on, x.point.p, path.p), path.n = select(goes_on, bsdf.light_normal, path.n);
-    path.density = select(goes_on, select(next.delta, F(0.0f), next.density.value), path.density);
-    path.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, wi), path.d = wi;
+    path.media = select_media<F>(continues, v.media_toward(wi), path.media);
+    path.p = select(continues, x.point.p, path.p), path.n = select(continues, bsdf.light_normal, path.n);
+    path.density.value = select(continues, select(next.delta, F(0.0f), next.density.value), path.density.value);
+    path.o = v.origin_toward(wi), path.d = wi;
     path.crossings = path.crossings + select(passes, U(1u), U(0u));
     const M moves = passes | lives | offers;
     counts_.scattered += std::uint64_t(count(moves));
@@ -150,8 +149,8 @@ class FirstStage {
           left,
           path.throughput * path.media.left(F(ray_infinity)) * scene.lights.template escaped_radiance<F>(path.d, left),
           gray(F(0.0f)));
-    const M continues = rough & lives & found & (counts_next | (path.depth < max_depth_));
-    if (any(continues) && !reuses_paths()) hand_over(path, continues, counts_next);
+    const M remains = rough & lives & found & (counts_next | (path.depth < max_depth_));
+    if (any(remains) && !reuses_paths()) hand_over(path, remains, counts_next);
 
     const M ended = on & (rough | !found | !moves);
     const Spectrum<F> radiance = path.radiance * path.weight;
@@ -164,37 +163,23 @@ class FirstStage {
   // The direction in which a path leaves its vertex. At a rough one, whose sample is handed to other pixels, its
   // numbers are none that decide where the vertices of other pixels or frames are, as those of a smooth one do: points
   // of one set are not independent. Where paths are reused, others will scatter with the same numbers.
-  BsdfSample<F> leave(const SurfaceScattering<F>& bsdf, const Vec3<F>& wo, const Sampler<F>& sampler, U dimension,
-                      const BsdfContext<F>& context, const RandomStream<F>& path_numbers, M on) const {
-    const M smooth = bsdf.is_delta;
+  BsdfSample<F> leave(const Vertex<F>& v, const Sampler<F>& sampler, U dimension, const RandomStream<F>& path_numbers,
+                      M on) const {
+    const M smooth = v.bsdf.is_delta;
     const U place = select(smooth, dimension, U(restir_stream::direction));
     const Vec2<F> u = sampler.get2(place + U(path_dimension::direction));
     const Vec3<F> own{sampler.get1(place + U(path_dimension::lobe)), u.x, u.y};
-    if (!reuses_paths()) return sample<F>(bsdf.lanes(on), wo, own, context);
+    if (!reuses_paths()) return sample<F>(v.bsdf.lanes(on), v.wo, own, v.context);
     const EventNumbers<F> first(path_numbers, U(0u));
-    const BsdfContext<F> chosen{TransportMode::radiance, select_words(smooth, context.random, first.model()), on,
+    const BsdfContext<F> chosen{TransportMode::radiance, select_words(smooth, v.context.random, first.model()), on,
                                 Densities::exact};
-    return sample<F>(bsdf.lanes(on), wo, select(smooth, own, first.direction()), chosen);
+    return sample<F>(v.bsdf.lanes(on), v.wo, select(smooth, own, first.direction()), chosen);
   }
 
-  ReuseVertex<F> vertex_at(const PathState<F>& path, const SurfaceHit<F>& x, const SurfaceScattering<F>& bsdf,
-                           const Vec3<F>& wo, const RandomStream<F>& numbers) const {
-    return {x.point.p,
-            x.point.p_error,
-            x.point.ng,
-            wo,
-            bsdf.slots,
-            bsdf.kind,
-            bsdf.frame,
-            bsdf.light_normal,
-            numbers.fork(U(restir_stream::bsdf)),
-            path.throughput * path.weight,
-            length(x.point.p - path.p),
-            path.time,
-            x.object,
-            path.depth,
-            U(1u),
-            path.media};
+  ReuseVertex<F> reuse_vertex(const PathState<F>& path, const Vertex<F>& v, const RandomStream<F>& numbers) const {
+    StoredVertex<F> kept = stored(v);
+    kept.random = numbers.fork(U(restir_stream::bsdf));
+    return {kept, path.throughput * path.weight, length(v.x.point.p - path.p), v.x.object, path.depth, U(1u)};
   }
 
   // The rest of a path takes its light from the next vertex on, in a state of its own.
@@ -206,23 +191,21 @@ class FirstStage {
 
   // The emitters along the direction of the BSDF, through interfaces.
   void offer(Candidates& candidates, const PathState<F>& path, M found, M left, const RandomStream<F>& numbers) {
-    Hit<F> hit = path.hit;
-    Vec3<F> o = path.o;
+    Segment<F> segment{{path.o, path.d, F(ray_infinity), path.time}, path.hit, path.media};
     for (std::uint32_t crossing = 0;; ++crossing) {
       const RandomStream<F> stream = numbers.fork(U(2 * crossing)), sky = numbers.fork(U(2 * crossing + 1));
       if (any(left)) candidates.add_sky(path.d, sky, left);
       if (!any(found)) return;
-      const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, {o, path.d, hit.t, path.time}, hit, found);
-      if (const M emits = found & (x.light != U(0u)); any(emits)) candidates.add_hit(x, path.d, stream, emits);
-      if (!shared_.scene.materials.has_interfaces()) return;
-      const SurfaceScattering<F> bsdf =
-          shared_.scene.materials.template scattering<F>(x, path.d, found, stream.fork(U(1u)));
-      const M passes = found & bsdf.is_interface;
+      const M has_interfaces(shared_.scene.materials.has_interfaces());
+      const Vertex<F> v(shared_.scene, segment, {found, M(found & has_interfaces)},
+                        BsdfContext<F>{TransportMode::radiance, stream.fork(U(1u))});
+      if (const M emits = found & (v.x.light != U(0u)); any(emits)) candidates.add_hit(v.x, path.d, stream, emits);
+      const M passes = found & has_interfaces & v.bsdf.is_interface;
       if (!any(passes)) return;
-      o = select(passes, offset_origin(x.point.p, x.point.p_error, x.point.ng, path.d), o);
+      segment.ray.o = select(passes, v.origin_toward(path.d), segment.ray.o);
       counts_.scattered += std::uint64_t(count(passes));
-      const auto [further, next] = shared_.rays.template trace<F>({o, path.d, F(ray_infinity), path.time}, passes);
-      hit = next, found = passes & further, left = passes & !further;
+      const auto [further, next] = shared_.rays.template trace<F>(segment.ray, passes);
+      segment.hit = next, found = passes & further, left = passes & !further;
     }
   }
 

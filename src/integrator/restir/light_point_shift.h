@@ -42,7 +42,7 @@ struct LightPointDomains {
       const Connection<F> way = connect(lights, vertices[k], value, on[k]);
       images[k] = {{value, F(1.0f), way.target}, way.value};
       open[k] = on[k] & (way.target > F(0.0f)) & Mask<F>(int(k) != from);
-      ways[k] = shadow_ray(vertices[k], way.wi, way.distance);
+      ways[k] = vertices[k].shadow_ray_to(way.wi, way.distance);
     }
     if (!sees) return;
     keep_open<F>(rays, std::span<const Ray<F>>(ways), std::span<Mask<F>>(open.get(), images.size()), counts);

@@ -11,22 +11,22 @@ namespace montelux {
 // A path on its way, with what it was joined to if it was; made of 32-bit words alone.
 template <class F>
 struct PathWalk {
-  ReuseVertex<F> from;  // the vertex that the ray left
-  Vec3<F> o, d;         // the ray
-  Hit<F> hit;           // what it met,
-  Uint<F> found;        // if anything
-  Spectrum<F> before;   // product of the events' weights up to `from`
-  Spectrum<F> leaving;  // times f cos of the event there; black for a delta
-  Spectrum<F> weight;   // times its weight
-  F density;            // of d at `from`; 0 for a delta
-  F eta_scale;          // as PathState has it
-  F pixels;             // squared distance of pixels, for Leg
-  Uint<F> events;       // up to d
-  Uint<F> crossings;    // interfaces since the last event
+  ReuseVertex<F> from;             // the vertex that the ray left
+  Vec3<F> o, d;                    // the ray
+  Hit<F> hit;                      // what it met,
+  Uint<F> found;                   // if anything
+  Spectrum<F> before;              // product of the events' weights up to `from`
+  Spectrum<F> leaving;             // times f cos of the event there; black for a delta
+  Spectrum<F> weight;              // times its weight
+  Density<SolidAngle, F> density;  // of d at `from`; 0 for a delta
+  F eta_scale;                     // as PathState has it
+  F pixels;                        // squared distance of pixels, for Leg
+  Uint<F> events;                  // up to d
+  Uint<F> crossings;               // interfaces since the last event
   RandomStream<F> numbers;
   Spectrum<F> plain;    // light that cannot be shared
   Uint<F> joined;       // number of the event at the surface that the path was joined to; 0: not yet
-  JoinedSurface<F> at;  // that surface, the direction from there,
+  StoredSurface<F> at;  // that surface, the direction from there,
   Vec3<F> wi;
   Spectrum<F> until;  // what the path brings for each unit of light along it,
   Spectrum<F> tail;   // and the weights of all events behind
@@ -96,23 +96,23 @@ class PathCandidates {
     on = on & !left;
     if (!any(on)) return left;
 
-    const SurfaceHit<F> x = surface<F>(shared_.scene.geometry, {w.o, w.d, w.hit.t, w.from.time}, w.hit, on);
-    const RandomStream<F> random = led_here.surface().fork(w.crossings);
-    const SurfaceScattering<F> bsdf = shared_.scene.materials.template scattering<F>(x, w.d, on, random);
-    const M passes = on & bsdf.is_interface;
-    const ReuseVertex<F> vertex = vertex_behind(w.from, x, bsdf, w.d, random);
+    const Vertex<F> v(shared_.scene, {{w.o, w.d, F(ray_infinity), w.from.time}, w.hit, w.from.media_toward(w.d)},
+                      {on, on}, BsdfContext<F>{TransportMode::radiance, led_here.surface().fork(w.crossings)});
+    const SurfaceHit<F>& x = v.x;
+    const M passes = on & v.bsdf.is_interface;
+    const ReuseVertex<F> vertex = vertex_behind<F>(w.from, v);
     absorb(vertex.media.left(x.distance), on);
     if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
 
     const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
     const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.pixels);
-    if (const M lit = scatters & !bsdf.is_delta; any(lit)) ask_for_light(vertex, leg, lit);
-    const M goes_on = scatter(vertex, leg, scatters);
+    if (const M lit = scatters & !v.bsdf.is_delta; any(lit)) sample_light(vertex, leg, lit);
+    const M continues = scatter(vertex, leg, scatters);
 
     // The next surface, or the sky.
-    const M moves = goes_on | passes;
-    w.o = select(moves, offset_origin(x.point.p, x.point.p_error, x.point.ng, w.d), w.o);
-    w.crossings = select(goes_on, U(0u), w.crossings + select(passes, U(1u), U(0u)));
+    const M moves = continues | passes;
+    w.o = select(moves, v.origin_toward(w.d), w.o);
+    w.crossings = select(continues, U(0u), w.crossings + select(passes, U(1u), U(0u)));
     counts_.scattered += std::uint64_t(count(moves));
     const auto [found, hit] = shared_.rays.template trace<F>({w.o, w.d, F(ray_infinity), w.from.time}, moves);
     w.hit = hit, w.found = select(found, U(1u), U(0u));
@@ -131,8 +131,7 @@ class PathCandidates {
   void meet_surface(const SurfaceHit<F>& x, M passes, M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
     const U light = select(on, x.light - U(1u), U(0u));
-    const LightHit<F> hit = shared_.lights.template hit<F>(light, w.from.p, w.from.light_normal, x.point.p, x.point.ng,
-                                                           x.point.uv, w.d, on);
+    const LightHit<F> hit = emission_met<F>(shared_.lights, {w.from.p, w.from.light_normal}, x, w.d, on);
     const M shines = on & !is_black(hit.radiance);
     meet(shared_.lights.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), hit, passes,
          numbers.surface().fork(w.crossings).fork(U(resampling_stream)).at(U(0u)), shines);
@@ -142,26 +141,26 @@ class PathCandidates {
     if (!any(on)) return;
     absorb(w.from.media_toward(w.d).left(F(ray_infinity)), on);
     // What a delta meets is found again as a whole. Choice 0 is that of next-event estimation where the event was.
-    if (const M smooth = on & (w.density == F(0.0f)); any(smooth)) {
+    if (const M smooth = on & (w.density.value == F(0.0f)); any(smooth)) {
       const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};
       meet({}, all, M(false), numbers.choice(1), smooth);
     }
-    const M spread = on & (w.density > F(0.0f));
-    for (int i = 0; i < shared_.lights.infinite_count() && any(spread); ++i) {
-      const LightHit<F> sky = shared_.lights.template escaped<F>(i, w.from.p, w.from.light_normal, w.d, spread);
-      const LightPoint<F> point{w.d, w.d, sky.radiance, U(std::uint32_t(shared_.lights.infinite_light(i))),
-                                U(light_point::infinite)};
-      meet(point, sky, M(false), numbers.choice(std::uint32_t(i) + 1), spread);
-    }
+    const M spread = on & (w.density.value > F(0.0f));
+    std::uint32_t choice = 0;
+    for_each_sky_light<F>(shared_.lights, {w.from.p, w.from.light_normal}, w.d, spread,
+                          [&](const LightHit<F>& sky, const U& number) {
+                            const LightPoint<F> point{w.d, w.d, sky.radiance, number, U(light_point::infinite)};
+                            meet(point, sky, M(false), numbers.choice(++choice), spread);
+                          });
   }
 
   // Light along the ray. What an event at the pixel's own vertex meets is direct light, which is not this one's, but
   // for deltas.
   void meet(const LightPoint<F>& point, const LightHit<F>& hit, M on_the_way, F u, M on) {
     const PathWalk<F>& w = walk_;
-    const M is_delta = w.density == F(0.0f);
+    const M is_delta = w.density.value == F(0.0f);
     const M counts = on & (is_delta | (w.events > U(1u)));
-    const F share = weight_of_light_hit(settings_, w.density, hit.density.value);
+    const F share = weight_of_light_hit(settings_, w.density, hit.density);
     const Spectrum<F> contribution = w.weight * hit.radiance * share;
 
     const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
@@ -182,7 +181,7 @@ class PathCandidates {
     if (const M alone = met & on_the_way; any(alone)) add_plain(contribution, alone);
   }
 
-  void ask_for_light(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
+  void sample_light(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
     const PathWalk<F>& w = walk_;
     const EventNumbers<F> numbers(w.numbers, w.events);
     const RandomStream<F> own = numbers.light();
@@ -193,13 +192,13 @@ class PathCandidates {
     const Connection<F> to = connect(shared_.lights, vertex, draw.point, lit);
     lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_);
     if (!any(lit)) return;
-    const F density = draw.density.value * choice.mass.value;
+    const F density = draw.density.value * choice.mass.value;  // of the light point, in its measure
     const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),
-                           weight_of_light_sample(settings_, density, to.by_bsdf));
+                           weight_of_light_sample<F>(settings_, {density}, to.by_bsdf));
     const Spectrum<F> estimate = to.value * (share / select(lit, density * to.geometry, F(1.0f)));
 
     const M joined = lit & (w.joined != U(0u));
-    const M joins = lit & !joined & may_join(leg, to.scattered.density.value);
+    const M joins = lit & !joined & may_join(leg, to.scattered.density);
     PathSample<F> sample = sample_so_far(w.events + U(1u));
     sample.light = w.tail * estimate, sample.contribution = w.until * sample.light;
     if (any(joins)) {
@@ -237,12 +236,10 @@ class PathCandidates {
 
   // ---- the next event
 
-  M may_join(const Leg<F>& leg, F density) const {
-    return shared_.reuse.joins ? (density > F(0.0f)) & leg.is_wide(density) : M(false);
+  M may_join(const Leg<F>& leg, const Density<SolidAngle, F>& density) const {
+    return shared_.reuse.joins ? (density.value > F(0.0f)) & leg.is_wide(density) : M(false);
   }
-  static JoinedSurface<F> surface_of(const ReuseVertex<F>& v) {
-    return {v.p, v.ng, v.slots, v.kind, v.frame, v.random};
-  }
+  static StoredSurface<F> surface_of(const ReuseVertex<F>& v) { return v; }
   F geometry_of(const Leg<F>& leg, const ReuseVertex<F>& vertex) const {
     return abs(dot(vertex.ng, walk_.d)) / leg.squared_length;
   }
@@ -250,16 +247,13 @@ class PathCandidates {
   M scatter(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
     PathWalk<F>& w = walk_;
     const EventNumbers<F> numbers(w.numbers, w.events);
-    const BsdfContext<F> context{TransportMode::radiance, numbers.model(), on, Densities::exact};
-    const BsdfSample<F> next =
-        montelux::sample<F>(BsdfLanes<F>{vertex.kind, &vertex.slots, on}, vertex.wo, numbers.direction(), context);
-    const PathEvent<F> event = event_at(vertex, next, on);
+    const PathEvent<F> event = event_at(vertex, vertex.sampled(numbers.direction(), numbers.model(), on), on);
     const M broken = event.valid & !is_finite(average(event.weight));
     if (any(broken)) add_plain(event.weight, broken);
-    const M goes_on = event.valid & !broken;
+    const M continues = event.valid & !broken;
 
-    const M behind = goes_on & (w.joined != U(0u));
-    const M joins = goes_on & (w.joined == U(0u)) & may_join(leg, event.density) &
+    const M behind = continues & (w.joined != U(0u));
+    const M joins = continues & (w.joined == U(0u)) & may_join(leg, event.density) &
                     (w.events <= U(std::uint32_t(shared_.reuse.max_replayed) + 1));
     if (any(joins)) {
       w.at = select_words(joins, surface_of(vertex), w.at);
@@ -269,15 +263,15 @@ class PathCandidates {
       w.joined = select(joins, w.events, w.joined);
     }
     w.tail = select(behind, w.tail * event.weight, w.tail);
-    w.before = select(goes_on, w.weight, w.before);
-    w.leaving = select(goes_on, w.weight * event.f_cos, w.leaving);
-    w.weight = select(goes_on, w.weight * event.weight, w.weight);
-    w.eta_scale = select(goes_on, w.eta_scale * event.eta_scale, w.eta_scale);
-    w.density = select(goes_on, event.density, w.density);
-    w.events = w.events + select(goes_on, U(1u), U(0u));
-    w.from = select_words(goes_on, vertex, w.from);
-    w.d = select(goes_on, event.wi, w.d);
-    return lives_on(numbers, goes_on);
+    w.before = select(continues, w.weight, w.before);
+    w.leaving = select(continues, w.weight * event.f_cos, w.leaving);
+    w.weight = select(continues, w.weight * event.weight, w.weight);
+    w.eta_scale = select(continues, w.eta_scale * event.eta_scale, w.eta_scale);
+    w.density.value = select(continues, event.density.value, w.density.value);
+    w.events = w.events + select(continues, U(1u), U(0u));
+    w.from = select_words(continues, vertex, w.from);
+    w.d = select(continues, event.wi, w.d);
+    return lives_on(numbers, continues);
   }
 
   // Roulette spares what is scattered again: other pixels would have to play with other throughputs.

@@ -18,25 +18,6 @@ inline constexpr std::uint32_t light = 1;    // at a point of a light
 inline constexpr std::uint32_t met = 2;  // nowhere: all is scattered again, and the last event, a delta, meets light
 }  // namespace path_end
 
-// A surface to which paths are joined: how it scatters, whoever asks.
-template <class F>
-struct JoinedSurface {
-  Vec3<F> p, ng;
-  BsdfSlots<F> slots;
-  Uint<F> kind;
-  Frame<F> frame;
-  RandomStream<F> random;
-
-  BsdfValue<F> scattered(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
-    const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
-    return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, frame.to_local(wo), frame.to_local(wi), context);
-  }
-  // What is left of the light that it sends to a vertex that far, which looks along the unit d.
-  Spectrum<F> left(const ReuseVertex<F>& vertex, const Vec3<F>& d, F far) const {
-    return Boundary<F>(kind, slots, ng, frame).before(vertex.media_toward(d), d).left(far);
-  }
-};
-
 // Made of 32-bit words alone.
 template <class F>
 struct PathSample {
@@ -44,7 +25,7 @@ struct PathSample {
   Uint<F> replayed;         // events that are scattered again
   Uint<F> events;           // in all, from the pixel's vertex to the light
   Uint<F> end;              // of path_end
-  JoinedSurface<F> at;      // path_end::surface: the surface, the direction from there, and what comes along it
+  StoredSurface<F> at;      // path_end::surface: the surface, the direction from there, and what comes along it
   Vec3<F> wi;
   Spectrum<F> light;
   LightPoint<F> point;       // path_end::light
@@ -82,10 +63,10 @@ struct EventNumbers {
 // One scattering event.
 template <class F>
 struct PathEvent {
-  Vec3<F> wi;          // of the world
-  Spectrum<F> f_cos;   // 0 for a delta
-  F density;           // solid angle; 0 for a delta
-  Spectrum<F> weight;  // f_cos / density, or that of the delta
+  Vec3<F> wi;                      // of the world
+  Spectrum<F> f_cos;               // 0 for a delta
+  Density<SolidAngle, F> density;  // 0 for a delta
+  Spectrum<F> weight;              // f_cos / density, or that of the delta
   F eta_scale;
   Mask<F> valid, delta;
 };
@@ -100,33 +81,36 @@ PathEvent<F> event_at(const ReuseVertex<F>& vertex, const BsdfSample<F>& next, M
   const Mask<F> has_density = density > F(0.0f), goes_on = delta | has_density;
   const Spectrum<F> weight = select(has_density, value.f_cos * (1.0f / select(has_density, density, F(1.0f))),
                                     select(delta, next.weight, gray(F(0.0f))));
-  return {wi, select(spread, value.f_cos, gray(F(0.0f))), density, weight, next.eta_scale, goes_on, delta};
+  return {wi, select(spread, value.f_cos, gray(F(0.0f))), {density}, weight, next.eta_scale, goes_on, delta};
 }
 
 // Whether two pixels may share the surface to which a path is joined: both lobes, as wide as they are at the distance
-// of the joined points, must cover much more than the distance between pixels, or the shared path would bring next to
-// nothing to any but its own (cf. Lin et al. 2022, sec. 7.3, which asks for roughness and distance).
+// of the joined points, must cover much more than the distance between pixels, or the shared path would contribute next
+// to nothing to any but its own (cf. Lin et al. 2022, sec. 7.3, by roughness and distance).
 template <class F>
 struct Leg {
   F squared_length;
   F spread;  // of the first lobe on the second surface, 1/area: density times cosine; infinite for a delta
   F pixels;  // squared distance that the lobes must cover
 
-  Mask<F> is_wide(F density_there) const {
-    return (spread * pixels <= squared_length) & (density_there * pixels <= squared_length);
+  Mask<F> is_wide(const Density<SolidAngle, F>& there) const {
+    return (spread * pixels <= squared_length) & (there.value * pixels <= squared_length);
   }
 };
 
 // From a vertex to a surface; `density` is that of the direction at the vertex, 0 for a delta.
 template <class F>
-Leg<F> leg_between(const Vec3<F>& p, const Vec3<F>& to, const Vec3<F>& ng, const Vec3<F>& d, F density, F pixels) {
-  const F spread = density * abs(dot(ng, d));
-  return {dot(to - p, to - p), select(density > F(0.0f), spread, F(std::numeric_limits<float>::infinity())), pixels};
+Leg<F> leg_between(const Vec3<F>& p, const Vec3<F>& to, const Vec3<F>& ng, const Vec3<F>& d,
+                   const Density<SolidAngle, F>& density, F pixels) {
+  const F spread = density.value * abs(dot(ng, d));
+  return {dot(to - p, to - p), select(density.value > F(0.0f), spread, F(std::numeric_limits<float>::infinity())),
+          pixels};
 }
 // To a surface that turns to the ray there is no leg that could be joined: other pixels would meet another surface.
 template <class F>
-Leg<F> leg_between(const Vec3<F>& p, const SurfaceHit<F>& to, const Vec3<F>& d, F density, F pixels) {
-  return leg_between<F>(p, to.point.p, to.point.ng, d, select(to.ray_facing, F(0.0f), density), pixels);
+Leg<F> leg_between(const Vec3<F>& p, const SurfaceHit<F>& to, const Vec3<F>& d, const Density<SolidAngle, F>& density,
+                   F pixels) {
+  return leg_between<F>(p, to.point.p, to.point.ng, d, {select(to.ray_facing, F(0.0f), density.value)}, pixels);
 }
 
 }  // namespace montelux

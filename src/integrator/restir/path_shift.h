@@ -3,6 +3,7 @@
 // the light the random replay shift.
 #pragma once
 #include "integrator/restir/path_sample.h"
+#include "transport/next_vertex.h"
 
 namespace montelux {
 
@@ -36,7 +37,8 @@ class PathReplay {
         pixels_(squared_distance_of_pixels(shared.reuse, first)),
         alive_(on) {}
 
-  // What the path brings to the first vertex, per unit of the shared measure; black where it is no path of this vertex.
+  // The contribution of the path to the first vertex, per unit of the shared measure; black where it is no path of this
+  // vertex.
   Spectrum<F> contribution() {
     const M met = sample_.end == U(path_end::met);
     Spectrum<F> light = gray(F(0.0f));
@@ -57,20 +59,16 @@ class PathReplay {
   // Scatters once more, to the next surface; in the lanes `last`, to the light that is met there, which is the result.
   Spectrum<F> scatter(std::uint32_t event, M on, M last) {
     const EventNumbers<F> numbers(sample_.numbers, U(event));
-    const BsdfContext<F> context{TransportMode::radiance, numbers.model(), on, Densities::exact};
-    const BsdfSample<F> next =
-        sample<F>(BsdfLanes<F>{vertex_.kind, &vertex_.slots, on}, vertex_.wo, numbers.direction(), context);
+    const BsdfSample<F> next = vertex_.sampled(numbers.direction(), numbers.model(), on);
     const PathEvent<F> taken = event_at(vertex_, next, on);
     // The same samples come back only if the path could not have been joined before.
     const M spread = taken.valid & !taken.delta;
     const M stays = taken.valid & !(spread & (may_join(taken.density) | last));
     weight_ = select(stays, weight_ * taken.weight, weight_);
 
-    const Ray<F> ray{offset_origin(vertex_.p, vertex_.p_error, vertex_.ng, taken.wi), taken.wi, F(ray_infinity),
-                     vertex_.time};
-    const Arrival<F> at = trace_to_arrival<F>(shared_.scene, shared_.rays,
-                                              {vertex_.p, vertex_.light_normal, vertex_.media_toward(taken.wi)}, ray,
-                                              stays, numbers.surface(), counts_, [](F) { return F(0.0f); });
+    const NextVertex<F> at =
+        next_vertex<F>(shared_.scene, shared_.rays, vertex_.reference_toward(taken.wi), vertex_.ray_toward(taken.wi),
+                       stays, numbers.surface(), counts_.scattered, NoWeight{});
     Spectrum<F> light = gray(F(0.0f));
     if (const M ends = stays & last; any(ends)) {
       const M emits = ends & at.found & (at.x.light != U(0u)), left = ends & !at.found;
@@ -87,36 +85,39 @@ class PathReplay {
     const F pixels = pixels_;
     const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
-    vertex_ = select_words(moved, vertex_behind(vertex_, at.x, at.bsdf, taken.wi, at.context.random), vertex_);
+    vertex_ = select_words(moved, vertex_behind<F>(vertex_, at), vertex_);
     has_leg_ = has_leg_ | moved;
     alive_ = alive_ & (moved | !on);
     return light;
   }
 
   // Whether the path would have been joined to the vertex at hand, if it leaves it with this density.
-  M may_join(F density) const { return shared_.reuse.joins ? has_leg_ & leg_.is_wide(density) : M(false); }
+  M may_join(const Density<SolidAngle, F>& density) const {
+    return shared_.reuse.joins ? has_leg_ & leg_.is_wide(density) : M(false);
+  }
 
   Spectrum<F> through_surface(M on) {
-    const JoinedSurface<F>& at = sample_.at;
+    const StoredSurface<F>& at = sample_.at;
     const Vec3<F> way = at.p - vertex_.p;
     const F squared = dot(way, way), distance = sqrt(squared);
     M good = on & (squared > F(0.0f));
     const Vec3<F> wi = way / select(good, distance, F(1.0f));
     const BsdfValue<F> here = vertex_.scattered(wi, good);
-    good = good & (here.density.value > F(0.0f)) & !may_join(here.density.value);
+    good = good & (here.density.value > F(0.0f)) & !may_join(here.density);
     const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density.value, pixels_);
-    good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density.value);
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density, pixels_);
+    good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
     const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));
-    const Spectrum<F> left = at.left(vertex_, wi, distance);
+    const Spectrum<F> left = at.boundary().before(vertex_.media_toward(wi), wi).left(distance);
     const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * left * sample_.light * geometry;
     good = good & (average(light) > F(0.0f));
-    return select(is_open<F>(shared_.rays, vertex_, wi, distance, good, counts_), light, gray(F(0.0f)));
+    return select(unblocked<F>(shared_.rays, vertex_.shadow_ray_to(wi, distance), good, counts_.shadow), light,
+                  gray(F(0.0f)));
   }
 
   Spectrum<F> through_light(M on) {
     const Connection<F> to = connect(shared_.lights, vertex_, sample_.point, on);
-    const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density.value);
+    const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density);
     return select(is_open<F>(shared_.rays, vertex_, to, good, counts_), weight_ * to.value, gray(F(0.0f)));
   }
 
@@ -146,15 +147,15 @@ struct PathDomains {
   }
   Shifted<PathSample<F>, F> image(int, int to, const PathSample<F>& value, Mask<F> on) const {
     PathSample<F> there = value;
-    there.contribution = brought(to, value, on);
+    there.contribution = contribution_at(to, value, on);
     return {there, F(1.0f), usable_weight(average(there.contribution))};
   }
   F target_at(int to, const PathSample<F>& value, Mask<F> on) const {
-    return usable_weight(average(brought(to, value, on)));
+    return usable_weight(average(contribution_at(to, value, on)));
   }
 
  private:
-  Spectrum<F> brought(int to, const PathSample<F>& value, Mask<F> on) const {
+  Spectrum<F> contribution_at(int to, const PathSample<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& first = vertices[std::size_t(to)];
     // Where surfaces move, a path of another moment is none of this one.
     const Mask<F> fits = on & ((value.time == first.time) | Mask<F>(!shared.scene.geometry.moves())) &

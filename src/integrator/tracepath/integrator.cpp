@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
-#include "integrator/arrival.h"
+#include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/settings.h"
 #include "integrator/tracepath/horizon.h"
 #include "mc/hemisphere.h"
 #include "mc/roulette.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -23,7 +24,7 @@ struct Recursion {
 
   // TracePath(p', d): the radiance that leaves the surface at `at` toward where the ray came from.
   // `throughput` is that of the way from the camera, for roulette alone.
-  Spectrum<float> radiance(const Arrival<float>& at, RandomStream<float> random, int depth,
+  Spectrum<float> radiance(const NextVertex<float>& at, RandomStream<float> random, int depth,
                            const Spectrum<float>& throughput) const {
     const bool emits = max_component(at.light) > 0;
     const float p_emit = !at.found ? 1.0f : emits ? settings.p_emit : 0.0f;
@@ -33,7 +34,7 @@ struct Recursion {
   }
 
  private:
-  Spectrum<float> reflected(const Arrival<float>& at, RandomStream<float>& random, int depth,
+  Spectrum<float> reflected(const NextVertex<float>& at, RandomStream<float>& random, int depth,
                             const Spectrum<float>& throughput) const {
     if (settings.max_depth && depth >= *settings.max_depth) return gray(0.0f);
     if (at.bsdf.is_delta) return along_bsdf(at, random, depth, throughput, {});
@@ -54,8 +55,8 @@ struct Recursion {
   }
 
   // A direction uniform over the rest of the hemisphere: by rejection.
-  Spectrum<float> elsewhere(const Arrival<float>& at, const SeenPolygon& seen, RandomStream<float>& random, int depth,
-                            const Spectrum<float>& throughput) const {
+  Spectrum<float> elsewhere(const NextVertex<float>& at, const SeenPolygon& seen, RandomStream<float>& random,
+                            int depth, const Spectrum<float>& throughput) const {
     const float rest = 2 * pi - solid_angle(above_horizon(seen, at.bsdf.light_normal));
     if (rest < 1e-4f) return gray(0.0f);
     const Frame<float> frame = Frame<float>::from_normal(at.bsdf.light_normal);
@@ -72,7 +73,7 @@ struct Recursion {
   }
 
   // f cos / density x TracePath in the direction wi.
-  Spectrum<float> continued(const Arrival<float>& at, const Vec3f& wi, float density, RandomStream<float>& random,
+  Spectrum<float> continued(const NextVertex<float>& at, const Vec3f& wi, float density, RandomStream<float>& random,
                             int depth, const Spectrum<float>& throughput) const {
     BsdfContext<float> context = at.context;
     context.random = own_stream(random);
@@ -81,7 +82,7 @@ struct Recursion {
   }
 
   // A direction by the BSDF; none where it is one of `taken`, which another term serves.
-  Spectrum<float> along_bsdf(const Arrival<float>& at, RandomStream<float>& random, int depth,
+  Spectrum<float> along_bsdf(const NextVertex<float>& at, RandomStream<float>& random, int depth,
                              const Spectrum<float>& throughput, const SeenPolygon& taken) const {
     const float lobe = random.next();
     const Vec2f u = random.next2();
@@ -92,37 +93,35 @@ struct Recursion {
     return next_call(at, wi, next.weight, random, depth, throughput);
   }
 
-  Spectrum<float> next_call(const Arrival<float>& at, const Vec3f& wi, Spectrum<float> weight,
+  Spectrum<float> next_call(const NextVertex<float>& at, const Vec3f& wi, Spectrum<float> weight,
                             RandomStream<float>& random, int depth, const Spectrum<float>& throughput) const {
     const float u = random.next();
     if (!(max_component(weight) > 0)) return gray(0.0f);
     if (depth >= settings.roulette_depth) {
-      const Roulette<float> survival = roulette(std::min(max_component(throughput * weight), most_survival), u);
+      const Roulette<float> survival = roulette(std::min(max_component(throughput * weight), max_survival), u);
       if (!survival.survives) return gray(0.0f);
       weight *= gray(survival.weight);
     }
     const RandomStream<float> branch = own_stream(random);
-    const Arrival<float> there = trace_to_arrival<float>(scene, accel, at.departure_toward(wi), at.ray_toward(wi), true,
-                                                         branch.fork(1u), counts, [](float) { return 1.0f; });
+    const NextVertex<float> there = next_vertex<float>(scene, accel, at.reference_toward(wi), at.ray_toward(wi), true,
+                                                       branch.fork(1u), counts.scattered, FullWeight{});
     return weight * radiance(there, branch.fork(2u), depth + 1, throughput * weight);
   }
 
   // Lights that no ray can meet are outside the recursion.
-  Spectrum<float> delta_lights(const Arrival<float>& at, RandomStream<float>& random) const {
+  Spectrum<float> delta_lights(const NextVertex<float>& at, RandomStream<float>& random) const {
     if (!scene.lights.has_delta()) return gray(0.0f);
-    const Departure<float> from = at.departure();
+    const ReferencePoint<float> from = at.reference();
     const float u = random.next();
     const LightSample<float> light = scene.lights.sample<float>(from.p, from.n, u, random.next2(), true);
     if (!light.valid || !light.delta) return gray(0.0f);
     const BsdfValue<float> value =
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
-    ++counts.shadow;
-    const Ray<float> ray = at.shadow_ray_to(light.wi, light.distance);
-    return accel.occluded<float>(ray, true) ? gray(0.0f)
-                                            : value.f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
+    const bool arrives = unblocked<float>(accel, at.shadow_ray_to(light.wi, light.distance), true, counts.shadow);
+    return arrives ? value.f_cos * light.radiance * at.left_of_light(light.wi, light.distance) : gray(0.0f);
   }
 
-  SeenPolygon seen_from(const Arrival<float>& at, LightId light) const {
+  SeenPolygon seen_from(const NextVertex<float>& at, LightId light) const {
     const LightPolygon polygon = *scene.lights.polygon(light);
     SeenPolygon seen;
     seen.count = polygon.count;
@@ -150,9 +149,7 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
   while (first_hits.refill(path, false)) {
     const Sampler<float> sampler(pass.points, path.x, path.y, path.index);
     const RandomStream<float> random = sampler.stream(path_dimension::first_vertex + path_dimension::own);
-    const Arrival<float> at =
-        arrive<float>(scene_, accel_, {path.o, Vec3f{}}, {path.o, path.d, ray_infinity, path.time}, path.hit, true,
-                      random.fork(1u), counts, [](float) { return 1.0f; });
+    const NextVertex<float> at = first_vertex<float>(scene_, accel_, path, true, random.fork(1u), counts);
     out[path.slot].radiance = to_rgb(recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight);
     if (at.found) {
       RandomStream<float> own = random.fork(3u);

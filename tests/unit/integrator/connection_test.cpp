@@ -32,15 +32,15 @@ float largest_target_along(const TestScene& scene, Vec3f o, Vec3f d) {
   const Ray<float> ray{o, d, ray_infinity};
   const auto [found, hit] = scene.accel().trace<float>(ray, true);
   EXPECT_TRUE(found);
-  const SurfaceHit<float> x = surface<float>(scene.scene().geometry, {o, d, hit.t}, hit, true);
   const RandomStream<float> random(1, 2);
-  const SurfaceScattering<float> bsdf = scene.scene().materials.scattering<float>(x, d, true, random);
-  const ReuseVertex<float> vertex = vertex_behind(ReuseVertex<float>{}, x, bsdf, d, random);
+  const Vertex<float> v(scene.scene(), {ray, hit, no_media<float>()}, {true, true}, {TransportMode::radiance, random});
+  const ReuseVertex<float> vertex = vertex_behind(ReuseVertex<float>{}, v);
   const LightSet& lights = scene.scene().lights;
   float most = 0;
   for (std::uint32_t light = 0; light < lights.count(); ++light)
     for (float u : {0.1f, 0.4f, 0.7f, 0.95f}) {
-      const LightPointDraw<float> draw = lights.draw_light_point<float>(light, x.point.p, {0, 0, 0}, {u, 1 - u}, true);
+      const LightPointDraw<float> draw =
+          lights.draw_light_point<float>(light, v.x.point.p, {0, 0, 0}, {u, 1 - u}, true);
       most = std::max(most, connect<float>(lights, vertex, draw.point, true).target);
     }
   return most;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "integrator/arrival.h"
 #include "mc/random.h"
+#include "mc/roulette.h"
 #include "render_scenes.h"
 
 namespace montelux::test {
@@ -36,8 +36,8 @@ double variance_times_cost(const std::vector<PilotPath>& paths, const SurvivalMa
   for (const PilotPath& p : paths) {
     const double t1 = double(p.decisions[0].throughput), t2 = double(p.decisions[1].throughput);
     const auto probability = [&](double t, double scale, std::uint32_t depth) {
-      return std::clamp(t * scale * double(map.factor<float>(0u, 0u, depth)), double(least_survival),
-                        double(most_survival));
+      return std::clamp(t * scale * double(map.factor<float>(0u, 0u, depth)), double(min_survival),
+                        double(max_survival));
     };
     const double q1 = probability(t1, scale1, 1), q2 = probability(t2 / q1, scale2, 2);
     const double a = double(p.decisions[0].gathered), b = double(p.decisions[1].gathered) - a,

@@ -1,0 +1,69 @@
+// Vertices as they are kept by algorithms that store paths, or that connect other paths to them. Made of 32-bit words
+// alone, so that single vertices can be gathered into the lanes of a pack.
+#pragma once
+#include "transport/vertex.h"
+
+namespace montelux {
+
+// A point of a surface and how it scatters. The random numbers of the model are kept, too, so that whoever queries it
+// finds one function.
+template <class F>
+struct StoredSurface {
+  Vec3<F> p, ng;
+  BsdfSlots<F> slots;
+  Uint<F> kind;  // of BsdfKind
+  Frame<F> frame;
+  RandomStream<F> random;
+
+  // f |cos wi| for unit directions of the world, and the density of wi.
+  BsdfValue<F> scattered(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
+    return scattered_from_local(frame.to_local(wo), wi, on);
+  }
+  Boundary<F> boundary() const { return {kind, slots, ng, frame}; }
+
+ protected:
+  BsdfValue<F> scattered_from_local(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
+    const BsdfContext<F> context{TransportMode::radiance, random, on, Densities::exact};
+    return evaluate<F>(BsdfLanes<F>{kind, &slots, on}, wo, frame.to_local(wi), context);
+  }
+};
+
+// The same of a path that has arrived there.
+template <class F>
+struct StoredVertex : StoredSurface<F> {
+  Vec3<F> p_error;
+  Vec3<F> light_normal;  // as SurfaceScattering has it
+  Vec3<F> wo;            // local
+  F time;                // of the whole path
+  Media<F> media;        // along wo
+
+  // f |cos| toward a unit direction of the world, and its density.
+  BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const { return this->scattered_from_local(wo, wi, on); }
+  // A direction of the path, drawn by u3 (local).
+  BsdfSample<F> sampled(const Vec3<F>& u3, const RandomStream<F>& random_of_model, Mask<F> on) const {
+    const BsdfContext<F> context{TransportMode::radiance, random_of_model, on, Densities::exact};
+    return sample<F>(BsdfLanes<F>{this->kind, &this->slots, on}, wo, u3, context);
+  }
+  Media<F> media_toward(const Vec3<F>& wi) const {
+    return MediaAt<F>(media, -this->frame.to_world(wo), this->boundary()).toward(wi);
+  }
+  ReferencePoint<F> reference_toward(const Vec3<F>& wi) const { return {this->p, light_normal, media_toward(wi)}; }
+  Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(this->p, p_error, this->ng, wi); }
+  Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const { return {origin_toward(wi), wi, t_max, time}; }
+  // To the point at that distance along the unit wi.
+  Ray<F> shadow_ray_to(const Vec3<F>& wi, F distance) const {
+    return shadow_ray(this->p, p_error, this->ng, wi, distance, time);
+  }
+};
+
+template <class F>
+StoredVertex<F> stored(const Vertex<F>& v) {
+  return {{v.x.point.p, v.x.point.ng, v.bsdf.slots, v.bsdf.kind, v.bsdf.frame, v.context.random},
+          v.x.point.p_error,
+          v.bsdf.light_normal,
+          v.wo,
+          v.time,
+          v.media.along_wo()};
+}
+
+}  // namespace montelux
