@@ -17,7 +17,7 @@ struct Shortcomings {
 // `indent`.
 void print_text(const Shortcomings& s, int width, std::string_view indent = "");
 
-// "missing_light": [...], "replaced": [{"family": "integrator", "name": "sppm", "by": "path"}, ...], "left_out": [...].
+// "missing_light": [...], "replaced": [{"family": "integrator", "name": "bdpt", "by": "path"}, ...], "left_out": [...].
 template <class Json>
 void add_to(Json& json, const Shortcomings& s) {
   json["missing_light"] = s.missing;

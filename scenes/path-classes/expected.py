@@ -3,7 +3,8 @@
 mean in theory, and which integrators find it. Formulas are those of ../analytic/expected.py, with nothing of Montelux.
 
 Few paths from a light arrive in the small window that the camera looks at. For them the window and the floor are made
-wider (WIDE), and the mean is that of the formula over the window.
+wider (WIDE), and the mean is that of the formula over the window. Photons are looked up within a radius: for them the
+window ends before the floor does, and mirrors in view are larger and further from it (PHOTONS).
 """
 import json
 import os
@@ -83,8 +84,17 @@ WIDE_FORMULAS = {
 }
 
 
-def mean_over_window(formula, n=40):
-    places = [WIDE * ((2 * i + 1) / n - 1) for i in range(n)]
+# For photons: half the side of the window, their radius, how many, and what is replaced besides the floor.
+HIGH_MIRROR = [["LookAt 0 0.05 -0.05   0 0.05 0", "LookAt 0 0.6 -0.05   0 0.6 0"],
+               ["-0.003 0.047 0.003   0.003 0.047 0.003   0.003 0.053 -0.003   -0.003 0.053 -0.003",
+                "-0.04 0.56 0.04   0.04 0.56 0.04   0.04 0.64 -0.04   -0.04 0.64 -0.04"]]
+PHOTONS = {"ldde": (WIDE, 0.02, 50000, []), "lsde": (0.1, 0.02, 50000, []), "lsde-point": (0.1, 0.02, 50000, []),
+           "lsdse": (0.03, 0.05, 100000, HIGH_MIRROR), "lsdse-point": (0.03, 0.06, 300000, HIGH_MIRROR)}
+WIDE_FORMULAS_IN_MIRROR = {"lsdse": "lsde", "lsdse-point": "lsde-point"}
+
+
+def mean_over_window(formula, half=WIDE, n=40):
+    places = [half * ((2 * i + 1) / n - 1) for i in range(n)]
     return sum(eval(formula, globals(), {"x": x, "z": z}) for x in places for z in places) / n**2
 
 
@@ -127,6 +137,13 @@ if __name__ == "__main__":
         if name in WIDE_FORMULAS:
             entries[-1]["found_by"].append("light")
             entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
+        entries[-1]["found_by"].append("sppm")
+        if name in PHOTONS:
+            half, radius, photons, replacements = PHOTONS[name]
+            seen = WIDE_FORMULAS_IN_MIRROR.get(name)
+            formula = "%s * %s" % (REFLECT, WIDE_FORMULAS[seen]) if seen else WIDE_FORMULAS[name]
+            entries[-1]["photons"] = {"window": half, "floor": WIDE, "settings": "radius=%g,photons=%d" % (radius, photons),
+                                      "replaced": replacements, "value": float("%.9g" % mean_over_window(formula, half))}
     with open(os.path.join(here, "expected.json"), "w") as file:
         json.dump(entries, file, indent=1)
         file.write("\n")

@@ -38,10 +38,10 @@ struct LoadOptions {
 
 // Something of ours that serves for what the file names.
 struct Replacement {
-  std::string family, name, by;  // "integrator", "sppm", "path"
+  std::string family, name, by;  // "integrator", "bdpt", "path"
 };
 
-// "integrator sppm by path".
+// "integrator bdpt by path".
 std::string to_text(const Replacement& replacement);
 
 // A material or a texture: "" where it has no name; "conductor".

@@ -11,6 +11,7 @@
 #include "integrator/look/integrator.h"
 #include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
+#include "integrator/photons/sppm.h"
 #include "integrator/radiosity/integrator.h"
 #include "integrator/restir/integrator.h"
 #include "integrator/tracepath/integrator.h"
@@ -157,6 +158,15 @@ Made make_radiosity(const Request& r) {
   return chosen;
 }
 
+void note_facing_curves(ChosenIntegrator& chosen, const Scene& scene) {
+  const auto turns = [](const GeometryRow& row) { return (row.flags & GeometryRow::ray_facing) != 0; };
+  if (std::ranges::none_of(scene.geometry.rows, turns)) return;
+  chosen.biases.push_back("curves that face the light");
+  chosen.notes.push_back(
+      "curves face every ray that meets them, and here rays come from the lights: the picture is biased where the "
+      "shape of a curve matters");
+}
+
 Made make_light(const Request& r) {
   auto integrator = LightTracer::make(r.scene, r.accel, light_tracing_settings(r.list, r.max_depth));
   if (!integrator) return integrator.failure();
@@ -174,13 +184,30 @@ Made make_light(const Request& r) {
         "an orthographic camera sees the sky in a few directions, which no path from the sky takes: the picture is "
         "black where no surface is");
   }
-  const auto turns = [](const GeometryRow& row) { return (row.flags & GeometryRow::ray_facing) != 0; };
-  if (std::ranges::any_of(r.scene.geometry.rows, turns)) {
-    chosen.biases.push_back("curves that face the light");
+  note_facing_curves(chosen, r.scene);
+  return chosen;
+}
+
+Made make_sppm(const Request& r) {
+  auto settings = sppm_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  if (settings->radius == 0)
+    settings->radius =
+        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1));
+  ChosenIntegrator chosen{"sppm", {}, {}, {}, std::make_unique<SppmIntegrator>(r.scene, r.accel, *settings)};
+  chosen.biases.push_back(fmt::format("radius={:.4g}", settings->radius));
+  chosen.notes.push_back(fmt::format(
+      "photons are gathered within {:.4g} at first: the picture is biased where light changes over that distance; more "
+      "frames, or a smaller radius, bias it less",
+      settings->radius));
+  note_depth(chosen, r.max_depth);
+  if (r.scene.lights.has_masked()) {
+    chosen.biases.push_back("no photons of masked emitters");
+    chosen.missing.push_back("indirect light of emitters with an alpha mask");
     chosen.notes.push_back(
-        "curves face every ray that meets them, and here rays come from the lights: the picture is biased where the "
-        "shape of a curve matters");
+        "no photon starts at emitters with an alpha mask: the picture is biased by their indirect light");
   }
+  note_facing_curves(chosen, r.scene);
   return chosen;
 }
 
@@ -216,7 +243,8 @@ const std::vector<Row>& rows() {
                          {restir_gi_spec(), make_restir<restir_gi>},
                          {restir_pt_spec(), make_restir<restir_pt>},
                          {radiosity_spec(), make_radiosity, LightSearch::diffuse},
-                         {light_tracing_spec(), make_light, LightSearch::from_lights}};
+                         {light_tracing_spec(), make_light, LightSearch::from_lights},
+                         {sppm_spec(), make_sppm, LightSearch::photons}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();
@@ -288,7 +316,8 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
                   name_of(kind)));
 }
 
-LightSearch light_search(std::string_view name) {
+LightSearch light_search(std::string_view text) {
+  const std::string_view name = text.substr(0, text.find(':'));
   for (const Row& row : rows())
     if (row.spec.name == name) return row.search;
   return LightSearch::none;

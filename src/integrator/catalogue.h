@@ -53,8 +53,8 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind);
 void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const Scene& scene,
                         const Accel& accel);
 
-// How an integrator of the catalogue looks for light.
-LightSearch light_search(std::string_view name);
+// How an integrator of the catalogue looks for light; `text`: its name, perhaps with settings.
+LightSearch light_search(std::string_view text);
 
 // Whether name and settings are in the catalogue, for a message before the scene is read.
 Status check_integrator(const ChoiceText& choice);

@@ -106,8 +106,8 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
   return {
       fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
       fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
-                  "no ray meets such a light, and no light sample passes such a surface; light finds what the camera "
-                  "sees of it directly (and a small sphere that shines, in the light's place, is found)",
+                  "no ray meets such a light, and no light sample passes such a surface; sppm finds it, and light what "
+                  "the camera sees of it directly (and a small sphere that shines, in the light's place, is found)",
                   lights, surfaces)};
 }
 

@@ -17,6 +17,9 @@ constexpr std::array<Finding, class_count> diffuse_row{yes, yes,     refused, re
 // Paths from the lights are connected with the lens at rough vertices alone.
 constexpr std::array<Finding, class_count> from_lights_row{yes, yes, no, no, no, yes, yes, no, yes, no};
 
+// Photons end at rough surfaces, to which paths from the eye go by smooth ones.
+constexpr std::array<Finding, class_count> photons_row{yes, yes, yes, yes, yes, yes, yes, yes, yes, yes};
+
 }  // namespace
 
 std::optional<Finding> finding(LightSearch search, PathClass path_class) {
@@ -30,6 +33,8 @@ std::optional<Finding> finding(LightSearch search, PathClass path_class) {
       return diffuse_row[column];
     case LightSearch::from_lights:
       return from_lights_row[column];
+    case LightSearch::photons:
+      return photons_row[column];
     case LightSearch::none:
       break;
   }

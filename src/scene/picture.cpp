@@ -67,10 +67,20 @@ std::string ambient_occlusion(const ParameterList& p) {
   return settings.empty() ? "ao" : fmt::format("ao:{}", fmt::join(settings, ","));
 }
 
+// Likewise those of sppm.
+std::string photon_mapping(const ParameterList& p) {
+  std::vector<std::string> settings;
+  if (const int photons = p.integer("photonsperiteration", -1); photons > 0)
+    settings.push_back(fmt::format("photons={}", photons));
+  if (p.find("radius")) settings.push_back(fmt::format("radius={}", p.number("radius", 0)));
+  return settings.empty() ? "sppm" : fmt::format("sppm:{}", fmt::join(settings, ","));
+}
+
 void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& diagnostics) {
   const ParameterList& p = integrator.parameters;
   s.integrator = served_by(find_entity(integrator_table(), integrator.type), integrator.type);
   if (s.integrator == "ao") s.integrator = ambient_occlusion(p);
+  if (s.integrator == "sppm") s.integrator = photon_mapping(p), s.seed = std::uint32_t(p.integer("seed", int(s.seed)));
   if (!p.boolean("samplelights", true)) s.integrator = "naive";
   if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 0);
   std::string selection = p.string("lightsampler", "bvh");

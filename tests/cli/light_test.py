@@ -120,7 +120,7 @@ class Light(ProgramTest):
                              self.rendered(scene, "--integrator", way)[0]["missing_light"])
 
     def test_stand_ins_are_named(self):
-        for asked in "sppm", "bdpt", "mlt", "lightpath", "volpath":
+        for asked in "bdpt", "mlt", "lightpath", "volpath":
             scene = self.scene(head=f'Integrator "{asked}"\nSampler "zsobol"', ball=MATT)
             told, attributes, _ = self.rendered(scene)
             self.assertIn({"family": "integrator", "name": asked, "by": "path"}, told["replaced"])
@@ -132,8 +132,20 @@ class Light(ProgramTest):
             self.assertEqual(attributes["montelux:replaced"], "none")
         told, attributes, _ = self.rendered(self.scene(ball=MATT))
         self.assertEqual(attributes["montelux:replaced"], "none")
-        self.assertIn("integrator sppm by path",
-                      self.run_program("info", self.scene(head='Integrator "sppm"')).stdout)
+        self.assertIn("integrator bdpt by path",
+                      self.run_program("info", self.scene(head='Integrator "bdpt"')).stdout)
+
+    def test_photons_stand_in_for_nothing_and_find_light_through_glass(self):
+        scene = self.scene(head='Integrator "sppm" "integer photonsperiteration" 3000 "float radius" 0.25',
+                           world=POINT, ball=GLASS)
+        told, attributes, messages = self.rendered(scene)
+        self.assertEqual((told["replaced"], told["missing_light"]), ([], []))
+        self.assertEqual(attributes["montelux:missingLight"], "none")
+        self.assertEqual(attributes["montelux:biasedOptions"], "radius=0.25")
+        self.assertIn("photons are gathered within 0.25", messages)
+        # Neither does the description of the scene name any.
+        self.assertNotIn("missing", self.run_program("info", scene).stdout)
+        self.assertIn("missing", self.run_program("info", self.scene(world=POINT, ball=GLASS)).stdout)
 
     def test_what_a_lenient_reading_leaves_out_is_named(self):
         smoke = POINT + '\nMakeNamedMedium "smoke" "string type" "uniformgrid"'

@@ -1,10 +1,8 @@
 // The loop of light tracing, for one path (F = float) and for a pack of them.
 #pragma once
-#include "integrator/first_vertex.h"
+#include "integrator/light_paths/walk.h"
 #include "integrator/light_tracing/settings.h"
 #include "integrator/light_tracing/splats.h"
-#include "mc/roulette.h"
-#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -21,42 +19,8 @@ struct LightTracingScene {
   SplatPlane& plane;
 };
 
-// A path on its way, one a lane.
-template <class F>
-struct LightPathState {
-  Ray<F> ray;              // to the next vertex
-  ReferencePoint<F> from;  // where it starts
-  Spectrum<F> flux;        // that the path carries: what the light sends over the path's density
-  F start;                 // the greatest component of the flux with which it left the light
-  Uint<F> depth;           // scattering events so far
-  Uint<F> x, y;            // the site of its sample point
-};
-
-template <class F>
-MONTELUX_INLINE LightPathState<F> select_path(Mask<F> m, const LightPathState<F>& a, const LightPathState<F>& b) {
-  return {
-      {select(m, a.ray.o, b.ray.o), select(m, a.ray.d, b.ray.d), select(m, a.ray.t_max, b.ray.t_max),
-       select(m, a.ray.time, b.ray.time)},
-      {select(m, a.from.p, b.from.p), select(m, a.from.n, b.from.n), select_media<F>(m, a.from.media, b.from.media)},
-      select(m, a.flux, b.flux),
-      select(m, a.start, b.start),
-      select(m, a.depth, b.depth),
-      select(m, a.x, b.x),
-      select(m, a.y, b.y)};
-}
-
-// The factor by which a shading normal makes the scattering of importance differ from that of radiance (Veach 1997, eq.
-// 5.19): from `in`, where light comes from, to `out`; their local directions, and their cosines with the geometric
-// normal.
-struct AdjointCorrection {
-  template <class F>
-  MONTELUX_INLINE F operator()(const Vec3<F>& in, F ng_in, const Vec3<F>& out, F ng_out) const {
-    const F below = abs(ng_in * out.z);
-    return select(below > F(0.0f), abs(in.z * ng_out) / max(below, F(1e-30f)), F(0.0f));
-  }
-};
-
-// `Correction` is AdjointCorrection, but in tests that plant a fault.
+// Splats what the vertices of light paths send to the lens, and the lights themselves. `Correction` is
+// AdjointCorrection, but in tests that plant a fault.
 template <class F, class Rays, class Correction = AdjointCorrection>
 class LightTracingLoop {
  public:
@@ -67,59 +31,58 @@ class LightTracingLoop {
 
   // One path for each pixel of the tile.
   RayCounts run(const PixelBounds& tile) {
-    const auto paths = std::uint32_t(tile.area());
-    LightPathState<F> path{};
-    M on(false);
-    for (std::uint32_t next = 0;;) {
-      // Lanes that are off take the next paths.
-      U x(0u), y(0u);
-      std::uint32_t fresh = 0;
-      for (int k = 0; k < lanes_of<F> && next < paths; ++k) {
-        if ((bits(on) >> k) & 1u) continue;
-        set_lane(x, k, std::uint32_t(tile.x0) + next % std::uint32_t(tile.width()));
-        set_lane(y, k, std::uint32_t(tile.y0) + next / std::uint32_t(tile.width()));
-        fresh |= 1u << k, ++next;
-      }
-      if (fresh != 0) {
-        const M starts = mask_of_bits<F>(fresh);
-        const auto [state, valid] = start(x, y, starts);
-        path = select_path<F>(starts, state, path);
-        on = (on & !starts) | valid;
-      }
-      if (!any(on)) {
-        if (next == paths) return counts_;
-        continue;
-      }
-      on = step(path, on);
-    }
+    const LightWalkScene<Rays> walk{scene_,
+                                    shared_.rays,
+                                    shared_.by_power,
+                                    shared_.pass.points,
+                                    shared_.pass.shutter.value_or(scene_.shutter),
+                                    {},
+                                    shared_.settings.max_depth,
+                                    shared_.settings.roulette_depth};
+    const auto width = std::uint32_t(tile.width());
+    LightWalk<F, Rays, LightTracingLoop, Correction>(walk, *this, counts_)
+        .run(std::uint32_t(tile.area()), [&](std::uint32_t number) {
+          return PathSite<float>{std::uint32_t(tile.x0) + number % width, std::uint32_t(tile.y0) + number / width,
+                                 shared_.frame};
+        });
+    return counts_;
+  }
+
+  // ---- what the walk shows
+
+  // Every valid ray starts somewhere that the lens may see.
+  void leave(const LightPathStart<F>& s, M on) { show_light(s.choice, s.emission, s.numbers, s.time, on); }
+
+  struct Query {
+    LensConnection<F> lens;
+    Vec3<F> toward;  // the lens, local
+    M asks;
+  };
+  // The lens is asked where the surface scatters.
+  Query ask(const LightPathVertex<F>& v, M on) const {
+    const LensConnection<F> lens = scene_.camera.toward(
+        v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
+    return {lens, v.at.bsdf.frame.to_local(-lens.d),
+            M(on & !v.at.bsdf.is_delta & lens.seen & shared_.plane.reaches(lens.raster))};
+  }
+  void visit(const LightPathVertex<F>& v, const Query& query, const BsdfValue<F>& value, M) {
+    if (!any(query.asks)) return;
+    const NextVertex<F>& at = v.at;
+    const LensConnection<F>& lens = query.lens;
+    const F ng_out = dot(at.x.point.ng, lens.d);
+    const F correction = Correction()(at.wo, v.ng_in, query.toward, ng_out);
+    const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
+    connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
+            {at.media_toward(-lens.d), lens, v.path.ray.time,
+             v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
+            light, query.asks & !is_black(light));
+  }
+  // It shows in the pixel whose sample point the path has.
+  void broken(F value, const PathSite<F>& site, M on) {
+    splat({to_float(site.x) + 0.5f, to_float(site.y) + 0.5f}, gray(value), on);
   }
 
  private:
-  struct Start {
-    LightPathState<F> state;
-    M valid;
-  };
-  Sampler<F> sampler(const U& x, const U& y) const { return Sampler<F>(shared_.pass.points, x, y, U(shared_.frame)); }
-  // A ray from a light, and the light itself as the lens sees it.
-  Start start(const U& x, const U& y, M on) {
-    const Sampler<F> numbers = sampler(x, y);
-    const DiscreteSample<F> choice = shared_.by_power.sample(numbers.get1(U(light_dimension::choice)));
-    const LightEmission<F> e = scene_.lights.template emit<F>(choice.index, numbers.get2(U(light_dimension::point)),
-                                                              numbers.get2(U(light_dimension::direction)), on);
-    F time = 0.0f;
-    if (scene_.moves())
-      time = shared_.pass.shutter.value_or(scene_.shutter).time(numbers.get1(U(light_dimension::time)));
-    const Spectrum<F> flux = e.flux * (F(1.0f) / choice.mass.value);
-    // Every valid ray starts somewhere that the lens may see.
-    show_light(choice, e, numbers, time, on & e.valid);
-
-    const M carries = on & e.valid & !is_broken(flux, x, y, on & e.valid) & (max_component(flux) > F(0.0f));
-    const M leaves = shared_.settings.max_depth && *shared_.settings.max_depth == 0 ? M(false) : carries;
-    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-    const Vec3<F> o = select(e.on_surface, offset_origin(e.p, e.p_error, e.n, e.d), e.p);
-    return {{{o, e.d, F(ray_infinity), time}, {e.p, zero}, flux, max_component(flux), U(0u), x, y}, leaves};
-  }
-
   void show_light(const DiscreteSample<F>& choice, const LightEmission<F>& e, const Sampler<F>& numbers, const F& time,
                   M on) {
     const Vec2<F> lens_u = numbers.get2(U(light_dimension::lens));
@@ -139,71 +102,6 @@ class LightTracingLoop {
     if (!any(asks)) return;
     const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
     splat(lens.raster, light, asks & sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, asks));
-  }
-
-  // Goes to the next vertex, connects it with the lens, and scatters there.
-  M step(LightPathState<F>& path, M on) {
-    const Sampler<F> numbers = sampler(path.x, path.y);
-    const U dimension = U(light_dimension::first_vertex) + path.depth * U(light_dimension::per_vertex);
-    const NextVertex<F> at =
-        next_vertex<F>(scene_, shared_.rays, path.from, path.ray, on,
-                       numbers.stream(dimension + U(light_dimension::own)), counts_.scattered, NoWeight{});
-    on = on & at.found;
-    path.flux = select(on, path.flux * at.left, path.flux);
-    BsdfContext<F> context = at.context;
-    context.mode = TransportMode::importance;
-    const F ng_in = dot(at.x.point.ng, at.d);
-
-    // The lens is asked where the surface scatters, and a direction drawn.
-    const LensConnection<F> lens =
-        scene_.camera.toward(at.x.point.p, numbers.get2(dimension + U(light_dimension::vertex_lens)), path.ray.time);
-    const Vec3<F> to_lens = at.bsdf.frame.to_local(-lens.d);
-    const M asks = on & !at.bsdf.is_delta & lens.seen & shared_.plane.reaches(lens.raster);
-    const Scattering<F> scattered =
-        scatter<F>(at.bsdf.lanes(on),
-                   {at.wo, to_lens, asks, numbers.get1(dimension + U(light_dimension::lobe)),
-                    numbers.get2(dimension + U(light_dimension::vertex_direction))},
-                   context);
-    if (any(asks)) {
-      const F ng_out = dot(at.x.point.ng, lens.d);
-      const F correction = Correction()(at.wo, ng_in, to_lens, ng_out);
-      const Spectrum<F> light = path.flux * scattered.toward_light.f_cos * (correction * lens.across.value * scale_);
-      connect(
-          {at.x.point.p, at.x.point.p_error, at.x.point.ng},
-          {at.media_toward(-lens.d), lens, path.ray.time, numbers.stream(dimension + U(light_dimension::vertex_lens))},
-          light, asks & !is_black(light));
-    }
-
-    const BsdfSample<F>& next = scattered.next;
-    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
-    const U events = path.depth + U(1u);
-    M continues = on & next.valid;
-    if (shared_.settings.max_depth) continues = continues & (events < U(std::uint32_t(*shared_.settings.max_depth)));
-    const F correction = Correction()(at.wo, ng_in, next.wi, dot(at.x.point.ng, wi));
-    const Spectrum<F> flux = path.flux * next.weight * correction;
-    continues = continues & !is_broken(flux, path.x, path.y, continues);
-    // Survivors carry the same flux.
-    const F share = max_component(flux) / path.start;
-    const M plays = continues & (events > U(std::uint32_t(shared_.settings.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, min(share, F(max_survival)), F(1.0f)),
-                                          numbers.get1(dimension + U(light_dimension::roulette)));
-    continues = continues & survival.survives;
-    path.flux = select(continues, flux * survival.weight, path.flux);
-    path.depth = select(continues, events, path.depth);
-    path.from.p = select(continues, at.x.point.p, path.from.p);
-    path.from.media = select_media<F>(continues, at.media_toward(wi), path.from.media);
-    const Ray<F> ray = at.ray_toward(wi);
-    path.ray.o = select(continues, ray.o, path.ray.o), path.ray.d = select(continues, ray.d, path.ray.d);
-    return continues;
-  }
-
-  // A flux that is not a number ends its path, and shows in the pixel whose sample point the path has.
-  M is_broken(const Spectrum<F>& flux, const U& x, const U& y, M on) {
-    F sum = flux.c[0];
-    for (int i = 1; i < spectrum_size; ++i) sum += flux.c[i];
-    const M broken = on & !is_finite(sum);
-    if (any(broken)) splat({to_float(x) + 0.5f, to_float(y) + 0.5f}, gray(sum - sum), broken);
-    return broken;
   }
 
   struct Place {

@@ -17,7 +17,8 @@ const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) 
 constexpr int passes = 32, samples_per_pass = 48;
 constexpr double rounding = 1e-5;
 const std::vector<std::string> ways{
-    "path", "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt", "light"};
+    "path",  "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt",
+    "light", "sppm"};
 std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }
 
 struct PathClass {
@@ -26,6 +27,10 @@ struct PathClass {
   std::set<std::string> found_by;
   // Half the side of a wider window and floor, for paths from the light, and the mean over that.
   double wide_side = 0, wide_value = 0;
+  // For photons: the same of the window alone, that of the floor, and what else differs in the scene.
+  double photon_window = 0, photon_floor = 0, photon_value = 0;
+  std::string photon_settings{};
+  std::vector<std::pair<std::string, std::string>> photon_changes{};
   montelux::PathClass path_class() const {
     const auto at = std::find(path_class_names.begin(), path_class_names.end(), paths);
     EXPECT_NE(at, path_class_names.end()) << paths;
@@ -40,6 +45,14 @@ const std::vector<PathClass>& classes() {
     for (const nlohmann::json& e : nlohmann::json::parse(read_text(folder / "expected.json"))) {
       read.push_back({e.at("scene"), e.at("class"), e.at("formula"), e.at("value").get<double>(),
                       e.at("found_by").get<std::set<std::string>>()});
+      if (e.contains("photons")) {
+        const nlohmann::json& p = e.at("photons");
+        PathClass& c = read.back();
+        c.photon_window = p.at("window").get<double>(), c.photon_floor = p.at("floor").get<double>();
+        c.photon_value = p.at("value").get<double>(), c.photon_settings = p.at("settings").get<std::string>();
+        for (const auto& change : p.at("replaced"))
+          c.photon_changes.emplace_back(change.at(0).get<std::string>(), change.at(1).get<std::string>());
+      }
       if (!e.contains("wide")) continue;
       read.back().wide_side = e.at("wide").at("side").get<double>();
       read.back().wide_value = e.at("wide").at("value").get<double>();
@@ -60,16 +73,22 @@ Measured measure(const TestScene& scene, const std::string& way, int per_pass = 
   EXPECT_EQ(film.non_finite(), 0u) << way;
   return {film.image().mean[0], film.image().standard_error[0]};
 }
-// The scene with its wider window and floor.
-std::string wide_text(const PathClass& c) {
-  const std::string side = std::to_string(c.wide_side);
+// The scene with a wider window and floor; half their sides.
+std::string wide_text(const PathClass& c, double window, double floor_side) {
+  const std::string seen = std::to_string(window), side = std::to_string(floor_side);
   std::string text = replaced(read_text(folder / c.scene), "[ -1e-3 1e-3 -1e-3 1e-3 ]",
-                              "[ -" + side + " " + side + " -" + side + " " + side + " ]");
+                              "[ -" + seen + " " + seen + " -" + seen + " " + seen + " ]");
   const std::string floor = "[ -0.02 0 -0.02   -0.02 0 0.02   0.02 0 0.02   0.02 0 -0.02 ]";
   if (text.find(floor) == std::string::npos) return text;
   const std::string low = " -" + side, high = " " + side, zero = " 0";
   return replaced(text, floor,
                   "[" + low + zero + low + low + zero + high + high + zero + high + high + zero + low + " ]");
+}
+
+std::string photon_text(const PathClass& c) {
+  std::string text = wide_text(c, c.photon_window, c.photon_floor);
+  for (const auto& [old, by] : c.photon_changes) text = replaced(text, old, by);
+  return text;
 }
 
 bool agrees(const Measured& m, double value) {
@@ -86,11 +105,19 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
   for (const std::string& way : ways) {
     const bool from_lights = light_search(name_of(way)) == LightSearch::from_lights;
     if (from_lights && c.found_by.contains(way)) {
-      const TestScene wide(wide_text(c), folder.string());
+      const TestScene wide(wide_text(c, c.wide_side, c.wide_side), folder.string());
       const Measured m = measure(wide, way, 2048);
       EXPECT_TRUE(agrees(m, c.wide_value))
           << way << ": " << m.mean << " +- " << m.standard_error << " where " << c.wide_value << " is right";
       EXPECT_FALSE(agrees(m, 1.1 * c.wide_value)) << m.standard_error / m.mean;
+      continue;
+    }
+    if (light_search(name_of(way)) == LightSearch::photons && c.photon_window > 0) {
+      const TestScene wide(photon_text(c), folder.string());
+      const Measured m = measure(wide, way + ":alpha=1," + c.photon_settings, 4);
+      EXPECT_TRUE(agrees(m, c.photon_value))
+          << way << ": " << m.mean << " +- " << m.standard_error << " where " << c.photon_value << " is right";
+      EXPECT_FALSE(agrees(m, 1.1 * c.photon_value)) << m.standard_error / m.mean;
       continue;
     }
     const Measured m = measure(scene, way);
@@ -172,14 +199,14 @@ TEST(PathClassesOfRadiosity, with_smooth_surfaces_are_refused) {
 TEST(PathClassesOfDocumentation, are_those_of_the_table_of_findings) {
   const std::string text = read_text(std::filesystem::path(MONTELUX_SOURCE_DIR) / "docs/integrators.md");
   const LightSearch columns[] = {LightSearch::any_length, LightSearch::one_event, LightSearch::diffuse,
-                                 LightSearch::from_lights};
+                                 LightSearch::from_lights, LightSearch::photons};
   for (std::size_t i = 0; i < path_class_names.size(); ++i) {
     const std::size_t row = text.find("\n| " + std::string(path_class_names[i]) + " | ");
     ASSERT_NE(row, std::string::npos) << path_class_names[i];
     std::istringstream line(text.substr(row + 1, text.find('\n', row + 1) - row - 1));
     std::vector<std::string> cells;
     for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
-    ASSERT_GE(cells.size(), 7u) << path_class_names[i];
+    ASSERT_GE(cells.size(), 8u) << path_class_names[i];
     for (std::size_t c = 0; c < std::size(columns); ++c) {
       const Finding found = *finding(columns[c], montelux::PathClass(i));
       EXPECT_EQ(cells[3 + c], " " + std::string(finding_names[std::size_t(found)]) + " ")

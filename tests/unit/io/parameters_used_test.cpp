@@ -426,6 +426,15 @@ TEST(SceneIntegrator, has_ours_with_its_own_settings) {
       taken("Integrator \"ambientocclusion\" \"float maxdistance\" 2.5 \"bool cossample\" false").picture.integrator,
       "ao:distance=2.5,cossample=off");
   EXPECT_EQ(taken("Integrator \"volpath\"").picture.integrator, "path");
+  EXPECT_EQ(taken("Integrator \"sppm\"").picture.integrator, "sppm");
+  EXPECT_EQ(taken("Integrator \"sppm\" \"integer photonsperiteration\" -1").picture.integrator, "sppm");
+  const auto photons = taken(
+      "Integrator \"sppm\" \"integer photonsperiteration\" 5000 \"float radius\" 0.25 "
+      "\"integer maxdepth\" 7 \"integer seed\" 9");
+  EXPECT_EQ(photons.said, "");
+  EXPECT_EQ(photons.picture.integrator, "sppm:photons=5000,radius=0.25");
+  EXPECT_EQ(photons.picture.max_depth, 7);
+  EXPECT_EQ(photons.picture.seed, 9u);
   EXPECT_EQ(taken("Integrator \"simplepath\" \"bool samplelights\" false").picture.integrator, "naive");
   EXPECT_EQ(taken("Integrator \"simplepath\" \"bool samplelights\" true").picture.integrator, "path");
 }

@@ -1,0 +1,208 @@
+// Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
+#pragma once
+#include <array>
+
+#include "integrator/first_vertex.h"
+#include "integrator/path/first_hits.h"
+#include "integrator/photons/photon_map.h"
+#include "integrator/photons/settings.h"
+#include "mc/mis.h"
+#include "mc/roulette.h"
+
+namespace montelux {
+
+// Photons on surfaces whose normals have a smaller cosine with that of the gathering point are those of another
+// surface.
+inline constexpr float similar_normals = 0.7f;
+
+// The density of a photon's place around the gathering point, per area: it integrates to one over the disk.
+template <class F>
+MONTELUX_INLINE F kernel_weight(PhotonKernel kernel, F distance_squared, float radius) {
+  const float inverse = 1 / (radius * radius);
+  if (kernel == PhotonKernel::constant) return F(inv_pi * inverse);
+  return max(F(1.0f) - distance_squared * inverse, F(0.0f)) * (2 * inv_pi * inverse);
+}
+
+// The photons of one frame as the paths from the eye look them up.
+class PhotonLookup {
+ public:
+  PhotonLookup(const PhotonMap& map, PhotonKernel kernel) : map_(map), kernel_(kernel) {}
+
+  // The radiance that photons send along wo. `accepts(density, events)` are the lanes in which a photon from there
+  // counts: `density` is that with which the BSDF samples its direction.
+  template <class F, class Accepts>
+  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Accepts accepts) {
+    using U = Uint<F>;
+    std::size_t most = 0;
+    for_each_lane(on, [&](int k) {
+      near_[std::size_t(k)].clear();
+      map_.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), near_[std::size_t(k)]);
+      most = std::max(most, near_[std::size_t(k)].size());
+    });
+    Spectrum<F> sum = gray(F(0.0f));
+    const auto* words = reinterpret_cast<const float*>(map_.photons());
+    for (std::size_t i = 0; i < most; ++i) {
+      U photon(0u);
+      F distance_squared(0.0f);
+      std::uint32_t there = 0;
+      for_each_lane(on, [&](int k) {
+        const std::vector<NearPhoton>& own = near_[std::size_t(k)];
+        if (i >= own.size()) return;
+        set_lane(photon, k, own[i].photon), set_lane(distance_squared, k, own[i].distance_squared);
+        there |= 1u << k;
+      });
+      const U word = photon * U(photon_words);
+      const Vec3<F> wi = gather3<F>(words, word), ng = gather3<F>(words + 3, word);
+      const U events = float_bits(gather(words + 6 + spectrum_size, word));
+      const Mask<F> similar = mask_of_bits<F>(there) & (abs(dot(ng, at.x.point.ng)) > F(similar_normals));
+      if (!any(similar)) continue;
+      BsdfContext<F> own = context;
+      own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
+      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, at.bsdf.frame.to_local(wi), own);
+      const Mask<F> counts = similar & accepts(value.density.value, events);
+      // Flux per area is irradiance on the surface itself, f |cos| scatters it by the shading normal.
+      const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
+      const F weight = kernel_weight<F>(kernel_, distance_squared, map_.radius()) / cos;
+      Spectrum<F> flux;
+      for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 6 + c, word);
+      sum += select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
+    }
+    return sum;
+  }
+
+ private:
+  const PhotonMap& map_;
+  PhotonKernel kernel_;
+  std::array<std::vector<NearPhoton>, native_lanes> near_;
+};
+
+// Every pixel's path, by mirrors, glass and glossy directions to the surfaces where it gathers photons.
+//
+// At a rough surface the directions that its BSDF samples with a density above `glossy` are the path's own, which goes
+// on; those below are the photons'. A path that leaves by one of these ends where it arrives: it only looks for
+// emission there, which next-event estimation shares with it. So every light path counts once: its last vertices before
+// the eye are those of the path, the others a photon's.
+template <class F, class Rays>
+class PhotonGathering {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  PhotonGathering(const Scene& scene, const Rays& rays, const SppmSettings& settings, const PhotonMap& map)
+      : scene_(scene), rays_(rays), settings_(settings), photons_(map, settings.kernel) {}
+
+  RayCounts run(const TilePass& pass, std::span<PixelSample> out) {
+    FirstHits<F> first_hits(scene_, rays_, pass, out);
+    counts_.camera += first_hits.rays();
+    PathState<F> path{};
+    M ends(false);
+    for (M on(false);;) {
+      const M before = on;
+      on = first_hits.refill(path, on);
+      if (!any(on)) return counts_;
+      ends = ends & before;
+      on = step(pass, path, on, ends, out);
+    }
+  }
+
+ private:
+  F weight_of_hit(const PathState<F>& path, F by_light) const {
+    const F own = path.density.value;
+    return select((own > F(0.0f)) & (by_light > F(0.0f)), power_weight(own, by_light), F(1.0f));
+  }
+
+  // One vertex of every path; gives the lanes that go on. `ends`: those that only look for emission.
+  M step(const TilePass& pass, PathState<F>& path, M on, M& ends, std::span<PixelSample> out) {
+    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
+    const auto weight = [&](const Density<SolidAngle, F>& by_light) { return weight_of_hit(path, by_light.value); };
+    const NextVertex<F> at =
+        follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time},
+                      path.hit, on, sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight);
+    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
+    path.throughput = select(on, path.throughput * at.left, path.throughput);
+    M scatters = on & at.found & !ends;
+    if (settings_.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*settings_.max_depth)));
+    const M rough = scatters & !at.bsdf.is_delta;
+    BsdfContext<F> context = at.context;
+    context.densities = Densities::exact;
+
+    // A point of a light, and a direction.
+    const M wants_light = rough & M(settings_.nee);
+    const ReferencePoint<F> from = at.reference();
+    const LightSample<F> light =
+        scene_.lights.template sample<F>(from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)),
+                                         sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
+    const M asks = wants_light & light.valid;
+    const Scattering<F> scattered =
+        scatter<F>(at.bsdf.lanes(scatters),
+                   {at.wo, at.bsdf.frame.to_local(light.wi), asks, sampler.get1(dimension + U(path_dimension::lobe)),
+                    sampler.get2(dimension + U(path_dimension::direction))},
+                   context);
+    const BsdfSample<F>& next = scattered.next;
+    if (const M first = on & (path.depth == U(0u)) & at.found; any(first))
+      write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
+    if (any(asks)) add_direct(path, at, light, scattered.toward_light, asks);
+    if (any(rough)) {
+      const U room = U(settings_.max_depth ? std::uint32_t(*settings_.max_depth) - 1u : 0x7fffffffu) - path.depth;
+      const Spectrum<F> gathered = photons_.template radiance<F>(
+          at, context, rough, [&](F density, U events) { return (density <= F(settings_.glossy)) & (events <= room); });
+      path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
+    }
+
+    // Scatter; roulette.
+    M moves = scatters & next.valid;
+    const M broken = moves & !is_finite(max_component(next.weight));
+    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
+    moves = moves & !broken;
+    const M follows = next.delta | (next.density.value > F(settings_.glossy));
+    if (!settings_.nee) moves = moves & follows;
+    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(moves, U(1u), U(0u));
+    const M plays = moves & (path.depth > U(std::uint32_t(settings_.roulette_depth)));
+    const F vigour = max_component(path.throughput) * path.eta_scale;
+    const Roulette<F> survival = roulette(select(plays, min(safe_sqrt(vigour), F(max_survival)), F(1.0f)),
+                                          sampler.get1(dimension + U(path_dimension::roulette)));
+    moves = moves & survival.survives;
+    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
+    ends = (moves & !follows) | (ends & !moves);
+    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
+    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
+    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
+    const M shares = M(settings_.nee) & !next.delta;
+    path.density.value = select(moves, select(shares, next.density.value, F(0.0f)), path.density.value);
+    path.o = at.origin_toward(wi), path.d = wi;
+
+    // The next vertex, or the sky.
+    counts_.scattered += std::uint64_t(count(moves));
+    const auto [found, hit] = rays_.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
+    path.hit = hit;
+    if (const M escapes = moves & !found; any(escapes))
+      path.radiance += path.throughput *
+                       sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+    const M ended = on & !(moves & found);
+    const Spectrum<F> radiance = path.radiance * path.weight;
+    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    return on & !ended;
+  }
+
+  void add_direct(PathState<F>& path, const NextVertex<F>& at, const LightSample<F>& light, const BsdfValue<F>& value,
+                  M asks) {
+    const F share = select(light.delta, F(1.0f), power_weight(light.density.value, value.density.value));
+    const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance *
+                               at.left_of_light(light.wi, light.distance) * (share / light.density.value);
+    const M shadow = asks & (max_component(direct) > F(0.0f));
+    if (!any(shadow)) return;
+    counts_.shadow += std::uint64_t(count(shadow));
+    const M lit = shadow & !rays_.template occluded<F>(at.shadow_ray_to(light.wi, light.distance), shadow);
+    path.radiance += select(lit, direct, gray(F(0.0f)));
+  }
+
+  const Scene& scene_;
+  const Rays& rays_;
+  const SppmSettings& settings_;
+  PhotonLookup photons_;
+  RayCounts counts_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,115 @@
+#include "integrator/photons/photon_map.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "mc/random.h"
+
+namespace montelux {
+
+namespace {
+
+// Beyond every array that lanes may read past its end.
+constexpr std::size_t padding = native_lanes;
+
+NativeFloats load(const std::vector<float>& from, std::size_t at) {
+  NativeFloats f;
+  std::memcpy(&f, from.data() + at, sizeof f);
+  return f;
+}
+
+// One over the side of a cell, which is two radii and a little more: the points within a radius of any point are in two
+// cells along each axis.
+double cells_per_length(float radius) { return 0.5 / (double(radius) * (1 + 1e-6)); }
+
+}  // namespace
+
+PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes)
+    : mask_(std::uint32_t(std::bit_ceil(std::clamp<std::size_t>(expected, 1024, std::size_t{1} << 26))) - 1),
+      counts_(std::size_t(mask_) + 1),
+      starts_(std::size_t(mask_) + 2),
+      boxes_(boxes) {}
+
+std::uint32_t PhotonMap::hash(std::int64_t x, std::int64_t y, std::int64_t z) const {
+  return mix_bits(std::uint32_t(x) * 0x9e3779b9u ^
+                  mix_bits(std::uint32_t(y) * 0x85ebca6bu ^ mix_bits(std::uint32_t(z) + 0x27220a95u))) &
+         mask_;
+}
+
+std::uint32_t PhotonMap::cell_of(const Vec3f& p, double per_cell) const {
+  const auto along = [&](float x) { return std::int64_t(std::floor(double(x) * per_cell)); };
+  return hash(along(p.x), along(p.y), along(p.z));
+}
+
+void PhotonMap::count(std::span<const Photon> photons, float radius) {
+  const double per_cell = cells_per_length(radius);
+  for (const Photon& photon : photons) counts_[cell_of(photon.p, per_cell)].next();
+}
+
+void PhotonMap::lay_out(float radius) {
+  radius_ = radius, per_cell_ = cells_per_length(radius);
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) starts_[i] = sum, sum += counts_[i].take();
+  starts_.back() = sum;
+  dealt_.resize(sum);
+  x_.resize(sum + padding), y_.resize(sum + padding), z_.resize(sum + padding);
+  photons_.resize(sum + 1);
+}
+
+void PhotonMap::deal(std::size_t tile) {
+  for (const Photon& photon : box(tile)) {
+    const std::uint32_t cell = cell_of(photon.p, per_cell_);
+    const std::uint32_t place = starts_[cell] + counts_[cell].next();
+    dealt_[place] = {std::uint64_t(photon.path) << 32 | photon.events, &photon};
+  }
+}
+
+void PhotonMap::put_in_order(std::size_t begin, std::size_t end, std::size_t whole) {
+  const std::size_t cells = counts_.size();
+  const std::size_t first = begin * cells / whole, last = end * cells / whole;
+  for (std::size_t cell = first; cell < last; ++cell) {
+    counts_[cell].take();
+    const std::uint32_t from = starts_[cell], to = starts_[cell + 1];
+    std::sort(dealt_.begin() + from, dealt_.begin() + to, [](const Dealt& a, const Dealt& b) { return a.key < b.key; });
+    for (std::uint32_t i = from; i < to; ++i) {
+      const Photon& photon = *dealt_[i].photon;
+      x_[i] = photon.p.x, y_[i] = photon.p.y, z_[i] = photon.p.z;
+      photons_[i] = {photon.wi, photon.ng, photon.flux, photon.events};
+    }
+  }
+}
+
+void PhotonMap::near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& found) const {
+  using F = NativeFloats;
+  const auto cells_along = [&](float x) {
+    const double low = (double(x) - double(radius_)) * per_cell_, high = (double(x) + double(radius_)) * per_cell_;
+    return std::pair{std::int64_t(std::floor(low)), std::int64_t(std::floor(high))};
+  };
+  const auto [x0, x1] = cells_along(p.x);
+  const auto [y0, y1] = cells_along(p.y);
+  const auto [z0, z1] = cells_along(p.z);
+  // Cells that share an entry of the table are looked through once.
+  std::array<std::uint32_t, 8> seen;
+  std::size_t count = 0;
+  const float most = radius_ * radius_, height = similar_height * radius_;
+  for (std::int64_t z = z0; z <= z1; ++z)
+    for (std::int64_t y = y0; y <= y1; ++y)
+      for (std::int64_t x = x0; x <= x1; ++x) {
+        const std::uint32_t cell = hash(x, y, z);
+        if (std::find(seen.begin(), seen.begin() + count, cell) != seen.begin() + count) continue;
+        seen[count++] = cell;
+        const std::uint32_t end = starts_[cell + 1];
+        for (std::uint32_t i = starts_[cell]; i < end; i += native_lanes) {
+          const F dx = load(x_, i) - p.x, dy = load(y_, i) - p.y, dz = load(z_, i) - p.z;
+          const F d2 = dx * dx + dy * dy + dz * dz;
+          const Mask<F> near = (d2 < F(most)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
+                               (lane_index<F>() < Uint<F>(end - i));
+          for_each_lane(near, [&](int k) { found.push_back({i + std::uint32_t(k), lane(d2, k)}); });
+        }
+      }
+}
+
+}  // namespace montelux

@@ -1,0 +1,84 @@
+// Photons of one frame, and those near a point: a hash grid, filled by any number of threads with the same bits.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "color/spectrum.h"
+#include "image/pixel_sample.h"
+#include "math/shared_count.h"
+#include "math/vec.h"
+
+namespace montelux {
+
+// Flux that arrives at a rough surface.
+struct Photon {
+  Vec3f p;
+  Vec3f wi;  // unit, to where it came from
+  Vec3f ng;  // unit geometric normal of the surface
+  Spectrum<float> flux;
+  std::uint32_t events;  // that have scattered it
+  std::uint32_t path;    // its number: a path leaves one photon for each number of events
+};
+
+// What a gathering point asks of a photon near it, as lanes gather it.
+struct GatheredPhoton {
+  Vec3f wi, ng;
+  Spectrum<float> flux;
+  std::uint32_t events;
+};
+inline constexpr std::uint32_t photon_words = sizeof(GatheredPhoton) / 4;
+static_assert(sizeof(GatheredPhoton) % 4 == 0);
+
+// Photons that lie further above or below the tangent plane of the point that gathers than this share of the radius
+// are those of another surface.
+inline constexpr float similar_height = 0.3f;
+
+// A photon within the radius.
+struct NearPhoton {
+  std::uint32_t photon;
+  float distance_squared;
+};
+
+// Filled in steps, each by many threads, with a barrier between two: tiles trace photons into their boxes (box, count);
+// one thread lays out the cells (lay_out); tiles deal their boxes into cells (deal); parts of the cells are put in
+// order (put_in_order); then photons can be looked up. The order of photons within a cell is that of their numbers,
+// whatever the threads did, so that sums over them have the same bits.
+class PhotonMap {
+ public:
+  // For about so many photons, in so many boxes.
+  PhotonMap(std::size_t expected, std::size_t boxes);
+
+  // The photons of a tile, which has a number below that of boxes to itself.
+  std::vector<Photon>& box(std::size_t tile) { return boxes_[tile]; }
+  void count(std::span<const Photon> photons, float radius);
+  void lay_out(float radius);
+  void deal(std::size_t tile);
+  // Of the cells, the part from `begin` to `end` of `whole`.
+  void put_in_order(std::size_t begin, std::size_t end, std::size_t whole);
+
+  std::size_t size() const { return dealt_.size(); }
+  float radius() const { return radius_; }
+  const GatheredPhoton* photons() const { return photons_.data(); }
+  // Appends the photons within the radius of p that lie near the plane across n, in a fixed order.
+  void near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& found) const;
+
+ private:
+  struct Dealt {
+    std::uint64_t key;
+    const Photon* photon;
+  };
+  std::uint32_t cell_of(const Vec3f& p, double per_cell) const;
+  std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t z) const;
+
+  float radius_ = 0;
+  double per_cell_ = 0;  // one over the side of a cell
+  std::uint32_t mask_;
+  std::vector<SharedCount> counts_;    // by cell; zero between frames
+  std::vector<std::uint32_t> starts_;  // by cell, and the end
+  std::vector<std::vector<Photon>> boxes_;
+  std::vector<Dealt> dealt_;
+  std::vector<float> x_, y_, z_;
+  std::vector<GatheredPhoton> photons_;
+};
+
+}  // namespace montelux

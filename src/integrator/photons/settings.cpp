@@ -1,0 +1,46 @@
+#include "integrator/photons/settings.h"
+
+namespace montelux {
+
+namespace {
+
+Fields<SppmSettings> sppm_fields() {
+  using S = SppmSettings;
+  Fields<S> fields;
+  fields.integer("photons", &S::photons, "light paths in each frame; 0: one per pixel, at least 16384", 0, 1 << 28)
+      .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
+      .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
+              1)
+      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance",
+                            {{"constant", PhotonKernel::constant}, {"epanechnikov", PhotonKernel::epanechnikov}})
+      .boolean("nee", &S::nee, "direct light by next-event estimation and BSDF sampling; off: by photons")
+      .number("glossy", &S::glossy,
+              "directions whose sampling density per steradian is above this are followed by paths, others gather "
+              "photons",
+              0, 1e30)
+      .integer("frames", &S::frames, "maximum number of frames over which the radius shrinks, which form one pass", 1,
+               1 << 16)
+      .other(max_depth_spec())
+      .integer("roulette-depth", &S::roulette_depth, "scattering events before roulette", 0, 1 << 20)
+      .choice<Lanes>("lanes", &S::lanes, "number of paths traced together", lanes_names());
+  return fields;
+}
+
+}  // namespace
+
+EntitySpec sppm_spec() {
+  return {
+      "sppm",
+      "stochastic progressive photon mapping: photons from the lights, gathered at the first rough surface within a "
+      "radius that shrinks; finds caustics, also in mirrors and through glass",
+      sppm_fields().specs({})};
+}
+
+Result<SppmSettings> sppm_settings(const ParameterList& list, std::optional<int> max_depth) {
+  SppmSettings s;
+  if (Status read = sppm_fields().read(list, s); !read) return read.failure();
+  s.max_depth = max_depth;
+  return s;
+}
+
+}  // namespace montelux

@@ -1,0 +1,32 @@
+// Settings of the integrators by photons.
+#pragma once
+#include <optional>
+
+#include "integrator/path/settings.h"
+#include "parameter/choice.h"
+
+namespace montelux {
+
+// The weight of a photon by its distance from the point that gathers.
+enum class PhotonKernel { constant, epanechnikov };
+
+struct SppmSettings {
+  int photons = 0;         // light paths in each frame; 0: one for each pixel, and at least min_photons
+  float radius = 0;        // of the first frame; 0: by the pixels' footprints
+  float alpha = 2.0f / 3;  // how much of the photons stays as the radius shrinks
+  PhotonKernel kernel = PhotonKernel::epanechnikov;
+  bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
+  float glossy = 4;              // density per steradian above which a direction is followed instead
+  int frames = 1024;             // of a chain, at most
+  std::optional<int> max_depth;  // scattering events between the light and the camera
+  int roulette_depth = 2;        // scattering events of a path before roulette
+  Lanes lanes = Lanes::native;
+};
+
+// Of small pictures.
+inline constexpr int min_photons = 16384;
+
+EntitySpec sppm_spec();
+Result<SppmSettings> sppm_settings(const ParameterList& list, std::optional<int> max_depth);
+
+}  // namespace montelux

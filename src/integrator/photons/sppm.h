@@ -1,0 +1,38 @@
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009), with the radii of Knaus and Zwicker (2011,
+// "Progressive Photon Mapping: A Probabilistic Approach"), which are known beforehand: nothing is remembered but the
+// photons of one frame.
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/photons/settings.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// The radius of a frame: r_1 = radius, r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1). For alpha between 0 and 1 the mean over
+// n frames loses both its bias, as n^(alpha - 1), and its variance, as n^-alpha.
+double sppm_radius(double radius, double alpha, int frame);
+
+// Three pixels, where the middle one of some camera rays meets its first rough surface; at most a hundredth of the
+// scene's diagonal.
+float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int height);
+
+// Each frame follows light paths, stores their photons, and gathers them by a path from each pixel.
+class SppmIntegrator final : public CoupledIntegrator {
+ public:
+  // Scene and accel must outlive the integrator, and the integrator its chains. Its radius is set.
+  SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings);
+
+  int frames() const override { return settings_.frames; }
+  int warm_up() const override { return 0; }
+  int stages() const override { return 5; }
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  SppmSettings settings_;
+  std::optional<AliasTable> by_power_;  // none: there is no light
+};
+
+}  // namespace montelux

@@ -1,0 +1,74 @@
+// Photons: what light paths leave at rough surfaces.
+#pragma once
+#include <limits>
+
+#include "integrator/light_paths/walk.h"
+#include "integrator/photons/photon_map.h"
+
+namespace montelux {
+
+// Stores the photons of paths that the walk shows.
+template <class F>
+class PhotonSink {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  // Photons that fewer events have scattered are not stored. `scale`: one over the number of paths.
+  PhotonSink(std::vector<Photon>& box, std::uint32_t first_event, float scale)
+      : box_(box), first_event_(first_event), scale_(scale) {}
+
+  struct Query {
+    Vec3<F> toward;
+    M asks;
+  };
+  void leave(const LightPathStart<F>&, M) {}
+  Query ask(const LightPathVertex<F>& v, M) const { return {v.at.wo, M(false)}; }
+  void visit(const LightPathVertex<F>& v, const Query&, const BsdfValue<F>&, M on) {
+    const M stored = on & !v.at.bsdf.is_delta & (v.path.depth >= U(first_event_));
+    const Spectrum<F> flux = v.path.flux * scale_;
+    for_each_lane(stored, [&](int k) {
+      box_.push_back({lane(v.at.x.point.p, k), lane(-v.at.d, k), lane(v.at.x.point.ng, k), lane(flux, k),
+                      lane(v.path.depth, k), lane(v.path.site.index, k)});
+    });
+  }
+  void broken(F, const PathSite<F>&, M on) { broken_ += std::uint64_t(count(on)); }
+  // Paths whose flux became a number that is none.
+  std::uint64_t broken() const { return broken_; }
+
+ private:
+  std::vector<Photon>& box_;
+  const std::uint32_t first_event_;
+  const float scale_;
+  std::uint64_t broken_ = 0;
+};
+
+// The light paths of a tile, which are a part of those of the frame: the paths are dealt out to the pixels, so that any
+// tiles share them.
+class LightPathShare {
+ public:
+  LightPathShare(const PixelBounds& all, const PixelBounds& tile, std::uint32_t paths) {
+    const auto pixels = std::uint64_t(all.area());
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const std::uint64_t row =
+          std::uint64_t(y - all.y0) * std::uint64_t(all.width()) + std::uint64_t(tile.x0 - all.x0);
+      const auto first = std::uint32_t(row * paths / pixels),
+                 last = std::uint32_t((row + std::uint64_t(tile.width())) * paths / pixels);
+      for (std::uint32_t i = first; i < last; ++i) numbers_.push_back(i);
+    }
+  }
+  std::uint32_t count() const { return std::uint32_t(numbers_.size()); }
+  std::uint32_t operator[](std::size_t i) const { return numbers_[i]; }
+
+ private:
+  std::vector<std::uint32_t> numbers_;
+};
+
+// The points of the light paths of a frame: one set for all of them, and none of those of the paths from the eye.
+inline PointSet photon_points(PointSet points, int frame, std::uint32_t paths) {
+  if (points.kind != PointSetKind::independent && !is_fixed(points.kind)) points.kind = PointSetKind::padded_sobol;
+  points.samples_per_pass = paths, points.width = points.height = 0;
+  points.seed = mix_bits(points.seed ^ mix_bits(std::uint32_t(frame) + 0x3c6ef372u));
+  return points;
+}
+
+}  // namespace montelux

@@ -1,0 +1,122 @@
+// Photon maps find closed forms, their bias among them: how much of a kernel lies within a wall is known.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+
+#include "colour_means.h"
+#include "integrator/photons/sppm.h"
+
+namespace montelux::test {
+namespace {
+
+constexpr double emission[] = {0.6, 0.3, 0.5}, reflectance[] = {0.5, 0.75, 0.2};
+
+// The inside of a coloured box of side 2 that glows; the picture is exactly one of its walls.
+const char* const wall = R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+PixelFilter "box"
+LookAt 0 0 0   0 0 1   0 1 0
+Camera "orthographic" "float screenwindow" [ -1 1 -1 1 ]
+WorldBegin
+AreaLightSource "diffuse" "rgb L" [ 0.6 0.3 0.5 ] "bool twosided" true
+Material "diffuse" "rgb reflectance" [ 0.5 0.75 0.2 ]
+Shape "bilinearmesh" "integer indices" [ 0 1 2 3  4 5 6 7  0 1 4 5  2 3 6 7  0 2 4 6  1 3 5 7 ]
+    "point3 P" [ -1 -1 -1   1 -1 -1   -1 1 -1   1 1 -1   -1 -1 1   1 -1 1   -1 1 1   1 1 1 ]
+)";
+
+// The mean share of a kernel of radius r that lies within a square of side 2 around whose points it is laid: the mean
+// of (1 - |x| / 2) (1 - |y| / 2) over the kernel, by the moments of its radial density.
+double share_within(double r, bool epanechnikov) {
+  constexpr double pi_ = std::numbers::pi;
+  const double rho = epanechnikov ? 8 * r / 15 : 2 * r / 3, rho_squared = epanechnikov ? r * r / 3 : r * r / 2;
+  return 1 - rho * 2 / pi_ + rho_squared / pi_ / 4;
+}
+// Radiance of the wall where photons bring `share` of what they should: of all reflected light, or of what has been
+// reflected more than once.
+double radiance(std::size_t c, double share, bool nee) {
+  const double once = emission[c] * reflectance[c], all = once / (1 - reflectance[c]);
+  return emission[c] + (nee ? once + share * (all - once) : share * all);
+}
+double level(std::size_t tests) { return sidak_level(family_level, double(tests)); }
+
+TEST(PhotonBias, is_that_of_the_kernel_at_the_edges_of_a_wall) {
+  const TestScene scene(wall);
+  struct Case {
+    double radius;
+    bool epanechnikov, nee;
+  };
+  const Case cases[] = {{0.4, true, true},  {0.2, true, true},  {0.1, true, true},
+                        {0.05, true, true}, {0.4, false, true}, {0.2, false, true},
+                        {0.1, false, true}, {0.2, true, false}, {0.2, false, false}};
+  const double own = level(3 * std::size(cases));
+  for (const Case& c : cases) {
+    const std::string way = "sppm:alpha=1,radius=" + std::to_string(c.radius) +
+                            ",kernel=" + (c.epanechnikov ? "epanechnikov" : "constant") +
+                            ",nee=" + (c.nee ? "on" : "off");
+    const Mean m = measure(scene, way, 4, 5);
+    const double share = share_within(c.radius, c.epanechnikov);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double truth = radiance(i, share, c.nee), se = m.standard_error[i];
+      EXPECT_GE(p_value(m.mean[i], se, truth), own)
+          << way << ", component " << i << ": " << m.mean[i] << " +- " << se << " where " << truth << " is right";
+      // The light without bias, and the bias of the other kernel.
+      if (i == 2) continue;
+      EXPECT_TRUE(c.radius < 0.1 || p_value(m.mean[i], se, radiance(i, 1, c.nee)) < own) << way;
+      const double other = radiance(i, share_within(c.radius, !c.epanechnikov), c.nee);
+      EXPECT_TRUE(c.radius < (i == 1 ? 0.2 : 0.4) || p_value(m.mean[i], se, other) < own) << way;
+    }
+  }
+}
+
+// The mean over frames is that of their radii.
+TEST(PhotonBias, falls_from_frame_to_frame_as_the_radii_say) {
+  const TestScene scene(wall);
+  const double own = level(9);
+  for (const int frames : {1, 4, 32}) {
+    const Mean m = measure(scene, "sppm:radius=0.4,alpha=0.4", frames, 7);
+    double share = 0, squared = 0.4 * 0.4;
+    for (int i = 1; i <= frames; ++i) {
+      share += share_within(std::sqrt(squared), true) / frames;
+      squared *= (i + 0.4) / (i + 1);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double truth = radiance(i, share, true);
+      EXPECT_GE(p_value(m.mean[i], m.standard_error[i], truth), own)
+          << frames << " frames: " << m.mean[i] << " +- " << m.standard_error[i] << " where " << truth << " is right";
+      const double at_first = radiance(i, share_within(0.4, true), true);
+      EXPECT_TRUE(frames == 1 || i == 2 || p_value(m.mean[i], m.standard_error[i], at_first) < own);
+    }
+  }
+}
+
+// A sphere's cap within the distance r has the area of a disk of this radius (Archimedes), so that a kernel over
+// distances in space collects all the flux. But of a photon at the distance d from the point that gathers, the share
+// (1 - cos a) / 2 of uniform light comes from below the horizon there; a is the angle between the normals, and
+// 1 - cos a = d^2 / (2 R^2).
+TEST(PhotonBias, is_that_of_the_horizon_within_a_sphere_of_uniform_light) {
+  const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/analytic";
+  const TestScene scene(read_text(folder / "closed-furnace-sphere.pbrt"), folder.string());
+  constexpr double glow = 0.5, albedo = 0.6, radius = 1, r = 0.5;
+  for (const bool epanechnikov : {true, false})
+    for (const bool nee : {true, false}) {
+      const std::string way = std::string("sppm:radius=0.5,alpha=1,photons=16384,kernel=") +
+                              (epanechnikov ? "epanechnikov" : "constant") + ",nee=" + (nee ? "on" : "off");
+      const Mean m = measure(scene, way, 2, 3);
+      const double share = 1 - (epanechnikov ? r * r / 3 : r * r / 2) / (4 * radius * radius);
+      const double all = glow * albedo / (1 - albedo), once = nee ? glow * albedo : 0;
+      const double value = glow + once + share * (all - once);
+      EXPECT_GE(p_value(m.mean[0], m.standard_error[0], value), level(4))
+          << way << ": " << m.mean[0] << " +- " << m.standard_error[0] << ", " << value;
+      EXPECT_LT(p_value(m.mean[0], m.standard_error[0], glow + all), level(4)) << way;
+    }
+}
+
+TEST(PhotonBias, is_named_with_its_radius) {
+  const TestScene scene(wall);
+  EXPECT_EQ(scene.integrator("sppm:radius=0.25").biases, std::vector<std::string>{"radius=0.25"});
+  EXPECT_EQ(scene.integrator("sppm:radius=0.25,maxdepth=3").biases,
+            (std::vector<std::string>{"radius=0.25", "maxdepth=3"}));
+}
+
+}  // namespace
+}  // namespace montelux::test
