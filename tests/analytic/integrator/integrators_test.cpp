@@ -157,6 +157,28 @@ TEST(LightTracing, finds_the_closed_form_of_every_scene_that_it_sees_whole) {
   EXPECT_GT(caught, 1.2 * tested);
 }
 
+// Likewise photons, in scenes where enough of them arrive; with a radius so small that its bias is below the noise.
+TEST(Photons, find_the_closed_form_of_every_scene_where_enough_of_them_arrive) {
+  const std::vector<Expected> scenes = expected_means();
+  const double level = sidak_level(family_level, double(scenes.size()));
+  int tested = 0, caught = 0;
+  for (const Expected& e : scenes) {
+    const TestScene scene(read_text(folder / e.scene), folder.string());
+    const ChosenIntegrator chosen = scene.integrator("sppm:radius=0.02,alpha=1");
+    if (!chosen.missing.empty()) continue;
+    const Measured m = measure(scene, "sppm:radius=0.02,alpha=1", 4);
+    EXPECT_EQ(m.non_finite, 0u) << e.scene;
+    const bool arrives = m.standard_error < 0.05 * e.value && (m.standard_error > 0 || m.mean > 0);
+    if (e.value != 0 && !arrives) continue;
+    EXPECT_TRUE(agrees(m, e.value, level))
+        << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value << " is right ("
+        << (m.mean - e.value) / m.standard_error << " standard errors)";
+    ++tested, caught += !agrees(m, 0.9 * e.value, level) + !agrees(m, 1.1 * e.value, level);
+  }
+  EXPECT_GT(tested, 50);
+  EXPECT_GT(caught, 1.2 * tested);
+}
+
 TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
   const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
   EXPECT_EQ(scene.integrator("direct:pattern=fixed").biases,
