@@ -81,12 +81,14 @@ class ChainMemory {
 };
 
 // One pass of a coupled integrator: the pixels of the picture or of its crop. Every pixel takes one sample in each of
-// points.samples_per_pass frames.
+// points.samples_per_pass frames. With a grid the pass is that of a smaller picture whose pixels are the cells: bounds
+// and tiles count cells, and a cell shows what the pixel shows that represents it.
 struct ChainPass {
   PixelBounds bounds;
   PointSet points;
   std::optional<Shutter> shutter{};             // instead of the scene's
   std::shared_ptr<const ChainMemory> before{};  // of a chain of the picture before, on the same scene; null: none
+  std::optional<PixelGrid> grid{};              // as TilePass has it; only one with a stride above 1
 };
 
 // Where a chain is: frames follow one another, stages follow one another within a frame.

@@ -55,7 +55,8 @@ class ChainJob final : public WatchedWork {
             requested && !is_whole_,
             seconds - frame_began_,
             warm_up_seconds(seconds),
-            memories_.forgotten()};
+            memories_.forgotten(),
+            frames_run_};
   }
 
   RenderState state() override {
@@ -68,7 +69,7 @@ class ChainJob final : public WatchedWork {
     const double frames = double(pass_) * frames_ + (over_ ? 0 : step_.frame);
     const double all = double(settings_.plan.passes) * frames_;
     return {double(passes_begun_) * frames_ / all, frames / all,
-            std::uint64_t(settings_.image.bounds.area()) * (samples_before_ + shown_frames_)};
+            std::uint64_t(film_.grid().cells().area()) * (samples_before_ + shown_frames_)};
   }
 
   std::uint64_t passes() override {
@@ -78,7 +79,7 @@ class ChainJob final : public WatchedWork {
 
   std::optional<ErrorEstimate> error() override {
     const std::scoped_lock lock(mutex_);
-    if (film_.passes(tiles_.front().bounds) < 2) return std::nullopt;
+    if (film_.passes(tiles_.front().bounds) < 2 || film_.grid().stride > 1) return std::nullopt;
     return film_.error();
   }
 
@@ -137,7 +138,7 @@ class ChainJob final : public WatchedWork {
   void finish_frame() {
     step_.stage = 0;
     if (is_shown(step_.frame)) ++shown_frames_;
-    ++step_.frame;
+    ++step_.frame, ++frames_run_;
     const double now = watch_.seconds();
     if (step_.frame == integrator_.warm_up()) warm_up_ += now - warm_up_began_;
     RenderState state = state_now();
@@ -173,8 +174,10 @@ class ChainJob final : public WatchedWork {
   }
 
   void begin_chain() {
-    chain_ = integrator_.begin({settings_.image.bounds, settings_.image.points(pass_number(), frames_),
-                                settings_.image.shutter, memories_.take(std::size_t(pass_))});
+    ChainPass pass{film_.grid().cells(), settings_.image.points(pass_number(), frames_), settings_.image.shutter,
+                   memories_.take(std::size_t(pass_))};
+    if (film_.grid().stride > 1) pass.grid = film_.grid();
+    chain_ = integrator_.begin(pass);
     step_ = {};
     for (ChainTile& tile : tiles_) std::fill(tile.pixels.begin(), tile.pixels.end(), PixelPass{});
     warm_up_began_ = watch_.seconds();
@@ -210,6 +213,7 @@ class ChainJob final : public WatchedWork {
   bool has_image_ = false;         // a chain is done
   std::uint64_t samples_before_ = 0;
   std::uint64_t shown_frames_ = 0;
+  int frames_run_ = 0;        // including those that are not shown
   double frame_began_ = 0;    // seconds since the start
   double warm_up_began_ = 0;  // of the current chain, likewise
   double warm_up_ = 0;        // seconds of all that have ended

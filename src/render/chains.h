@@ -28,7 +28,7 @@ class PassesAsChains final : public CoupledIntegrator {
    public:
     OnePass(const PixelIntegrator& integrator, const ChainPass& pass) : integrator_(integrator), pass_(pass) {}
     RayCounts run(const ChainStep&, const PixelBounds& tile, std::span<PixelSample> out) override {
-      return integrator_.trace({tile, pass_.points, pass_.shutter}, out);
+      return integrator_.trace({tile, pass_.points, pass_.shutter, {}, {}, pass_.grid}, out);
     }
 
    private:

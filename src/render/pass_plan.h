@@ -9,7 +9,7 @@ struct PassPlan {
   int samples_per_pass = 1;  // per pixel
   int passes = 1;
   int first_pass = 0;              // the passes are this one and the following ones
-  int stride = 1;                  // only one pixel of each stride x stride is sampled; not for coupled integrators
+  int stride = 1;                  // only one pixel of each stride x stride is sampled
   int max_unit_samples = 1 << 16;  // of one unit of work, as far as a pass allows
   bool synchronous = false;        // a pass begins when the one before is complete: all pixels have equally many
 

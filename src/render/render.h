@@ -35,6 +35,7 @@ struct RenderResult {
   double ending = 0;         // of the seconds, those after the last frame; only with chains or synchronous passes
   double warm_up = 0;        // of the seconds, those of frames that are not shown, without beginning and ending chains
   int forgotten = 0;         // chains that stored no memory because it did not fit
+  int frames = 0;            // of chains, including those that are not shown
   double shown_seconds() const { return seconds - warm_up; }
 };
 

@@ -18,7 +18,8 @@ double counted_seconds(const RenderState& state, bool warm_up_counts) {
 double StoppingRule::time_for_estimate(const RenderState&) const { return infinite; }
 
 bool TimeLimit::stops(const RenderState& state) const {
-  return state.is_covered && counted_seconds(state, warm_up_counts_) >= seconds_;
+  const double counted = counted_seconds(state, warm_up_counts_);
+  return state.is_covered && (counted >= seconds_ || counted + state.next_frame > seconds_ + lateness_);
 }
 double TimeLimit::seconds_left(const RenderState& state) const {
   return std::max(seconds_ - counted_seconds(state, warm_up_counts_), 0.0);

@@ -1,5 +1,6 @@
 // When a render stops before its plan is done.
 #pragma once
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -29,11 +30,14 @@ class StoppingRule {
   virtual double time_for_estimate(const RenderState& state) const;
 };
 
-// After so many seconds, as soon as every pixel has a sample.
+// After so many seconds, as soon as every pixel has a sample. For chains also before a frame that is expected to end
+// `lateness` seconds after that.
 class TimeLimit final : public StoppingRule {
  public:
   // `warm_up_counts`: false: the seconds of frames that are not shown are excluded.
-  TimeLimit(double seconds, bool warm_up_counts = true) : seconds_(seconds), warm_up_counts_(warm_up_counts) {}
+  // `lateness`: by default a frame begins whenever it ends.
+  TimeLimit(double seconds, bool warm_up_counts = true, double lateness = std::numeric_limits<double>::infinity())
+      : seconds_(seconds), warm_up_counts_(warm_up_counts), lateness_(lateness) {}
   double seconds() const { return seconds_; }
   bool warm_up_counts() const { return warm_up_counts_; }
   bool stops(const RenderState& state) const override;
@@ -43,6 +47,7 @@ class TimeLimit final : public StoppingRule {
  private:
   double seconds_;
   bool warm_up_counts_;
+  double lateness_;
 };
 
 // Before so many seconds are over: a frame begins only if it is expected to end in time. There is always one frame. For

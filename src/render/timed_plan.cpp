@@ -1,7 +1,9 @@
 #include "render/timed_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
+#include <utility>
 
 namespace montelux {
 
@@ -42,7 +44,110 @@ int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
   return int(std::clamp(samples, 64.0, double(settings.plan.max_unit_samples)));
 }
 
-// For a coupled integrator, after the measurement of one frame.
+// The time of a chain's first sample, as a function of the number of cells: a part of it may not depend on the pixels.
+struct ChainSeconds {
+  double fixed = 0, cell = 0;
+  double of(double cells) const { return fixed + cell * cells; }
+};
+
+// Ends a measurement after the frame in which these seconds are over, whether that one is shown or not.
+class AfterFrames final : public StoppingRule {
+ public:
+  explicit AfterFrames(double seconds) : seconds_(seconds) {}
+  bool stops(const RenderState& state) const override { return state.next_frame > 0 && state.seconds >= seconds_; }
+  double seconds_left(const RenderState& state) const override { return std::max(seconds_ - state.seconds, 0.0); }
+  double time_for_estimate(const RenderState&) const override { return 0; }
+
+ private:
+  double seconds_;
+};
+
+// Measures the first sample of a chain on two sets of cells, and on larger ones while that takes a small part of the
+// time.
+class ChainMeasurement {
+ public:
+  ChainMeasurement(const CoupledIntegrator& coupled, RenderSettings settings, const TimeLimit& limit,
+                   RenderObserver& observer)
+      : coupled_(coupled), settings_(std::move(settings)), limit_(limit), observer_(observer) {
+    // The frames of a warm-up are like those after it: if they count, one of them is enough.
+    const bool by_one = coupled.warm_up() > 0 && limit.warm_up_counts();
+    settings_.stop = std::make_shared<AfterFrames>(by_one ? 0 : most * limit.seconds());
+  }
+
+  ChainSeconds run() {
+    constexpr int first_cells = 32;
+    const PixelBounds& bounds = settings_.image.bounds;
+    int& stride = settings_.plan.stride;
+    while (PixelGrid{bounds, 2 * stride}.cells().area() >= first_cells) stride *= 2;
+    double cells = PixelGrid{bounds, stride}.cells().area(), seconds = shortest();
+    ChainSeconds chain{0, seconds / cells};
+    double cells_of_least = cells, least = seconds;
+    while (stride > 1 && !observer_.stop_requested()) {
+      stride /= 2;
+      cells = PixelGrid{bounds, stride}.cells().area(), seconds = shortest();
+      // What does not depend on the pixels is within the shortest measurement. Its difference from this one is as
+      // inaccurate as they are, and too little time for a cell would be worse than too much.
+      const double difference = std::max(seconds - least, 0.0) + accuracy * seconds;
+      chain.cell = std::min(difference / (cells - cells_of_least), seconds / cells);
+      // Something else has slowed down the one before: it tells nothing.
+      if (seconds < (1 - accuracy) * least) chain.cell = seconds / cells;
+      chain.fixed = seconds - chain.cell * cells;
+      if (seconds < least) cells_of_least = cells, least = seconds;
+      if (seconds > enough * limit_.seconds() || used_ + chain.of(4 * cells) > most * limit_.seconds()) break;
+    }
+    return chain;
+  }
+
+ private:
+  // Shares of the time: for all measurements; for one that is long enough. The accuracy of one, relative.
+  static constexpr double most = 0.2, enough = 0.03, accuracy = 0.05;
+
+  // The shortest time of a few chains if each is short, since other programs may interrupt one.
+  double shortest() {
+    constexpr int tries = 3;
+    double least = measured();
+    for (int i = 1; i < tries && (i + 1) * least < 0.5 * most * limit_.seconds() && used_ < most * limit_.seconds();
+         ++i)
+      least = std::min(least, measured());
+    return least;
+  }
+  // Of a chain that takes too much of the time, only the first frames are measured.
+  double measured() {
+    const RenderResult result = render(coupled_, settings_, observer_);
+    used_ += result.seconds;
+    const int frames = 1 + coupled_.warm_up();
+    if (result.frames >= frames) return limit_.warm_up_counts() ? result.seconds : result.shown_seconds();
+    return result.seconds / std::max(result.frames, 1) * (limit_.warm_up_counts() ? frames : 1);
+  }
+
+  const CoupledIntegrator& coupled_;
+  RenderSettings settings_;
+  const TimeLimit& limit_;
+  RenderObserver& observer_;
+  double used_ = 0;
+};
+
+// The stride of a picture within the time: the smallest for which whole chains of one sample fill it to within a tenth,
+// of the first few that leave room for one at all.
+int stride_within(const ChainSeconds& chain, const PixelBounds& bounds, double seconds) {
+  constexpr double margin = 1.05, filled = 0.9;
+  constexpr int largest = 64, tried = 4;
+  int first = 0;
+  for (int stride = 1; stride <= largest && (first == 0 || stride < first + tried); ++stride) {
+    const double one = margin * chain.of(PixelGrid{bounds, stride}.cells().area());
+    if (one > seconds) continue;
+    if (first == 0) first = stride;
+    // A whole picture is worth more than the rest of the time.
+    if (stride == 1 || std::floor(seconds / one) * one >= filled * seconds) return stride;
+  }
+  if (first > 0) return first;
+  // Too little time for any: what does not depend on the pixels takes it, and they should take little more.
+  int stride = 1;
+  while (stride < largest && chain.cell * PixelGrid{bounds, stride}.cells().area() > 0.1 * chain.fixed) ++stride;
+  return stride;
+}
+
+// For a coupled integrator whose frames fit into the time.
 PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, bool warm_up_counts, double affordable) {
   const int warm_up = warm_up_counts ? coupled.warm_up() : 0;
   const int frames = int(affordable) * (1 + warm_up) / min_chains - warm_up;
@@ -59,14 +164,18 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
   StopAlone silent(observer);
   const double most = is_fixed(settings.image.sampler) ? max_fixed_samples : 1e6;
   TimedPlan timed;
+  const Stopwatch since_start(settings.clock);
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
-    const RenderResult one = render(*coupled, settings, silent);
-    timed.sample_seconds = std::max(limit.warm_up_counts() ? one.seconds : one.shown_seconds(), 1e-6);
+    const PixelBounds& bounds = settings.image.bounds;
+    const ChainSeconds chain = ChainMeasurement(*coupled, settings, limit, silent).run();
+    timed.sample_seconds = std::max(chain.of(bounds.area()), 1e-6);
     const double affordable = std::min(limit.seconds() / timed.sample_seconds, most);
     timed.plan = plan_chains_for_time(*coupled, limit.warm_up_counts(), affordable);
+    timed.plan.stride = stride_within(chain, bounds, limit.seconds() - since_start.seconds());
+    timed.first_seconds = chain.of(PixelGrid{bounds, timed.plan.stride}.cells().area());
+    if (timed.plan.stride > 1) timed.plan.samples_per_pass = 1;
     return timed;
   }
-  const Stopwatch since_start(settings.clock);
   timed.sample_seconds = std::max(measure_sample(*integrator.pixel(), settings, limit.seconds(), silent), 1e-6);
   const double affordable = std::min((limit.seconds() - since_start.seconds()) / timed.sample_seconds, most);
   // The measurement is accurate to some percent, and the first pass is always completed.
@@ -76,6 +185,7 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
   if (stride == 1) timed.plan = plan_passes(std::max(int(affordable), 1), settings.image.sampler);
   if (!is_fixed(settings.image.sampler)) timed.plan.passes = endless_passes;
   timed.plan.stride = stride;
+  timed.first_seconds = timed.sample_seconds / (stride * stride);
   timed.plan.max_unit_samples = unit_samples_for(settings, timed.sample_seconds);
   return timed;
 }

@@ -8,10 +8,11 @@ namespace montelux {
 struct TimedPlan {
   PassPlan plan;              // with a stride above 1 if less than one sample per pixel fits into the time
   double sample_seconds = 0;  // the measured time of one sample of every pixel
+  double first_seconds = 0;   // that of the first sample of the pixels of the plan, including a chain's warm-up
 };
 
 // The passes have as many samples as possible while there are enough passes. Measures the speed on a part of the pixels
-// that is spread over the image, for a coupled integrator on one frame. Ends early if the observer requests a stop.
+// that is spread over the image. Ends early if the observer requests a stop.
 TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings, const TimeLimit& limit,
                         RenderObserver& observer);
 

@@ -169,6 +169,16 @@ class Render(ProgramTest):
         black = sum(1 for row in rows[::7] for value in row[::3] if value == 0)
         self.assertLess(black, 0.3 * len(rows[::7]) * 1600)
 
+    def test_time_that_is_too_short_for_a_frame_of_a_chain_gives_a_sparse_picture_that_says_so(self):
+        for integrator in ("restir-di", "light"):
+            result = self.run_program("render", SCENE, "--integrator", integrator, "--resolution", "1600x1200", "--time", "100ms",
+                                      "--threads", 1, "--json", "-o", "room.pfm")
+            told = json.loads(result.stdout)
+            self.assertRegex(result.stderr, r"more than the time: one pixel of each \d+ x \d+ is sampled")
+            self.assertLess(told["sampled_pixels"], 0.3)
+            self.assertGreater(told["sampled_pixels"], 0)
+            self.assertGreater(told["passes"], 0)
+
     def test_the_interval_of_the_mean_is_students(self):
         told = json.loads(self.render("--spp", "16", "--json").stdout)
         self.assertEqual(told["passes"], 8)

@@ -20,7 +20,7 @@ class LightTracingChain final : public Chain {
         pass_(pass),
         one_sided_(std::ranges::any_of(scene.geometry.rows,
                                        [](const GeometryRow& r) { return (r.flags & GeometryRow::one_sided) != 0; })),
-        plane_(pass.bounds, scene.filter) {}
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage == 0)

@@ -10,7 +10,8 @@
 namespace montelux {
 
 // Each frame follows one light path for each pixel, from whatever light to whatever pixels, in two stages: paths add to
-// a plane of exact sums, tiles read their pixels. So a frame is the same bits for any number of threads.
+// a plane of exact sums, tiles read their pixels. So a frame is the same bits for any number of threads. With a grid a
+// frame has one light path for each cell, and splats reach only the pixels that represent cells.
 class LightTracer final : public CoupledIntegrator {
  public:
   // Fails where camera rays go through the centres of pixels alone, where no light path arrives. Scene and accel must

@@ -29,7 +29,7 @@ class LightTracingLoop {
   explicit LightTracingLoop(const LightTracingScene<Rays>& shared)
       : shared_(shared), scene_(shared.scene), scale_(scene_.imaging_ratio / float(shared.pass.bounds.area())) {}
 
-  // One path for each pixel of the tile.
+  // One path for each pixel of the tile, or for each cell if the pass has a grid: with the numbers of its pixel.
   RayCounts run(const PixelBounds& tile) {
     const LightWalkScene<Rays> walk{scene_,
                                     shared_.rays,
@@ -42,8 +42,9 @@ class LightTracingLoop {
     const auto width = std::uint32_t(tile.width());
     LightWalk<F, Rays, LightTracingLoop, Correction>(walk, *this, counts_)
         .run(std::uint32_t(tile.area()), [&](std::uint32_t number) {
-          return PathSite<float>{std::uint32_t(tile.x0) + number % width, std::uint32_t(tile.y0) + number / width,
-                                 shared_.frame};
+          const PixelGrid& grid = shared_.plane.grid();
+          return PathSite<float>{std::uint32_t(grid.pixel_x(tile.x0 + int(number % width))),
+                                 std::uint32_t(grid.pixel_y(tile.y0 + int(number / width))), shared_.frame};
         });
     return counts_;
   }
@@ -149,7 +150,7 @@ class LightTracingLoop {
 
   const LightTracingScene<Rays>& shared_;
   const Scene& scene_;
-  const float scale_;  // of one path's light: a frame has one path for each pixel
+  const float scale_;  // of one path's light: a frame has one path for each pixel or cell of the pass
   RayCounts counts_;
 };
 

@@ -16,20 +16,24 @@ namespace montelux {
 // filter(r - centre) (Veach 1997, sec. 10.3.4.3): deterministic, signed where the filter is.
 class SplatPlane {
  public:
-  SplatPlane(const PixelBounds& bounds, const Filter& filter)
-      : bounds_(bounds), filter_(filter), pixels_(std::size_t(bounds.area())) {}
+  SplatPlane(const PixelBounds& bounds, const Filter& filter) : SplatPlane(PixelGrid{bounds}, filter) {}
+  // Holds only the pixels that represent cells of the grid.
+  SplatPlane(const PixelGrid& grid, const Filter& filter)
+      : grid_(grid), cells_(grid.cells()), filter_(filter), pixels_(std::size_t(cells_.area())) {}
+  const PixelGrid& grid() const { return grid_; }
 
-  // Whether a splat at this place would reach a pixel.
+  // Whether a splat at this place may reach a pixel of the picture.
   template <class F>
   Mask<F> reaches(Vec2<F> raster) const {
     const Vec2f r = filter_.radius();
-    return (raster.x >= float(bounds_.x0) - r.x) & (raster.x <= float(bounds_.x1) + r.x) &
-           (raster.y >= float(bounds_.y0) - r.y) & (raster.y <= float(bounds_.y1) + r.y);
+    const PixelBounds& b = grid_.bounds;
+    return (raster.x >= float(b.x0) - r.x) & (raster.x <= float(b.x1) + r.x) & (raster.y >= float(b.y0) - r.y) &
+           (raster.y <= float(b.y1) + r.y);
   }
   // Adds value, the integral of the light over the splat, in pixels. A value that is not finite, or too large for the
   // sums, spoils the pixels that it reaches: they are not a number.
   void add(Vec2f raster, const Rgb& value);
-  // What was added to a pixel since the last time. Only while nobody adds.
+  // What was added to a pixel, stated by its cell, since the last time. Only while nobody adds.
   Rgb take(int x, int y);
 
  private:
@@ -37,7 +41,11 @@ class SplatPlane {
     SharedExactSum sums[rgb_size];
     std::atomic<bool> broken{false};
   };
-  PixelBounds bounds_;
+  // The cells whose pixels a splat at this place reaches; with an area of 0 if there are none.
+  PixelBounds cells_near(Vec2f raster) const;
+
+  PixelGrid grid_;
+  PixelBounds cells_;
   const Filter& filter_;
   std::vector<Pixel> pixels_;
 };

@@ -44,7 +44,7 @@ class SppmChain final : public Chain {
     }
     const RayCounts counts =
         PhotonGathering<F, Accel>(scene_, accel_, settings_, map_)
-            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), moment(step.frame)}, out);
+            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), moment(step.frame), pass_.grid}, out);
     // A flux that is not a number has no place in the picture: it shows in the first pixel.
     if (number == 0 && broken_.take() > 0) out[0].radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
     return counts;

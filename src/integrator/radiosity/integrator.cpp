@@ -148,7 +148,7 @@ class RadiosityChain final : public Chain {
 
   // One sample a pixel: what is emitted, and the reflected part of the irradiance.
   RayCounts show(int frame, const PixelBounds& tile, std::span<PixelSample> out) {
-    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(frame)};
+    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(frame), {}, pass_.grid};
     const Irradiance& known = after(frame);
     FirstHits<F> first_hits(shared_.scene, shared_.accel, pass, out);
     RayCounts counts;

@@ -1,4 +1,5 @@
-// A chain of frames whose pixels share what they know of light.
+// A chain of frames whose pixels share what they know of light. With a grid its pixels are the cells: what they share
+// is drawn by the numbers of the cells, while their paths have the numbers of the pixels that they stand for.
 #pragma once
 #include "integrator/restir/combination.h"
 #include "integrator/restir/groups.h"
@@ -15,7 +16,7 @@ class ReuseChain final : public Chain {
   ReuseChain(const RestirScene<Rays>& shared, const ChainPass& pass)
       : shared_(shared), pass_(pass), before_(std::dynamic_pointer_cast<const ReuseMemory>(pass.before)) {
     const auto pixels = std::size_t(pass.bounds.area());
-    if (before_ && (!shared.settings.temporal || !(before_->bounds == pass.bounds))) before_.reset();
+    if (before_ && (!shared.settings.temporal || pass.grid || !(before_->bounds == pass.bounds))) before_.reset();
     if (before_) earlier_.resize(pixels);
     for (auto& vertices : vertices_) vertices.resize(pixels);
     lights_.resize(pixels);
@@ -36,7 +37,7 @@ class ReuseChain final : public Chain {
   }
 
   std::unique_ptr<ChainMemory> remember(int frames) override {
-    if (!settings().temporal || !settings().carry) return nullptr;
+    if (!settings().temporal || !settings().carry || pass_.grid) return nullptr;
     auto memory = std::make_unique<ReuseMemory>();
     memory->bounds = pass_.bounds, memory->shutter = shutter();
     memory->vertices = std::move(vertices(frames - 1));
@@ -109,7 +110,7 @@ class ReuseChain final : public Chain {
   // Every pixel by itself.
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
-    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), moment(frame)};
+    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), moment(frame), pass_.grid};
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });

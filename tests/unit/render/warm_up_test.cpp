@@ -10,9 +10,9 @@ namespace {
 
 using test::WorkClock;
 
-constexpr PixelBounds bounds{0, 0, 40, 24};
-constexpr int tiles = 3 * 2, warm_up = 3, stages = 2;
-constexpr double begin_seconds = 0.5, tile_seconds = 0.25;  // of a step of a frame that is shown
+constexpr PixelBounds bounds{0, 0, 32, 32};
+constexpr int tiles = 2 * 2, warm_up = 3, stages = 2;
+constexpr double begin_seconds = 0.5, tile_seconds = 0.25;  // of a step of a frame that is shown, for 16 x 16 pixels
 constexpr double frame_seconds = tiles * stages * tile_seconds;
 
 // Every sample is one more than the number of its chain.
@@ -33,8 +33,8 @@ class Timed final : public CoupledIntegrator {
   class TimedChain final : public Chain {
    public:
     TimedChain(const Timed& of, float radiance) : of_(of), radiance_(radiance) {}
-    RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample> out) override {
-      of_.clock_->pass(step.frame < montelux::warm_up ? of_.warm_up_tile_ : tile_seconds);
+    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+      of_.clock_->pass((step.frame < montelux::warm_up ? of_.warm_up_tile_ : tile_seconds) * tile.area() / 256);
       if (step.stage + 1 == montelux::stages)
         for (PixelSample& sample : out) sample.radiance = gray_rgb(radiance_);
       return {};
@@ -49,7 +49,7 @@ class Timed final : public CoupledIntegrator {
 };
 
 // Pixels that learn nothing from each other.
-constexpr double sample_seconds = 40 * 24 / 1024.0;  // of all pixels
+constexpr double sample_seconds = 32 * 32 / 1024.0;  // of all pixels
 class Alone final : public PixelIntegrator {
  public:
   explicit Alone(WorkClock& clock) : clock_(&clock) {}
@@ -106,8 +106,9 @@ TEST(WarmUp, is_planned_for_where_it_counts) {
   const Timed timed(clock, 1);
   RenderSettings s = settings(clock, {}, 2);
   RenderObserver silent;
-  // Sixteen frames in four chains; a chain of one frame is all that is left of that with the warm-up.
-  const double seconds = 16 * (begin_seconds + frame_seconds);
+  // Sixteen frames in four chains, with room for the inaccuracy of the measured speed; a chain of one frame is all that
+  // is left of that with the warm-up.
+  const double seconds = 18 * (begin_seconds + frame_seconds);
   EXPECT_EQ(plan_for_time(timed, s, {seconds, false}, silent).plan.samples_per_pass, 4);
   EXPECT_EQ(plan_for_time(timed, s, {seconds, true}, silent).plan.samples_per_pass, 1);
 }
@@ -137,10 +138,10 @@ TEST(Chains, that_time_breaks_off_count_if_half_done_or_the_first) {
     const RenderResult r = render(timed, s, silent);
     EXPECT_EQ(r.shown_seconds(), seconds);
     EXPECT_EQ(r.film.image().passes, c.passes) << c.whole << " " << c.more;
-    EXPECT_EQ(r.film.pixel(39, 23).mean[0], c.mean) << c.whole << " " << c.more;
+    EXPECT_EQ(r.film.pixel(31, 31).mean[0], c.mean) << c.whole << " " << c.more;
     // What is not in the mean is not among the samples.
     const int shown = 8 * c.whole + (c.passes > c.whole ? c.more : 0);
-    EXPECT_EQ(r.film.samples(39, 23), shown) << c.whole << " " << c.more;
+    EXPECT_EQ(r.film.samples(31, 31), shown) << c.whole << " " << c.more;
     EXPECT_FALSE(r.interrupted);
   }
 }
