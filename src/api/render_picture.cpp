@@ -13,7 +13,7 @@ namespace montelux {
 namespace {
 
 // A frame of a chain does not begin if it is expected to end later than the time by this share of it.
-constexpr double most_lateness = 0.1;
+constexpr double max_lateness = 0.1;
 
 // The time of an image, from the making of its integrator to its files.
 class TimeOfImage {
@@ -53,7 +53,7 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
   const TimeOfImage time(*plan.seconds, before, since_start, seconds_to_finish(settings.image.bounds, plan.files));
   if (settings.begun) {
     time.announce_if_late(1, observer);
-    settings.stop = std::make_shared<TimeLimit>(time.left(), true, most_lateness * *plan.seconds);
+    settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
     before = time.used();
     return;
   }
@@ -73,11 +73,11 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
   if (stride > 1)
     observer.announce(fmt::format("one sample per pixel takes about {:.2g} s, more than the time: {}",
                                   timed.sample_seconds, sparse_text(stride)));
-  if (integrator.coupled() && first_seconds > (1 + most_lateness) * time.left(stride))
+  if (integrator.coupled() && first_seconds > (1 + max_lateness) * time.left(stride))
     observer.announce(
         fmt::format("the first frame takes about {:.2g} s, more than the time: the image is one frame", first_seconds));
   // The error of a sparse image is not estimated.
-  settings.stop = std::make_shared<TimeLimit>(time.left(stride), true, most_lateness * *plan.seconds);
+  settings.stop = std::make_shared<TimeLimit>(time.left(stride), true, max_lateness * *plan.seconds);
   before = time.used();
 }
 

@@ -176,10 +176,10 @@ class TimedFrames final : public CoupledIntegrator {
   int warm_up() const override { return warm_up_; }
   int stages() const override { return 1; }
   std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
-    most_cells_ = std::max(most_cells_.load(), pass.bounds.area());
+    max_cells_ = std::max(max_cells_.load(), pass.bounds.area());
     return std::make_unique<Frames>(*this);
   }
-  int most_cells() const { return most_cells_; }  // of the chains so far
+  int max_cells() const { return max_cells_; }  // of the chains so far
 
  private:
   class Frames final : public Chain {
@@ -197,7 +197,7 @@ class TimedFrames final : public CoupledIntegrator {
   WorkClock& clock_;
   double pixel_, frame_;
   int warm_up_;
-  mutable std::atomic<int> most_cells_{0};
+  mutable std::atomic<int> max_cells_{0};
 };
 
 constexpr PixelBounds screen{0, 0, 640, 360};
@@ -238,7 +238,7 @@ TEST(SparseChains, are_planned_if_a_frame_takes_longer_than_the_time_which_they_
       EXPECT_NEAR(plan.sample_seconds, c.frame, 0.01 * c.frame);
     }
     if (c.is_sparse) {
-      EXPECT_LT(timed.most_cells(), screen.area() / 4);
+      EXPECT_LT(timed.max_cells(), screen.area() / 4);
       EXPECT_EQ(plan.plan.samples_per_pass, 1);
     }
     s.plan = plan.plan;
