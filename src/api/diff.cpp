@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "api/images.h"
+#include "integrator/catalogue.h"
 
 namespace montelux {
 
@@ -67,7 +68,10 @@ EstimatedImage estimated(const PictureEstimate& picture) {
 }
 
 // Whether the pixels of one pass share samples with an integrator of this name.
-bool shares_samples(std::string_view integrator) { return integrator.starts_with("restir-"); }
+bool shares_samples(std::string_view integrator) {
+  const std::string_view name = integrator.substr(0, integrator.find(':'));
+  return std::ranges::count(integrators_with(Ability::shared_samples), name) > 0;
+}
 
 }  // namespace
 

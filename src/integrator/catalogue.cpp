@@ -9,6 +9,7 @@
 #include "integrator/distribution/integrator.h"
 #include "integrator/light_tracing/integrator.h"
 #include "integrator/look/integrator.h"
+#include "integrator/metropolis/integrator.h"
 #include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
 #include "integrator/photons/sppm.h"
@@ -211,6 +212,17 @@ Made make_sppm(const Request& r) {
   return chosen;
 }
 
+Made make_metropolis(const Request& r) {
+  ChosenIntegrator chosen{
+      "metropolis",
+      {},
+      {},
+      {},
+      std::make_unique<MetropolisIntegrator>(r.scene, r.accel, metropolis_settings(r.list, r.max_depth))};
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
 template <const char* name>
 Made make_look(const Request& r) {
   ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
@@ -229,22 +241,26 @@ struct Row {
 };
 
 constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
-                        all_abilities = only_layers | std::uint32_t(Ability::media) | std::uint32_t(Ability::paths);
+                        all_abilities = only_layers | std::uint32_t(Ability::media) | std::uint32_t(Ability::paths),
+                        shared_samples = std::uint32_t(Ability::shared_samples);
 
 // The one table of integrators.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
-    std::vector<Row> all{{path_spec(), make_path<false>, LightSearch::any_length, Content::light, all_abilities},
-                         {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, all_abilities},
-                         {direct_spec(), make_direct, LightSearch::one_event, Content::light, only_layers},
-                         {distribution_spec(), make_distribution, LightSearch::any_length, Content::light, only_layers},
-                         {tracepath_spec(), make_tracepath},
-                         {restir_di_spec(), make_restir<restir_di>},
-                         {restir_gi_spec(), make_restir<restir_gi>},
-                         {restir_pt_spec(), make_restir<restir_pt>},
-                         {radiosity_spec(), make_radiosity, LightSearch::diffuse},
-                         {light_tracing_spec(), make_light, LightSearch::from_lights},
-                         {sppm_spec(), make_sppm, LightSearch::photons}};
+    std::vector<Row> all{
+        {path_spec(), make_path<false>, LightSearch::any_length, Content::light, all_abilities},
+        {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, all_abilities},
+        {direct_spec(), make_direct, LightSearch::one_event, Content::light, only_layers},
+        {distribution_spec(), make_distribution, LightSearch::any_length, Content::light, only_layers},
+        {tracepath_spec(), make_tracepath},
+        {restir_di_spec(), make_restir<restir_di>, LightSearch::any_length, Content::light, shared_samples},
+        {restir_gi_spec(), make_restir<restir_gi>, LightSearch::any_length, Content::light, shared_samples},
+        {restir_pt_spec(), make_restir<restir_pt>, LightSearch::any_length, Content::light, shared_samples},
+        {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
+        {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_samples},
+        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
+        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
+         shared_samples | std::uint32_t(Ability::media)}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();

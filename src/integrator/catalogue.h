@@ -23,6 +23,8 @@ enum class Ability : std::uint32_t {
   media = 1,   // cross participating media
   layers = 2,  // PixelIntegrator::trace_layers
   paths = 4,   // PixelIntegrator::trace_path
+  // What its pixels do rather than can: they share samples within a pass, so that their errors are correlated.
+  shared_samples = 8,
 };
 std::vector<std::string_view> integrators_with(Ability ability);
 

@@ -76,11 +76,18 @@ std::string photon_mapping(const ParameterList& p) {
   return settings.empty() ? "sppm" : fmt::format("sppm:{}", fmt::join(settings, ","));
 }
 
+// Likewise those of mlt.
+std::string metropolis(const ParameterList& p) {
+  if (!p.find("largestepprobability")) return "metropolis";
+  return fmt::format("metropolis:large-step={}", p.number("largestepprobability", 0.3));
+}
+
 void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& diagnostics) {
   const ParameterList& p = integrator.parameters;
   s.integrator = served_by(find_entity(integrator_table(), integrator.type), integrator.type);
   if (s.integrator == "ao") s.integrator = ambient_occlusion(p);
   if (s.integrator == "sppm") s.integrator = photon_mapping(p), s.seed = std::uint32_t(p.integer("seed", int(s.seed)));
+  if (s.integrator == "metropolis") s.integrator = metropolis(p), s.samples = p.integer("mutationsperpixel", s.samples);
   if (!p.boolean("samplelights", true)) s.integrator = "naive";
   if (p.find("maxdepth")) s.max_depth = p.integer("maxdepth", 0);
   std::string selection = p.string("lightsampler", "bvh");

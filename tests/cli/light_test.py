@@ -120,12 +120,12 @@ class Light(ProgramTest):
                              self.rendered(scene, "--integrator", way)[0]["missing_light"])
 
     def test_stand_ins_are_named(self):
-        for asked in "bdpt", "mlt", "lightpath", "volpath":
+        for asked, by in ("bdpt", "path"), ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
             scene = self.scene(head=f'Integrator "{asked}"\nSampler "zsobol"', ball=MATT)
             told, attributes, _ = self.rendered(scene)
-            self.assertIn({"family": "integrator", "name": asked, "by": "path"}, told["replaced"])
+            self.assertIn({"family": "integrator", "name": asked, "by": by}, told["replaced"])
             self.assertEqual(attributes["montelux:replaced"],
-                             f"integrator {asked} by path; sampler zsobol by blue-noise")
+                             f"integrator {asked} by {by}; sampler zsobol by blue-noise")
             # What the user chooses stands in for nothing.
             told, attributes, _ = self.rendered(scene, "--integrator", "path", "--sampler", "sobol")
             self.assertEqual(told["replaced"], [])

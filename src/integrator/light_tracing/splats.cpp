@@ -24,12 +24,20 @@ PixelBounds SplatPlane::cells_near(Vec2f raster) const {
   return cells;
 }
 
+void SplatPlane::add_to(Pixel& pixel, const Rgb& value, float weight) {
+  float largest = 0;  // of the components, and not a number where one is not
+  for (int i = 0; i < rgb_size; ++i) largest += std::abs(value.c[i]);
+  if (!(largest * std::abs(weight) < ExactSum::largest)) {
+    pixel.broken.store(true, std::memory_order_relaxed);
+    return;
+  }
+  for (int i = 0; i < rgb_size; ++i) pixel.sums[i].add(value.c[i] * weight);
+}
+
 void SplatPlane::add(Vec2f raster, const Rgb& value) {
   using F = NativeFloats;
   const PixelBounds cells = cells_near(raster);
   const int across = cells.width(), count = cells.area();
-  float largest = 0;  // of the components, and not a number where one is not
-  for (int i = 0; i < rgb_size; ++i) largest += std::abs(value.c[i]);
   for (int begin = 0; begin < count; begin += lanes_of<F>) {
     Vec2<F> offset{F(0.0f), F(0.0f)};
     const int n = std::min(count - begin, lanes_of<F>);
@@ -41,21 +49,16 @@ void SplatPlane::add(Vec2f raster, const Rgb& value) {
     for (int k = 0; k < n; ++k) {
       const float w = lane(weight, k);
       const int x = cells.x0 + (begin + k) % across, y = cells.y0 + (begin + k) / across;
-      Pixel& pixel = pixels_[std::size_t((y - cells_.y0) * cells_.width() + x - cells_.x0)];
-      if (!(largest * std::abs(w) < ExactSum::largest)) {
-        pixel.broken.store(true, std::memory_order_relaxed);
-        continue;
-      }
-      for (int i = 0; i < rgb_size; ++i) pixel.sums[i].add(value.c[i] * w);
+      add_to(pixel(x, y), value, w);
     }
   }
 }
 
 Rgb SplatPlane::take(int x, int y) {
-  Pixel& pixel = pixels_[std::size_t((y - cells_.y0) * cells_.width() + x - cells_.x0)];
+  Pixel& from = pixel(x, y);
   Rgb sum;
-  for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(pixel.sums[i].take().value());
-  if (pixel.broken.exchange(false, std::memory_order_relaxed)) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+  for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(from.sums[i].take().value());
+  if (from.broken.exchange(false, std::memory_order_relaxed)) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
   return sum;
 }
 

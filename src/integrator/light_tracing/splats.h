@@ -33,6 +33,8 @@ class SplatPlane {
   // Adds value, the integral of the light over the splat, in pixels. A value that is not finite, or too large for the
   // sums, spoils the pixels that it reaches: they are not a number.
   void add(Vec2f raster, const Rgb& value);
+  // Adds to the pixel of one cell alone: light that was drawn by the filter of this pixel.
+  void add_to_pixel(int x, int y, const Rgb& value) { add_to(pixel(x, y), value, 1.0f); }
   // What was added to a pixel, stated by its cell, since the last time. Only while nobody adds.
   Rgb take(int x, int y);
 
@@ -41,6 +43,8 @@ class SplatPlane {
     SharedExactSum sums[rgb_size];
     std::atomic<bool> broken{false};
   };
+  Pixel& pixel(int x, int y) { return pixels_[std::size_t((y - cells_.y0) * cells_.width() + x - cells_.x0)]; }
+  static void add_to(Pixel& pixel, const Rgb& value, float weight);
   // The cells whose pixels a splat at this place reaches; with an area of 0 if there are none.
   PixelBounds cells_near(Vec2f raster) const;
 

@@ -1,0 +1,265 @@
+#include "integrator/metropolis/integrator.h"
+
+#include <algorithm>
+
+#include "integrator/light_tracing/splats.h"
+#include "integrator/metropolis/markov_chains.h"
+
+namespace montelux {
+
+namespace {
+
+using F = NativeFloats;
+using U = Uint<F>;
+using M = Mask<F>;
+
+// Chains belong to square cells of the picture, so that their number and their numbers do not depend on the tiles that
+// threads work on. A cell's chains make one step for each of its pixels in a frame, wherever in the picture they are.
+constexpr int cell_side = 32, chains_per_cell = 16;
+constexpr int packs_per_cell = (chains_per_cell + lanes_of<F> - 1) / lanes_of<F>;
+
+// The stages of a frame; the first two do nothing after the first frame.
+constexpr int look_stage = 0, sum_stage = 1, walk_stage = 2, show_stage = 3;
+
+// What the streams of a pass decide.
+namespace purpose {
+inline constexpr std::uint32_t seeds = 1, steps = 2;
+}
+
+struct Cell {
+  int number;
+  PixelBounds bounds;
+};
+
+// The chains of a cell, and where their next states are built.
+struct CellChains {
+  std::vector<MarkovChains<F>> packs;
+  std::uint32_t steps_done = 0;
+};
+
+class MetropolisChain final : public Chain {
+ public:
+  // What this refers to must outlive the chain.
+  MetropolisChain(const Scene& scene, const Accel& accel, const MetropolisSettings& settings, const PathSettings& path,
+                  const ChainPass& pass)
+      : scene_(scene),
+        accel_(accel),
+        settings_(settings),
+        path_(path),
+        pass_(pass),
+        cells_across_((pass.bounds.width() + cell_side - 1) / cell_side),
+        cells_down_((pass.bounds.height() + cell_side - 1) / cell_side),
+        random_(U(mix_bits(pass.points.seed ^ 0x243f6a88u)), U(pass.points.pass)),
+        plane_(pass.bounds, scene.filter),
+        brightness_(std::size_t(pass.bounds.area()) * std::size_t(settings.bootstrap)),
+        chains_(std::size_t(cells_across_ * cells_down_)),
+        features_(std::size_t(pass.bounds.area())) {
+    for (int cell = 0; cell < cells_across_ * cells_down_; ++cell)
+      steps_of_frame_ += std::uint64_t(steps_of(cell_at(cell))) * chains_per_cell;
+  }
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    RayCounts counts;
+    if (step.stage == look_stage && step.frame == 0) {
+      for_each_cell(tile, [&](const Cell& cell) { draw_independent(cell, counts); });
+      look(tile, counts);
+    } else if (step.stage == sum_stage && step.frame == 0) {
+      // One of the tiles does it for all.
+      if (tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0) sum_brightness();
+    } else if (step.stage == walk_stage && total_ > 0) {
+      for_each_cell(tile, [&](const Cell& cell) { walk(step, cell, counts); });
+    } else if (step.stage == show_stage) {
+      show(tile, out);
+    }
+    return counts;
+  }
+
+ private:
+  Cell cell_at(int number) const {
+    const PixelBounds& b = pass_.bounds;
+    const int x = b.x0 + number % cells_across_ * cell_side, y = b.y0 + number / cells_across_ * cell_side;
+    return {number, {x, y, std::min(x + cell_side, b.x1), std::min(y + cell_side, b.y1)}};
+  }
+  // Those whose first pixel lies in the tile.
+  template <class Function>
+  void for_each_cell(const PixelBounds& tile, Function f) const {
+    for (int number = 0; number < cells_across_ * cells_down_; ++number) {
+      const Cell cell = cell_at(number);
+      const PixelBounds& c = cell.bounds;
+      if (c.x0 >= tile.x0 && c.x0 < tile.x1 && c.y0 >= tile.y0 && c.y0 < tile.y1) f(cell);
+    }
+  }
+  // Of each chain in a frame.
+  static std::uint32_t steps_of(const Cell& cell) {
+    return std::uint32_t((cell.bounds.area() + chains_per_cell - 1) / chains_per_cell);
+  }
+  std::size_t pixel_number(int x, int y) const {
+    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+  }
+  PathFunction<F, Accel> path_function() const { return {scene_, accel_, path_, pass_}; }
+  SamplePoint<F> new_point() const {
+    return {std::vector<float>(PathFunction<F, Accel>::dimensions_of(path_) * lanes_of<F>), random_};
+  }
+  // The sample points of the independent paths are those of a path tracer, well spread over the picture and within
+  // pixels: sample i of pixel p has number p * bootstrap + i.
+  void draw_bootstrap(SamplePoint<F>& point, const U& sample) const {
+    PointSet points = pass_.points;
+    points.samples_per_pass = std::uint32_t(settings_.bootstrap);
+    U x(0u), y(0u), index(0u);
+    Vec2<F> corner{F(0.0f), F(0.0f)};
+    const auto width = std::uint32_t(pass_.bounds.width());
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const std::uint32_t pixel = lane(sample, k) / points.samples_per_pass, column = pixel % width,
+                          row = pixel / width;
+      set_lane(index, k, lane(sample, k) % points.samples_per_pass);
+      set_lane(x, k, std::uint32_t(pass_.bounds.x0) + column), set_lane(y, k, std::uint32_t(pass_.bounds.y0) + row);
+      set_lane(corner.x, k, float(column)), set_lane(corner.y, k, float(row));
+    }
+    const Sampler<F> numbers(points, x, y, index);
+    const auto size = Vec2f{float(width), float(pass_.bounds.height())};
+    for (std::uint32_t d = 0; d * lanes_of<F> < point.values.size(); d += 2) {
+      Vec2<F> u = numbers.get2(U(d));
+      if (d == path_dimension::film) u = {(corner.x + u.x) * (1 / size.x), (corner.y + u.y) * (1 / size.y)};
+      put_numbers(point, d, u.x), put_numbers(point, d + 1, u.y);
+    }
+    point.beyond = numbers.own();
+  }
+
+  // ---- independent paths
+
+  void draw_independent(const Cell& cell, RayCounts& counts) {
+    PathFunction<F, Accel> evaluate = path_function();
+    SamplePoint<F> point = new_point();
+    std::vector<std::uint32_t> samples;
+    for (int y = cell.bounds.y0; y < cell.bounds.y1; ++y)
+      for (int x = cell.bounds.x0; x < cell.bounds.x1; ++x)
+        for (int i = 0; i < settings_.bootstrap; ++i)
+          samples.push_back(std::uint32_t(pixel_number(x, y) * std::size_t(settings_.bootstrap) + std::size_t(i)));
+    for (std::size_t first = 0; first < samples.size(); first += lanes_of<F>) {
+      U sample(samples.back());
+      const int n = int(std::min(samples.size() - first, std::size_t(lanes_of<F>)));
+      for (int k = 0; k < n; ++k) set_lane(sample, k, samples[first + std::size_t(k)]);
+      draw_bootstrap(point, sample);
+      const Contribution<F> c = evaluate(point, counts);
+      for (int k = 0; k < n; ++k) brightness_[samples[first + std::size_t(k)]] = lane(c.brightness, k);
+      deposit_broken(c, M(lane_index<F>() < U(std::uint32_t(n))));
+    }
+  }
+
+  // The features of the pixels, of one camera ray each.
+  void look(const PixelBounds& tile, RayCounts& counts) {
+    std::vector<PixelSample> out(std::size_t(tile.area()));
+    const TilePass request{tile, pass_.points, pass_.shutter, 0u, {}, pass_.grid};
+    counts += write_first_vertices<F>(scene_, accel_, request, out);
+    std::size_t i = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) features_[pixel_number(x, y)] = out[i++].features;
+  }
+
+  // ---- chains
+
+  void sum_brightness() {
+    cumulative_.reserve(brightness_.size());
+    for (float b : brightness_) cumulative_.push_back(total_ += double(b));
+    brightness_.clear(), brightness_.shrink_to_fit();
+  }
+
+  // The bootstrap path at which a chain starts: by systematic resampling, in proportion to brightness.
+  std::uint32_t seed_of(std::uint32_t chain) const {
+    const double offset = double(lane(random_.fork(U(purpose::seeds)).at(U(0u)), 0));
+    const double place = (chain + offset) / double(chains_.size() * chains_per_cell) * total_;
+    const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), place);
+    return std::uint32_t(std::min(at, cumulative_.end() - 1) - cumulative_.begin());
+  }
+
+  static U chain_numbers(const Cell& cell, int pack) {
+    return lane_index<F>() + U(std::uint32_t(cell.number * chains_per_cell + pack * lanes_of<F>));
+  }
+
+  void start_chains(const Cell& cell, PathFunction<F, Accel>& evaluate, RayCounts& counts) {
+    for (int pack = 0; pack < packs_per_cell; ++pack) {
+      const U chains = chain_numbers(cell, pack);
+      U seeds(0u);
+      for (int k = 0; k < lanes_of<F>; ++k) set_lane(seeds, k, seed_of(lane(chains, k)));
+      MarkovChains<F> started{new_point(), {}};
+      draw_bootstrap(started.point, seeds);
+      started.value = evaluate(started.point, counts);
+      chains_[std::size_t(cell.number)].packs.push_back(std::move(started));
+    }
+  }
+
+  void walk(const ChainStep& step, const Cell& cell, RayCounts& counts) {
+    PathFunction<F, Accel> evaluate = path_function();
+    if (step.frame == 0) start_chains(cell, evaluate, counts);
+    CellChains& own = chains_[std::size_t(cell.number)];
+    SamplePoint<F> proposal = new_point();
+    const float largest = settings_.largest_move;
+    const MutationSizes sizes{settings_.large_step, largest / 16, largest};
+    // A step stands for the mean brightness over all paths, and a frame has about one for each pixel.
+    const double mean = total_ / double(cumulative_.size());
+    const auto scale = float(mean * double(pass_.bounds.area()) / double(steps_of_frame_));
+    const std::uint32_t steps = steps_of(cell);
+    for (std::uint32_t i = 0; i < steps; ++i)
+      for (int pack = 0; pack < packs_per_cell; ++pack) {
+        const RandomStream<F> numbers =
+            random_.fork(U(purpose::steps)).fork(chain_numbers(cell, pack)).fork(U(own.steps_done + i));
+        step_chains(own.packs[std::size_t(pack)], proposal, sizes, numbers, evaluate, counts,
+                    [&](const Contribution<F>& c, const F& share) { deposit(c, share * scale); });
+      }
+    own.steps_done += steps;
+  }
+
+  // Light in proportion to its share in the brightness.
+  void deposit(const Contribution<F>& c, const F& amount) {
+    const F factor = amount / max(c.brightness, F(1e-37f));
+    for_each_lane(M((c.brightness > F(0.0f)) & (amount > F(0.0f))), [&](int k) {
+      Rgb light = c.light[std::size_t(k)];
+      for (float& channel : light.c) channel *= lane(factor, k);
+      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light);
+    });
+    deposit_broken(c, M(true));
+  }
+  // Shows in the count of samples that are not finite.
+  void deposit_broken(const Contribution<F>& c, M on) {
+    for_each_lane(M(on & c.broken), [&](int k) {
+      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), gray_rgb(std::numeric_limits<float>::quiet_NaN()));
+    });
+  }
+
+  // ---- the picture
+
+  void show(const PixelBounds& tile, std::span<PixelSample> out) {
+    std::size_t i = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x, ++i)
+        out[i].radiance = plane_.take(x, y), out[i].features = features_[pixel_number(x, y)];
+  }
+
+  const Scene& scene_;
+  const Accel& accel_;
+  const MetropolisSettings& settings_;
+  const PathSettings& path_;
+  const ChainPass pass_;
+  const int cells_across_, cells_down_;
+  const RandomStream<F> random_;  // of the pass
+  SplatPlane plane_;
+  std::vector<float> brightness_;  // of the independent paths
+  std::vector<double> cumulative_;
+  double total_ = 0;  // of the brightness
+  std::uint64_t steps_of_frame_ = 0;
+  std::vector<CellChains> chains_;
+  std::vector<Features> features_;
+};
+
+}  // namespace
+
+MetropolisIntegrator::MetropolisIntegrator(const Scene& scene, const Accel& accel, const MetropolisSettings& settings)
+    : scene_(scene), accel_(accel), settings_(settings) {
+  path_.max_depth = settings.max_depth, path_.roulette_depth = settings.roulette_depth;
+}
+
+std::unique_ptr<Chain> MetropolisIntegrator::begin(const ChainPass& pass) const {
+  return std::make_unique<MetropolisChain>(scene_, accel_, settings_, path_, pass);
+}
+
+}  // namespace montelux

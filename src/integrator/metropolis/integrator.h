@@ -1,0 +1,32 @@
+// Metropolis light transport in primary sample space (Kelemen, Szirmay-Kalos, Antal and Csonka 2002): Markov chains on
+// the random numbers of camera paths, whose stationary distribution is the brightness of the paths.
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/metropolis/settings.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// A pass is a set of Markov chains of its own. Independent paths over the whole picture estimate its brightness, and
+// every chain starts at one of them, drawn in proportion to brightness: then each state of each chain gives an unbiased
+// estimate, and none has to be discarded (Veach and Guibas 1997, sec. 5.1). So passes are independent and unbiased, and
+// their spread is the error, whatever the correlation within a chain.
+class MetropolisIntegrator final : public CoupledIntegrator {
+ public:
+  // Scene and accel must outlive the integrator, and the integrator its chains.
+  MetropolisIntegrator(const Scene& scene, const Accel& accel, const MetropolisSettings& settings);
+
+  int frames() const override { return 16; }
+  int warm_up() const override { return 0; }
+  int stages() const override { return 4; }
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  const MetropolisSettings settings_;
+  PathSettings path_;  // of the paths
+};
+
+}  // namespace montelux

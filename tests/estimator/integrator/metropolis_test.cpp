@@ -1,0 +1,211 @@
+// Metropolis light transport: chains on a function whose integrals have a closed form, and pictures against path.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "integrator/metropolis/markov_chains.h"
+#include "pass_means.h"
+#include "render_scenes.h"
+#include "statistics.h"
+
+namespace montelux::test {
+namespace {
+
+using F = NativeFloats;
+using U = Uint<F>;
+
+// ---- chains on a known function
+
+// Four pixels by the first number. Red 12 u^11 of the second number is bright in few places, green 2 u over the third,
+// blue is dark but in a twentieth of the fourth: each integrates to 1 over a pixel.
+struct KnownFunction {
+  Contribution<F> operator()(const SamplePoint<F>& point, RayCounts&) const {
+    Contribution<F> c;
+    c.x = U(0u), c.y = U(0u);
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const auto u = [&](std::size_t d) { return point.values[d * lanes_of<F> + std::size_t(k)]; };
+      set_lane(c.x, k, std::min(std::uint32_t(4 * u(0)), 3u));
+      const Rgb light{{12 * std::pow(u(1), 11.0f), 2 * u(2), u(3) < 0.05f ? 20.0f : 0.0f}};
+      c.light[std::size_t(k)] = light;
+      set_lane(c.brightness, k, (light.c[0] + light.c[1] + light.c[2]) / 3);
+    }
+    return c;
+  }
+};
+
+enum class Fault { none, start_anywhere, proposals_alone, one_sided_moves };
+
+// The four pixels by one pass: bootstrap, seeds in proportion to brightness, and steps of one pack of chains.
+std::array<std::array<double, 3>, 4> picture_of_pass(std::uint32_t pass, Fault fault) {
+  constexpr int dimensions = 4, bootstrap = 24 * lanes_of<F>, steps = 12;
+  const RandomStream<F> random(U(99u), U(pass));
+  KnownFunction evaluate;
+  RayCounts counts;
+  SamplePoint<F> point{std::vector<float>(dimensions * lanes_of<F>), random};
+  std::vector<SamplePoint<F>> points;
+  std::vector<double> cumulative;
+  double total = 0;
+  for (int i = 0; i < bootstrap / lanes_of<F>; ++i) {
+    const RandomStream<F> numbers = random.fork(lane_index<F>() + U(std::uint32_t(i * lanes_of<F>)));
+    for (std::size_t d = 0; d < dimensions; ++d) put_numbers<F>(point, d, numbers.at(U(std::uint32_t(d))));
+    points.push_back(point);
+    const F brightness = evaluate(point, counts).brightness;
+    for (int k = 0; k < lanes_of<F>; ++k) cumulative.push_back(total += double(lane(brightness, k)));
+  }
+  MarkovChains<F> chains{point, {}};
+  for (int k = 0; k < lanes_of<F>; ++k) {
+    const double u = (k + double(lane(random.fork(U(7777u)).at(U(0u)), 0))) / lanes_of<F>;
+    const auto at =
+        fault == Fault::start_anywhere
+            ? std::size_t(u * bootstrap)
+            : std::size_t(std::upper_bound(cumulative.begin(), cumulative.end(), u * total) - cumulative.begin());
+    for (std::size_t d = 0; d < dimensions; ++d)
+      chains.point.values[d * lanes_of<F> + std::size_t(k)] =
+          points[at / lanes_of<F>].values[d * lanes_of<F> + at % lanes_of<F>];
+  }
+  chains.value = evaluate(chains.point, counts);
+  std::array<std::array<double, 3>, 4> picture{};
+  const double scale = 4 * total / bootstrap / (steps * lanes_of<F>);
+  const auto deposit = [&](const Contribution<F>& c, const F& share) {
+    for (int k = 0; k < lanes_of<F>; ++k)
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        if (lane(c.brightness, k) > 0)
+          picture[lane(c.x, k)][channel] += scale * double(lane(share, k)) *
+                                            double(c.light[std::size_t(k)].c[channel]) / double(lane(c.brightness, k));
+  };
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    const MutationSizes sizes{fault == Fault::one_sided_moves ? 0.0f : 0.3f, 1.0f / 1024, 1.0f / 64};
+    if (fault == Fault::one_sided_moves)  // toward larger numbers between the steps
+      for (std::size_t d = 1; d < dimensions; ++d)
+        put_numbers<F>(chains.point, d, min(numbers_at(chains.point, d) + 0.02f, F(0.999f)));
+    if (fault == Fault::one_sided_moves) chains.value = evaluate(chains.point, counts);
+    int ends = 0;
+    step_chains(chains, point, sizes, random.fork(U(5555u)).fork(lane_index<F>()).fork(U(i)), evaluate, counts,
+                [&](const Contribution<F>& c, const F& share) {
+                  if (fault != Fault::proposals_alone || ends++ == 0) deposit(c, share);
+                });
+  }
+  return picture;
+}
+
+// The largest number of standard errors between a mean over passes and the closed form.
+double largest_deviation(Fault fault) {
+  constexpr std::uint32_t passes = 4000;
+  std::array<std::array<std::vector<double>, 3>, 4> values;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    const auto picture = picture_of_pass(pass, fault);
+    for (std::size_t pixel = 0; pixel < 4; ++pixel)
+      for (std::size_t c = 0; c < 3; ++c) values[pixel][c].push_back(picture[pixel][c]);
+  }
+  double largest = 0;
+  for (const auto& pixel : values)
+    for (const auto& channel : pixel) {
+      const auto s = summarize(channel);
+      largest = std::max(largest, std::abs(s.mean - 1) / std::sqrt(s.variance / passes));
+    }
+  return largest;
+}
+
+TEST(MarkovChains, have_the_integrals_of_a_known_function) {
+  // Twelve tests at a family-wise level of 0.1 %.
+  EXPECT_LT(largest_deviation(Fault::none), 3.94);
+}
+TEST(MarkovChains, show_planted_faults) {
+  EXPECT_GT(largest_deviation(Fault::start_anywhere), 8);
+  EXPECT_GT(largest_deviation(Fault::proposals_alone), 8);
+  EXPECT_GT(largest_deviation(Fault::one_sided_moves), 8);
+}
+
+TEST(MovedNumbers, are_symmetric_and_wrap_around) {
+  // The mean of the signed distance around the circle is zero, and its absolute value is within the sizes.
+  const RandomStream<F> random(U(5u), lane_index<F>());
+  double sum = 0, squares = 0;
+  constexpr int n = 4000;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const F x = random.at(U(2 * i)), u = random.at(U(2 * i + 1));
+    const F to = moved<F>(x, u, 1.0f / 1024, 1.0f / 64);
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      double way = double(lane(to, k)) - double(lane(x, k));
+      way -= std::round(way);
+      EXPECT_GE(lane(to, k), 0.0f);
+      EXPECT_LT(lane(to, k), 1.0f);
+      EXPECT_GT(std::abs(way), 0.999 / 1024);
+      EXPECT_LT(std::abs(way), 1.001 / 64);
+      sum += way, squares += way * way;
+    }
+  }
+  const double mean = sum / (n * lanes_of<F>), error = std::sqrt(squares) / (n * lanes_of<F>);
+  EXPECT_LT(std::abs(mean), 4 * error);
+}
+
+// ---- pictures
+
+// A room with coloured walls, a lamp, and a ball of glass that focuses its light.
+const std::string room = R"(
+LookAt 0 0 3.4  0 -0.2 0  0 1 0
+Camera "perspective" "float fov" 50
+Film "rgb" "integer xresolution" 24 "integer yresolution" 24
+PixelFilter "gaussian"
+WorldBegin
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 9 8 6 ]
+Shape "bilinearmesh" "point3 P" [ -0.4 0.98 -0.4  0.4 0.98 -0.4  -0.4 0.98 0.4  0.4 0.98 0.4 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.7 0.7 0.7 ]
+Shape "bilinearmesh" "point3 P" [ -1 -1 -1  -1 -1 1  1 -1 -1  1 -1 1 ]
+Shape "bilinearmesh" "point3 P" [ -1 1 -1  1 1 -1  -1 1 1  1 1 1 ]
+Shape "bilinearmesh" "point3 P" [ -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1 ]
+Material "diffuse" "rgb reflectance" [ 0.7 0.1 0.1 ]
+Shape "bilinearmesh" "point3 P" [ -1 -1 -1  -1 1 -1  -1 -1 1  -1 1 1 ]
+Material "diffuse" "rgb reflectance" [ 0.1 0.6 0.2 ]
+Shape "bilinearmesh" "point3 P" [ 1 -1 -1  1 -1 1  1 1 -1  1 1 1 ]
+Material "dielectric" "float eta" 1.5
+Translate 0.3 -0.6 0.2
+Shape "sphere" "float radius" 0.35
+)";
+
+TEST(Metropolis, agrees_with_path_in_a_room_and_would_show_a_fault) {
+  const TestScene scene(room);
+  const auto measured = [&](const std::string& way, int per_pass, int passes, std::uint32_t seed) {
+    return measure_passes(scene, scene.integrator(way), per_pass, passes, seed);
+  };
+  PassMeans path = measured("path", 64, 40, 1), chains = measured("metropolis", 32, 120, 2);
+  EXPECT_EQ(path.non_finite + chains.non_finite, 0u);
+  const auto smallest_p = [&] {
+    double smallest = 1;
+    const auto test = [&](const std::vector<double>& a, const std::vector<double>& b) {
+      smallest = std::min(smallest, welch_test(summarize(a), summarize(b)).p_value);
+    };
+    for (std::size_t i = 0; i < path.values.size(); ++i) test(path.values[i], chains.values[i]);
+    for (std::size_t i = 0; i < path.colours.size(); ++i) test(path.colours[i], chains.colours[i]);
+    return smallest;
+  };
+  const double level = sidak_level(family_level, double(path.values.size() + path.colours.size()));
+  EXPECT_GE(smallest_p(), level);
+  // Three percent too bright.
+  for (auto& values : chains.values)
+    for (double& value : values) value *= 1.03;
+  for (auto& values : chains.colours)
+    for (double& value : values) value *= 1.03;
+  EXPECT_LT(smallest_p(), level);
+}
+
+TEST(Metropolis, is_the_same_bits_for_any_number_of_threads) {
+  const TestScene scene(room);
+  const auto film = [&](int threads) {
+    const ChosenIntegrator chosen = scene.integrator("metropolis");
+    RenderSettings settings = scene.settings(PointSetKind::blue_noise, {8, 2}, 5);
+    settings.threads = threads;
+    RenderObserver silent;
+    return render(chosen.any(), settings, silent).film;
+  };
+  const Film one = film(1), three = film(3);
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(one.pixel(x, y).mean[c], three.pixel(x, y).mean[c]) << x << ", " << y;
+}
+
+}  // namespace
+}  // namespace montelux::test
