@@ -79,7 +79,7 @@ std::string photon_mapping(const ParameterList& p) {
 // Likewise those of mlt.
 std::string metropolis(const ParameterList& p) {
   if (!p.find("largestepprobability")) return "metropolis";
-  return fmt::format("metropolis:large-step={}", p.number("largestepprobability", 0.3));
+  return fmt::format("metropolis:large-step={}", p.number("largestepprobability", 0.3f));
 }
 
 void read_integrator(const Entity& integrator, PictureSettings& s, Diagnostics& diagnostics) {

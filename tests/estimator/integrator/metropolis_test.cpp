@@ -171,7 +171,7 @@ TEST(Metropolis, agrees_with_path_in_a_room_and_would_show_a_fault) {
   const auto measured = [&](const std::string& way, int per_pass, int passes, std::uint32_t seed) {
     return measure_passes(scene, scene.integrator(way), per_pass, passes, seed);
   };
-  PassMeans path = measured("path", 64, 40, 1), chains = measured("metropolis", 32, 120, 2);
+  PassMeans path = measured("path", 64, 60, 1), chains = measured("metropolis", 32, 500, 2);
   EXPECT_EQ(path.non_finite + chains.non_finite, 0u);
   const auto smallest_p = [&] {
     double smallest = 1;
