@@ -112,10 +112,7 @@ class PixelJob final : public WatchedWork {
     std::vector<ExactRgb> sums;
   };
 
-  const WorkPlan& plan() const {
-    static const PassByPass pass_by_pass;
-    return settings_.work ? *settings_.work : pass_by_pass;
-  }
+  const WorkPlan& plan() const { return settings_.work ? *settings_.work : pass_by_pass_; }
 
   // Runs the rounds of the plan, each as one stage of the scheduler.
   void drive() {
@@ -177,6 +174,7 @@ class PixelJob final : public WatchedWork {
 
   const PixelIntegrator& integrator_;
   const RenderSettings& settings_;
+  const PassByPass pass_by_pass_{};
   RenderWatch watch_{settings_};
   Film film_;
   std::deque<TileState> tiles_;

@@ -8,7 +8,7 @@ Fields<MetropolisSettings> metropolis_fields() {
   using S = MetropolisSettings;
   Fields<S> fields;
   fields.other(max_depth_spec())
-      .number("large-step", &S::large_step, "probability of a mutation that draws all numbers afresh", 0.01, 1)
+      .number("large-step", &S::large_step, "probability of a mutation that draws all numbers again", 0.01, 1)
       .number("largest-move", &S::largest_move, "of each number in the other mutations; the smallest is 1/16 of it",
               1e-6, 0.5)
       .integer("bootstrap", &S::bootstrap, "independent paths for each pixel of a pass, for brightness and seeds", 1,

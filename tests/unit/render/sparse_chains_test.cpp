@@ -62,7 +62,8 @@ TEST(SparseChains, have_the_mean_of_the_path_tracer_at_their_pixels) {
   const std::pair<const char*, int> ways[] = {{"restir-di:radius=4,candidates=4", 72},
                                               {"restir-di:radius=4,candidates=4,groups=off,temporal=on", 72},
                                               {"restir-pt:radius=4,candidates=4", 72},
-                                              {"light", 96}};
+                                              {"light", 96},
+                                              {"metropolis:bootstrap=16", 160}};
   const double level = sidak_level(0.01, double(std::size(ways)));
   const PassMeans truth = sparse_passes(scene(), scene().integrator("path").any(), 64, 48, 1);
   std::uint32_t seed = 2;
