@@ -1,5 +1,6 @@
 // Light that a ray meets, with the density that light sampling at the start of the ray had for it.
 #pragma once
+#include "image/layers.h"
 #include "transport/vertex.h"
 
 namespace montelux {
