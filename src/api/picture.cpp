@@ -211,6 +211,12 @@ Rendering noise(const PixelBounds& bounds, int stride) {
       for (float& channel : sample.radiance.c) channel = random.next();
       sample.features.coverage = 1, sample.features.object = 1;
       sample.features.depth = 1 + 0.001f * random.next();
+      // Where few pixels are sampled, all layers have edges between the squares.
+      if (stride > 1) {
+        for (float& channel : sample.features.albedo.c) channel = random.next();
+        sample.features.normal = {random.next(), random.next(), random.next()};
+        sample.features.position = {random.next(), random.next(), random.next()};
+      }
     }
     rendering.result.film.add_pass(cells, pass, 1, samples);
   }
@@ -252,8 +258,9 @@ FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& file
   const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), 32)};
   const double strips = double(bounds.height()) / strip.height();
   const StripTime dense = time_strip(strip, 1, files);
-  const double even = time_strip(strip, std::max(bounds.width(), bounds.height()), files).encoding;
-  return {strips * dense.error, strips * dense.encoding, strips * std::min(even, dense.encoding)};
+  const auto sparse = [&](int stride) { return std::min(time_strip(strip, stride, files).encoding, dense.encoding); };
+  const double coarse = sparse(4), even = std::min(sparse(std::max(bounds.width(), bounds.height())), coarse);
+  return {strips * dense.error, strips * dense.encoding, strips * coarse, strips * even};
 }
 
 }  // namespace montelux

@@ -127,10 +127,16 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
 struct FinishTime {
   double error = 0;     // to estimate its error
   double encoding = 0;  // for its files
+  double coarse = 0;    // for those of a picture that samples one pixel of 4 x 4
   double even = 0;      // for those of a picture of one color
   // For the files of a picture that samples one pixel of stride x stride: their size, and so the time, falls about as
   // the length of the edges between such squares.
-  double encoding_of(int stride) const { return even + (encoding - even) / stride; }
+  double encoding_of(int stride) const {
+    constexpr double coarse_stride = 4;
+    if (stride >= coarse_stride) return even + (coarse - even) * coarse_stride / stride;
+    const double share = (1.0 / stride - 1 / coarse_stride) / (1 - 1 / coarse_stride);
+    return coarse + (encoding - coarse) * share;
+  }
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files);
