@@ -9,13 +9,13 @@
 namespace montelux {
 
 // A single branch takes its numbers from the render's own point set, so that it is as well spread over the pixel's
-// samples as a path is. Several branches, or a pattern asked for by name, take those of a point set of their own,
-// which is randomised afresh for every vertex.
+// samples as a path is. Several branches, or a pattern chosen by name, take those of a point set of their own,
+// which is randomised independently at every vertex.
 template <class F>
 class Branches {
  public:
   using U = Uint<F>;
-  // `first` is the dimension of the vertex; `vertex` tells apart vertices that share site and dimension.
+  // `first` is the dimension of the vertex; `vertex` distinguishes vertices that share site and dimension.
   Branches(const TilePass& pass, const PathSite<F>& site, U first, U vertex, std::uint32_t count,
            std::optional<PointSetKind> pattern = {})
       : site_(site), first_(first), own_(count > 1 || pattern) {

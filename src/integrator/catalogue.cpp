@@ -358,8 +358,8 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
                                listed(integrators_with(Ability::media)))};
 
   const auto typed_depth = list.find("maxdepth") ? std::optional(list.integer("maxdepth", 0)) : std::nullopt;
-  const auto typed_most = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
-  const auto most = stated(choice, "maxcomponent", typed_most, defaults.max_component);
+  const auto typed_limit = list.find("maxcomponent") ? std::optional(list.number("maxcomponent", 0)) : std::nullopt;
+  const auto limit = stated(choice, "maxcomponent", typed_limit, defaults.max_component);
   const Request request{list, stated(choice, "maxdepth", typed_depth, defaults.max_depth), defaults, scene, accel};
   Made result = row->make(request);
   if (!result) return result;
@@ -373,16 +373,16 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
         "biased, without the pixel filter, depth of field and motion blur");
   }
   result->search = row->search, result->content = row->content;
-  if (most) {
+  if (limit) {
     if (result->coupled)
-      result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *most);
+      result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *limit);
     else
-      result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *most);
-    result->biases.push_back(fmt::format("maxcomponent={}", *most));
+      result->integrator = std::make_unique<ClampedIntegrator>(std::move(result->integrator), *limit);
+    result->biases.push_back(fmt::format("maxcomponent={}", *limit));
     result->notes.push_back(fmt::format(
         "samples brighter than {} are scaled down to it: the picture is biased by the light that this takes "
         "away (--set maxcomponent=none lifts it)",
-        *most));
+        *limit));
   }
   return result;
 }

@@ -40,14 +40,14 @@ struct ChosenIntegrator {
   std::unique_ptr<PixelIntegrator> integrator;  // scene and accel must outlive it; null: it is coupled
   std::vector<std::string> biases;              // "maxdepth=5", ...: what makes its mean differ from the scene's light
   std::vector<std::string> notes;               // the same for people, in sentences
-  std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels learn from each other
+  std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels share samples
   LightSearch search = LightSearch::any_length;
   Content content = Content::light;    // what its pictures hold, and so how they are displayed
   std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
   AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
 };
 
-// Adds to the biases and notes what the render's point set brings: nothing, but for fixed patterns.
+// Adds to the biases and notes what the render's point set contributes: nothing, except for fixed patterns.
 void note_sampler(ChosenIntegrator& chosen, PointSetKind kind);
 
 // Adds to what is missing, and to the notes, the light of the scene that the integrator cannot find. Looks for it by

@@ -6,21 +6,21 @@
 
 namespace montelux {
 
-// Samples with a component above `most` are scaled down until it is `most`.
-inline void clamp_samples(std::span<PixelSample> samples, float most) {
+// Samples with a component above `limit` are scaled down to it.
+inline void clamp_samples(std::span<PixelSample> samples, float limit) {
   for (PixelSample& sample : samples) {
     const float brightest = max_component(sample.radiance);
-    if (brightest > most) sample.radiance = sample.radiance * (most / brightest);
+    if (brightest > limit) sample.radiance = sample.radiance * (limit / brightest);
   }
 }
 
 class ClampedIntegrator final : public PixelIntegrator {
  public:
-  ClampedIntegrator(std::unique_ptr<PixelIntegrator> inner, float most) : inner_(std::move(inner)), most_(most) {}
+  ClampedIntegrator(std::unique_ptr<PixelIntegrator> inner, float limit) : inner_(std::move(inner)), limit_(limit) {}
 
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
     const RayCounts counts = inner_->trace(pass, out);
-    clamp_samples(out, most_);
+    clamp_samples(out, limit_);
     return counts;
   }
   std::optional<TracedPath> trace_path(const TilePass& pass) const override {
@@ -28,36 +28,36 @@ class ClampedIntegrator final : public PixelIntegrator {
     if (!path) return path;
     PixelSample sample;
     sample.radiance = path->radiance;
-    clamp_samples({&sample, 1}, most_);
+    clamp_samples({&sample, 1}, limit_);
     path->radiance = sample.radiance;
     return path;
   }
 
  private:
   std::unique_ptr<PixelIntegrator> inner_;
-  float most_;
+  float limit_;
 };
 
 class ClampedCoupledIntegrator final : public CoupledIntegrator {
  public:
-  ClampedCoupledIntegrator(std::unique_ptr<CoupledIntegrator> inner, float most)
-      : inner_(std::move(inner)), most_(most) {}
+  ClampedCoupledIntegrator(std::unique_ptr<CoupledIntegrator> inner, float limit)
+      : inner_(std::move(inner)), limit_(limit) {}
 
   int frames() const override { return inner_->frames(); }
   int warm_up() const override { return inner_->warm_up(); }
   int stages() const override { return inner_->stages(); }
   std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
-    return std::make_unique<ClampedChain>(inner_->begin(pass), inner_->stages() - 1, most_);
+    return std::make_unique<ClampedChain>(inner_->begin(pass), inner_->stages() - 1, limit_);
   }
 
  private:
   class ClampedChain final : public Chain {
    public:
-    ClampedChain(std::unique_ptr<Chain> inner, int last_stage, float most)
-        : inner_(std::move(inner)), last_stage_(last_stage), most_(most) {}
+    ClampedChain(std::unique_ptr<Chain> inner, int last_stage, float limit)
+        : inner_(std::move(inner)), last_stage_(last_stage), limit_(limit) {}
     RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       const RayCounts counts = inner_->run(step, tile, out);
-      if (step.stage == last_stage_) clamp_samples(out, most_);
+      if (step.stage == last_stage_) clamp_samples(out, limit_);
       return counts;
     }
     std::unique_ptr<ChainMemory> remember(int frames) override { return inner_->remember(frames); }
@@ -65,11 +65,11 @@ class ClampedCoupledIntegrator final : public CoupledIntegrator {
    private:
     std::unique_ptr<Chain> inner_;
     int last_stage_;
-    float most_;
+    float limit_;
   };
 
   std::unique_ptr<CoupledIntegrator> inner_;
-  float most_;
+  float limit_;
 };
 
 }  // namespace montelux

@@ -1,9 +1,11 @@
 // The first vertex of a camera path that scatters, and what it shows.
 #pragma once
+#include "integrator/features.h"
 #include "integrator/integrator.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/path_state.h"
 #include "transport/next_vertex.h"
+#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -16,17 +18,20 @@ NextVertex<F> first_vertex(const Scene& scene, const Rays& rays, const PathState
                        random, counts.scattered, FullWeight{}, sink);
 }
 
-// Writes what it shows to the feature layers; `albedo` is the weight of a sampled direction.
+// Writes what it shows to the feature layers.
 template <class F>
 void write_features(const NextVertex<F>& at, const Spectrum<F>& albedo, const PathState<F>& path, Mask<F> on,
                     std::span<PixelSample> out) {
-  const Vec3<F> normal = face_forward(at.x.point.ns, -at.d);
-  const Spectrum<F> emission = at.light * path.weight;
-  for_each_lane(on, [&](int k) {
-    out[lane(path.slot, k)].features = {to_rgb(lane(emission, k)), to_rgb(lane(albedo, k)), lane(normal, k),
-                                        lane(at.x.point.p, k),     lane(at.distance, k),    1.0f,
-                                        lane(at.x.object, k)};
-  });
+  write_features<F>({at.x.point, at.x.object, at.d, at.distance, at.light, albedo}, path, on, out);
+}
+// With the albedo by one direction, which the path's own numbers sample.
+template <class F, NumberSource<F> Numbers>
+void write_features(const NextVertex<F>& at, const Numbers& numbers, const PathState<F>& path,
+                    std::span<PixelSample> out) {
+  const Uint<F> first(path_dimension::first_vertex);
+  const Vec2<F> u = numbers.get2(first + Uint<F>(path_dimension::direction));
+  const F lobe = numbers.get1(first + Uint<F>(path_dimension::lobe));
+  write_features(at, sampled_albedo<F>(at, {lobe, u.x, u.y}, at.found), path, at.found, out);
 }
 
 // The features of all samples of a pass; nothing of its light.
@@ -44,10 +49,7 @@ RayCounts write_first_vertices(const Scene& scene, const Rays& rays, const TileP
     const Sampler<F> numbers(pass.points, path.x, path.y, path.index);
     const NextVertex<F> at =
         first_vertex<F>(scene, rays, path, on, numbers.stream(first + U(path_dimension::own)), counts);
-    const Vec2<F> u = numbers.get2(first + U(path_dimension::direction));
-    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo,
-                                         Vec3<F>{numbers.get1(first + U(path_dimension::lobe)), u.x, u.y}, at.context);
-    write_features(at, select(next.valid & at.found, next.weight, gray(F(0.0f))), path, at.found, out);
+    write_features(at, numbers, path, out);
   }
 }
 

@@ -1,4 +1,4 @@
-// What the scheduler asks of an integrator. Integrators know no threads, no film and no files.
+// The interface between the scheduler and integrators. Integrators know no threads, no film and no files.
 #pragma once
 #include <array>
 #include <memory>
@@ -69,8 +69,8 @@ class PixelIntegrator {
   virtual std::optional<TracedPath> trace_path(const TilePass&) const { return std::nullopt; }
 };
 
-// ---- pixels that learn from each other
-// ------------------------------------------------------------------------------
+// ---- pixels that share samples
+// ---------------------------------------------------------------------------------------
 
 // What a chain has learned by its end, for a chain of the next picture of a sequence. Only the integrator that left it
 // can read it.
@@ -104,7 +104,7 @@ class Chain {
   // The last stage of a frame fills `out`, one sample for each pixel of the tile in row-major order: an unbiased
   // estimate. The other stages leave it alone. The tiles must be the same in all steps.
   virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
-  // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing is to go on.
+  // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing continues.
   virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
 };
 

@@ -6,11 +6,11 @@
 
 namespace montelux {
 
-// Tells the numbers of resampling from those of the materials, which fork the same stream by small numbers.
+// Separates the numbers of resampling from those of the materials, which fork the same stream by small numbers.
 inline constexpr std::uint32_t resampling_stream = 0x9d2c5680u;
 
-// The chosen candidate: value / target * mean weight, an estimate of all the light that the candidates could bring if
-// nothing were in the way. Black where none brings anything.
+// The chosen candidate: value / target * mean weight, an estimate of all the light that the candidates would contribute
+// if nothing were in the way. Black where none contributes anything.
 template <class F>
 struct ResampledLight {
   Vec3<F> wi;
@@ -19,8 +19,9 @@ struct ResampledLight {
   F u_choice;  // that its light was chosen by
 };
 
-// draw(u_choice, u) gives a LightSample; value(light, mask) what it brings if nothing is in the way, not yet divided by
-// its density: any function of the direction, so that a weight of multiple importance sampling may be part of it.
+// draw(u_choice, u) gives a LightSample; value(light, mask) what it contributes if nothing is in the way, not yet
+// divided by its density: any function of the direction, so that a weight of multiple importance sampling may be part
+// of it.
 template <class F, class Draw, class Value>
 ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F> on, Draw draw, Value value) {
   struct Chosen {
@@ -38,9 +39,9 @@ ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F>
     const Vec2<F> u = stream.next2();
     const F u_take = stream.next();
     const LightSample<F> light = draw(u_choice, u);
-    const Mask<F> asks = on & light.valid;
-    const Spectrum<F> contribution = value(light, asks);
-    const F target = select(asks, average(contribution), F(0.0f));
+    const Mask<F> queries = on & light.valid;
+    const Spectrum<F> contribution = value(light, queries);
+    const F target = select(queries, average(contribution), F(0.0f));
     const F weight = select(target > F(0.0f), target / light.density.value, F(0.0f));
     sum = sum + weight;
     const Mask<F> taken = u_take * sum < weight;

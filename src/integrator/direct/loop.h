@@ -55,7 +55,7 @@ struct DirectLight {
     const F products[2] = {own.value, other.value};
     return mis_weight<F>(settings.heuristic, products, 0);
   }
-  // A light that was chosen by u_choice brings `light`.
+  // A light that was chosen by u_choice contributes `light`.
   void record_sample(F u_choice, const Spectrum<F>& light, M on) const {
     if constexpr (Tally::records) {
       const ReferencePoint<F> from = at.reference();
@@ -106,7 +106,8 @@ struct DirectLight {
     return contribution;
   }
 
-  // What a direction of the world brings; weight(density) as for arrive(). `factor` is what becomes of it in the end.
+  // The radiance from a direction of the world; weight(density) as for next_vertex(). `factor` is the share of it that
+  // the sample receives.
   template <class Weight>
   Spectrum<F> incoming(const Vec3<F>& wi, std::uint32_t ray, M on, [[maybe_unused]] const Spectrum<F>& factor,
                        Weight weight) const {
@@ -199,10 +200,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     if constexpr (Tally::records)
       for_each_lane(on, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
 
-    const Vec2<F> u = sampler.get2(first + U(path_dimension::direction));
-    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo,
-                                         Vec3<F>{sampler.get1(first + U(path_dimension::lobe)), u.x, u.y}, at.context);
-    write_features(at, select(next.valid & at.found, next.weight, gray(F(0.0f))), path, at.found, out);
+    write_features(at, sampler, path, out);
   }
 }
 

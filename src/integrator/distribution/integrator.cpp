@@ -36,7 +36,7 @@ struct Tree {
   RayCounts& counts;
   Tally& tally;
 
-  // Light that the surface sends back beside what it emits. `vertex` tells apart the surfaces of the tree.
+  // Light that the surface scatters. `vertex` is the surface's number in the tree.
   Spectrum<float> reflected(const NextVertex<F>& at, U depth, U vertex, const Way& way) {
     if (settings.max_depth && depth >= U(*settings.max_depth)) return gray(0.0f);
     const auto directions = U(at_depth(settings.branching, depth));
@@ -140,10 +140,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
     if (at.found) {
       Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};
       radiance += at.left * tree.reflected(at, 0, 0, {gray(1.0f), at.left * path.weight});
-      const Vec2f u = sampler.get2(first + path_dimension::direction);
-      const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo,
-                                           Vec3f{sampler.get1(first + path_dimension::lobe), u.x, u.y}, at.context);
-      write_features(at, next.valid ? next.weight : gray(0.0f), path, true, out);
+      write_features(at, sampler, path, out);
     }
     out[path.slot].radiance = to_rgb(radiance * path.weight);
     if constexpr (Tally::records) tally.finish(0, path.slot, out[path.slot]);

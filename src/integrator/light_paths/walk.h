@@ -78,9 +78,9 @@ struct LightPathVertex {
 
 // A sink has
 //   void leave(LightPathStart, on)              a ray leaves a light
-//   Query ask(LightPathVertex, on)              .toward: a local direction, .asks: where its BSDF value is wanted
+//   Query query(LightPathVertex, on)            .toward: a local direction, .on: where its BSDF value is needed
 //   void visit(LightPathVertex, Query, BsdfValue, on)
-//   void broken(F value, PathSite, on)     a flux that is not a number, whose path ends
+//   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
 // `Correction` is AdjointCorrection, but in tests that plant a fault.
 template <class F, class Rays, class Sink, class Correction = AdjointCorrection>
 class LightWalk {
@@ -139,9 +139,8 @@ class LightWalk {
 
     const M carries = on & e.valid & !is_broken(flux, site, on & e.valid) & (max_component(flux) > F(0.0f));
     const M leaves = shared_.max_depth && *shared_.max_depth == 0 ? M(false) : carries;
-    const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
     const Vec3<F> o = select(e.on_surface, offset_origin(e.p, e.p_error, e.n, e.d), e.p);
-    return {{{o, e.d, F(ray_infinity), time}, {e.p, zero}, flux, max_component(flux), U(0u), U(0u), site}, leaves};
+    return {{{o, e.d, F(ray_infinity), time}, free_point(e.p), flux, max_component(flux), U(0u), U(0u), site}, leaves};
   }
 
   // Goes to the next vertex, shows it to the sink, and scatters there.
@@ -157,12 +156,12 @@ class LightWalk {
     context.mode = TransportMode::importance;
     const F ng_in = dot(at.x.point.ng, at.d);
 
-    // The sink may ask where the surface scatters; a direction is drawn.
+    // The BSDF's value for the sink's direction, and a direction that it draws.
     const LightPathVertex<F> vertex{at, path, context, ng_in, numbers, dimension};
-    const auto query = sink_.ask(vertex, on);
+    const auto query = sink_.query(vertex, on);
     const Scattering<F> scattered =
         scatter<F>(at.bsdf.lanes(on),
-                   {at.wo, query.toward, query.asks, numbers.get1(dimension + U(light_dimension::lobe)),
+                   {at.wo, query.toward, query.on, numbers.get1(dimension + U(light_dimension::lobe)),
                     numbers.get2(dimension + U(light_dimension::vertex_direction))},
                    context);
     sink_.visit(vertex, query, scattered.toward_light, on);

@@ -2,7 +2,7 @@
 #pragma once
 #include "integrator/light_paths/walk.h"
 #include "integrator/light_tracing/settings.h"
-#include "integrator/light_tracing/splats.h"
+#include "integrator/splats.h"
 
 namespace montelux {
 
@@ -57,17 +57,17 @@ class LightTracingLoop {
   struct Query {
     LensConnection<F> lens;
     Vec3<F> toward;  // the lens, local
-    M asks;
+    M on;
   };
-  // The lens is asked where the surface scatters.
-  Query ask(const LightPathVertex<F>& v, M on) const {
+  // The connection with the lens, where the surface scatters.
+  Query query(const LightPathVertex<F>& v, M on) const {
     const LensConnection<F> lens = scene_.camera.toward(
         v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
     return {lens, v.at.bsdf.frame.to_local(-lens.d),
             M(on & !v.at.bsdf.is_delta & lens.seen & shared_.plane.reaches(lens.raster))};
   }
   void visit(const LightPathVertex<F>& v, const Query& query, const BsdfValue<F>& value, M) {
-    if (!any(query.asks)) return;
+    if (!any(query.on)) return;
     const NextVertex<F>& at = v.at;
     const LensConnection<F>& lens = query.lens;
     const F ng_out = dot(at.x.point.ng, lens.d);
@@ -76,7 +76,7 @@ class LightTracingLoop {
     connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
             {at.media_toward(-lens.d), lens, v.path.ray.time,
              v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-            light, query.asks & !is_black(light));
+            light, query.on & !is_black(light));
   }
   // It shows in the pixel whose sample point the path has.
   void broken(F value, const PathSite<F>& site, M on) {
@@ -99,10 +99,10 @@ class LightTracingLoop {
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
     const LensDirection<F> lens = scene_.camera.toward_direction(-e.d, lens_u, time);
-    const M asks = beyond & lens.seen & shared_.plane.reaches(lens.raster);
-    if (!any(asks)) return;
+    const M queries = beyond & lens.seen & shared_.plane.reaches(lens.raster);
+    if (!any(queries)) return;
     const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
-    splat(lens.raster, light, asks & sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, asks));
+    splat(lens.raster, light, queries & sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, queries));
   }
 
   struct Place {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "integrator/light_tracing/splats.h"
 #include "integrator/metropolis/markov_chains.h"
+#include "integrator/splats.h"
 
 namespace montelux {
 
@@ -83,11 +83,11 @@ class MetropolisChain final : public Chain {
   // Those whose first pixel lies in the tile.
   template <class Function>
   void for_each_cell(const PixelBounds& tile, Function f) const {
-    for (int number = 0; number < cells_across_ * cells_down_; ++number) {
-      const Cell cell = cell_at(number);
-      const PixelBounds& c = cell.bounds;
-      if (c.x0 >= tile.x0 && c.x0 < tile.x1 && c.y0 >= tile.y0 && c.y0 < tile.y1) f(cell);
-    }
+    const auto next = [](int pixels) { return (pixels + cell_side - 1) / cell_side; };
+    const PixelBounds& b = pass_.bounds;
+    for (int row = next(tile.y0 - b.y0); row < next(tile.y1 - b.y0); ++row)
+      for (int column = next(tile.x0 - b.x0); column < next(tile.x1 - b.x0); ++column)
+        f(cell_at(row * cells_across_ + column));
   }
   // Of each chain in a frame.
   static std::uint32_t steps_of(const Cell& cell) {

@@ -1,11 +1,12 @@
 // The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
 #pragma once
+#include "integrator/features.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/path/light_weights.h"
 #include "integrator/path/path_recorder.h"
 #include "integrator/path/settings.h"
 #include "integrator/path/survival.h"
 #include "integrator/resampled_light.h"
-#include "mc/mis.h"
 #include "mc/roulette.h"
 #include "transport/light_met.h"
 #include "transport/numbers.h"
@@ -17,63 +18,29 @@ namespace montelux {
 // Of the stream of a vertex; it differs from the streams of materials, whose numbers are small.
 inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
 
-// What the first vertex of a path shows goes to the feature layers.
+// Before its first event a path has gathered what it saw directly, and nothing else.
 template <class F>
-void record_features(const PathState<F>& path, const SurfacePoint<F>& at, const Spectrum<F>& albedo, Uint<F> object,
-                     Mask<F> first, std::span<PixelSample> out) {
-  Vec3<F> normal = face_forward(at.ns, -path.d);
-  F depth = length(at.p - path.p);
-  // Before its first event a path has gathered what it saw directly, and nothing else.
-  const Spectrum<F> emission = path.radiance * path.weight;
-  for_each_lane(first, [&](int k) {
-    out[lane(path.slot, k)].features = {to_rgb(lane(emission, k)),
-                                        to_rgb(lane(albedo, k)),
-                                        lane(normal, k),
-                                        lane(at.p, k),
-                                        lane(depth, k),
-                                        1.0f,
-                                        lane(object, k)};
-  });
+FirstSight<F> first_sight(const PathState<F>& path, const SurfaceHit<F>& x, const Spectrum<F>& albedo) {
+  return {x.point, x.object, path.d, length(x.point.p - path.p), path.radiance, albedo};
 }
 
-// The weight of light that next-event estimation found and BSDF sampling could have found, too.
-template <class F>
-MONTELUX_INLINE F weight_of_light_sample(const PathSettings& settings, const Density<SolidAngle, F>& own,
-                                         const Density<SolidAngle, F>& by_bsdf) {
-  if (!settings.nee || settings.mis == PathMis::off) return F(1.0f);
-  return settings.mis == PathMis::balance ? balance_weight(own, by_bsdf) : power_weight(own, by_bsdf);
-}
-// The weight of light that a path met; `own` is 0 where no light sample could have found it.
-template <class F>
-MONTELUX_INLINE F weight_of_light_hit(const PathSettings& settings, const Density<SolidAngle, F>& own,
-                                      const Density<SolidAngle, F>& by_light) {
-  if (!settings.nee) return F(1.0f);
-  const F shared = settings.mis == PathMis::off       ? F(0.0f)
-                   : settings.mis == PathMis::balance ? balance_weight(own, by_light)
-                                                      : power_weight(own, by_light);
-  return select((own.value > F(0.0f)) & (by_light.value > F(0.0f)), shared, F(1.0f));
-}
-
-// The probability that a path lives on. Its throughput counts without the squared indices of refraction, which cancel
-// on the way out.
+// The probability that a path survives roulette.
 template <class F>
 MONTELUX_INLINE F survival_probability(const PathSettings& settings, const PathState<F>& path) {
-  const F brightness = max_component(path.throughput) * path.eta_scale;
   switch (settings.roulette) {
     case PathRoulette::off:
       return F(1.0f);
     case PathRoulette::fixed:
       return F(settings.fixed_survival);
     case PathRoulette::proportional:
-      return min(brightness, F(max_survival));
+      return min(roulette_throughput(path), F(max_survival));
     case PathRoulette::efficiency:
-      return clamp(brightness * settings.survival->template factor<F>(path.x, path.y, path.depth), min_survival,
-                   max_survival);
+      return clamp(roulette_throughput(path) * settings.survival->template factor<F>(path.x, path.y, path.depth),
+                   min_survival, max_survival);
     case PathRoulette::throughput:
       break;
   }
-  // The root spares paths that are dim now and may still find a bright place: less noise for the same rays.
-  return min(safe_sqrt(brightness), F(max_survival));
+  return survival_by_throughput(path);
 }
 
 // A vertex that receives light, as resampled_light takes it.
@@ -104,7 +71,8 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       [&](const LightSample<F>& light, Mask<F> wanted) {
         const ScatteredLight<F> scattered = evaluate_light(light, wanted);
         const F share =
-            select(light.delta, F(1.0f), weight_of_light_sample(settings, light.density, scattered.value.density));
+            select(light.delta, F(1.0f),
+                   weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density));
         return scattered.value.f_cos * light.radiance * scattered.left * share;
       });
 }
@@ -146,12 +114,13 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
   using M = Mask<F>;
   RayCounts counts;
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
+  const LightWeights weights = settings.light_weights();
   PathState<F> path{};
   // The light from beyond the scene; `left` of it reaches the vertex before.
   const auto gather_sky = [&](M escapes, const Spectrum<F>& left) {
     escapes = counts_light(source, path, escapes);
     for_each_sky_light<F>(lights, {path.p, path.n}, path.d, escapes, [&](const LightHit<F>& sky, const U& number) {
-      const F weight = weight_of_light_hit(settings, path.density, sky.density);
+      const F weight = weight_of_light_hit(weights, path.density, by_delta(path), sky.density);
       gather_light(path, escapes, path.throughput * left * sky.radiance * weight, tally, [&] {
         return LightOrigin<F>{path.depth, number, Technique::environment};
       });
@@ -209,7 +178,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const M emits = counts_light(source, path, lanes.on_surface & (v.x.light != U(0u)));
     if (any(emits)) {
       const LightHit<F> light = emission_met<F>(lights, {path.p, path.n}, v.x, path.d, emits);
-      const F weight = weight_of_light_hit(settings, path.density, light.density);
+      const F weight = weight_of_light_hit(weights, path.density, by_delta(path), light.density);
       const Spectrum<F> left = left_of(path.media, v.x.distance);
       gather_light(path, emits, path.throughput * left * light.radiance * weight, tally, [&] {
         return LightOrigin<F>{path.depth, v.x.light - U(1u), Technique::bsdf_sampling};
@@ -232,12 +201,13 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
          numbers.get2(dimension + U(path_dimension::direction))},
         scatters);
     if (M first = on & (path.depth == U(0u)) & !passes; any(first))
-      record_features(path, v.x.point, select(scattered.next.valid & scatters, scattered.next.weight, gray(F(0.0f))),
-                      v.x.object, first, out);
+      write_features(
+          first_sight(path, v.x, select(scattered.next.valid & scatters, scattered.next.weight, gray(F(0.0f)))), path,
+          first, out);
 
     // Next-event estimation.
     F light_weight =
-        select(light.delta, F(1.0f), weight_of_light_sample(settings, light.density, scattered.toward_light.density));
+        select(light.delta, F(1.0f), weight_of_light_sample(weights, light.density, scattered.toward_light.density));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     // In media the shadow ray finds the transmittance.
@@ -290,11 +260,12 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const M moves = continues | passes;
     path.media = select_media<F>(moves, v.media_toward(wi), path.media);
     path.p = select(continues, v.x.point.p, path.p), path.n = select(continues, v.bsdf.light_normal, path.n);
-    path.density.value = select(continues, select(next.delta, F(0.0f), next.density.value), path.density.value);
+    path.density.value = select(continues, next.density.value, path.density.value);
+    path.by_delta = select(continues, select(next.delta, U(1u), U(0u)), path.by_delta);
 
     if constexpr (requires { Tally::records_vertices; })
-      tally.visit(
-          VertexVisit<F>{v.x, v.bsdf, arriving, wi, path.density.value, chance, on, passes, v.in_medium, moves});
+      tally.visit(VertexVisit<F>{v.x, v.bsdf, arriving, wi, select(by_delta(path), F(0.0f), path.density.value), chance,
+                                 on, passes, v.in_medium, moves});
 
     // The next vertex, or the sky. In media a ray that meets no surface may still scatter.
     path.o = v.origin_toward(wi), path.d = wi;

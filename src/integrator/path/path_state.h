@@ -2,6 +2,7 @@
 #pragma once
 #include <cstring>
 
+#include "mc/roulette.h"
 #include "scene/geometry_store.h"
 #include "transport/media.h"
 
@@ -15,7 +16,8 @@ struct PathState {
   Spectrum<F> radiance;            // gathered so far
   Media<F> media;                  // along d
   Vec3<F> p, n;                    // the previous vertex and its normal, as the lights' densities take them
-  Density<SolidAngle, F> density;  // of the direction d at the previous vertex; 0: no other technique could draw it
+  Density<SolidAngle, F> density;  // of the direction d at the previous vertex, where it is not
+  Uint<F> by_delta;                // 1: that of a delta, or of the camera
   F weight;                        // of the camera and the filter (which may be negative), for the result
   F time;                          // at which the camera looked
   F eta_scale;                     // squared relative indices of refraction crossed; roulette takes it out
@@ -24,6 +26,24 @@ struct PathState {
   Uint<F> x, y, index;             // pixel, and number of the sample there
   Uint<F> slot;                    // where the result goes
 };
+
+template <class F>
+MONTELUX_INLINE Mask<F> by_delta(const PathState<F>& path) {
+  return path.by_delta != Uint<F>(0u);
+}
+
+// What is left of a path, for roulette: its throughput without the squared indices of refraction, which cancel on the
+// way out.
+template <class F>
+MONTELUX_INLINE F roulette_throughput(const PathState<F>& path) {
+  return max_component(path.throughput) * path.eta_scale;
+}
+// The survival probability by throughput. The root spares paths that are dim now and may still find a bright place:
+// less noise for the same rays.
+template <class F>
+MONTELUX_INLINE F survival_by_throughput(const PathState<F>& path) {
+  return min(safe_sqrt(roulette_throughput(path)), F(max_survival));
+}
 
 // Which point of which pixel a path belongs to, in every lane.
 template <class F>
@@ -87,7 +107,8 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
   path.media = select_media<F>(fresh, media, path.media);
   put(path.p, start.o), put(path.n, zero);
-  put_one(path.density.value, F(0.0f)), put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
+  put_one(path.density.value, F(0.0f)), put_one(path.by_delta, U(1u));
+  put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
   put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.slot, start.slot);

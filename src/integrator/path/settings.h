@@ -21,10 +21,15 @@ ParameterSpec max_depth_spec();
 // estimation's where the surface is not a mirror.
 enum class PathMis { off, balance, power };
 
-// What decides whether a path lives on. `throughput`: the square root of the product of its weights; `proportional`:
+// What decides whether a path survives. `throughput`: the square root of the product of its weights; `proportional`:
 // that product itself, so that survivors weigh alike; `fixed`: always the same probability; `efficiency`: the one that
 // a pilot found to make variance times cost least.
 enum class PathRoulette { off, throughput, proportional, fixed, efficiency };
+
+struct LightWeights {
+  bool nee;
+  PathMis mis;
+};
 
 struct PathSettings {
   // Scattering events at most; none: paths end by roulette alone, without bias.
@@ -39,11 +44,13 @@ struct PathSettings {
   std::shared_ptr<const SurvivalMap> survival;
   // How lights are chosen; none: as the scene says.
   std::optional<LightSelection> light_selection;
-  // Next-event estimation by one out of so many candidates, chosen by what they would bring; 0: by a single one.
+  // Next-event estimation by one out of so many candidates, chosen by their contributions; 0: by a single one.
   int candidates = 0;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;
+
+  LightWeights light_weights() const { return {nee, mis}; }
 };
 
 EntitySpec path_spec();

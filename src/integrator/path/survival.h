@@ -32,10 +32,10 @@ class SurvivalMap {
 
  private:
   int block_bits_, blocks_across_;
-  std::vector<float> factors_;  // blocks by rows, the depths of one behind each other
+  std::vector<float> factors_;  // blocks by rows; the depths of a block are consecutive
 };
 
-// The survival of a path that lives on with too small a probability would weigh too much.
+// A path that survives with too small a probability would have too large a weight.
 inline constexpr float min_survival = 0.05f;
 
 // One path of the pilot, without roulette: before each decision its throughput (as roulette takes it) and the light
@@ -58,7 +58,7 @@ class PilotTally {
   // Paths have scattered, in the lanes `on`, and are about to play roulette.
   template <class F>
   void scattered(const PathState<F>& path, Mask<F> on) {
-    const F throughput = max_component(path.throughput) * path.eta_scale;
+    const F throughput = roulette_throughput(path);
     const Spectrum<F> gathered = path.radiance * path.weight;
     for_each_lane(on, [&](int k) {
       paths_[lane(path.slot, k)].decisions.push_back({lane(throughput, k), mean_light(to_rgb(lane(gathered, k)))});

@@ -4,10 +4,10 @@
 
 #include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
+#include "integrator/path/light_weights.h"
 #include "integrator/photons/photon_map.h"
 #include "integrator/photons/settings.h"
-#include "mc/mis.h"
-#include "mc/roulette.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -78,8 +78,8 @@ class PhotonLookup {
 
 // Every pixel's path, by mirrors, glass and glossy directions to the surfaces where it gathers photons.
 //
-// At a rough surface the directions that its BSDF samples with a density above `glossy` are the path's own, which goes
-// on; those below are the photons'. A path that leaves by one of these ends where it arrives: it only looks for
+// At a rough surface the path itself continues in directions that its BSDF samples with a density above `glossy`;
+// photons represent the others. A path that leaves in one of the others ends at the next surface: it only looks for
 // emission there, which next-event estimation shares with it. So every light path counts once: its last vertices before
 // the eye are those of the path, the others a photon's.
 template <class F, class Rays>
@@ -88,7 +88,11 @@ class PhotonGathering {
   using U = Uint<F>;
   using M = Mask<F>;
   PhotonGathering(const Scene& scene, const Rays& rays, const SppmSettings& settings, const PhotonMap& map)
-      : scene_(scene), rays_(rays), settings_(settings), photons_(map, settings.kernel) {}
+      : scene_(scene),
+        rays_(rays),
+        settings_(settings),
+        mis_{settings.nee, PathMis::power},
+        photons_(map, settings.kernel) {}
 
   RayCounts run(const TilePass& pass, std::span<PixelSample> out) {
     FirstHits<F> first_hits(scene_, rays_, pass, out);
@@ -105,16 +109,13 @@ class PhotonGathering {
   }
 
  private:
-  F weight_of_hit(const PathState<F>& path, F by_light) const {
-    const F own = path.density.value;
-    return select((own > F(0.0f)) & (by_light > F(0.0f)), power_weight(own, by_light), F(1.0f));
-  }
-
-  // One vertex of every path; gives the lanes that go on. `ends`: those that only look for emission.
+  // One vertex of every path; gives the lanes that continue. `ends`: those that only look for emission.
   M step(const TilePass& pass, PathState<F>& path, M on, M& ends, std::span<PixelSample> out) {
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
-    const auto weight = [&](const Density<SolidAngle, F>& by_light) { return weight_of_hit(path, by_light.value); };
+    const auto weight = [&](const Density<SolidAngle, F>& by_light) {
+      return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
+    };
     const NextVertex<F> at =
         follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time},
                       path.hit, on, sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight);
@@ -132,16 +133,16 @@ class PhotonGathering {
     const LightSample<F> light =
         scene_.lights.template sample<F>(from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)),
                                          sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
-    const M asks = wants_light & light.valid;
+    const M queries = wants_light & light.valid;
     const Scattering<F> scattered =
         scatter<F>(at.bsdf.lanes(scatters),
-                   {at.wo, at.bsdf.frame.to_local(light.wi), asks, sampler.get1(dimension + U(path_dimension::lobe)),
+                   {at.wo, at.bsdf.frame.to_local(light.wi), queries, sampler.get1(dimension + U(path_dimension::lobe)),
                     sampler.get2(dimension + U(path_dimension::direction))},
                    context);
     const BsdfSample<F>& next = scattered.next;
     if (const M first = on & (path.depth == U(0u)) & at.found; any(first))
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
-    if (any(asks)) add_direct(path, at, light, scattered.toward_light, asks);
+    if (any(queries)) add_direct(path, at, light, scattered.toward_light, queries);
     if (any(rough)) {
       const U room = U(settings_.max_depth ? std::uint32_t(*settings_.max_depth) - 1u : 0x7fffffffu) - path.depth;
       const Spectrum<F> gathered = photons_.template radiance<F>(
@@ -160,8 +161,7 @@ class PhotonGathering {
     path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(moves, U(1u), U(0u));
     const M plays = moves & (path.depth > U(std::uint32_t(settings_.roulette_depth)));
-    const F vigour = max_component(path.throughput) * path.eta_scale;
-    const Roulette<F> survival = roulette(select(plays, min(safe_sqrt(vigour), F(max_survival)), F(1.0f)),
+    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
     moves = moves & survival.survives;
     path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
@@ -169,8 +169,8 @@ class PhotonGathering {
     const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
     path.media = select_media<F>(moves, at.media_toward(wi), path.media);
     path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
-    const M shares = M(settings_.nee) & !next.delta;
-    path.density.value = select(moves, select(shares, next.density.value, F(0.0f)), path.density.value);
+    path.density.value = select(moves, next.density.value, path.density.value);
+    path.by_delta = select(moves, select(next.delta, U(1u), U(0u)), path.by_delta);
     path.o = at.origin_toward(wi), path.d = wi;
 
     // The next vertex, or the sky.
@@ -187,20 +187,20 @@ class PhotonGathering {
   }
 
   void add_direct(PathState<F>& path, const NextVertex<F>& at, const LightSample<F>& light, const BsdfValue<F>& value,
-                  M asks) {
-    const F share = select(light.delta, F(1.0f), power_weight(light.density.value, value.density.value));
+                  M queries) {
+    const F share = select(light.delta, F(1.0f), weight_of_light_sample(mis_, light.density, value.density));
     const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance *
                                at.left_of_light(light.wi, light.distance) * (share / light.density.value);
-    const M shadow = asks & (max_component(direct) > F(0.0f));
+    const M shadow = queries & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
-    counts_.shadow += std::uint64_t(count(shadow));
-    const M lit = shadow & !rays_.template occluded<F>(at.shadow_ray_to(light.wi, light.distance), shadow);
+    const M lit = unblocked<F>(rays_, at.shadow_ray_to(light.wi, light.distance), shadow, counts_.shadow);
     path.radiance += select(lit, direct, gray(F(0.0f)));
   }
 
   const Scene& scene_;
   const Rays& rays_;
   const SppmSettings& settings_;
+  const LightWeights mis_;
   PhotonLookup photons_;
   RayCounts counts_;
 };

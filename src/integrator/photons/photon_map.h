@@ -20,7 +20,7 @@ struct Photon {
   std::uint32_t path;    // its number: a path leaves one photon for each number of events
 };
 
-// What a gathering point asks of a photon near it, as lanes gather it.
+// The part of a photon that a gathering point needs, as lanes gather it.
 struct GatheredPhoton {
   Vec3f wi, ng;
   Spectrum<float> flux;

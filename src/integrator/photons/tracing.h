@@ -19,10 +19,10 @@ class PhotonSink {
 
   struct Query {
     Vec3<F> toward;
-    M asks;
+    M on;
   };
   void leave(const LightPathStart<F>&, M) {}
-  Query ask(const LightPathVertex<F>& v, M) const { return {v.at.wo, M(false)}; }
+  Query query(const LightPathVertex<F>& v, M) const { return {v.at.wo, M(false)}; }
   void visit(const LightPathVertex<F>& v, const Query&, const BsdfValue<F>&, M on) {
     const M stored = on & !v.at.bsdf.is_delta & (v.path.depth >= U(first_event_));
     const Spectrum<F> flux = v.path.flux * scale_;

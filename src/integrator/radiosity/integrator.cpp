@@ -94,7 +94,7 @@ class RadiosityChain final : public Chain {
   }
 
  private:
-  // The points of the rays of elements: afresh in every frame.
+  // The points of the rays of elements: independent in every frame.
   PointSet points(int frame) const {
     PointSet p = pass_.points;
     p.kind = PointSetKind::padded_sobol, p.samples_per_pass = std::uint32_t(shared_.settings.rays);

@@ -24,8 +24,8 @@ class ReuseChain final : public Chain {
     frame_.resize(pixels);
   }
 
-  // Stage 0 looks for light at every pixel and in the frame before; every further one learns from neighbours, and the
-  // last one of these makes the picture.
+  // Stage 0 looks for light at every pixel and in the frame before; every further one reuses samples of neighbours,
+  // and the last one of these makes the picture.
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage > 0) {
       if (!in_groups()) return share(step, tile, out);
@@ -163,7 +163,7 @@ class ReuseChain final : public Chain {
     return before(frame - 1, step_number(frame, 0), pixel);
   }
 
-  // Every pixel learns from itself in the frame before, or from where its surface was in the picture before.
+  // Every pixel reuses its own samples of the frame before, or those of where its surface was in the picture before.
   RayCounts recall(int frame, const PixelBounds& tile) {
     RayCounts counts;
     const int step = step_number(frame, 0);
@@ -342,8 +342,8 @@ class ReuseChain final : public Chain {
     const Connection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
     const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
     // Where targets know what is in the way, the pixel sees whatever it holds.
-    const M asks = lit & (way.target > F(0.0f));
-    const M open = settings().visibility_reuse ? asks : is_open<F>(shared_.rays, vertex, way, asks, counts);
+    const M queries = lit & (way.target > F(0.0f));
+    const M open = settings().visibility_reuse ? queries : is_open<F>(shared_.rays, vertex, way, queries, counts);
     add_light(light, at, open, out);
   }
   void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {

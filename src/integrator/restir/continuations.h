@@ -1,4 +1,4 @@
-// Paths that go on behind the vertex whose direct light is reused: a source of paths for the path loop.
+// Paths that continue beyond the vertex whose direct light is reused: a source of paths for the path loop.
 #pragma once
 #include <span>
 #include <vector>
@@ -23,7 +23,7 @@ class Continuations {
     });
   }
 
-  // As the path loop asks.
+  // The interface of the path loop's sources.
   Mask<F> refill(PathState<F>& state, Mask<F> on) {
     std::uint32_t running = bits(on);
     for (int k = 0; k < lanes_of<F> && next_ < paths_.size(); ++k) {

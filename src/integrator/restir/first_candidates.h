@@ -33,9 +33,10 @@ MONTELUX_INLINE Candidate<F> select(Mask<F> m, const Candidate<F>& a, const Cand
 // A point's share is its technique's number of samples times density over that of all (Veach and Guibas 1995), so its
 // resampling weight is target / sum of these products, whoever drew it. The BSDF draws only what is open to the vertex,
 // so a point on a light must have the whole of its share where something is in the way, or other pixels that see it
-// would find too little light there. The point that the lights' own techniques choose among themselves is therefore
-// asked for its visibility before it meets the BSDF's. Lights with a place and those beyond the scene have a stream
-// each, and ask each for themselves: where a sun is hidden, a pixel would else find nothing but the sun.
+// would find too little light there. The visibility of the point that the lights' own techniques choose among
+// themselves is therefore tested before it competes with the BSDF's. Lights with a place and those beyond the scene
+// have a stream each, and each is tested by itself: where a sun is hidden, a pixel would otherwise find nothing but the
+// sun.
 template <class F, class Rays>
 class FirstCandidates {
  public:
@@ -57,10 +58,10 @@ class FirstCandidates {
       const F u_take = stream.next();
       const LightSet& technique = is_power ? *lights_.by_power : lights_.bvh;
       const LightChoice<F> choice = technique.choose(vertex_.p, vertex_.light_normal, u_choice, on);
-      const Mask<F> asks = on & choice.valid;
+      const Mask<F> queries = on & choice.valid;
       const LightPointDraw<F> draw =
-          lights_.bvh.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, asks);
-      const Mask<F> good = asks & draw.valid;
+          lights_.bvh.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, queries);
+      const Mask<F> good = queries & draw.valid;
       const Connection<F> to = connect(lights_.bvh, vertex_, draw.point, good);
       const F product = draw.density.value * products_of_choice(choice, is_power, good);
       const F w = weight(to, product, good);

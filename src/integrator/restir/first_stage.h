@@ -24,7 +24,7 @@ struct RestirScene {
   PathScene<Rays> paths() const { return {scene, lights.bvh, rays, settings.indirect, max_events()}; }
 };
 
-// Streams of one pixel in one frame, told apart.
+// The streams of one pixel in one frame.
 namespace restir_stream {
 inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
 inline constexpr std::uint32_t direction = 1u << 29;  // of the sampler, beyond all vertices: of a rough vertex
@@ -74,7 +74,7 @@ class FirstStage {
  private:
   using Candidates = FirstCandidates<F, Rays>;
 
-  // One vertex of every path; gives the lanes that go on to another.
+  // One vertex of every path; gives the lanes that continue to another.
   M step(PathState<F>& path, M on) {
     const Scene& scene = shared_.scene;
     const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
@@ -100,7 +100,8 @@ class FirstStage {
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
     const BsdfSample<F> next = leave(v, sampler, dimension, path_numbers, scatters);
     if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
-      record_features(path, x.point, select(next.valid & scatters, next.weight, gray(F(0.0f))), x.object, first, out_);
+      write_features(first_sight(path, x, select(next.valid & scatters, next.weight, gray(F(0.0f)))), path, first,
+                     out_);
 
     // The vertex whose light is reused.
     const ReuseVertex<F> vertex = reuse_vertex(path, v, numbers);
@@ -128,7 +129,8 @@ class FirstStage {
     const Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
     path.media = select_media<F>(continues, v.media_toward(wi), path.media);
     path.p = select(continues, x.point.p, path.p), path.n = select(continues, bsdf.light_normal, path.n);
-    path.density.value = select(continues, select(next.delta, F(0.0f), next.density.value), path.density.value);
+    path.density.value = select(continues, next.density.value, path.density.value);
+    path.by_delta = select(continues, select(next.delta, U(1u), U(0u)), path.by_delta);
     path.o = v.origin_toward(wi), path.d = wi;
     path.crossings = path.crossings + select(passes, U(1u), U(0u));
     const M moves = passes | lives | offers;

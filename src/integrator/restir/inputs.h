@@ -30,9 +30,9 @@ struct ReuseInputs {
     if (!paths.empty()) paths[i] = paths[0];
     cap(i, F(0.0f));
   }
-  void cap(std::size_t i, F most) {
-    lights[i].confidence = min(lights[i].confidence, most);
-    if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, most);
+  void cap(std::size_t i, F limit) {
+    lights[i].confidence = min(lights[i].confidence, limit);
+    if (!paths.empty()) paths[i].confidence = min(paths[i].confidence, limit);
   }
   // The pixel becomes lane k of input i.
   void put_pixel(std::size_t i, int k, const PixelState& pixel) {

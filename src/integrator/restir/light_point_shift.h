@@ -1,4 +1,4 @@
-// The shift of direct light: a point of a light stays where it is, whichever surface asks for it. Points are counted in
+// The shift of direct light: a point of a light stays where it is, whichever surface uses it. Points are counted in
 // their own measure (area, direction, choice), which all surfaces share, so the Jacobian is 1 (Bitterli et al. 2020,
 // sec. 4; Lin et al. 2022, sec. 5: reconnection at the light).
 #pragma once

@@ -1,4 +1,4 @@
-// Which pixels a pixel learns from.
+// The pixels whose samples another pixel reuses.
 #pragma once
 #include <cmath>
 #include <optional>

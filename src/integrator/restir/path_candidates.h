@@ -1,5 +1,5 @@
 // What a pixel finds by itself behind its vertex: one path by BSDF sampling with next-event estimation at every further
-// vertex, of whose ends one is kept in proportion to what it brings.
+// vertex, of whose ends one is kept in proportion to its contribution.
 #pragma once
 #include <vector>
 
@@ -18,7 +18,8 @@ struct PathWalk {
   Spectrum<F> before;              // product of the events' weights up to `from`
   Spectrum<F> leaving;             // times f cos of the event there; black for a delta
   Spectrum<F> weight;              // times its weight
-  Density<SolidAngle, F> density;  // of d at `from`; 0 for a delta
+  Density<SolidAngle, F> density;  // of d at `from`, where it is not
+  Uint<F> by_delta;                // 1: that of a delta
   F eta_scale;                     // as PathState has it
   F pixels;                        // squared distance of pixels, for Leg
   Uint<F> events;                  // up to d
@@ -28,7 +29,7 @@ struct PathWalk {
   Uint<F> joined;       // number of the event at the surface that the path was joined to; 0: not yet
   StoredSurface<F> at;  // that surface, the direction from there,
   Vec3<F> wi;
-  Spectrum<F> until;  // what the path brings for each unit of light along it,
+  Spectrum<F> until;  // what the path contributes for each unit of light along it,
   Spectrum<F> tail;   // and the weights of all events behind
   Uint<F> slot;
 };
@@ -49,7 +50,7 @@ class PathCandidates {
     walk.from = vertex, walk.o = ray.o, walk.d = ray.d, walk.hit = ray.hit;
     walk.found = select(found, U(1u), U(0u)), walk.slot = ray.slot;
     walk.before = gray(F(1.0f)), walk.leaving = event.f_cos, walk.weight = event.weight;
-    walk.density = event.density, walk.eta_scale = ray.eta_scale;
+    walk.density = event.density, walk.by_delta = select(event.delta, U(1u), U(0u)), walk.eta_scale = ray.eta_scale;
     walk.pixels = squared_distance_of_pixels(shared_.reuse, vertex);
     walk.events = U(1u), walk.crossings = U(0u), walk.joined = U(0u), walk.numbers = numbers;
     walk.plain = walk.until = walk.tail = gray(F(0.0f));
@@ -105,7 +106,7 @@ class PathCandidates {
     if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
 
     const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
-    const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.pixels);
+    const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.by_delta == U(0u), w.pixels);
     if (const M lit = scatters & !v.bsdf.is_delta; any(lit)) sample_light(vertex, leg, lit);
     const M continues = scatter(vertex, leg, scatters);
 
@@ -141,11 +142,11 @@ class PathCandidates {
     if (!any(on)) return;
     absorb(w.from.media_toward(w.d).left(F(ray_infinity)), on);
     // What a delta meets is found again as a whole. Choice 0 is that of next-event estimation where the event was.
-    if (const M smooth = on & (w.density.value == F(0.0f)); any(smooth)) {
+    if (const M smooth = on & (w.by_delta != U(0u)); any(smooth)) {
       const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};
       meet({}, all, M(false), numbers.choice(1), smooth);
     }
-    const M spread = on & (w.density.value > F(0.0f));
+    const M spread = on & (w.by_delta == U(0u));
     std::uint32_t choice = 0;
     for_each_sky_light<F>(shared_.lights, {w.from.p, w.from.light_normal}, w.d, spread,
                           [&](const LightHit<F>& sky, const U& number) {
@@ -154,13 +155,13 @@ class PathCandidates {
                           });
   }
 
-  // Light along the ray. What an event at the pixel's own vertex meets is direct light, which is not this one's, but
-  // for deltas.
+  // Light along the ray. What an event at the pixel's own vertex meets is direct light, which other reservoirs
+  // have, except after deltas.
   void meet(const LightPoint<F>& point, const LightHit<F>& hit, M on_the_way, F u, M on) {
     const PathWalk<F>& w = walk_;
-    const M is_delta = w.density.value == F(0.0f);
+    const M is_delta = w.by_delta != U(0u);
     const M counts = on & (is_delta | (w.events > U(1u)));
-    const F share = weight_of_light_hit(settings_, w.density, hit.density);
+    const F share = weight_of_light_hit(settings_.light_weights(), w.density, is_delta, hit.density);
     const Spectrum<F> contribution = w.weight * hit.radiance * share;
 
     const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
@@ -194,7 +195,7 @@ class PathCandidates {
     if (!any(lit)) return;
     const F density = draw.density.value * choice.mass.value;  // of the light point, in its measure
     const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),
-                           weight_of_light_sample<F>(settings_, {density}, to.by_bsdf));
+                           weight_of_light_sample<F>(settings_.light_weights(), {density}, to.by_bsdf));
     const Spectrum<F> estimate = to.value * (share / select(lit, density * to.geometry, F(1.0f)));
 
     const M joined = lit & (w.joined != U(0u));
@@ -268,6 +269,7 @@ class PathCandidates {
     w.weight = select(continues, w.weight * event.weight, w.weight);
     w.eta_scale = select(continues, w.eta_scale * event.eta_scale, w.eta_scale);
     w.density.value = select(continues, event.density.value, w.density.value);
+    w.by_delta = select(continues, select(event.delta, U(1u), U(0u)), w.by_delta);
     w.events = w.events + select(continues, U(1u), U(0u));
     w.from = select_words(continues, vertex, w.from);
     w.d = select(continues, event.wi, w.d);

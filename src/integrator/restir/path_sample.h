@@ -3,8 +3,8 @@
 //
 // Paths are counted in a measure that all pixels share: the random numbers of the events that are scattered again, then
 // the area of the surface (or the measure of the light point) to which the path is joined, then the solid angle in
-// which it goes on there. A shift leaves all of these as they are, so that its Jacobian is 1; the densities and cosines
-// that other authors put into Jacobians are part of the target here.
+// which it continues there. A shift leaves all of these as they are, so that its Jacobian is 1; the densities and
+// cosines that other authors put into Jacobians are part of the target here.
 #pragma once
 #include "integrator/restir/settings.h"
 #include "integrator/restir/vertex.h"
@@ -13,7 +13,7 @@ namespace montelux {
 
 // How the part that is kept begins.
 namespace path_end {
-inline constexpr std::uint32_t surface = 0;  // at a surface, from which it goes on in a kept direction
+inline constexpr std::uint32_t surface = 0;  // at a surface, from which it continues in a kept direction
 inline constexpr std::uint32_t light = 1;    // at a point of a light
 inline constexpr std::uint32_t met = 2;  // nowhere: all is scattered again, and the last event, a delta, meets light
 }  // namespace path_end
@@ -71,7 +71,7 @@ struct PathEvent {
   Mask<F> valid, delta;
 };
 
-// `next` as the vertex has sampled it. A model whose value is an estimate has one value here, whoever asks.
+// `next` as the vertex has sampled it. A model whose value is an estimate has one value here, for all pixels.
 template <class F>
 PathEvent<F> event_at(const ReuseVertex<F>& vertex, const BsdfSample<F>& next, Mask<F> on) {
   const Vec3<F> wi = vertex.frame.to_world(next.wi);
@@ -90,7 +90,7 @@ PathEvent<F> event_at(const ReuseVertex<F>& vertex, const BsdfSample<F>& next, M
 template <class F>
 struct Leg {
   F squared_length;
-  F spread;  // of the first lobe on the second surface, 1/area: density times cosine; infinite for a delta
+  F spread;  // of the first lobe on the second surface, 1/area: density times cosine; infinite for a narrow one
   F pixels;  // squared distance that the lobes must cover
 
   Mask<F> is_wide(const Density<SolidAngle, F>& there) const {
@@ -98,19 +98,19 @@ struct Leg {
   }
 };
 
-// From a vertex to a surface; `density` is that of the direction at the vertex, 0 for a delta.
+// From a vertex to a surface; `density` is that of the direction at the vertex, in the lanes `spread`: others have a
+// delta there, or cannot share the surface.
 template <class F>
 Leg<F> leg_between(const Vec3<F>& p, const Vec3<F>& to, const Vec3<F>& ng, const Vec3<F>& d,
-                   const Density<SolidAngle, F>& density, F pixels) {
-  const F spread = density.value * abs(dot(ng, d));
-  return {dot(to - p, to - p), select(density.value > F(0.0f), spread, F(std::numeric_limits<float>::infinity())),
-          pixels};
+                   const Density<SolidAngle, F>& density, Mask<F> spread, F pixels) {
+  const F on_surface = density.value * abs(dot(ng, d));
+  return {dot(to - p, to - p), select(spread, on_surface, F(std::numeric_limits<float>::infinity())), pixels};
 }
 // To a surface that turns to the ray there is no leg that could be joined: other pixels would meet another surface.
 template <class F>
 Leg<F> leg_between(const Vec3<F>& p, const SurfaceHit<F>& to, const Vec3<F>& d, const Density<SolidAngle, F>& density,
-                   F pixels) {
-  return leg_between<F>(p, to.point.p, to.point.ng, d, {select(to.ray_facing, F(0.0f), density.value)}, pixels);
+                   Mask<F> spread, F pixels) {
+  return leg_between<F>(p, to.point.p, to.point.ng, d, density, spread & !to.ray_facing, pixels);
 }
 
 }  // namespace montelux

@@ -83,7 +83,7 @@ class PathReplay {
     const M moved = stays & !last & at.found;
     weight_ = select(moved, weight_ * at.left, weight_);
     const F pixels = pixels_;
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, pixels);
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, taken.valid & !taken.delta, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
     vertex_ = select_words(moved, vertex_behind<F>(vertex_, at), vertex_);
     has_leg_ = has_leg_ | moved;
@@ -105,7 +105,7 @@ class PathReplay {
     const BsdfValue<F> here = vertex_.scattered(wi, good);
     good = good & (here.density.value > F(0.0f)) & !may_join(here.density);
     const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density, pixels_);
+    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density, good, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
     const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));
     const Spectrum<F> left = at.boundary().before(vertex_.media_toward(wi), wi).left(distance);

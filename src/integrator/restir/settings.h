@@ -35,7 +35,7 @@ struct RestirSettings {
   // first frame, that of the picture before.
   bool temporal = true;
   float m_cap = 20;
-  // In a sequence, chains go on from each picture to the next.
+  // In a sequence, chains continue from each picture to the next.
   bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
   // Targets of direct light know what is in the way: more shadow rays, better samples.

@@ -1,4 +1,4 @@
-// Shadow rays in another order than they were asked for.
+// Shadow rays in another order than that of the requests.
 #pragma once
 #include <array>
 #include <span>

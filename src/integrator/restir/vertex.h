@@ -1,5 +1,4 @@
-// What one pixel hands to another: the surface point at which light is asked for, and a point of a light that was
-// found.
+// What one pixel passes to another: the surface point that is lit, and a point of a light that was found.
 #pragma once
 #include <cmath>
 

@@ -67,7 +67,7 @@ struct Recursion {
     return gray(0.0f);
   }
 
-  // A stream told apart by the next number of another.
+  // An independent stream, chosen by the next number of another.
   static RandomStream<float> own_stream(RandomStream<float>& random) {
     return random.fork(std::uint32_t(random.next() * 0x1p24f));
   }
@@ -155,8 +155,7 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
       RandomStream<float> own = random.fork(3u);
       const float lobe = own.next();
       const Vec2f u = own.next2();
-      const BsdfSample<float> next = sample<float>(at.bsdf.lanes(true), at.wo, Vec3f{lobe, u.x, u.y}, at.context);
-      write_features(at, next.valid ? next.weight : gray(0.0f), path, true, out);
+      write_features(at, sampled_albedo<float>(at, {lobe, u.x, u.y}, true), path, true, out);
     }
   }
   return counts;

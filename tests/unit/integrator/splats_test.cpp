@@ -1,5 +1,5 @@
 // Planes of splats: the same sum in any order and from any thread, filtered as camera samples are.
-#include "integrator/light_tracing/splats.h"
+#include "integrator/splats.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "integrator/light_tracing/splats.h"
+#include "integrator/splats.h"
 
 #include <algorithm>
 
