@@ -98,7 +98,8 @@ def mean_over_window(formula, half=WIDE, n=40):
     return sum(eval(formula, globals(), {"x": x, "z": z}) for x in places for z in places) / n**2
 
 
-ALL = ["path", "naive", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "metropolis"]
+ALL = ["path", "naive", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "metropolis",
+       "irradiance-cache"]
 SCENES = {
     # name: class, title, camera, world, formula, who finds it besides paths from the eye (none: those do not)
     "le": ("LE", "A lamp.", LEVEL, lamp(2, (-1, -1, 0), (-1, 1, 0), (1, 1, 0), (1, -1, 0)), "2", ["direct"]),

@@ -7,6 +7,7 @@
 #include "integrator/clamped.h"
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
+#include "integrator/irradiance_cache/integrator.h"
 #include "integrator/light_tracing/integrator.h"
 #include "integrator/look/integrator.h"
 #include "integrator/metropolis/integrator.h"
@@ -212,6 +213,31 @@ Made make_sppm(const Request& r) {
   return chosen;
 }
 
+Made make_irradiance_cache(const Request& r) {
+  auto settings = irradiance_cache_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  if (r.scene.geometry.moves())
+    return Failure{"irradiance-cache is only for scenes without motion; \"path\" supports all"};
+  // The least radius by the footprint of the pixels, which radius_by_footprint states for three of them.
+  if (settings->min_spacing == 0)
+    settings->min_spacing =
+        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1)) *
+        (2.0f / 3);
+  if (settings->max_spacing == 0) {
+    const float diagonal = r.scene.bounds.is_empty() ? 1.0f : length(r.scene.bounds.high - r.scene.bounds.low);
+    settings->max_spacing = std::max(0.05f * diagonal, settings->min_spacing);
+  }
+  ChosenIntegrator chosen{
+      "irradiance-cache", {}, {}, {}, std::make_unique<IrradianceCacheIntegrator>(r.scene, r.accel, *settings)};
+  chosen.biases.push_back(fmt::format("accuracy={:.4g}", settings->accuracy));
+  chosen.notes.push_back(
+      fmt::format("indirect light at diffuse surfaces is interpolated within {:.4g} of its distance from other "
+                  "surfaces: the picture is biased where it changes faster (--set accuracy=... bounds it)",
+                  settings->accuracy));
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
 Made make_metropolis(const Request& r) {
   ChosenIntegrator chosen{
       "metropolis",
@@ -259,6 +285,7 @@ const std::vector<Row>& rows() {
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_samples},
         {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
+        {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
         {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
          shared_samples | std::uint32_t(Ability::media)}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,

@@ -94,6 +94,17 @@ MONTELUX_INLINE Mask<F> counts_light(const Source& source, const PathState<F>& p
     return on;
 }
 
+// The scattering events of a path at most: `all`, unless the source of the paths ends some of them earlier.
+template <class F, class Source>
+MONTELUX_INLINE Uint<F> deepest_of(const Source& source, const PathState<F>& path, const Uint<F>& all) {
+  if constexpr (requires { source.deepest(path); }) {
+    const Uint<F> own = source.deepest(path);
+    return select(own < all, own, all);
+  } else {
+    return all;
+  }
+}
+
 // The numbers of the paths' sample points: those of the pass, unless the source of the paths has others.
 template <class F, class Source>
 MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const TilePass& pass, const PathState<F>& path) {
@@ -143,7 +154,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const U segment = dimension + path.crossings * U(path_dimension::per_crossing);
     const BsdfContext<F> context{TransportMode::radiance, numbers.stream(segment + U(path_dimension::own))};
     // Interfaces are no events: they are crossed by the last ray, too.
-    const M may_scatter = path.depth < max_depth;
+    const M may_scatter = path.depth < deepest_of<F>(source, path, max_depth);
 
     // The vertex: a point of a surface, or of a medium before it.
     VertexLanes<F> lanes{on, M(false)};
@@ -239,6 +250,10 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};
       });
     }
+
+    // Light that the source of the paths knows to come by way of other surfaces; it ends such paths.
+    if constexpr (requires { source.indirect_light(path, v, scatters); })
+      path.radiance += path.throughput * source.indirect_light(path, v, scatters);
 
     // Scatter; roulette.
     const BsdfSample<F>& next = scattered.next;

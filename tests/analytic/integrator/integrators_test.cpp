@@ -181,6 +181,30 @@ TEST(Photons, find_the_closed_form_of_every_scene_where_enough_of_them_arrive) {
   EXPECT_GT(caught, 1.2 * tested);
 }
 
+// Likewise interpolated irradiance, where nothing moves: where it changes over a surface it is interpolated so closely
+// that the bias is below the noise.
+TEST(IrradianceCache, finds_the_closed_form_of_every_scene_without_motion) {
+  const std::vector<Expected> scenes = expected_means();
+  const double level = sidak_level(family_level, double(scenes.size()));
+  const std::string way = "irradiance-cache:accuracy=0.05,samples=64";
+  int tested = 0, caught = 0;
+  for (const Expected& e : scenes) {
+    const TestScene scene(read_text(folder / e.scene), folder.string());
+    if (scene.scene().geometry.moves()) {
+      EXPECT_THROW(scene.integrator(way), std::runtime_error) << e.scene;
+      continue;
+    }
+    const Measured m = measure(scene, way, 16);
+    EXPECT_EQ(m.non_finite, 0u) << e.scene;
+    EXPECT_TRUE(agrees(m, e.value, level))
+        << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value << " is right ("
+        << (m.mean - e.value) / m.standard_error << " standard errors)";
+    ++tested, caught += !agrees(m, 0.9 * e.value, level) + !agrees(m, 1.1 * e.value, level);
+  }
+  EXPECT_GT(tested, 60);
+  EXPECT_GT(caught, 1.2 * tested);
+}
+
 TEST(DirectStrategies, with_fixed_shadow_rays_are_biased_and_say_so) {
   const TestScene scene(read_text(folder / "rectangle-light-near.pbrt"), folder.string());
   EXPECT_EQ(scene.integrator("direct:pattern=fixed").biases,

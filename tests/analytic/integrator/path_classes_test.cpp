@@ -16,9 +16,18 @@ namespace {
 const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/path-classes";
 constexpr int passes = 32, samples_per_pass = 48;
 constexpr double rounding = 1e-5;
-const std::vector<std::string> ways{
-    "path",  "naive", "distribution:branching=1", "tracepath", "direct", "restir-di", "restir-gi", "restir-pt",
-    "light", "sppm",  "metropolis:bootstrap=64"};
+const std::vector<std::string> ways{"path",
+                                    "naive",
+                                    "distribution:branching=1",
+                                    "tracepath",
+                                    "direct",
+                                    "restir-di",
+                                    "restir-gi",
+                                    "restir-pt",
+                                    "light",
+                                    "sppm",
+                                    "metropolis:bootstrap=64",
+                                    "irradiance-cache:samples=2048"};
 std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }
 
 struct PathClass {

@@ -1,0 +1,84 @@
+// Paths from the eye that end at the first diffuse surface, where the cache knows the indirect light: a source of paths
+// for the path loop.
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "integrator/irradiance_cache/hemisphere_paths.h"
+
+namespace montelux {
+
+// `Starts` are the paths at their first surface, as FirstHits has them.
+template <class F, class Starts>
+class CachedPaths {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  // `slots`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
+  CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t slots, bool by_depth)
+      : starts_(starts), cache_(cache), by_depth_(by_depth), deepest_(slots, endless), is_smooth_(slots, 1) {}
+
+  // Points where the cache has no record, on paths that arrived there by mirrors and smooth glass alone. All paths
+  // without a record continue.
+  std::vector<CachePoint>& missed() { return missed_; }
+
+  // As the path loop asks.
+  M refill(PathState<F>& path, M on) { return starts_.refill(path, on); }
+  // After the surface where the cache had a record a path only looks for emission, which is direct light there.
+  U deepest(const PathState<F>& path) const { return gather(deepest_.data(), path.slot); }
+
+  // Light that other surfaces send to a vertex and that it scatters toward the path.
+  Spectrum<F> indirect_light(const PathState<F>& path, const Vertex<F>& v, M scatters) {
+    const M diffuse = scatters & (v.bsdf.kind == U(std::uint32_t(BsdfKind::diffuse))) & !v.x.ray_facing & !v.in_medium;
+    Spectrum<F> irradiance = gray(F(0.0f));
+    M known(false);
+    if (any(diffuse)) {
+      const F side = copysign(F(1.0f), v.wo.z);
+      const Vec3<F> n = v.bsdf.frame.n * side;
+      for_each_lane(diffuse, [&](int k) {
+        const std::uint32_t depth = lane(path.depth, k), slot = lane(path.slot, k);
+        const CacheQuery at{lane(v.x.point.p, k), lane(n, k), by_depth_ ? depth : 0};
+        if (const auto found = cache_.irradiance(at)) {
+          set_lane(irradiance, k, *found);
+          deepest_[slot] = depth + 1;
+          set_bit(known, k);
+        } else if (is_smooth_[slot] != 0) {
+          missed_.push_back(point_at(path, v, at, k));
+        }
+      });
+      if (any(known)) {
+        // At the normal the cosine is 1.
+        const BsdfValue<F> value = evaluate<F>(v.bsdf.lanes(known), v.wo, Vec3<F>{F(0.0f), F(0.0f), side}, v.context);
+        irradiance = select(known, value.f_cos * irradiance, gray(F(0.0f)));
+      }
+    }
+    for_each_lane(scatters & !v.bsdf.is_delta, [&](int k) { is_smooth_[lane(path.slot, k)] = 0; });
+    return irradiance;
+  }
+
+ private:
+  static constexpr std::uint32_t endless = 0x7fffffffu;
+
+  static void set_bit(M& mask, int k) { mask = mask | mask_of_bits<F>(1u << k); }
+  static CachePoint point_at(const PathState<F>& path, const Vertex<F>& v, const CacheQuery& at, int k) {
+    Media<float> media;
+    get_lane_words(v.media.along_wo(), k, media);
+    return {at,
+            lane(v.x.point.p_error, k),
+            lane(v.x.point.ng, k),
+            media,
+            lane(path.time, k),
+            lane(path.depth, k),
+            lane(path.x, k),
+            lane(path.y, k)};
+  }
+
+  Starts& starts_;
+  const IrradianceCache& cache_;
+  const bool by_depth_;
+  std::vector<std::uint32_t> deepest_;   // by slot: where the path ends
+  std::vector<std::uint8_t> is_smooth_;  // by slot: nothing rough so far
+  std::vector<CachePoint> missed_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,218 @@
+// A cache that fills: in stages, each by many threads, with a barrier between two, so that its records depend neither
+// on threads nor on tiles.
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "integrator/irradiance_cache/cached_paths.h"
+#include "integrator/irradiance_cache/settings.h"
+
+namespace montelux {
+
+// The paths of some pixels at their first surface, as FirstHits has those of a whole tile.
+template <class F>
+class PixelStarts {
+ public:
+  struct Pixel {
+    std::uint32_t x, y;
+  };
+  // One path for each pixel, the sample `pass.only` of the pass; the pixel's place in the list is the path's slot.
+  template <class Rays>
+  PixelStarts(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<const Pixel> pixels,
+              RayCounts& counts)
+      : media_(media_of<F>(scene.media, Uint<F>(scene.camera_medium))) {
+    for (std::size_t first = 0; first < pixels.size(); first += lanes_of<F>) {
+      PathSite<F> site{Uint<F>(0u), Uint<F>(0u), Uint<F>(pass.only.value_or(0))};
+      Uint<F> slot(0u);
+      const int n = int(std::min(pixels.size() - first, std::size_t(lanes_of<F>)));
+      for (int k = 0; k < n; ++k) {
+        const Pixel& pixel = pixels[first + std::size_t(k)];
+        set_lane(site.x, k, pixel.x), set_lane(site.y, k, pixel.y);
+        set_lane(slot, k, std::uint32_t(first) + std::uint32_t(k));
+      }
+      PathStart<F> start = start_of_path<F>(scene, pass, site);
+      start.slot = slot;
+      counts.camera += std::uint64_t(n);
+      const auto [found, hit] = rays.template trace<F>({start.o, start.d, F(ray_infinity), start.time},
+                                                       lane_index<F>() < Uint<F>(std::uint32_t(n)), RayUse::camera);
+      start.hit = hit;
+      for_each_lane(found, [&](int k) { get_lane_words(start, k, starts_.emplace_back()); });
+    }
+  }
+  Mask<F> refill(PathState<F>& path, Mask<F> on) {
+    const std::uint32_t running = bits(on);
+    std::uint32_t fresh = 0;
+    PathStart<F> start{};
+    for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
+      if ((running >> k) & 1u) continue;
+      set_lane_words(start, k, starts_[next_++]);
+      fresh |= 1u << k;
+    }
+    if (fresh != 0) begin_paths(path, start, media_, mask_of_bits<F>(fresh));
+    return mask_of_bits<F>(running | fresh);
+  }
+
+ private:
+  std::vector<PathStart<float>> starts_;
+  Media<F> media_;
+  std::size_t next_ = 0;
+};
+
+// The paths of an irradiance cache: what `path` does by default, as long as the settings say.
+inline PathSettings cached_path_settings(const IrradianceCacheSettings& settings) {
+  PathSettings path;
+  path.max_depth = settings.max_depth, path.roulette_depth = settings.roulette_depth;
+  return path;
+}
+
+// The cache of one chain. In the first frame it is filled from coarse to fine: each level looks at the pixels of a grid
+// twice as dense as that before, and makes records where there are none yet. Later frames add records where the frame
+// before had none.
+//
+// A level has four stages: points without a record are found, with the distances around them (find); one tile decides
+// which of them become records (thin); their hemispheres are sampled (compute); one tile adds them to the cache (add).
+template <class F, class Rays>
+class CacheFilling {
+ public:
+  static constexpr int levels = 5, stages_of_level = 4, stages = levels * stages_of_level;
+
+  // What is referred to must outlive this. The spacings of the settings are not zero.
+  CacheFilling(const Scene& scene, const Rays& rays, const IrradianceCacheSettings& settings, const ChainPass& pass)
+      : scene_(scene),
+        rays_(rays),
+        settings_(settings),
+        path_(cached_path_settings(settings)),
+        pass_(pass),
+        strata_(HemisphereStrata::of(settings.samples)),
+        rules_{settings.accuracy, settings.min_spacing, std::max(settings.max_spacing, settings.min_spacing),
+               settings.gradients, settings.clamping},
+        cache_(rules_),
+        found_(std::size_t(pass.bounds.area())),
+        missed_(std::size_t(pass.bounds.area())) {}
+
+  // Stage `stage` of the filling, over one tile.
+  RayCounts run(int frame, int stage, const PixelBounds& tile) {
+    const int level = stage / stages_of_level;
+    if (frame > 0 && level + 1 < levels) return {};
+    const bool is_first = number_of(tile.x0, tile.y0) == 0;
+    RayCounts counts;
+    switch (stage % stages_of_level) {
+      case 0:
+        find(frame, level, tile, counts);
+        break;
+      case 1:
+        if (is_first) thin();
+        break;
+      case 2:
+        compute(frame, tile, counts);
+        break;
+      default:
+        if (is_first) add();
+    }
+    return counts;
+  }
+
+  const IrradianceCache& cache() const { return cache_; }
+  const PathSettings& path() const { return path_; }
+  // Points of a tile that had no record in this frame.
+  void miss(const PixelBounds& tile, std::vector<CachePoint> points) {
+    missed_[number_of(tile.x0, tile.y0)] = std::move(points);
+  }
+  // A frame's sample of the pixels of a tile.
+  TilePass request(int frame, const PixelBounds& tile) const {
+    return {tile, pass_.points, pass_.shutter, std::uint32_t(frame), {}, pass_.grid};
+  }
+
+ private:
+  std::size_t number_of(int x, int y) const {
+    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+  }
+
+  void find(int frame, int level, const PixelBounds& tile, RayCounts& counts) {
+    std::vector<CachePoint>& found = found_[number_of(tile.x0, tile.y0)];
+    found = frame > 0 ? std::move(missed_[number_of(tile.x0, tile.y0)]) : points_of(tile, levels - 1 - level, counts);
+    if (is_full()) found.clear();
+    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, numbers(frame), counts);
+    for (CachePoint& point : found) point.distance = hemisphere.distance(point);
+  }
+  // Points without a record in view of every 2^spacing-th pixel of every 2^spacing-th row.
+  std::vector<CachePoint> points_of(const PixelBounds& tile, int spacing, RayCounts& counts) {
+    std::vector<typename PixelStarts<F>::Pixel> pixels;
+    const int mask = (1 << spacing) - 1, half = mask / 2;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        if (((x - pass_.bounds.x0) & mask) == half && ((y - pass_.bounds.y0) & mask) == half)
+          pixels.push_back({std::uint32_t(pass_.grid ? pass_.grid->pixel_x(x) : x),
+                            std::uint32_t(pass_.grid ? pass_.grid->pixel_y(y) : y)});
+    if (pixels.empty()) return {};
+    const TilePass pass = request(0, tile);
+    PixelStarts<F> starts(scene_, rays_, pass, pixels, counts);
+    CachedPaths<F, PixelStarts<F>> paths(starts, cache_, pixels.size(), path_.max_depth.has_value());
+    // The light of these paths is not wanted.
+    PathSettings search = path_;
+    search.nee = false;
+    std::vector<PixelSample> ignored(pixels.size());
+    counts += run_paths<F>(scene_, scene_.lights, rays_, search, pass, ignored, paths, no_tally);
+    return std::move(paths.missed());
+  }
+
+  // Points that a record of another one would cover are left out, in an order that is random, so that the records do
+  // not follow the rows of the picture.
+  void thin() {
+    std::vector<std::pair<std::uint64_t, const CachePoint*>> order;
+    for (const std::vector<CachePoint>& tile : found_)
+      for (const CachePoint& point : tile) {
+        const std::uint64_t pixel = std::uint64_t(point.y) << 32 | point.x;
+        order.emplace_back(
+            std::uint64_t(mix_bits(pass_.points.seed ^ mix_bits(point.x + mix_bits(point.y)))) << 32 ^ pixel, &point);
+      }
+    std::ranges::sort(order, {}, &std::pair<std::uint64_t, const CachePoint*>::first);
+    IrradianceCache planned(rules_);
+    chosen_.clear();
+    for (const auto& [key, point] : order) {
+      if (cache_.size() + chosen_.size() >= std::size_t(settings_.records)) break;
+      if (planned.covers(point->query)) continue;
+      planned.insert({point->query, gray(0.0f), {}, point->distance});
+      chosen_.push_back(*point);
+    }
+    estimates_.resize(chosen_.size());
+    for (std::vector<CachePoint>& tile : found_) tile.clear();
+  }
+
+  // The records are dealt out to the pixels, so that any tiles share them.
+  void compute(int frame, const PixelBounds& tile, RayCounts& counts) {
+    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, numbers(frame), counts);
+    const std::size_t all = chosen_.size(), pixels = std::size_t(pass_.bounds.area());
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const std::size_t first = number_of(tile.x0, y) * all / pixels, last = number_of(tile.x1, y) * all / pixels;
+      for (std::size_t i = first; i < last; ++i) estimates_[i] = hemisphere.estimate(chosen_[i]);
+    }
+  }
+
+  void add() {
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      const HemisphereEstimate& estimate = estimates_[i];
+      // A record that is not a number would spoil all around it: the paths there show it instead.
+      if (!is_finite(max_component(estimate.irradiance))) continue;
+      cache_.insert({chosen_[i].query, estimate.irradiance, estimate.gradients, estimate.distance});
+    }
+    chosen_.clear(), estimates_.clear();
+  }
+
+  bool is_full() const { return cache_.size() >= std::size_t(settings_.records); }
+  PointSet numbers(int frame) const { return hemisphere_points(pass_.points, frame, 0, strata_); }
+
+  const Scene& scene_;
+  const Rays& rays_;
+  const IrradianceCacheSettings& settings_;
+  const PathSettings path_;
+  const ChainPass pass_;
+  const HemisphereStrata strata_;
+  const CacheRules rules_;
+  IrradianceCache cache_;
+  std::vector<std::vector<CachePoint>> found_, missed_;  // by the first pixel of a tile
+  std::vector<CachePoint> chosen_;
+  std::vector<HemisphereEstimate> estimates_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,121 @@
+// Paths from a point of a diffuse surface into its hemisphere: what other surfaces send there.
+#pragma once
+#include <vector>
+
+#include "integrator/irradiance_cache/cache.h"
+#include "integrator/path/loop.h"
+
+namespace montelux {
+
+// A diffuse surface on the side that is looked at, whose irradiance is wanted.
+struct CachePoint {
+  CacheQuery query;
+  Vec3f p_error, ng;
+  Media<float> media;   // on that side
+  float time;           // of the path that arrived there
+  std::uint32_t depth;  // its scattering events before
+  std::uint32_t x, y;   // its pixel: no two points of a frame have the same one
+  float distance = 0;   // harmonic mean of those around, once it is known
+};
+
+// The numbers of the paths of all points of one frame that serve one purpose: every pixel has its own.
+inline PointSet hemisphere_points(PointSet points, int frame, std::uint32_t purpose, const HemisphereStrata& strata) {
+  points.kind = PointSetKind::independent;
+  points.samples_per_pass = std::uint32_t(strata.count()), points.width = points.height = 0;
+  points.seed = mix_bits(points.seed ^ mix_bits(std::uint32_t(frame) * 2 + purpose + 0x1f83d9abu));
+  return points;
+}
+
+// One direction in each cell of the strata, followed by the path loop. Emission that a direction meets is direct light
+// of the point, and does not count.
+template <class F, class Rays>
+class HemispherePaths {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  // What is referred to must outlive this; adds the rays to `counts`.
+  HemispherePaths(const Scene& scene, const Rays& rays, const PathSettings& settings, const HemisphereStrata& strata,
+                  const PointSet& points, RayCounts& counts)
+      : scene_(scene), rays_(rays), settings_(settings), strata_(strata), counts_(counts), pass_{{}, points} {}
+
+  // The harmonic mean distance of the surfaces around the point: that of estimate() at the cost of its first rays.
+  float distance(const CachePoint& at) {
+    begin(at);
+    return harmonic_mean_distance(distances_);
+  }
+  HemisphereEstimate estimate(const CachePoint& at) {
+    begin(at);
+    results_.assign(distances_.size(), PixelSample{});
+    if (!starts_.empty())
+      counts_ += run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, results_, *this, no_tally);
+    samples_.clear();
+    for (std::size_t i = 0; i < results_.size(); ++i)
+      samples_.push_back({from_rgb(results_[i].radiance), distances_[i]});
+    return integrate_hemisphere(strata_, samples_, Frame<float>::from_normal(at.query.n));
+  }
+
+  // As the path loop asks.
+  M refill(PathState<F>& path, M on) {
+    std::uint32_t running = bits(on);
+    for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
+      if ((running >> k) & 1u) continue;
+      set_lane_words(path, k, starts_[next_++]);
+      running |= 1u << k;
+    }
+    return mask_of_bits<F>(running);
+  }
+  M counts_light(const PathState<F>& path, M on) const { return on & (path.depth != U(first_depth_)); }
+
+ private:
+  // The paths at their first vertices, and the distances of these.
+  void begin(const CachePoint& at) {
+    starts_.clear(), next_ = 0, first_depth_ = at.depth + 1;
+    const int cells = strata_.count();
+    distances_.assign(std::size_t(cells), std::numeric_limits<float>::infinity());
+    const Frame<float> local = Frame<float>::from_normal(at.query.n);
+    const Frame<F> frame{splat<F>(local.s), splat<F>(local.t), splat<F>(local.n)};
+    const Vec3<F> p = splat<F>(at.query.p), p_error = splat<F>(at.p_error), ng = splat<F>(at.ng);
+    Media<F> media{};
+    for (int k = 0; k < lanes_of<F>; ++k) set_lane_words(media, k, at.media);
+    for (int first = 0; first < cells; first += lanes_of<F>) {
+      const U cell = lane_index<F>() + U(std::uint32_t(first));
+      const M on = cell < U(std::uint32_t(cells));
+      PathStart<F> start{};
+      F row(0.0f), column(0.0f);
+      for (int k = 0; k < lanes_of<F>; ++k) {
+        set_lane(row, k, float((first + k) / strata_.columns)),
+            set_lane(column, k, float((first + k) % strata_.columns));
+      }
+      start.x = U(at.x), start.y = U(at.y), start.index = select(on, cell, U(0u)), start.slot = start.index;
+      const Vec2<F> u = Sampler<F>(pass_.points, start.x, start.y, start.index).get2(U(path_dimension::film));
+      start.d = frame.to_world(strata_.template direction<F>(row, column, u));
+      start.o = offset_origin(p, p_error, ng, start.d);
+      start.weight = F(1.0f), start.time = F(at.time);
+      counts_.scattered += std::uint64_t(count(on));
+      const auto [found, hit] = rays_.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, on);
+      start.hit = hit;
+      PathState<F> path{};
+      begin_paths(path, start, media, on);
+      path.p = p, path.depth = U(first_depth_);
+      for_each_lane(found, [&](int k) {
+        distances_[lane(start.slot, k)] = lane(hit.t, k);
+        get_lane_words(path, k, starts_.emplace_back());
+      });
+    }
+  }
+
+  const Scene& scene_;
+  const Rays& rays_;
+  const PathSettings& settings_;
+  const HemisphereStrata strata_;
+  RayCounts& counts_;
+  TilePass pass_;  // for its points alone
+  std::uint32_t first_depth_ = 0;
+  std::size_t next_ = 0;
+  std::vector<PathState<float>> starts_;
+  std::vector<float> distances_;
+  std::vector<PixelSample> results_;
+  std::vector<HemisphereSample> samples_;
+};
+
+}  // namespace montelux

@@ -1,0 +1,46 @@
+#include "integrator/irradiance_cache/integrator.h"
+
+#include "integrator/irradiance_cache/filling.h"
+
+namespace montelux {
+
+namespace {
+
+template <class F>
+class IrradianceCacheChain final : public Chain {
+ public:
+  using Filling = CacheFilling<F, Accel>;
+  // What is referred to must outlive the chain.
+  IrradianceCacheChain(const Scene& scene, const Accel& accel, const IrradianceCacheSettings& settings,
+                       const ChainPass& pass)
+      : scene_(scene), accel_(accel), filling_(scene, accel, settings, pass) {}
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    if (step.stage < Filling::stages) return filling_.run(step.frame, step.stage, tile);
+    const TilePass pass = filling_.request(step.frame, tile);
+    FirstHits<F> starts(scene_, accel_, pass, out);
+    const PathSettings& settings = filling_.path();
+    CachedPaths<F, FirstHits<F>> paths(starts, filling_.cache(), out.size(), settings.max_depth.has_value());
+    RayCounts counts = run_paths<F>(scene_, scene_.lights, accel_, settings, pass, out, paths, no_tally);
+    counts.camera += starts.rays();
+    filling_.miss(tile, std::move(paths.missed()));
+    return counts;
+  }
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  Filling filling_;
+};
+
+}  // namespace
+
+int IrradianceCacheIntegrator::stages() const { return CacheFilling<float, Accel>::stages + 1; }
+
+std::unique_ptr<Chain> IrradianceCacheIntegrator::begin(const ChainPass& pass) const {
+  if (settings_.lanes == Lanes::one)
+    return std::make_unique<IrradianceCacheChain<float>>(scene_, accel_, settings_, pass);
+  return std::make_unique<IrradianceCacheChain<NativeFloats>>(scene_, accel_, settings_, pass);
+}
+
+}  // namespace montelux
