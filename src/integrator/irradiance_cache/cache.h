@@ -39,12 +39,12 @@ struct CacheRules {
 struct CacheWeight {
   float operator()(const CacheRecord& record, const CacheQuery& at, float accuracy) const {
     // The error is not zero at the record itself, so that the weight is finite.
-    constexpr float least_error = 1e-4f, tolerance = 0.02f;
+    constexpr float min_error = 1e-4f, tolerance = 0.02f;
     const Vec3f way = at.p - record.at.p;
     const float cosine = dot(record.at.n, at.n);
     if (dot(way, record.at.n + at.n) < -2 * tolerance * accuracy * record.distance) return 0;
     const float error = length(way) / record.distance + std::sqrt(std::max(1 - cosine, 0.0f));
-    return error < accuracy ? 1 / std::max(error, least_error) - 1 / accuracy : 0;
+    return error < accuracy ? 1 / std::max(error, min_error) - 1 / accuracy : 0;
   }
 };
 

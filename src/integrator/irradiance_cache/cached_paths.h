@@ -22,7 +22,7 @@ class CachedPaths {
   // without a record continue.
   std::vector<CachePoint>& missed() { return missed_; }
 
-  // As the path loop asks.
+  // For the path loop.
   M refill(PathState<F>& path, M on) { return starts_.refill(path, on); }
   // After the surface where the cache had a record a path only looks for emission, which is direct light there.
   U deepest(const PathState<F>& path) const { return gather(deepest_.data(), path.slot); }

@@ -54,7 +54,7 @@ class HemispherePaths {
     return integrate_hemisphere(strata_, samples_, Frame<float>::from_normal(at.query.n));
   }
 
-  // As the path loop asks.
+  // For the path loop.
   M refill(PathState<F>& path, M on) {
     std::uint32_t running = bits(on);
     for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
