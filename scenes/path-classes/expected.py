@@ -138,6 +138,8 @@ if __name__ == "__main__":
         if name in WIDE_FORMULAS:
             entries[-1]["found_by"].append("light")
             entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
+        if entries[-1]["found_by"]:  # by either of the two, and so by both together
+            entries[-1]["found_by"].append("bdpt")
         entries[-1]["found_by"].append("sppm")
         if name in PHOTONS:
             half, radius, photons, replacements = PHOTONS[name]

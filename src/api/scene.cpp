@@ -110,6 +110,7 @@ std::vector<Replacement> replacements(const SceneDesc& desc) {
       all.push_back({family, entity.type, std::string(spec->instead)});
   };
   look_at("integrator", desc.integrator, integrator_table());
+  if (desc.integrator.type == "bdpt" && !desc.media.empty()) all.push_back({"integrator", "bdpt", "path"});
   look_at("sampler", desc.sampler, sampler_table());
   look_at("film", desc.film, film_table());
   return all;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "integrator/bidirectional/bdpt.h"
 #include "integrator/clamped.h"
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
@@ -238,6 +239,14 @@ Made make_irradiance_cache(const Request& r) {
   return chosen;
 }
 
+Made make_bdpt(const Request& r) {
+  ChosenIntegrator chosen{
+      "bdpt", {}, {}, {}, std::make_unique<BdptIntegrator>(r.scene, r.accel, bdpt_settings(r.list, r.max_depth))};
+  note_depth(chosen, r.max_depth);
+  note_facing_curves(chosen, r.scene);
+  return chosen;
+}
+
 Made make_metropolis(const Request& r) {
   ChosenIntegrator chosen{
       "metropolis",
@@ -285,6 +294,7 @@ const std::vector<Row>& rows() {
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_samples},
         {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
+        {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, shared_samples},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
         {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
          shared_samples | std::uint32_t(Ability::media)}};
@@ -399,7 +409,9 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
         "all camera rays go through the centres of pixels (disablepixeljitter of the scene): the picture is "
         "biased, without the pixel filter, depth of field and motion blur");
   }
-  result->search = row->search, result->content = row->content;
+  // No light arrives where camera rays go through the centres of pixels alone.
+  const bool one_end = scene.pixel_centres && row->search == LightSearch::both_ends;
+  result->search = one_end ? LightSearch::any_length : row->search, result->content = row->content;
   if (limit) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *limit);

@@ -103,12 +103,12 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
   const std::string lights =
       list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
   const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
-  return {
-      fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
-      fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
-                  "no ray meets such a light, and no light sample passes such a surface; sppm finds it, and light what "
-                  "the camera sees of it directly (and a small sphere that shines, in the light's place, is found)",
-                  lights, surfaces)};
+  return {fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
+          fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
+                      "no ray meets such a light, and no light sample passes such a surface; sppm finds it, and light "
+                      "and bdpt what the camera sees of it directly (and a small sphere that shines, in the light's "
+                      "place, is found)",
+                      lights, surfaces)};
 }
 
 // Follows a camera ray by smooth surfaces alone. The model of the first of them, where the ray comes to light or to a
@@ -132,6 +132,21 @@ std::optional<BsdfKind> look(const Scene& scene, const Accel& accel, const Ray<f
     if (!is_black(at.light) || (at.found && !at.bsdf.is_delta)) return first;
   }
   return std::nullopt;
+}
+
+// Of an integrator that finds such light where the camera sees it directly.
+std::optional<MissingLight> missing_reflected_caustics(const DeltaCaustics& caustics,
+                                                       const std::vector<BsdfKind>& seen) {
+  if (seen.empty()) return std::nullopt;
+  const std::string lights =
+      list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
+  const std::string surfaces = list_of(seen, [](BsdfKind kind) { return name(kind); });
+  return MissingLight{
+      fmt::format("light of {} lights through smooth surfaces, seen by way of others ({})", lights, surfaces),
+      fmt::format("light of {} lights that smooth glass or mirrors focus on a surface may be missing where the camera "
+                  "sees that in a mirror or through smooth glass ({}): no two vertices of its paths can be connected "
+                  "(sppm finds it)",
+                  lights, surfaces)};
 }
 
 std::optional<MissingLight> missing_reflections(const std::vector<BsdfKind>& seen) {
@@ -212,6 +227,10 @@ std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, 
   if (misses(PathClass::lsde_delta))
     if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
       missing.push_back(missing_caustics(caustics));
+  if (search == LightSearch::both_ends && misses(PathClass::lsdse_delta))
+    if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
+      if (const auto light = missing_reflected_caustics(caustics, smooth_surfaces_in_view(scene, accel, width, height)))
+        missing.push_back(*light);
   if (misses(PathClass::lse))
     if (const auto light = missing_reflections(smooth_surfaces_in_view(scene, accel, width, height)))
       missing.push_back(*light);

@@ -17,6 +17,10 @@ constexpr std::array<Finding, class_count> diffuse_row{yes, yes,     refused, re
 // Paths from the lights are connected with the lens at rough vertices alone.
 constexpr std::array<Finding, class_count> from_lights_row{yes, yes, no, no, no, yes, yes, no, yes, no};
 
+// Paths from both ends find what either of them finds. A path of the form LS..SDS..SE has no two rough vertices to
+// connect, and comes to a lamp by chance alone.
+constexpr std::array<Finding, class_count> both_ends_row{yes, yes, yes, yes, yes, yes, yes, by_chance, yes, no};
+
 // Photons end at rough surfaces, to which paths from the eye go by smooth ones.
 constexpr std::array<Finding, class_count> photons_row{yes, yes, yes, yes, yes, yes, yes, yes, yes, yes};
 
@@ -33,6 +37,8 @@ std::optional<Finding> finding(LightSearch search, PathClass path_class) {
       return diffuse_row[column];
     case LightSearch::from_lights:
       return from_lights_row[column];
+    case LightSearch::both_ends:
+      return both_ends_row[column];
     case LightSearch::photons:
       return photons_row[column];
     case LightSearch::none:

@@ -19,9 +19,9 @@ enum class Finding { yes, by_chance, no, refused };
 inline constexpr std::array<std::string_view, 4> finding_names{"yes", "by chance", "no", "refused"};
 
 // How an integrator looks for light: by paths of any length from the eye, by one scattering event, between diffuse
-// surfaces alone, by paths from the lights whose vertices it connects with the lens, by photons, or not at all, since
-// its pictures show something else.
-enum class LightSearch { any_length, one_event, diffuse, from_lights, photons, none };
+// surfaces alone, by paths from the lights whose vertices it connects with the lens, by paths from both ends that are
+// connected, by photons, or not at all, since its pictures show something else.
+enum class LightSearch { any_length, one_event, diffuse, from_lights, both_ends, photons, none };
 
 // None where an integrator does not show light.
 std::optional<Finding> finding(LightSearch search, PathClass path_class);

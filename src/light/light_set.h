@@ -65,6 +65,9 @@ class LightSet {
   bool has_beyond() const { return !unbounded_.empty(); }
   template <class F>
   Mask<F> is_beyond(Uint<F> light, Mask<F> on) const;
+  // Lights that no ray hits.
+  template <class F>
+  Mask<F> is_delta_light(Uint<F> light, Mask<F> on) const;
 
   // The light to sample at p, and the probability of that choice (equal bit for bit).
   template <class F>
@@ -96,6 +99,11 @@ class LightSet {
   template <class F>
   LightHit<F> hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
                   Vec3<F> wi, Mask<F> on) const;
+  // Only the density of hit() or escaped(), for a light of any kind: for one without bounds wi alone matters. Of a
+  // delta light the probability of its choice, as sample() has it.
+  template <class F>
+  Density<SolidAngle, F> sampling_density(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p,
+                                          Vec3<F> wi, Mask<F> on) const;
   // Only the radiance of hit(), as needed by a camera ray.
   template <class F>
   Spectrum<F> hit_radiance(Uint<F> light, Vec3<F> ng, Vec2<F> uv, Vec3<F> wi, Mask<F> on) const;

@@ -171,16 +171,30 @@ LightHit<F> LightSet::hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_
                           Vec3<F> wi, Mask<F> on) const {
   LightHit<F> r{hit_radiance(light, ng, uv, wi, on), {F(0.0f)}};
   // Where nothing is emitted, no density is needed.
-  on = on & !is_black(r.radiance);
-  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
-    const LightRows<F> row = rows<F>(light, m);
-    with_emitter<F>(kind, row, [&](const auto& emitter) {
-      F density = emitter.density(reference_p, p, wi).value;
-      r.density.value = select(m & is_finite(density) & !row.flag(light_masked), density, r.density.value);
-    });
-  });
-  r.density = choice_mass(light, reference_p, reference_n, on) * r.density;
+  r.density = sampling_density(light, reference_p, reference_n, p, wi, Mask<F>(on & !is_black(r.radiance)));
   return r;
+}
+
+template <class F>
+Density<SolidAngle, F> LightSet::sampling_density(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p,
+                                                  Vec3<F> wi, Mask<F> on) const {
+  Density<SolidAngle, F> r{F(0.0f)};
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    if (is_surface(kind)) {
+      const LightRows<F> row = rows<F>(light, m);
+      with_emitter<F>(kind, row, [&](const auto& emitter) {
+        F density = emitter.density(reference_p, p, wi).value;
+        r.value = select(m & is_finite(density) & !row.flag(light_masked), density, r.value);
+      });
+    } else if (is_delta(kind)) {
+      r.value = select(m, F(1.0f), r.value);
+    } else {
+      for_each_light<F>(light, m, [&](LightId one, Mask<F> same) {
+        r.value = select(same, escaped_light<F>(one, reference_n, wi, same).density.value, r.value);
+      });
+    }
+  });
+  return choice_mass(light, reference_p, reference_n, on) * r;
 }
 
 template <class F>

@@ -135,6 +135,10 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.pixel_centres = scene.options.boolean("disablepixeljitter", false);
   read_sampler(scene, s, diagnostics);
   read_integrator(scene.integrator, s, diagnostics);
+  if (s.integrator == "bdpt" && !scene.media.empty()) {
+    s.integrator = "path";
+    diagnostics.note(scene.integrator.where, "bdpt cannot cross participating media: replaced by 'path'");
+  }
   return s;
 }
 

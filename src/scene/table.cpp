@@ -93,8 +93,7 @@ std::vector<EntitySpec> bidirectional_integrators() {
        integrator_parameters({later({"regularize", {boolean}, "blurs narrow lobes (biased); default false"}),
                               {"lightsampler", {string}, "how a light is chosen; default bvh", 0, 0, light_samplers()},
                               later({"visualizestrategies", {boolean}, "one image per technique; default false"}),
-                              later({"visualizeweights", {boolean}, "with the weights; default false"})}),
-       false, "path"},
+                              later({"visualizeweights", {boolean}, "with the weights; default false"})})},
       {"mlt", "Metropolis light transport",
        integrator_parameters(
            {later({"bootstrapsamples", {integer}, "default 100000", 1, max_integer}),

@@ -5,6 +5,23 @@
 
 namespace montelux {
 
+// Which light a ray meets, and where: a place of its surface, which does not matter for light from beyond the scene.
+template <class F>
+struct MetLight {
+  Uint<F> number;
+  Vec3<F> p, n;  // n: unit, on the side of the surface's orientation
+  Mask<F> on;
+};
+// A weight of light that is met depends on the density with which light sampling would have found it; it may ask for
+// the light, too.
+template <class F, class Weight>
+MONTELUX_INLINE F weight_of_met(const Weight& weight, const Density<SolidAngle, F>& density, const MetLight<F>& met) {
+  if constexpr (requires { weight(density, met); })
+    return weight(density, met);
+  else
+    return weight(density);
+}
+
 // The emission of the surface `x` toward `from`, along -d. The lanes `on` have an emitter.
 template <class F>
 MONTELUX_INLINE LightHit<F> emission_met(const LightSet& lights, const ReferencePoint<F>& from, const SurfaceHit<F>& x,
@@ -28,8 +45,8 @@ Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, con
                       Weight weight, Sink sink) {
   Spectrum<F> sum = gray(F(0.0f));
   for_each_sky_light<F>(lights, from, d, on, [&](const LightHit<F>& sky, const Uint<F>& number) {
-    const Spectrum<F> light =
-        select(on, from.media.left(F(ray_infinity)) * sky.radiance * weight(sky.density), gray(F(0.0f)));
+    const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on});
+    const Spectrum<F> light = select(on, from.media.left(F(ray_infinity)) * sky.radiance * share, gray(F(0.0f)));
     sum += light;
     sink(on, light, number, Technique::environment);
   });

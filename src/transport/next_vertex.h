@@ -47,8 +47,8 @@ struct NoWeight {
 };
 
 // Follows rays that have met `hit` where `found`, straight on through interfaces, to a surface that scatters.
-// weight(density) is the weight of light that is met, as for sky_light(); `random` belongs to this vertex. Adds the
-// rays that are traced to `traced`.
+// weight(density), or weight(density, MetLight), is the weight of light that is met, as for sky_light(); `random`
+// belongs to this vertex. Adds the rays that are traced to `traced`.
 template <class F, class Rays, class Weight, class Sink = NoSink>
 NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePoint<F>& from, const Ray<F>& ray,
                          Hit<F> hit, Mask<F> found, RandomStream<F> random, std::uint64_t& traced, Weight weight,
@@ -66,10 +66,12 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
     if (crossed) v = meet(open);
     if (const Mask<F> emits = open & (v.x.light != U(0u)); any(emits)) {
       const LightHit<F> emitter = emission_met<F>(scene.lights, from, v.x, ray.d, emits);
-      const Spectrum<F> met = select(
-          emits, left * segment.media.left(v.x.distance) * emitter.radiance * weight(emitter.density), gray(F(0.0f)));
+      const U number = select(emits, v.x.light - U(1u), U(0u));
+      const F share = weight_of_met<F>(weight, emitter.density, {number, v.x.point.p, v.x.point.ng, emits});
+      const Spectrum<F> met =
+          select(emits, left * segment.media.left(v.x.distance) * emitter.radiance * share, gray(F(0.0f)));
       light += met;
-      sink(emits, met, U(v.x.light - U(1u)), Technique::bsdf_sampling);
+      sink(emits, met, number, Technique::bsdf_sampling);
     }
     const Mask<F> passes = open & v.bsdf.is_interface;
     segment.media = select_media<F>(open, v.media.along_wo(), segment.media);

@@ -120,7 +120,7 @@ class Light(ProgramTest):
                              self.rendered(scene, "--integrator", way)[0]["missing_light"])
 
     def test_stand_ins_are_named(self):
-        for asked, by in ("bdpt", "path"), ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
+        for asked, by in ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
             scene = self.scene(head=f'Integrator "{asked}"\nSampler "zsobol"', ball=MATT)
             told, attributes, _ = self.rendered(scene)
             self.assertIn({"family": "integrator", "name": asked, "by": by}, told["replaced"])
@@ -132,8 +132,18 @@ class Light(ProgramTest):
             self.assertEqual(attributes["montelux:replaced"], "none")
         told, attributes, _ = self.rendered(self.scene(ball=MATT))
         self.assertEqual(attributes["montelux:replaced"], "none")
-        self.assertIn("integrator bdpt by path",
-                      self.run_program("info", self.scene(head='Integrator "bdpt"')).stdout)
+        self.assertIn("integrator lightpath by path",
+                      self.run_program("info", self.scene(head='Integrator "lightpath"')).stdout)
+
+    def test_bidirectional_path_tracing_gives_way_to_path_in_media_alone(self):
+        scene = self.scene(head='Integrator "bdpt" "integer maxdepth" 4', ball=MATT)
+        told, attributes, _ = self.rendered(scene)
+        self.assertEqual((told["replaced"], attributes["montelux:replaced"]), ([], "none"))
+        fog = self.scene(head='Integrator "bdpt"\nMakeNamedMedium "fog" "string type" "homogeneous"\n'
+                              'MediumInterface "" "fog"', ball=MATT)
+        told, attributes, messages = self.rendered(fog)
+        self.assertEqual(told["replaced"], [{"family": "integrator", "name": "bdpt", "by": "path"}])
+        self.assertIn("bdpt cannot cross participating media", messages)
 
     def test_photons_stand_in_for_nothing_and_find_light_through_glass(self):
         scene = self.scene(head='Integrator "sppm" "integer photonsperiteration" 3000 "float radius" 0.25',

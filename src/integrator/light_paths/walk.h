@@ -18,6 +18,7 @@ struct LightWalkScene {
   std::optional<float> moment;   // in [0, 1), of the exposure: of all paths; else each has its own
   std::optional<int> max_depth;  // scattering events, that of the last vertex included
   int roulette_depth;            // scattering events before roulette
+  Densities densities = Densities::may_be_estimates;
 };
 
 // A path on its way, one a lane.
@@ -80,6 +81,8 @@ struct LightPathVertex {
 //   void leave(LightPathStart, on)              a ray leaves a light
 //   Query query(LightPathVertex, on)            .toward: a local direction, .on: where its BSDF value is needed
 //   void visit(LightPathVertex, Query, BsdfValue, on)
+//   void scatter(LightPathVertex, BsdfSample, on)   optional: the path continues
+//   F moment(PathSite)                          optional, where surfaces move: of each path, in the exposure
 //   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
 // `Correction` is AdjointCorrection, but in tests that plant a fault.
 template <class F, class Rays, class Sink, class Correction = AdjointCorrection>
@@ -125,6 +128,10 @@ class LightWalk {
     M valid;
   };
   Sampler<F> sampler(const PathSite<F>& site) const { return Sampler<F>(shared_.points, site.x, site.y, site.index); }
+  F moment_of(const PathSite<F>& site, const Sampler<F>& numbers) const {
+    if constexpr (requires { sink_.moment(site); }) return sink_.moment(site);
+    return shared_.moment ? F(*shared_.moment) : numbers.get1(U(light_dimension::time));
+  }
   // A ray from a light.
   Start start(const PathSite<F>& site, M on) {
     const Sampler<F> numbers = sampler(site);
@@ -132,8 +139,7 @@ class LightWalk {
     const LightEmission<F> e = scene_.lights.template emit<F>(choice.index, numbers.get2(U(light_dimension::point)),
                                                               numbers.get2(U(light_dimension::direction)), on);
     F time = 0.0f;
-    if (scene_.moves())
-      time = shared_.shutter.time(shared_.moment ? F(*shared_.moment) : numbers.get1(U(light_dimension::time)));
+    if (scene_.moves()) time = shared_.shutter.time(moment_of(site, numbers));
     const Spectrum<F> flux = e.flux * (F(1.0f) / choice.mass.value);
     sink_.leave(LightPathStart<F>{choice, e, numbers, time}, M(on & e.valid));
 
@@ -153,7 +159,7 @@ class LightWalk {
     on = on & at.found;
     path.flux = select(on, path.flux * at.left, path.flux);
     BsdfContext<F> context = at.context;
-    context.mode = TransportMode::importance;
+    context.mode = TransportMode::importance, context.densities = shared_.densities;
     const F ng_in = dot(at.x.point.ng, at.d);
 
     // The BSDF's value for the sink's direction, and a direction that it draws.
@@ -180,6 +186,7 @@ class LightWalk {
     const Roulette<F> survival = roulette(select(plays, min(share, F(max_survival)), F(1.0f)),
                                           numbers.get1(dimension + U(light_dimension::roulette)));
     continues = continues & survival.survives;
+    if constexpr (requires { sink_.scatter(vertex, next, continues); }) sink_.scatter(vertex, next, continues);
     path.flux = select(continues, flux * survival.weight, path.flux);
     path.depth = select(continues, events, path.depth);
     path.smooth = path.smooth + select(continues & next.delta, U(1u), U(0u));

@@ -1,7 +1,5 @@
 #include "integrator/light_tracing/integrator.h"
 
-#include <algorithm>
-
 #include "integrator/light_tracing/loop.h"
 
 namespace montelux {
@@ -18,8 +16,7 @@ class LightTracingChain final : public Chain {
         settings_(settings),
         by_power_(by_power),
         pass_(pass),
-        one_sided_(std::ranges::any_of(scene.geometry.rows,
-                                       [](const GeometryRow& r) { return (r.flags & GeometryRow::one_sided) != 0; })),
+        one_sided_(has_one_sided_surfaces(scene)),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {

@@ -1,5 +1,6 @@
 // The loop of light tracing, for one path (F = float) and for a pack of them.
 #pragma once
+#include "integrator/light_paths/lens.h"
 #include "integrator/light_paths/walk.h"
 #include "integrator/light_tracing/settings.h"
 #include "integrator/splats.h"
@@ -27,7 +28,10 @@ class LightTracingLoop {
   using U = Uint<F>;
   using M = Mask<F>;
   explicit LightTracingLoop(const LightTracingScene<Rays>& shared)
-      : shared_(shared), scene_(shared.scene), scale_(scene_.imaging_ratio / float(shared.pass.bounds.area())) {}
+      : shared_(shared),
+        scene_(shared.scene),
+        scale_(scene_.imaging_ratio / float(shared.pass.bounds.area())),
+        lens_(scene_, shared.rays, shared.one_sided, shared.plane, counts_) {}
 
   // One path for each pixel of the tile, or for each cell if the pass has a grid: with the numbers of its pixel.
   RayCounts run(const PixelBounds& tile) {
@@ -61,10 +65,9 @@ class LightTracingLoop {
   };
   // The connection with the lens, where the surface scatters.
   Query query(const LightPathVertex<F>& v, M on) const {
-    const LensConnection<F> lens = scene_.camera.toward(
-        v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
-    return {lens, v.at.bsdf.frame.to_local(-lens.d),
-            M(on & !v.at.bsdf.is_delta & lens.seen & shared_.plane.reaches(lens.raster))};
+    const LensConnection<F> lens =
+        lens_.toward(v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
+    return {lens, v.at.bsdf.frame.to_local(-lens.d), M(on & !v.at.bsdf.is_delta & lens.seen)};
   }
   void visit(const LightPathVertex<F>& v, const Query& query, const BsdfValue<F>& value, M) {
     if (!any(query.on)) return;
@@ -73,14 +76,14 @@ class LightTracingLoop {
     const F ng_out = dot(at.x.point.ng, lens.d);
     const F correction = Correction()(at.wo, v.ng_in, query.toward, ng_out);
     const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
-    connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
-            {at.media_toward(-lens.d), lens, v.path.ray.time,
-             v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-            light, query.on & !is_black(light));
+    lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
+                  {at.media_toward(-lens.d), lens, v.path.ray.time,
+                   v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
+                  light, query.on & !is_black(light));
   }
   // It shows in the pixel whose sample point the path has.
   void broken(F value, const PathSite<F>& site, M on) {
-    splat({to_float(site.x) + 0.5f, to_float(site.y) + 0.5f}, gray(value), on);
+    lens_.splat({to_float(site.x) + 0.5f, to_float(site.y) + 0.5f}, gray(value), on);
   }
 
  private:
@@ -89,12 +92,12 @@ class LightTracingLoop {
     const Vec2<F> lens_u = numbers.get2(U(light_dimension::lens));
     const RandomStream<F> random = numbers.stream(U(light_dimension::lens));
     if (const M surfaces = on & e.on_surface; any(surfaces)) {
-      const LensConnection<F> lens = scene_.camera.toward(e.p, lens_u, time);
+      const LensConnection<F> lens = lens_.toward(e.p, lens_u, time);
       const F cos = dot(e.n, -lens.d);
-      const M lit = surfaces & lens.seen & shared_.plane.reaches(lens.raster) & ((cos > F(0.0f)) | e.both_sides);
+      const M lit = surfaces & lens.seen & ((cos > F(0.0f)) | e.both_sides);
       const Spectrum<F> light =
           e.radiance * (abs(cos) * lens.across.value / (choice.mass.value * e.position.value) * scale_);
-      connect({e.p, e.p_error, e.n}, {no_media<F>(), lens, time, random}, light, lit);
+      lens_.connect({e.p, e.p_error, e.n}, {no_media<F>(), lens, time, random}, light, lit);
     }
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
@@ -102,56 +105,14 @@ class LightTracingLoop {
     const M queries = beyond & lens.seen & shared_.plane.reaches(lens.raster);
     if (!any(queries)) return;
     const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
-    splat(lens.raster, light, queries & sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, queries));
-  }
-
-  struct Place {
-    Vec3<F> p, p_error, ng;
-  };
-  struct Way {
-    Media<F> media;  // toward the lens
-    LensConnection<F> lens;
-    F time;
-    RandomStream<F> random;  // for what half-open surfaces do on the way
-  };
-
-  // Splats the light that a place sends to the lens, where nothing is in between.
-  void connect(const Place& from, const Way& way, const Spectrum<F>& light, M on) {
-    if (!any(on)) return;
-    splat(way.lens.raster, light * way.media.left(way.lens.distance), on & !is_hidden(from, way, on));
-  }
-  M is_hidden(const Place& from, const Way& way, M on) {
-    counts_.shadow += std::uint64_t(count(on));
-    const LensConnection<F>& lens = way.lens;
-    if (!shared_.one_sided)
-      return shared_.rays.template occluded<F>(
-          shadow_ray(from.p, from.p_error, from.ng, -lens.d, lens.distance, way.time), on);
-    // As the camera sees it, which passes by the backs of one-sided surfaces: what it sees must be the place.
-    const NextVertex<F> seen = camera_ray({lens.p, lens.d, F(ray_infinity), way.time}, way.random, on);
-    return on & !(seen.found & (abs(seen.distance - lens.distance) <= F(shadow_shortening) * lens.distance));
-  }
-  M sees_sky(const Ray<F>& ray, const RandomStream<F>& random, M on) {
-    counts_.shadow += std::uint64_t(count(on));
-    if (!shared_.one_sided) return on & !shared_.rays.template occluded<F>(ray, on);
-    return on & !camera_ray(ray, random, on).found;
-  }
-  NextVertex<F> camera_ray(const Ray<F>& ray, const RandomStream<F>& random, M on) {
-    const auto [found, hit] = shared_.rays.template trace<F>(ray, on, RayUse::camera);
-    return follow_ray<F>(scene_, shared_.rays, free_point(ray.o), ray, hit, found, random, counts_.scattered,
-                         NoWeight{});
-  }
-
-  void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on) {
-    for_each_lane(on, [&](int k) {
-      const Rgb value = to_rgb(lane(light, k));
-      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { shared_.plane.add(place, value); });
-    });
+    lens_.splat(lens.raster, light, queries & lens_.sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, queries));
   }
 
   const LightTracingScene<Rays>& shared_;
   const Scene& scene_;
   const float scale_;  // of one path's light: a frame has one path for each pixel or cell of the pass
   RayCounts counts_;
+  LensSplats<F, Rays> lens_;
 };
 
 }  // namespace montelux

@@ -65,6 +65,8 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "path:light-selection=ris:5",
                                          "path:light-selection=ris:3,mis=off",
                                          "tracepath:p-emit=0.5,roulette-depth=0",
+                                         "bdpt",
+                                         "bdpt:mis=balance,roulette-depth=0",
                                          "metropolis",
                                          "metropolis:large-step=0.9,bootstrap=2,roulette-depth=0",
                                          "restir-di:radius=3",

@@ -25,6 +25,7 @@ const std::vector<std::string> ways{"path",
                                     "restir-gi",
                                     "restir-pt",
                                     "light",
+                                    "bdpt",
                                     "sppm",
                                     "metropolis:bootstrap=64",
                                     "irradiance-cache:samples=2048"};
@@ -112,8 +113,9 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
   const PathClass& c = GetParam();
   const TestScene scene(read_text(folder / c.scene), folder.string());
   for (const std::string& way : ways) {
-    const bool from_lights = light_search(name_of(way)) == LightSearch::from_lights;
-    if (from_lights && c.found_by.contains(way)) {
+    const LightSearch search = light_search(name_of(way));
+    const bool from_lights = search == LightSearch::from_lights;
+    if ((from_lights || (search == LightSearch::both_ends && c.wide_side > 0)) && c.found_by.contains(way)) {
       const TestScene wide(wide_text(c, c.wide_side, c.wide_side), folder.string());
       const Measured m = measure(wide, way, 2048);
       EXPECT_TRUE(agrees(m, c.wide_value))
@@ -207,15 +209,15 @@ TEST(PathClassesOfRadiosity, with_smooth_surfaces_are_refused) {
 // The table of docs/integrators.md, cell by cell.
 TEST(PathClassesOfDocumentation, are_those_of_the_table_of_findings) {
   const std::string text = read_text(std::filesystem::path(MONTELUX_SOURCE_DIR) / "docs/integrators.md");
-  const LightSearch columns[] = {LightSearch::any_length, LightSearch::one_event, LightSearch::diffuse,
-                                 LightSearch::from_lights, LightSearch::photons};
+  const LightSearch columns[] = {LightSearch::any_length,  LightSearch::one_event, LightSearch::diffuse,
+                                 LightSearch::from_lights, LightSearch::both_ends, LightSearch::photons};
   for (std::size_t i = 0; i < path_class_names.size(); ++i) {
     const std::size_t row = text.find("\n| " + std::string(path_class_names[i]) + " | ");
     ASSERT_NE(row, std::string::npos) << path_class_names[i];
     std::istringstream line(text.substr(row + 1, text.find('\n', row + 1) - row - 1));
     std::vector<std::string> cells;
     for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
-    ASSERT_GE(cells.size(), 8u) << path_class_names[i];
+    ASSERT_GE(cells.size(), 9u) << path_class_names[i];
     for (std::size_t c = 0; c < std::size(columns); ++c) {
       const Finding found = *finding(columns[c], montelux::PathClass(i));
       EXPECT_EQ(cells[3 + c], " " + std::string(finding_names[std::size_t(found)]) + " ")

@@ -426,6 +426,7 @@ TEST(SceneIntegrator, has_ours_with_its_own_settings) {
       taken("Integrator \"ambientocclusion\" \"float maxdistance\" 2.5 \"bool cossample\" false").picture.integrator,
       "ao:distance=2.5,cossample=off");
   EXPECT_EQ(taken("Integrator \"volpath\"").picture.integrator, "path");
+  EXPECT_EQ(taken("Integrator \"bdpt\"").picture.integrator, "bdpt");
   EXPECT_EQ(taken("Integrator \"sppm\"").picture.integrator, "sppm");
   EXPECT_EQ(taken("Integrator \"sppm\" \"integer photonsperiteration\" -1").picture.integrator, "sppm");
   const auto photons = taken(

@@ -63,6 +63,7 @@ TEST(SparseChains, have_the_mean_of_the_path_tracer_at_their_pixels) {
                                               {"restir-di:radius=4,candidates=4,groups=off,temporal=on", 72},
                                               {"restir-pt:radius=4,candidates=4", 72},
                                               {"light", 96},
+                                              {"bdpt", 96},
                                               {"metropolis:bootstrap=16", 160}};
   const double level = sidak_level(0.01, double(std::size(ways)));
   const PassMeans truth = sparse_passes(scene(), scene().integrator("path").any(), 64, 48, 1);
@@ -95,7 +96,7 @@ class WithoutGrid final : public CoupledIntegrator {
 
 TEST(SparseChains, that_take_cells_for_pixels_have_another_mean) {
   const PassMeans truth = sparse_passes(scene(), scene().integrator("path").any(), 64, 48, 1);
-  for (const char* way : {"restir-di:radius=4,candidates=4", "light"}) {
+  for (const char* way : {"restir-di:radius=4,candidates=4", "light", "bdpt"}) {
     const ChosenIntegrator chosen = scene().integrator(way);
     const WithoutGrid faulty(*chosen.coupled);
     EXPECT_TRUE(compare_means(sparse_passes(scene(), faulty, 8, 48, 2), truth, 0.01).differ) << way;
@@ -139,7 +140,7 @@ TEST(SparseChains, have_the_same_bits_for_any_number_of_threads) {
         }
   };
   for (const char* way :
-       {"restir-di:candidates=2,radius=4", "restir-gi:radius=4", "restir-pt:radius=4,groups=off", "light",
+       {"restir-di:candidates=2,radius=4", "restir-gi:radius=4", "restir-pt:radius=4,groups=off", "light", "bdpt",
         "sppm:radius=0.1", "irradiance-cache:samples=20", "radiosity:elementsize=0.3,warm-up=2"}) {
     SCOPED_TRACE(way);
     // 20 x 16 cells: two tiles.

@@ -1,0 +1,85 @@
+#include "integrator/bidirectional/bdpt.h"
+
+#include <algorithm>
+
+#include "integrator/bidirectional/eye_subpaths.h"
+
+namespace montelux {
+
+namespace {
+
+template <class F>
+class BdptChain final : public Chain {
+ public:
+  // What is referred to must outlive the chain.
+  BdptChain(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths,
+            const std::optional<AliasTable>& by_power, const ChainPass& pass)
+      : scene_(scene),
+        accel_(accel),
+        paths_(paths),
+        by_power_(by_power),
+        pass_(pass),
+        one_sided_(has_one_sided_surfaces(scene)),
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter),
+        samples_(std::size_t(pass.bounds.area())) {}
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    if (step.stage == 0) return follow(step, tile);
+    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x, ++i) {
+        out[std::size_t(i)] = samples_[pixel_number(x, y)];
+        const Rgb splats = plane_.take(x, y);
+        for (int c = 0; c < rgb_size; ++c) out[std::size_t(i)].radiance.c[c] += splats.c[c];
+      }
+    return {};
+  }
+
+ private:
+  std::size_t pixel_number(int x, int y) const {
+    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+  }
+  RayCounts follow(const ChainStep& step, const PixelBounds& tile) {
+    using Frame = BidirectionalFrame<Accel>;
+    const Frame frame{scene_,
+                      accel_,
+                      by_power_ ? &*by_power_ : nullptr,
+                      pass_,
+                      std::uint32_t(step.frame),
+                      {},
+                      paths_,
+                      StrategyWeights(paths_.mis == BidirectionalMis::power),
+                      one_sided_,
+                      plane_};
+    RayCounts counts;
+    const LightVertices light = light_vertices<F>(frame, tile, counts);
+    std::vector<PixelSample> samples(std::size_t(tile.area()));
+    counts += EyeSubpaths<F, Frame>(frame, light).run(tile, samples);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      std::copy_n(samples.begin() + std::ptrdiff_t(y - tile.y0) * tile.width(), tile.width(),
+                  samples_.begin() + std::ptrdiff_t(pixel_number(tile.x0, y)));
+    return counts;
+  }
+
+  const Scene& scene_;
+  const Accel& accel_;
+  const BidirectionalPaths& paths_;
+  const std::optional<AliasTable>& by_power_;
+  const ChainPass pass_;
+  const bool one_sided_;
+  SplatPlane plane_;
+  std::vector<PixelSample> samples_;  // what the paths from the eye found in this frame
+};
+
+}  // namespace
+
+BdptIntegrator::BdptIntegrator(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths)
+    : scene_(scene), accel_(accel), paths_(paths) {
+  if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+}
+
+std::unique_ptr<Chain> BdptIntegrator::begin(const ChainPass& pass) const {
+  if (paths_.lanes == Lanes::one) return std::make_unique<BdptChain<float>>(scene_, accel_, paths_, by_power_, pass);
+  return std::make_unique<BdptChain<NativeFloats>>(scene_, accel_, paths_, by_power_, pass);
+}
+
+}  // namespace montelux

@@ -1,0 +1,208 @@
+// Subpaths from the eye, whose vertices are connected with lights and with the subpaths from the lights.
+#pragma once
+#include "integrator/bidirectional/light_subpaths.h"
+#include "integrator/first_vertex.h"
+#include "mc/roulette.h"
+#include "transport/visibility.h"
+
+namespace montelux {
+
+// One subpath from each pixel of a tile, one a lane, by the same plan of numbers as `path`. Its strategies: it meets a
+// light; a vertex is connected with a point of a light; a vertex is connected with each vertex of the pixel's own
+// subpath from the lights. `Correction` is AdjointCorrection, but in tests that plant a fault.
+template <class F, class Frame, class Correction = AdjointCorrection>
+class EyeSubpaths {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  EyeSubpaths(const Frame& frame, const LightVertices& light) : frame_(frame), scene_(frame.scene), light_(light) {}
+
+  RayCounts run(const PixelBounds& tile, std::span<PixelSample> out) {
+    const TilePass pass{tile, frame_.pass.points, frame_.pass.shutter, frame_.frame, frame_.moment, frame_.pass.grid};
+    FirstHits<F> first_hits(scene_, frame_.rays, pass, out);
+    counts_.camera += first_hits.rays();
+    PathState<F> path{};
+    for (M on(false);;) {
+      on = first_hits.refill(path, on);
+      if (!any(on)) return counts_;
+      on = step(path, on, out);
+    }
+  }
+
+ private:
+  // A vertex of the eye's subpath that is not a delta, as strategies see it.
+  struct Here {
+    const NextVertex<F>& at;
+    const BsdfContext<F>& context;
+    M rough;
+  };
+
+  F weight_of_hit(const PathState<F>& path, Density<SolidAngle, F> sampled, const MetLight<F>& met) const {
+    const M seen = path.depth == U(0u);
+    if (!frame_.paths.connect) return select(only_smooth_, F(1.0f), F(0.0f));
+    const M shared = met.on & !seen;
+    if (!any(shared)) return F(1.0f);
+    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {met.number, met.p, met.n, shared}, -path.d,
+                                         length_squared(met.p - path.p), sampled);
+    return select(shared, frame_.weights.met(weights_, end), F(1.0f));
+  }
+
+  // One vertex of every path; gives the lanes that continue.
+  M step(PathState<F>& path, M on, std::span<PixelSample> out) {
+    const Sampler<F> sampler(frame_.pass.points, path.x, path.y, path.index);
+    const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
+    const M first = on & (path.depth == U(0u));
+    only_smooth_ = only_smooth_ | first;
+    const auto weight = [&](const Density<SolidAngle, F>& sampled, const MetLight<F>& met) {
+      return weight_of_hit(path, sampled, met);
+    };
+    const NextVertex<F> at =
+        follow_ray<F>(scene_, frame_.rays, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time},
+                      path.hit, on, sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight);
+    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
+    path.throughput = select(on, path.throughput * at.left, path.throughput);
+    arrive(path, at, sampler, first);
+
+    M scatters = on & at.found;
+    if (frame_.paths.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*frame_.paths.max_depth)));
+    BsdfContext<F> context = at.context;
+    context.densities = Densities::exact;
+    const Here here{at, context, M(scatters & !at.bsdf.is_delta)};
+
+    // A point of a light, and a direction.
+    const LightSet& lights = scene_.lights;
+    const ReferencePoint<F> from = at.reference();
+    const M wants_light = here.rough & M(frame_.paths.connect && frame_.by_power != nullptr);
+    const LightChoice<F> choice = lights.template choose<F>(
+        from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)), wants_light);
+    const LightPointDraw<F> draw = lights.template draw_light_point<F>(
+        choice.light, from.p, from.n, sampler.get2(dimension + U(path_dimension::light_point)),
+        wants_light & choice.valid);
+    const LightPointView<F> view =
+        lights.template view<F>(draw.point, from.p, from.n, wants_light & choice.valid & draw.valid);
+    const Scattering<F> scattered = scatter<F>(
+        at.bsdf.lanes(scatters),
+        {at.wo, at.bsdf.frame.to_local(view.wi), view.valid, sampler.get1(dimension + U(path_dimension::lobe)),
+         sampler.get2(dimension + U(path_dimension::direction))},
+        context);
+    const BsdfSample<F>& next = scattered.next;
+    if (any(first & at.found))
+      write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, M(first & at.found), out);
+    if (any(view.valid)) connect_light(path, here, draw, choice.mass * draw.density, view, scattered.toward_light);
+    if (frame_.paths.connect && frame_.by_power) connect_subpath(path, here);
+
+    // Scatter; roulette.
+    M moves = scatters & next.valid;
+    const M broken = moves & !is_finite(max_component(next.weight));
+    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
+    moves = moves & !broken;
+    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(moves, U(1u), U(0u));
+    const M plays = moves & (path.depth > U(std::uint32_t(frame_.paths.roulette_depth)));
+    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
+                                          sampler.get1(dimension + U(path_dimension::roulette)));
+    moves = moves & survival.survives;
+    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
+    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
+    const BothDensities<F> both{next.density, reverse_density(here, next.wi, M(moves & !next.delta))};
+    const PartialWeights<F> onward = frame_.weights.scatter(weights_, both, abs(dot(at.x.point.ng, wi)), next.delta);
+    weights_ = select_weights(moves, onward, weights_);
+    only_smooth_ = only_smooth_ & (next.delta | !moves);
+    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
+    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
+    path.o = at.origin_toward(wi), path.d = wi;
+
+    // The next vertex, or the sky.
+    counts_.scattered += std::uint64_t(count(moves));
+    const auto [found, hit] = frame_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
+    path.hit = hit;
+    if (const M escapes = moves & !found; any(escapes))
+      path.radiance +=
+          path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+    const M ended = on & !(moves & found);
+    const Spectrum<F> radiance = path.radiance * path.weight;
+    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    return on & !ended;
+  }
+
+  void arrive(const PathState<F>& path, const NextVertex<F>& at, const Sampler<F>& sampler, M first) {
+    const F cos = abs(dot(at.x.point.ng, at.d));
+    weights_ = frame_.weights.arrive(weights_, length_squared(at.x.point.p - path.p), cos);
+    if (!any(first)) return;
+    const LensConnection<F> lens = scene_.camera.toward(at.x.point.p, sampler.get2(U(path_dimension::lens)), path.time);
+    weights_ = select_weights(first, frame_.weights.first_from_lens(lens.across, cos, frame_.splat_paths()), weights_);
+  }
+  // Of the direction in which the path came, drawn from the local wi.
+  Density<SolidAngle, F> reverse_density(const Here& here, const Vec3<F>& wi, M on) const {
+    if (!any(on)) return {F(0.0f)};
+    return evaluate<F>(here.at.bsdf.lanes(on), wi, here.at.wo, here.context).density;
+  }
+
+  // Next-event estimation.
+  void connect_light(PathState<F>& path, const Here& here, const LightPointDraw<F>& draw,
+                     const Density<SolidAngle, F>& density, const LightPointView<F>& view, const BsdfValue<F>& value) {
+    const NextVertex<F>& at = here.at;
+    Spectrum<F> light = path.throughput * value.f_cos * view.radiance * at.left_of_light(view.wi, view.distance) *
+                        (F(1.0f) / density.value);
+    const M arrives = view.valid & (max_component(light) > F(0.0f));
+    if (!any(arrives)) return;
+    const BothDensities<F> both{value.density, reverse_density(here, at.bsdf.frame.to_local(view.wi), arrives)};
+    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, arrives},
+                                         -view.wi, view.distance * view.distance, density);
+    light = light * frame_.weights.light_sample(weights_, end, both, abs(dot(at.x.point.ng, view.wi)));
+    const M lit = unblocked<F>(frame_.rays, at.shadow_ray_to(view.wi, view.distance), arrives, counts_.shadow);
+    path.radiance += select(lit, light, gray(F(0.0f)));
+  }
+
+  // Every vertex of the pixel's subpath from the lights.
+  void connect_subpath(PathState<F>& path, const Here& here) {
+    U number = light_.template last_of<F>(path.slot, here.rough);
+    for (M left = here.rough & (number != U(0u)); any(left); left = left & (number != U(0u))) {
+      const LightVertex<F> y = light_.template get<F>(number - U(1u), left);
+      M on = left;
+      if (frame_.paths.max_depth)
+        on = on & (path.depth + y.events + U(2u) <= U(std::uint32_t(*frame_.paths.max_depth)));
+      if (any(on)) connect_vertex(path, here, y, on);
+      number = select(left, y.before, U(0u));
+    }
+  }
+  void connect_vertex(PathState<F>& path, const Here& here, const LightVertex<F>& y, M on) {
+    const NextVertex<F>& at = here.at;
+    const Vec3<F> way = y.p - at.x.point.p;
+    const F squared = max(length_squared(way), F(1e-30f)), distance = sqrt(squared);
+    const Vec3<F> wi = way * (F(1.0f) / distance);
+    const Vec3<F> eye_wi = at.bsdf.frame.to_local(wi), light_wi = y.frame.to_local(-wi);
+    BsdfContext<F> eye_context = here.context;
+    eye_context.random = here.context.random.fork(U(0x3c6ef372u) + y.events);
+    const BsdfValue<F> eye = evaluate<F>(at.bsdf.lanes(on), at.wo, eye_wi, eye_context);
+    on = on & !is_black(eye.f_cos);
+    if (!any(on)) return;
+    const BsdfContext<F> light_context{TransportMode::importance, y.random, on, Densities::exact};
+    const BsdfLanes<F> light_lanes{y.kind, &y.slots, on};
+    const BsdfValue<F> light = evaluate<F>(light_lanes, y.wo, light_wi, light_context);
+    const F cos_eye = abs(dot(at.x.point.ng, wi)), ng_out = dot(y.ng, -wi);
+    const F ng_in = -dot(y.ng, y.frame.to_world(y.wo));
+    const F correction = Correction()(y.wo, ng_in, light_wi, ng_out);
+    Spectrum<F> value =
+        path.throughput * eye.f_cos * y.flux * light.f_cos * at.left_of_light(wi, distance) * (correction / squared);
+    on = on & (max_component(value) > F(0.0f));
+    if (!any(on)) return;
+    const BothDensities<F> at_eye{eye.density, reverse_density(here, eye_wi, on)};
+    const BothDensities<F> at_light{light.density, evaluate<F>(light_lanes, light_wi, y.wo, light_context).density};
+    value = value * frame_.weights.connection(weights_, at_eye, cos_eye, y.weights, at_light, abs(ng_out), squared);
+    on = on & (max_component(value) > F(0.0f));
+    const M lit = unblocked<F>(frame_.rays, at.shadow_ray_to(wi, distance), on, counts_.shadow);
+    path.radiance += select(lit, value, gray(F(0.0f)));
+  }
+
+  const Frame& frame_;
+  const Scene& scene_;
+  const LightVertices& light_;
+  // Of the paths at hand: the weights so far, and whether all events were deltas.
+  PartialWeights<F> weights_{F(0.0f), F(0.0f), F(0.0f)};
+  M only_smooth_{false};
+  RayCounts counts_;
+};
+
+}  // namespace montelux

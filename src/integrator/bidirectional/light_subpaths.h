@@ -1,0 +1,236 @@
+// Subpaths from the lights: stored to be connected, and splatted where the lens sees their vertices.
+#pragma once
+#include <vector>
+
+#include "integrator/bidirectional/light_end.h"
+#include "integrator/bidirectional/settings.h"
+#include "integrator/light_paths/lens.h"
+#include "integrator/light_paths/walk.h"
+#include "integrator/photons/tracing.h"
+#include "transport/stored_vertex.h"
+
+namespace montelux {
+
+// All that the paths of a frame share. `Rays` answers as Accel does.
+template <class Rays, class Weights = StrategyWeights>
+struct BidirectionalFrame {
+  const Scene& scene;
+  const Rays& rays;
+  const AliasTable* by_power;  // null: there is no light
+  const ChainPass& pass;
+  std::uint32_t frame;
+  std::optional<float> moment;  // in [0, 1), of the exposure: of all paths; else each pair of subpaths has its own
+  BidirectionalPaths paths;
+  Weights weights;
+  bool one_sided;  // some surface is not there for camera rays that meet its back
+  SplatPlane& plane;
+
+  // One for each pixel of the picture, or for each cell if the pass has a grid.
+  float light_paths() const { return float(pass.bounds.area()); }
+  // As many as are connected with the lens: no light arrives where camera rays go through the centres of pixels alone.
+  float splat_paths() const { return scene.pixel_centres || !paths.connect ? 0.0f : light_paths(); }
+  std::uint32_t path_number(int x, int y) const {
+    return std::uint32_t(y - pass.bounds.y0) * std::uint32_t(pass.bounds.width()) + std::uint32_t(x - pass.bounds.x0);
+  }
+  PathLights path_lights() const { return {scene.lights, *by_power}; }
+};
+
+// A vertex of a subpath from a light.
+template <class F>
+struct LightVertex : StoredVertex<F> {
+  Spectrum<F> flux;  // that arrives
+  PartialWeights<F> weights;
+  Uint<F> events;  // that have scattered it before
+  Uint<F> before;  // of the same subpath: its number in the store, plus one; 0: there is none
+};
+
+// The vertices of the subpaths of a tile.
+class LightVertices {
+ public:
+  explicit LightVertices(int paths) : last_(std::size_t(paths)) {}
+
+  void add(std::uint32_t path, LightVertex<float> vertex) {
+    vertex.before = last_[path];
+    all_.push_back(vertex);
+    last_[path] = std::uint32_t(all_.size());
+  }
+  // The last vertex of each path: its number, plus one; 0: it has none.
+  template <class F>
+  Uint<F> last_of(Uint<F> path, Mask<F> on) const {
+    const Uint<F> number = gather(last_.data(), select(on, path, Uint<F>(0u)));
+    return select(on, number, Uint<F>(0u));
+  }
+  // Lanes that are off have any vertex; there must be one.
+  template <class F>
+  LightVertex<F> get(Uint<F> number, Mask<F> on) const {
+    using U = Uint<F>;
+    constexpr std::size_t words = sizeof(LightVertex<float>) / 4;
+    static_assert(sizeof(LightVertex<F>) == sizeof(LightVertex<float>) * lanes_of<F>);
+    const U first = select(on, number, U(0u)) * U(std::uint32_t(words));
+    LightVertex<F> vertex;
+    auto* to = reinterpret_cast<char*>(&vertex);
+    const auto* from = reinterpret_cast<const std::uint32_t*>(all_.data());
+    for (std::size_t w = 0; w < words; ++w) {
+      const U word = gather(from + w, first);
+      std::memcpy(to + w * sizeof word, &word, sizeof word);
+    }
+    return vertex;
+  }
+
+ private:
+  std::vector<LightVertex<float>> all_;
+  std::vector<std::uint32_t> last_;
+};
+
+// What the walk of subpaths from the lights shows: weighs it along the way, and hands it on to
+//   store(vertex, subpath, on)    a LightVertexView, where the surface is not a mirror or smooth glass
+// Vertices are splatted if the frame connects.
+template <class F>
+struct LightVertexView {
+  const LightPathVertex<F>& vertex;
+  const PartialWeights<F>& weights;
+};
+template <class F, class Frame, class Correction, class Store>
+class LightSubpathSink {
+ public:
+  using U = Uint<F>;
+  using M = Mask<F>;
+  LightSubpathSink(const Frame& frame, Store store, RayCounts& counts)
+      : frame_(frame),
+        store_(store),
+        scale_(frame.scene.imaging_ratio / frame.light_paths()),
+        lens_(frame.scene, frame.rays, frame.one_sided, frame.plane, counts) {}
+
+  // That of the camera's path.
+  F moment(const PathSite<F>& site) const {
+    if (frame_.moment) return F(*frame_.moment);
+    U x(0u), y(0u);
+    const PixelBounds& b = frame_.pass.bounds;
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const auto number = lane(site.index, k), width = std::uint32_t(b.width());
+      const PixelGrid& grid = frame_.plane.grid();
+      set_lane(x, k, std::uint32_t(grid.pixel_x(b.x0 + int(number % width))));
+      set_lane(y, k, std::uint32_t(grid.pixel_y(b.y0 + int(number / width))));
+    }
+    return Sampler<F>(frame_.pass.points, x, y, U(frame_.frame)).get1(U(path_dimension::time));
+  }
+
+  void leave(const LightPathStart<F>& s, M on) {
+    light_ = select(on, s.choice.index, light_);
+    p_ = select<F>(on, s.emission.p, p_), n_ = select<F>(on, s.emission.n, n_);
+  }
+
+  struct Query {
+    LensConnection<F> lens;
+    Vec3<F> toward;  // the lens, local
+    M on;
+  };
+  Query query(const LightPathVertex<F>& v, M on) {
+    arrive(v, on);
+    const M rough = on & !v.at.bsdf.is_delta;
+    if (any(rough)) store_(LightVertexView<F>{v, weights_}, rough);
+    if (frame_.splat_paths() == 0) return {{}, v.at.wo, M(false)};
+    const LensConnection<F> lens =
+        lens_.toward(v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
+    return {lens, v.at.bsdf.frame.to_local(-lens.d), M(rough & lens.seen)};
+  }
+  void visit(const LightPathVertex<F>& v, const Query& query, const BsdfValue<F>& value, M) {
+    if (!any(query.on)) return;
+    const NextVertex<F>& at = v.at;
+    const LensConnection<F>& lens = query.lens;
+    const F ng_out = dot(at.x.point.ng, lens.d);
+    const F correction = Correction()(at.wo, v.ng_in, query.toward, ng_out);
+    Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
+    const M lit = query.on & !is_black(light);
+    if (!any(lit)) return;
+    const Density<SolidAngle, F> reverse = evaluate<F>(at.bsdf.lanes(lit), query.toward, at.wo, v.context).density;
+    light = light * frame_.weights.lens(weights_, reverse, lens.across, abs(ng_out), frame_.splat_paths());
+    lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
+                  {at.media_toward(-lens.d), lens, v.path.ray.time,
+                   v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
+                  light, lit);
+  }
+  void scatter(const LightPathVertex<F>& v, const BsdfSample<F>& next, M on) {
+    const NextVertex<F>& at = v.at;
+    const Density<SolidAngle, F> reverse =
+        evaluate<F>(at.bsdf.lanes(on & !next.delta), next.wi, at.wo, v.context).density;
+    const F cos = abs(dot(at.x.point.ng, at.bsdf.frame.to_world(next.wi)));
+    weights_ = select_weights(on, frame_.weights.scatter(weights_, {next.density, reverse}, cos, next.delta), weights_);
+  }
+  // It shows in the first pixel of the picture.
+  void broken(F value, const PathSite<F>&, M on) {
+    const PixelBounds& b = frame_.pass.bounds;
+    for_each_lane(on, [&](int k) { frame_.plane.add_to_pixel(b.x0, b.y0, gray_rgb(lane(value, k))); });
+  }
+
+ private:
+  void arrive(const LightPathVertex<F>& v, M on) {
+    const NextVertex<F>& at = v.at;
+    const F cos = abs(v.ng_in);
+    const M first = on & (v.path.depth == U(0u));
+    weights_ = select_weights(on, frame_.weights.arrive(weights_, at.distance * at.distance, cos), weights_);
+    if (!any(first)) return;
+    const LightSet& lights = frame_.scene.lights;
+    const Density<SolidAngle, F> sampled =
+        lights.template sampling_density<F>(light_, at.x.point.p, at.bsdf.light_normal, p_, -at.d, first);
+    const LightEnd<F> end =
+        light_end<F>(frame_.path_lights(), {light_, p_, n_, first}, at.d, at.distance * at.distance, sampled);
+    weights_ = select_weights(first, frame_.weights.first_from_light(end, cos), weights_);
+  }
+
+  const Frame& frame_;
+  Store store_;
+  const float scale_;
+  LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>> lens_;
+  // Of the paths at hand: the light, where they left it, and the weights so far.
+  U light_ = U(0u);
+  Vec3<F> p_{}, n_{};
+  PartialWeights<F> weights_{F(0.0f), F(0.0f), F(0.0f)};
+};
+
+// Follows the subpaths from the lights that belong to the tile's pixels; store(LightVertexView, on) receives their
+// vertices. `Correction` is AdjointCorrection, but in tests that plant a fault.
+template <class F, class Correction = AdjointCorrection, class Rays, class Weights, class Store>
+void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, const PixelBounds& tile, RayCounts& counts,
+                           Store store) {
+  if (!frame.by_power) return;
+  const LightWalkScene<Rays> walk{
+      frame.scene,
+      frame.rays,
+      *frame.by_power,
+      photon_points(frame.pass.points, int(frame.frame), std::uint32_t(frame.light_paths())),
+      frame.pass.shutter.value_or(frame.scene.shutter),
+      {},
+      frame.paths.max_depth,
+      frame.paths.roulette_depth,
+      Densities::exact};
+  using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store>;
+  Sink sink(frame, store, counts);
+  const auto width = std::uint32_t(tile.width());
+  LightWalk<F, Rays, Sink, Correction>(walk, sink, counts).run(std::uint32_t(tile.area()), [&](std::uint32_t i) {
+    return PathSite<float>{0, 0, frame.path_number(tile.x0 + int(i % width), tile.y0 + int(i / width))};
+  });
+}
+
+// Keeps them, to be connected with the paths from the eye of the same tile.
+template <class F, class Correction = AdjointCorrection, class Rays, class Weights>
+LightVertices light_vertices(const BidirectionalFrame<Rays, Weights>& frame, const PixelBounds& tile,
+                             RayCounts& counts) {
+  LightVertices all(tile.area());
+  const PixelBounds& b = frame.pass.bounds;
+  const auto across = std::uint32_t(b.width());
+  follow_light_subpaths<F, Correction>(frame, tile, counts, [&](const LightVertexView<F>& view, Mask<F> on) {
+    const LightPathVertex<F>& v = view.vertex;
+    const LightVertex<F> vertex{stored(v.at), v.path.flux, view.weights, v.path.depth, Uint<F>(0u)};
+    for_each_lane(on, [&](int k) {
+      const std::uint32_t number = lane(v.path.site.index, k);
+      const int x = b.x0 + int(number % across) - tile.x0, y = b.y0 + int(number / across) - tile.y0;
+      LightVertex<float> one;
+      get_lane_words(vertex, k, one);
+      all.add(std::uint32_t(y * tile.width() + x), one);
+    });
+  });
+  return all;
+}
+
+}  // namespace montelux

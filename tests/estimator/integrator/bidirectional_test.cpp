@@ -1,0 +1,243 @@
+// Bidirectional path tracing shows what path tracing shows, and faults in its weights and corrections are found.
+#include <gtest/gtest.h>
+
+#include "integrator/bidirectional/eye_subpaths.h"
+#include "light_room.h"
+
+namespace montelux::test {
+namespace {
+
+// One pass as `bdpt` makes it, with other weights or another correction for the adjoint; splats count `splats` times.
+template <class Correction = AdjointCorrection, class Weights = StrategyWeights>
+PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_t seed, float splats = 1) {
+  using F = NativeFloats;
+  using Frame = BidirectionalFrame<Accel, Weights>;
+  PassMeans means;
+  const AliasTable by_power = scene.scene().lights.by_power();
+  const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
+  const PixelBounds& bounds = s.image.bounds;
+  for (int number = 0; number < passes; ++number) {
+    const ChainPass pass{bounds, s.image.points(number, per_pass), {}, {}};
+    SplatPlane plane(bounds, scene.scene().filter);
+    Film film(bounds);
+    std::vector<PixelPass> pixels(std::size_t(bounds.area()));
+    for (int i = 0; i < per_pass; ++i) {
+      const Frame frame{scene.scene(),        scene.accel(), &by_power, pass, std::uint32_t(i), {},
+                        BidirectionalPaths{}, Weights(true), false,     plane};
+      RayCounts counts;
+      const LightVertices light = light_vertices<F, Correction>(frame, bounds, counts);
+      std::vector<PixelSample> samples(std::size_t(bounds.area()));
+      EyeSubpaths<F, Frame, Correction>(frame, light).run(bounds, samples);
+      for (int y = 0, k = 0; y < s.image.height; ++y)
+        for (int x = 0; x < s.image.width; ++x, ++k) {
+          const Rgb splat = plane.take(x, y);
+          PixelSample& sample = samples[std::size_t(k)];
+          for (int c = 0; c < rgb_size; ++c) sample.radiance.c[c] += splats * splat.c[c];
+          pixels[std::size_t(k)].add(sample);
+        }
+    }
+    film.add_pass(bounds, 0, pixels);
+    add_pass(film, {}, means);
+  }
+  return means;
+}
+
+struct NoCorrection {
+  template <class F>
+  F operator()(const Vec3<F>&, F, const Vec3<F>&, F) const {
+    return F(1.0f);
+  }
+};
+// Refraction scales the flux of particles as it scales radiance.
+struct RefractionScalesFlux {
+  template <class F>
+  F operator()(const Vec3<F>& in, F ng_in, const Vec3<F>& out, F ng_out) const {
+    constexpr float eta = 1.5f;
+    const F scale = select(in.z * out.z > F(0.0f), F(1.0f), select(in.z < F(0.0f), F(eta * eta), F(1 / (eta * eta))));
+    return AdjointCorrection()(in, ng_in, out, ng_out) * scale;
+  }
+};
+// Subpaths from the eye do not know that their first vertex could have been splatted.
+struct WithoutLens : StrategyWeights {
+  using StrategyWeights::StrategyWeights;
+  template <class F>
+  PartialWeights<F> first_from_lens(Density<Area, F>, F, float) const {
+    return {F(0.0f), F(0.0f), F(0.0f)};
+  }
+};
+// A density per steradian is taken for one per area.
+struct WrongMeasure : StrategyWeights {
+  using StrategyWeights::StrategyWeights;
+  template <class F>
+  F connection(const PartialWeights<F>& eye, const BothDensities<F>& at_eye, F, const PartialWeights<F>& light,
+               const BothDensities<F>& at_light, F, F) const {
+    return StrategyWeights::connection(eye, at_eye, F(1.0f), light, at_light, F(1.0f), F(1.0f));
+  }
+};
+// A light that was sampled is not told from one that was met.
+struct WithoutMeeting : StrategyWeights {
+  using StrategyWeights::StrategyWeights;
+  template <class F>
+  F met(const PartialWeights<F>&, const LightEnd<F>&) const {
+    return F(1.0f);
+  }
+};
+
+TEST(Bidirectional, agrees_with_path_in_a_coloured_room_and_planted_faults_are_found) {
+  const TestScene scene(room(lens, gaussian));
+  const PassMeans path = measured(scene, "path", 16, 60, 1);
+  for (const char* way : {"bdpt", "bdpt:mis=balance", "bdpt:roulette-depth=0"}) {
+    const Comparison c = compared(measured(scene, way, 16, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
+  const auto caught = [&](const PassMeans& other) { return compared(other, path).differ(); };
+  EXPECT_FALSE(caught(by_hand(scene, 16, 40, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, WithoutLens>(scene, 16, 40, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, WrongMeasure>(scene, 16, 40, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, WithoutMeeting>(scene, 16, 40, 3)));
+  EXPECT_TRUE(caught(by_hand(scene, 16, 40, 3, 2)));
+}
+
+// A wall that is lit by a floor alone, whose shading normals lean far to one side.
+TEST(Bidirectional, agrees_with_path_at_shading_normals_and_needs_their_correction) {
+  const TestScene scene(R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+LookAt 0 0.7 -0.5   0 0.7 1   0 1 0
+Camera "orthographic" "float screenwindow" [ -0.6 0.6 -0.6 0.6 ]
+WorldBegin
+LightSource "spot" "rgb I" [ 9 6 3 ] "point3 from" [ 0 1.9 -0.9 ] "point3 to" [ 0 0 0 ] "float coneangle" 25
+Material "diffuse" "rgb reflectance" [ 0.8 0.8 0.6 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ -1 0 -1  -1 0 1  1 0 1  1 0 -1 ]
+  "normal N" [ -1 1 1  -1 1 1  1 1 0.5  1 1 0.5 ]
+Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 2 1  1 2 1 ]
+)");
+  const PassMeans path = measured(scene, "path", 16, 60, 1);
+  EXPECT_FALSE(compared(by_hand(scene, 16, 60, 3), path).differ());
+  EXPECT_TRUE(compared(by_hand<NoCorrection>(scene, 16, 60, 3), path).differ());
+}
+
+// A box with a lamp in the ceiling.
+std::string box(const std::string& contents) {
+  return R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+LookAt 0 1 -0.95   0 0.8 1   0 1 0
+Camera "perspective" "float fov" 75
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 2.5 2 ]
+  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+  Shape "bilinearmesh" "point3 P" [ -0.5 1.98 -0.5  0.5 1.98 -0.5  -0.5 1.98 0.5  0.5 1.98 0.5 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.7 0.7 0.6 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -1  1 0 -1  -1 0 1  1 0 1 ]
+Shape "bilinearmesh" "point3 P" [ -1 2 -1  1 2 -1  -1 2 1  1 2 1 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 2 1  1 2 1 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -1  1 0 -1  -1 2 -1  1 2 -1 ]
+Material "diffuse" "rgb reflectance" [ 0.6 0.1 0.1 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -1  -1 2 -1  -1 0 1  -1 2 1 ]
+Material "diffuse" "rgb reflectance" [ 0.1 0.5 0.1 ]
+Shape "bilinearmesh" "point3 P" [ 1 0 -1  1 2 -1  1 0 1  1 2 1 ]
+)" + contents;
+}
+std::string ball(const std::string& material, double x, double z, const std::string& emission = "") {
+  return "AttributeBegin\n" + emission + "Material " + material + "\nTranslate " + std::to_string(x) + " 0.45 " +
+         std::to_string(z) + "\nShape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n";
+}
+
+TEST(Bidirectional, agrees_with_path_in_a_box_with_glass_and_metal) {
+  const TestScene scene(box(ball("\"dielectric\"", -0.5, 0.1) + ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5)));
+  const Comparison c = compared(measured(scene, "bdpt", 16, 60, 2), measured(scene, "path", 64, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(Bidirectional, agrees_with_path_between_glossy_surfaces_of_every_sort) {
+  const TestScene scene(box(ball("\"conductor\" \"float roughness\" 0.1", -0.5, 0.1) +
+                            ball("\"coatedconductor\" \"float conductor.roughness\" 0.3", 0.5, 0.5) +
+                            "Material \"coateddiffuse\" \"rgb reflectance\" [ 0.2 0.3 0.8 ] \"float roughness\" 0\n"
+                            "Shape \"bilinearmesh\" \"point3 P\" [ -0.9 0.01 -0.9  0.9 0.01 -0.9  -0.9 0.01 0.9  "
+                            "0.9 0.01 0.9 ]\n"));
+  const Comparison c = compared(measured(scene, "bdpt", 16, 60, 2), measured(scene, "path", 64, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+// A lamp within rough glass that is in view: subpaths meet within the glass.
+TEST(Bidirectional, agrees_with_path_around_rough_glass_and_needs_the_adjoint_of_refraction) {
+  const TestScene scene(
+      box(ball("\"dielectric\" \"float roughness\" 0.4", -0.4, 0.2) +
+          "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 8 4 2 ]\nMaterial \"diffuse\" \"rgb reflectance\" [ "
+          "0.3 0.3 0.3 ]\nTranslate -0.4 0.45 0.2\nShape \"sphere\" \"float radius\" 0.2\nAttributeEnd\n"));
+  const PassMeans path = measured(scene, "path", 64, 60, 1);
+  const Comparison c = compared(measured(scene, "bdpt", 16, 60, 2), path);
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+  EXPECT_TRUE(compared(by_hand<RefractionScalesFlux>(scene, 16, 40, 3), path).differ());
+}
+
+TEST(Bidirectional, agrees_with_path_for_every_camera_and_filter) {
+  const std::pair<std::string, std::string> pairs[] = {
+      {"Camera \"orthographic\" \"float screenwindow\" [ -0.9 0.9 -0.6 0.6 ]", "\"box\""},
+      {"Camera \"orthographic\" \"float screenwindow\" [ -0.9 0.9 -0.6 0.6 ] \"float lensradius\" 0.1 \"float "
+       "focaldistance\" 2",
+       "\"mitchell\""},
+      {"Camera \"spherical\" \"string mapping\" \"equirectangular\"", "\"gaussian\""},
+      {"Camera \"spherical\" \"string mapping\" \"equalarea\"", "\"triangle\""},
+      {"Camera \"perspective\" \"float fov\" 90", "\"sinc\""}};
+  for (const auto& [camera, filter] : pairs) {
+    SCOPED_TRACE(camera);
+    const TestScene scene(room(camera, filter));
+    const PassMeans path = measured(scene, "path", 16, 80, 1), both = measured(scene, "bdpt", 16, 60, 2);
+    const Comparison c = compared(both, path);
+    EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+    PassMeans more = both;
+    for (auto& values : more.values)
+      for (double& x : values) x *= 1.05;
+    EXPECT_TRUE(compared(more, path).differ());
+  }
+}
+
+// Rays through the centres of pixels alone find what paths from the eye find; nothing is splatted.
+TEST(Bidirectional, agrees_with_path_without_a_pixel_filter) {
+  const TestScene scene("Option \"bool disablepixeljitter\" true\n" + room(lens, gaussian));
+  const Comparison c = compared(measured(scene, "bdpt", 16, 40, 2), measured(scene, "path", 16, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(Bidirectional, agrees_with_path_where_things_move) {
+  std::string text = room(lens, gaussian);
+  text.insert(text.find("LookAt"), "ActiveTransform EndTime\nTranslate 0.3 0 0\nActiveTransform All\n");
+  text +=
+      "AttributeBegin\nActiveTransform EndTime\nTranslate 0 0.8 0\nActiveTransform All\nMaterial \"diffuse\"\n"
+      "Translate 0.4 0.2 -0.4\nShape \"sphere\" \"float radius\" 0.2\nAttributeEnd\n";
+  const TestScene scene(text);
+  ASSERT_TRUE(scene.scene().moves());
+  const Comparison c = compared(measured(scene, "bdpt", 16, 60, 2), measured(scene, "path", 16, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(Bidirectional, ends_where_maxdepth_says) {
+  const TestScene scene(room(lens, gaussian));
+  for (const int depth : {0, 1, 2, 3}) {
+    const std::string most = ":maxdepth=" + std::to_string(depth);
+    const Comparison c = compared(measured(scene, "bdpt" + most, 16, 40, 2), measured(scene, "path" + most, 16, 60, 1));
+    EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
+  }
+  EXPECT_TRUE(
+      compared(measured(scene, "bdpt:maxdepth=2", 16, 40, 2), measured(scene, "path:maxdepth=3", 16, 60, 1)).differ());
+}
+
+TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
+  const TestScene scene(room(lens, gaussian));
+  const auto film = [&](const char* way, int threads) {
+    RenderObserver silent;
+    const ChosenIntegrator chosen = scene.integrator(way);
+    return render(chosen.any(), scene.settings(PointSetKind::blue_noise, {4, 3}, 5, threads), silent).film;
+  };
+  const Film one = film("bdpt", 1);
+  for (const auto& [way, threads] : {std::pair("bdpt", 2), std::pair("bdpt", 5), std::pair("bdpt:lanes=one", 1)}) {
+    const Film other = film(way, threads);
+    for (int y = 0; y < one.bounds().y1; ++y)
+      for (int x = 0; x < one.bounds().x1; ++x)
+        for (int c = 0; c < rgb_size; ++c) ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way;
+  }
+}
+
+}  // namespace
+}  // namespace montelux::test
