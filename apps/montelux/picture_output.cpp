@@ -77,6 +77,13 @@ std::string header_text(const Rendering& rendering, std::string_view name) {
   return {};
 }
 
+void print_bias(const BiasEstimate& bias) {
+  std::string line = "bias    ";
+  for (std::size_t c = 0; c < bias.mean.size(); ++c)
+    line += fmt::format(" {} {:.2g} ± {:.1g}", "RGB"[c], bias.mean[c], bias.standard_error[c]);
+  fmt::print("{} of the mean, as measured\n", line);
+}
+
 // The mean of the picture with its standard error, and with its interval.
 void print_mean(const Rendering& rendering) {
   if (rendering.image.passes == 0) {
@@ -159,6 +166,8 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
   json["non_finite"] = outcome.non_finite;
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
+  if (const auto& bias = rendering.measured_bias)
+    json["measured_bias"] = {{"mean", bias->mean}, {"standard_error", bias->standard_error}, {"passes", bias->passes}};
   if (report.display) json["display"] = display_json<Json>(*report.display);
   add_to(json, {rendering.missing, rendering.replaced, rendering.left_out});
   // A line for each frame of a sequence.
@@ -172,6 +181,7 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   for (const std::string& file : report.files) fmt::print("image    {}\n", file);
   if (report.film) fmt::print("film     {}\n", *report.film);
   print_mean(rendering);
+  if (rendering.measured_bias) print_bias(*rendering.measured_bias);
   fmt::print("error    {}\n", error_line(rendering));
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);

@@ -128,6 +128,19 @@ RayCounts rays_from(const Json& j) {
   return r;
 }
 
+// Of each pass its number and the difference of each colour.
+Json bias_json(const BiasOfPasses& bias) {
+  Json json = Json::array();
+  for (const auto& [pass, difference] : bias) json.push_back({pass, difference});
+  return json;
+}
+BiasOfPasses bias_from(const Json& json) {
+  BiasOfPasses bias;
+  for (const Json& pass : json)
+    bias[whole_from(pass.at(0), 0, int(max_film_samples))] = pass.at(1).get<MeanDifference>();
+  return bias;
+}
+
 // All but the film itself.
 Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
@@ -138,6 +151,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   json["picture"] = facts_json(film.facts);
   json["seconds"] = snapshot.seconds;
   json["rays"] = rays_json(snapshot.rays);
+  if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
@@ -174,7 +188,8 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
           options_from(j.at("options")),
           wanted,
           facts,
-          {std::move(film), rays_from(j.at("rays")), seconds}};
+          {std::move(film), rays_from(j.at("rays")), seconds,
+           j.contains("measured_bias") ? bias_from(j.at("measured_bias")) : BiasOfPasses{}}};
 }
 
 // The first of the values on which the passes of a film depend that differs: "seed is 1 and 2".
@@ -227,7 +242,7 @@ Result<SavedFilm> load_film(const fs::path& file) { return load_saved_bytes<Json
 
 Status save_film(const fs::path& file, const SavedFilm& film) {
   const Film& all = film.begun.film;
-  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds};
+  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds, film.begun.bias};
   for (const auto& [index, tile] : all.tiles()) {
     snapshot.tile_side = std::max({snapshot.tile_side, tile.cells.width(), tile.cells.height()});
     all.write_tile(tile.cells, snapshot.tiles);
@@ -289,6 +304,7 @@ Result<SavedFilm> merge_films(std::vector<SavedFilm> films, const Texts& names) 
       SavedFilm& part = films[i];
       total.begun.film.merge(part.begun.film);
       total.begun.rays += part.begun.rays, total.begun.seconds += part.begun.seconds;
+      total.begun.bias.merge(part.begun.bias);
       if (total.wanted && part.wanted)
         total.wanted = {std::min(total.wanted->first, part.wanted->first),
                         std::max(total.wanted->last, part.wanted->last)};

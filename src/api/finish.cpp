@@ -44,6 +44,11 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
   add("passes", std::int32_t(image.passes));
   add("nonFinite", std::int32_t(std::min<std::uint64_t>(result.film.non_finite(), 0x7fffffff)));
   add("biasedOptions", list_or_none(facts.biases, ", "));
+  if (const auto bias = rendering.measured_bias)
+    for (int c = 0; c < rgb_size; ++c) {
+      add(fmt::format("measuredBias{}", "RGB"[c]), bias->mean[std::size_t(c)]);
+      add(fmt::format("measuredBiasStandardError{}", "RGB"[c]), bias->standard_error[std::size_t(c)]);
+    }
   add("display", std::string(content_names[std::size_t(facts.content)]));
   add("exposure", std::string(facts.states_exposure ? "stated by the scene" : "not stated"));
   add("missingLight", list_or_none(facts.missing));
@@ -88,6 +93,7 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
   const ErrorEstimate error = result.film.error();
   Rendering rendering{std::move(result), {}, facts.notes, plan, facts.layers, 0, {}, image, error};
   rendering.found_no_light = facts.content == Content::light && is_black(rendering.result.film);
+  rendering.measured_bias = estimate_bias(rendering.result.bias);
   rendering.header = header_of(facts, rendering);
   rendering.missing = std::move(facts.missing), rendering.replaced = std::move(facts.replaced);
   rendering.left_out = std::move(facts.left_out);
@@ -98,6 +104,7 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
 Rendering rendering_of(SavedFilm film) {
   BegunFilm& begun = film.begun;
   RenderResult result{std::move(begun.film), begun.rays, begun.seconds, false};
+  result.bias = std::move(begun.bias);
   const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
   return rendering_of(std::move(film.facts), std::move(result), plan);
 }

@@ -59,17 +59,18 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;        // that the chains of a sequence keep for the next picture
-  std::optional<PixelBuffer> motion;    // to the picture before, as motion_vectors() has it
-  ImageEstimate image;                  // the mean of the whole picture
-  ErrorEstimate error;                  // of the pixels
-  std::vector<std::string> missing{};   // sorts of light of the scene that the integrator cannot find
-  std::vector<Replacement> replaced{};  // of what the file names and no option replaces
-  std::vector<std::string> left_out{};  // by a lenient reading, as SceneInfo has it
-  Content content = Content::light;     // what the colours hold
-  bool has_own_exposure = false;        // the scene states one
-  bool found_no_light = false;          // a picture of light, and every sample is zero: nothing tells its error
-  Status saved{Done{}};                 // of the checkpoint's last writing
+  std::size_t history_bytes = 0;                // that the chains of a sequence keep for the next picture
+  std::optional<PixelBuffer> motion;            // to the picture before, as motion_vectors() has it
+  ImageEstimate image;                          // the mean of the whole picture
+  ErrorEstimate error;                          // of the pixels
+  std::optional<BiasEstimate> measured_bias{};  // of the mean, where the integrator measures it in two passes or more
+  std::vector<std::string> missing{};           // sorts of light of the scene that the integrator cannot find
+  std::vector<Replacement> replaced{};          // of what the file names and no option replaces
+  std::vector<std::string> left_out{};          // by a lenient reading, as SceneInfo has it
+  Content content = Content::light;             // what the colours hold
+  bool has_own_exposure = false;                // the scene states one
+  bool found_no_light = false;                  // a picture of light, and every sample is zero: nothing tells its error
+  Status saved{Done{}};                         // of the checkpoint's last writing
   // Whether a standard error of the mean is known: it takes two independent passes, and light.
   bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
   // Whether the error of the pixels is: it takes two passes of each, and light.

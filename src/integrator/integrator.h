@@ -96,6 +96,9 @@ struct ChainStep {
   int frame = 0, stage = 0;
 };
 
+// By colour.
+using MeanDifference = std::array<double, rgb_size>;
+
 // Frames that follow one another, each with what the ones before have learned, over all pixels. A step may begin when
 // the step before it is done over all tiles; the tiles of one step may be run by many threads at once.
 class Chain {
@@ -106,6 +109,9 @@ class Chain {
   virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
   // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing continues.
   virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
+  // How much the picture of the frames so far differs in the mean from unbiased samples that were taken for comparison
+  // at some of its samples. None where nothing was compared. Only while no step runs.
+  virtual std::optional<MeanDifference> measured_bias() { return std::nullopt; }
 };
 
 // Maps a pass to a chain of frames over the whole picture, whose mean over frames is the pass's picture: chains are

@@ -33,7 +33,7 @@ class ChainJob final : public WatchedWork {
     skip_passes();
     passes_begun_ = pass_;
     if (settings.begun) {
-      rays_ = settings.begun->rays;
+      rays_ = settings.begun->rays, bias_ = settings.begun->bias;
       has_image_ = film_.passes(tiles_.front().bounds) > 0;
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
@@ -46,6 +46,7 @@ class ChainJob final : public WatchedWork {
         *this, [this] { drive(); }, observer);
     // An incomplete chain is in the image, but not in the saved film: it restarts when the film is continued.
     if (incomplete_) add_to_film(*incomplete_);
+    if (bias_of_incomplete_) bias_[*incomplete_] = *bias_of_incomplete_;
     watch_.report_end(*this, observer);
     memories_.keep_first(std::size_t(pass_));
     const double seconds = watch_.seconds();
@@ -56,7 +57,8 @@ class ChainJob final : public WatchedWork {
             seconds - frame_began_,
             warm_up_seconds(seconds),
             memories_.forgotten(),
-            frames_run_};
+            frames_run_,
+            std::move(bias_)};
   }
 
   RenderState state() override {
@@ -89,7 +91,7 @@ class ChainJob final : public WatchedWork {
     for (const ChainTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
     const PixelBounds& first = tiles_.front().bounds;
     snapshot.tile_side = std::max(first.width(), first.height());
-    snapshot.rays = rays_;
+    snapshot.rays = rays_, snapshot.bias = bias_;
     return snapshot;
   }
 
@@ -184,11 +186,14 @@ class ChainJob final : public WatchedWork {
   }
 
   void end_chain() {
+    const std::optional<MeanDifference> bias = chain_->measured_bias();
     memories_.store(std::size_t(pass_), *chain_, step_.frame);
-    if (step_.frame == frames_)
+    if (step_.frame == frames_) {
       add_to_film(pass_number());
-    else
-      incomplete_ = pass_number();
+      if (bias) bias_[pass_number()] = *bias;
+    } else {
+      incomplete_ = pass_number(), bias_of_incomplete_ = bias;
+    }
     ++pass_, has_image_ = true;
     skip_passes();
   }
@@ -210,7 +215,9 @@ class ChainJob final : public WatchedWork {
   int pass_ = 0;  // chains of the plan that are done
   int passes_begun_ = 0;
   std::optional<int> incomplete_;  // the pass of the last chain, if it ended early
-  bool has_image_ = false;         // a chain is done
+  std::optional<MeanDifference> bias_of_incomplete_;
+  BiasOfPasses bias_;       // of the passes that are done
+  bool has_image_ = false;  // a chain is done
   std::uint64_t samples_before_ = 0;
   std::uint64_t shown_frames_ = 0;
   int frames_run_ = 0;        // including those that are not shown

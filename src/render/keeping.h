@@ -6,6 +6,7 @@
 
 #include "film/film.h"
 #include "integrator/integrator.h"
+#include "render/measured_bias.h"
 
 namespace montelux {
 
@@ -14,6 +15,7 @@ struct BegunFilm {
   Film film;
   RayCounts rays;
   double seconds = 0;  // of the renders before
+  BiasOfPasses bias{};
 };
 
 // A film at one moment, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
@@ -23,6 +25,7 @@ struct FilmSnapshot {
   int tile_side = 0;
   RayCounts rays;
   double seconds = 0;
+  BiasOfPasses bias{};
 };
 
 // Receives the film now and then, and at the end of the render; not before it has a pass.

@@ -6,6 +6,7 @@
 #include "integrator/integrator.h"
 #include "render/image_settings.h"
 #include "render/keeping.h"
+#include "render/measured_bias.h"
 #include "render/memories.h"
 #include "render/observer.h"
 #include "render/pass_plan.h"
@@ -36,6 +37,7 @@ struct RenderResult {
   double warm_up = 0;        // of the seconds, those of frames that are not shown, without beginning and ending chains
   int forgotten = 0;         // chains that stored no memory because it did not fit
   int frames = 0;            // of chains, including those that are not shown
+  BiasOfPasses bias{};       // as far as the integrator measures it
   double shown_seconds() const { return seconds - warm_up; }
 };
 

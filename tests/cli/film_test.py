@@ -62,6 +62,28 @@ class Films(ProgramTest):
         self.assertEqual((told["passes"], told["samples"]), (8, 100 * 64 * 16))
         self.assertNotEqual(self.picture("--resume", "b.film", name="b.exr"), whole)
 
+    def test_parts_keep_the_bias_that_they_measured(self):
+        plan = [SCENE, "--resolution", "40x32", "--spp", "16", "--integrator",
+                "irradiance-cache:samples=20,pairs=0.2", "--samples-per-pass", "4"]
+        whole = self.picture(*plan, "--threads", "1", name="whole.exr")
+        self.assertIn(b"montelux:measuredBiasStandardErrorG\0double", whole)
+        for passes in "2:3", "0:0", "1:1":
+            self.run_program("render", *plan, "--passes", passes, "--checkpoint", passes[0] + ".film")
+        self.run_program("merge", "2.film", "0.film", "1.film", "-o", "all.film", "-o", "all.exr")
+        self.assertEqual(self.bytes_of("all.exr"), whole)
+        self.run_program("render", *plan, "--passes", "0:1", "--checkpoint", "begin.film")
+        told = json.loads(self.run_program("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr",
+                                           "--json").stdout)
+        self.assertEqual(self.bytes_of("all.exr"), whole)
+        self.assertEqual(told["measured_bias"]["passes"], 4)
+        self.assertEqual(len(told["measured_bias"]["mean"]), 3)
+        # One pass shows no spread, and other integrators measure nothing.
+        for part in ["2.film", "--passes", "2:2"], ["0.film", "--passes", "0:0"]:
+            told = json.loads(self.run_program("render", *plan, *part[1:], "-o", "one.exr", "--json").stdout)
+            self.assertNotIn("measured_bias", told)
+        told = json.loads(self.run_program("render", *plan[:5], "--integrator", "path", "-o", "p.exr", "--json").stdout)
+        self.assertNotIn("measured_bias", told)
+
     def test_a_film_with_a_gap_is_filled_where_it_goes_on(self):
         whole = self.picture(SCENE, *PLAN, name="whole.exr")
         self.run_program("merge", self.part(6, 7, "end.film"), self.part(0, 2, "begin.film"), "-o", "gap.film")

@@ -8,6 +8,13 @@
 
 namespace montelux {
 
+// What the cache shows at a sample, for a comparison: the irradiance, and what it is multiplied by for the light of the
+// sample.
+struct CachedLight {
+  CachePoint point;
+  Spectrum<float> irradiance, weight;
+};
+
 // `Starts` are the paths at their first surface, as FirstHits has them.
 template <class F, class Starts>
 class CachedPaths {
@@ -15,12 +22,20 @@ class CachedPaths {
   using U = Uint<F>;
   using M = Mask<F>;
   // `slots`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
-  CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t slots, bool by_depth)
-      : starts_(starts), cache_(cache), by_depth_(by_depth), deepest_(slots, endless), is_smooth_(slots, 1) {}
+  // `compared`: by slot, 1 where cached() keeps what the cache shows; empty: nowhere.
+  CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t slots, bool by_depth,
+              std::span<const std::uint8_t> compared = {})
+      : starts_(starts),
+        cache_(cache),
+        by_depth_(by_depth),
+        compared_(compared),
+        deepest_(slots, endless),
+        is_smooth_(slots, 1) {}
 
   // Points where the cache has no record, on paths that arrived there by mirrors and smooth glass alone. All paths
   // without a record continue.
   std::vector<CachePoint>& missed() { return missed_; }
+  const std::vector<CachedLight>& cached() const { return cached_; }
 
   // For the path loop.
   M refill(PathState<F>& path, M on) { return starts_.refill(path, on); }
@@ -37,7 +52,7 @@ class CachedPaths {
       const Vec3<F> n = v.bsdf.frame.n * side;
       for_each_lane(diffuse, [&](int k) {
         const std::uint32_t depth = lane(path.depth, k), slot = lane(path.slot, k);
-        const CacheQuery at{lane(v.x.point.p, k), lane(n, k), by_depth_ ? depth : 0};
+        const CacheQuery at = query(path, v, n, k);
         if (const auto found = cache_.irradiance(at)) {
           set_lane(irradiance, k, *found);
           deepest_[slot] = depth + 1;
@@ -49,6 +64,7 @@ class CachedPaths {
       if (any(known)) {
         // At the normal the cosine is 1.
         const BsdfValue<F> value = evaluate<F>(v.bsdf.lanes(known), v.wo, Vec3<F>{F(0.0f), F(0.0f), side}, v.context);
+        if (!compared_.empty()) keep(path, v, n, known, irradiance, path.throughput * value.f_cos * path.weight);
         irradiance = select(known, value.f_cos * irradiance, gray(F(0.0f)));
       }
     }
@@ -60,6 +76,16 @@ class CachedPaths {
   static constexpr std::uint32_t endless = 0x7fffffffu;
 
   static void set_bit(M& mask, int k) { mask = mask | mask_of_bits<F>(1u << k); }
+  CacheQuery query(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, int k) const {
+    return {lane(v.x.point.p, k), lane(n, k), by_depth_ ? lane(path.depth, k) : 0};
+  }
+  void keep(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, M on, const Spectrum<F>& irradiance,
+            const Spectrum<F>& weight) {
+    for_each_lane(on, [&](int k) {
+      if (compared_[lane(path.slot, k)] != 0)
+        cached_.push_back({point_at(path, v, query(path, v, n, k), k), lane(irradiance, k), lane(weight, k)});
+    });
+  }
   static CachePoint point_at(const PathState<F>& path, const Vertex<F>& v, const CacheQuery& at, int k) {
     Media<float> media;
     get_lane_words(v.media.along_wo(), k, media);
@@ -76,9 +102,11 @@ class CachedPaths {
   Starts& starts_;
   const IrradianceCache& cache_;
   const bool by_depth_;
+  const std::span<const std::uint8_t> compared_;
   std::vector<std::uint32_t> deepest_;   // by slot: where the path ends
   std::vector<std::uint8_t> is_smooth_;  // by slot: nothing rough so far
   std::vector<CachePoint> missed_;
+  std::vector<CachedLight> cached_;
 };
 
 }  // namespace montelux

@@ -20,6 +20,7 @@ Fields<IrradianceCacheSettings> irradiance_cache_fields() {
       .boolean("gradients", &S::gradients, "records are extrapolated by their gradients")
       .boolean("clamping", &S::clamping, "neighbouring records bound each other's distances to surfaces")
       .integer("records", &S::records, "maximum number of records of a pass", 1, 1 << 24)
+      .number("pairs", &S::pairs, "share of the samples that are compared with paths, to measure the bias", 0, 1)
       .integer("frames", &S::frames, "maximum number of frames with the same cache, which form one pass", 1, 1 << 16)
       .other(max_depth_spec())
       .integer("roulette-depth", &S::roulette_depth, "scattering events before roulette", 0, 1 << 20)

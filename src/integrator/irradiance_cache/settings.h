@@ -15,6 +15,7 @@ struct IrradianceCacheSettings {
   bool gradients = true;         // records are extrapolated by their gradients
   bool clamping = true;          // neighbours bound each other's distances
   int records = 1 << 18;         // at most
+  float pairs = 0.005f;          // share of the samples that are compared with unbiased ones
   int frames = 16;               // of a chain, at most
   int roulette_depth = 2;        // scattering events before roulette
   std::optional<int> max_depth;  // of scattering events; none: roulette alone ends paths

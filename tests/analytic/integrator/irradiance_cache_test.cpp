@@ -131,6 +131,45 @@ TEST(IrradianceCacheError, is_much_smaller_with_gradients) {
   EXPECT_LT(welch_test(with, {without.mean / 5, without.variance / 25, without.count}).statistic, -3.3);
 }
 
+// One record for the whole floor: its tangent lies below the irradiance, which is convex. The passes compare some of
+// their samples with paths, and find how far the picture is from the closed form.
+TEST(IrradianceCacheBias, is_measured_as_it_is) {
+  const TestScene scene(wall_and_floor);
+  const ChosenIntegrator chosen =
+      scene.integrator("irradiance-cache:samples=256,accuracy=0.5,min-spacing=3,max-spacing=3,pairs=0.2");
+  constexpr int count = 24;
+  const auto way = [](double d) { return std::sqrt(d * d + 1); };
+  const double share = 1 - (way(1.3) - way(0.3));  // the mean of 1 - d / sqrt(d^2 + 1)
+  std::array<std::vector<double>, 3> measured, found, differences;
+  for (int pass = 0; pass < count; ++pass) {
+    RenderSettings s = scene.settings(PointSetKind::independent, {4, 1}, 7);
+    s.plan.first_pass = pass;
+    RenderObserver silent;
+    const RenderResult result = render(chosen.any(), s, silent);
+    ASSERT_EQ(result.bias.size(), 1u);
+    EXPECT_EQ(result.bias.begin()->first, pass);
+    const ImageEstimate image = result.film.image();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double truth = 0.5 / pi_ * pi_ / 2 * (0.5 / pi_ * (1.0 + double(c))) * share;
+      found[c].push_back(image.mean[c] - truth), measured[c].push_back(result.bias.begin()->second[c]);
+      differences[c].push_back(measured[c].back() - found[c].back());
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    const SampleSummary bias = summarize(measured[c]);
+    std::printf("bias measured %.4g +- %.1g, of the picture %.4g +- %.1g, relative %.3g\n", bias.mean,
+                bias.standard_error(), summarize(found[c]).mean, summarize(found[c]).standard_error(),
+                bias.mean / (0.5 / pi_ * pi_ / 2 * (0.5 / pi_ * (1.0 + double(c))) * share));
+    EXPECT_GE(t_test(differences[c], 0).p_value, level(3))
+        << bias.mean << " +- " << bias.standard_error() << " measured where " << summarize(found[c]).mean
+        << " is right";
+    // There is a bias, and a half more or less of it would be seen.
+    EXPECT_LT(t_test(measured[c], 0).p_value, level(3));
+    EXPECT_LT(t_test(differences[c], 0.5 * bias.mean).p_value, level(3));
+    EXPECT_LT(t_test(differences[c], -0.5 * bias.mean).p_value, level(3));
+  }
+}
+
 TEST(IrradianceCacheBias, is_named_with_its_accuracy) {
   const TestScene scene(wall_and_floor);
   EXPECT_EQ(scene.integrator("irradiance-cache:accuracy=0.25,maxdepth=none").biases,

@@ -234,6 +234,7 @@ TEST(CacheInterpolation, errs_in_proportion_to_the_spacing_and_with_gradients_to
     const SampleSummary wide = squared_errors(0.2, gradients), narrow = squared_errors(0.1, gradients);
     const Exponent e = measured_exponent(narrow, wide, 2);
     const double right = gradients ? 4 : 2;
+    std::printf("%s gradients: exponent %.3g +- %.1g\n", gradients ? "with" : "without", e.value, e.standard_error);
     EXPECT_LT(std::abs(e.value - right), 0.15 + 3.3 * e.standard_error) << e.value << " +- " << e.standard_error;
     EXPECT_LT(e.standard_error, 0.2);
     EXPECT_GT(std::abs(e.value - (6 - right)), 1.0 + 3.3 * e.standard_error);
