@@ -140,7 +140,7 @@ if __name__ == "__main__":
             entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
         if entries[-1]["found_by"]:  # by either of the two, and so by both together
             entries[-1]["found_by"].append("bdpt")
-        entries[-1]["found_by"].append("sppm")
+        entries[-1]["found_by"] += ["sppm", "vcm"]
         if name in PHOTONS:
             half, radius, photons, replacements = PHOTONS[name]
             seen = WIDE_FORMULAS_IN_MIRROR.get(name)

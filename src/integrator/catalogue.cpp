@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "integrator/bidirectional/bdpt.h"
+#include "integrator/bidirectional/vcm.h"
 #include "integrator/clamped.h"
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
@@ -191,6 +192,14 @@ Made make_light(const Request& r) {
   return chosen;
 }
 
+void note_radius(ChosenIntegrator& chosen, float radius) {
+  chosen.biases.push_back(fmt::format("radius={:.4g}", radius));
+  chosen.notes.push_back(fmt::format(
+      "photons are gathered within {:.4g} at first: the picture is biased where light changes over that distance; more "
+      "frames, or a smaller radius, bias it less",
+      radius));
+}
+
 Made make_sppm(const Request& r) {
   auto settings = sppm_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
@@ -198,11 +207,7 @@ Made make_sppm(const Request& r) {
     settings->radius =
         radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1));
   ChosenIntegrator chosen{"sppm", {}, {}, {}, std::make_unique<SppmIntegrator>(r.scene, r.accel, *settings)};
-  chosen.biases.push_back(fmt::format("radius={:.4g}", settings->radius));
-  chosen.notes.push_back(fmt::format(
-      "photons are gathered within {:.4g} at first: the picture is biased where light changes over that distance; more "
-      "frames, or a smaller radius, bias it less",
-      settings->radius));
+  note_radius(chosen, settings->radius);
   note_depth(chosen, r.max_depth);
   if (r.scene.lights.has_masked()) {
     chosen.biases.push_back("no photons of masked emitters");
@@ -243,6 +248,25 @@ Made make_bdpt(const Request& r) {
   ChosenIntegrator chosen{
       "bdpt", {}, {}, {}, std::make_unique<BdptIntegrator>(r.scene, r.accel, bdpt_settings(r.list, r.max_depth))};
   note_depth(chosen, r.max_depth);
+  note_facing_curves(chosen, r.scene);
+  return chosen;
+}
+
+Made make_vcm(const Request& r) {
+  VcmSettings settings = vcm_settings(r.list, r.max_depth);
+  // A third of that of sppm: the rest is found by connections, and mergings of a wide radius have more weight than
+  // their correlated errors deserve.
+  if (settings.radius == 0)
+    settings.radius =
+        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1)) / 3;
+  ChosenIntegrator chosen{"vcm", {}, {}, {}, std::make_unique<VcmIntegrator>(r.scene, r.accel, settings)};
+  note_radius(chosen, settings.radius);
+  note_depth(chosen, r.max_depth);
+  if (!settings.paths.connect && r.scene.lights.has_masked()) {
+    chosen.biases.push_back("no photons of masked emitters");
+    chosen.missing.push_back("light of emitters with an alpha mask");
+    chosen.notes.push_back("no photon starts at emitters with an alpha mask: the picture is biased by their light");
+  }
   note_facing_curves(chosen, r.scene);
   return chosen;
 }
@@ -296,6 +320,7 @@ const std::vector<Row>& rows() {
         {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, shared_samples},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
+        {vcm_spec(), make_vcm, LightSearch::photons, Content::light, shared_samples},
         {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
          shared_samples | std::uint32_t(Ability::media)}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,

@@ -49,9 +49,10 @@ class BdptChain final : public Chain {
                       paths_,
                       StrategyWeights(paths_.mis == BidirectionalMis::power),
                       one_sided_,
-                      plane_};
+                      plane_,
+                      std::uint32_t(pass_.bounds.area())};
     RayCounts counts;
-    const LightVertices light = light_vertices<F>(frame, tile, counts);
+    const LightVertices light = light_vertices<F>(frame, tile, Splatting::on, counts);
     std::vector<PixelSample> samples(std::size_t(tile.area()));
     counts += EyeSubpaths<F, Frame>(frame, light).run(tile, samples);
     for (int y = tile.y0; y < tile.y1; ++y)

@@ -2,6 +2,7 @@
 #pragma once
 #include "integrator/bidirectional/light_subpaths.h"
 #include "integrator/first_vertex.h"
+#include "integrator/photons/gathering.h"
 #include "mc/roulette.h"
 #include "transport/visibility.h"
 
@@ -9,13 +10,16 @@ namespace montelux {
 
 // One subpath from each pixel of a tile, one a lane, by the same plan of numbers as `path`. Its strategies: it meets a
 // light; a vertex is connected with a point of a light; a vertex is connected with each vertex of the pixel's own
-// subpath from the lights. `Correction` is AdjointCorrection, but in tests that plant a fault.
+// subpath from the lights, or merged with those of all such subpaths. `Correction` is AdjointCorrection, but in tests
+// that plant a fault.
 template <class F, class Frame, class Correction = AdjointCorrection>
 class EyeSubpaths {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  EyeSubpaths(const Frame& frame, const LightVertices& light) : frame_(frame), scene_(frame.scene), light_(light) {}
+  EyeSubpaths(const Frame& frame, const LightVertices& light) : frame_(frame), scene_(frame.scene), light_(light) {
+    if (frame.photons) photons_.emplace(*frame.photons, frame.kernel);
+  }
 
   RayCounts run(const PixelBounds& tile, std::span<PixelSample> out) {
     const TilePass pass{tile, frame_.pass.points, frame_.pass.shutter, frame_.frame, frame_.moment, frame_.pass.grid};
@@ -90,6 +94,7 @@ class EyeSubpaths {
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, M(first & at.found), out);
     if (any(view.valid)) connect_light(path, here, draw, choice.mass * draw.density, view, scattered.toward_light);
     if (frame_.paths.connect && frame_.by_power) connect_subpath(path, here);
+    if (photons_ && any(here.rough)) merge(path, here);
 
     // Scatter; roulette.
     M moves = scatters & next.valid;
@@ -196,9 +201,25 @@ class EyeSubpaths {
     path.radiance += select(lit, value, gray(F(0.0f)));
   }
 
+  // Vertices of all subpaths from the lights that lie within the radius.
+  void merge(PathState<F>& path, const Here& here) {
+    const U room = U(frame_.paths.max_depth ? std::uint32_t(*frame_.paths.max_depth) - 1u : 0x7fffffffu) - path.depth;
+    const auto* words = reinterpret_cast<const float*>(frame_.photons->weights());
+    const Spectrum<F> light =
+        photons_->template radiance<F>(here.at, here.context, here.rough, [&](const FoundPhoton<F>& photon, M on) {
+          on = on & (photon.events <= room);
+          const U word = photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
+          const PartialWeights<F> y{gather(words, word), F(0.0f), gather(words + 1, word)};
+          const BothDensities<F> both{photon.density, reverse_density(here, photon.wi, on)};
+          return select(on, frame_.weights.merging(weights_, y, both), F(0.0f));
+        });
+    path.radiance += select(here.rough, path.throughput * light, gray(F(0.0f)));
+  }
+
   const Frame& frame_;
   const Scene& scene_;
   const LightVertices& light_;
+  std::optional<PhotonLookup> photons_;
   // Of the paths at hand: the weights so far, and whether all events were deltas.
   PartialWeights<F> weights_{F(0.0f), F(0.0f), F(0.0f)};
   M only_smooth_{false};

@@ -24,9 +24,11 @@ struct BidirectionalFrame {
   Weights weights;
   bool one_sided;  // some surface is not there for camera rays that meet its back
   SplatPlane& plane;
+  std::uint32_t light_path_count;      // at least one for each pixel, or cell: the first ones belong to these
+  const PhotonMap* photons = nullptr;  // to be merged with the eye's vertices; null: none are
+  PhotonKernel kernel = PhotonKernel::epanechnikov;
 
-  // One for each pixel of the picture, or for each cell if the pass has a grid.
-  float light_paths() const { return float(pass.bounds.area()); }
+  float light_paths() const { return float(light_path_count); }
   // As many as are connected with the lens: no light arrives where camera rays go through the centres of pixels alone.
   float splat_paths() const { return scene.pixel_centres || !paths.connect ? 0.0f : light_paths(); }
   std::uint32_t path_number(int x, int y) const {
@@ -82,9 +84,8 @@ class LightVertices {
   std::vector<std::uint32_t> last_;
 };
 
-// What the walk of subpaths from the lights shows: weighs it along the way, and hands it on to
-//   store(vertex, subpath, on)    a LightVertexView, where the surface is not a mirror or smooth glass
-// Vertices are splatted if the frame connects.
+// What the walk of subpaths from the lights shows: weighs it along the way, splats it, and hands it on to
+//   store(LightVertexView, on)    where the surface is not a mirror or smooth glass
 template <class F>
 struct LightVertexView {
   const LightPathVertex<F>& vertex;
@@ -95,9 +96,10 @@ class LightSubpathSink {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  LightSubpathSink(const Frame& frame, Store store, RayCounts& counts)
+  LightSubpathSink(const Frame& frame, Store store, bool splats, RayCounts& counts)
       : frame_(frame),
         store_(store),
+        splats_(splats),
         scale_(frame.scene.imaging_ratio / frame.light_paths()),
         lens_(frame.scene, frame.rays, frame.one_sided, frame.plane, counts) {}
 
@@ -129,7 +131,7 @@ class LightSubpathSink {
     arrive(v, on);
     const M rough = on & !v.at.bsdf.is_delta;
     if (any(rough)) store_(LightVertexView<F>{v, weights_}, rough);
-    if (frame_.splat_paths() == 0) return {{}, v.at.wo, M(false)};
+    if (!splats_) return {{}, v.at.wo, M(false)};
     const LensConnection<F> lens =
         lens_.toward(v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
     return {lens, v.at.bsdf.frame.to_local(-lens.d), M(rough & lens.seen)};
@@ -180,6 +182,7 @@ class LightSubpathSink {
 
   const Frame& frame_;
   Store store_;
+  const bool splats_;
   const float scale_;
   LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>> lens_;
   // Of the paths at hand: the light, where they left it, and the weights so far.
@@ -188,38 +191,43 @@ class LightSubpathSink {
   PartialWeights<F> weights_{F(0.0f), F(0.0f), F(0.0f)};
 };
 
-// Follows the subpaths from the lights that belong to the tile's pixels; store(LightVertexView, on) receives their
-// vertices. `Correction` is AdjointCorrection, but in tests that plant a fault.
-template <class F, class Correction = AdjointCorrection, class Rays, class Weights, class Store>
-void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, const PixelBounds& tile, RayCounts& counts,
-                           Store store) {
+// Which of their vertices are splatted: subpaths may be followed more than once in a frame.
+enum class Splatting { on, off };
+
+// Follows subpaths from the lights, by their numbers number_of(i) for i below `count`; store(LightVertexView, on)
+// receives their vertices. `Correction` is AdjointCorrection, but in tests that plant a fault.
+template <class F, class Correction = AdjointCorrection, class Rays, class Weights, class NumberOf, class Store>
+void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, std::uint32_t count, NumberOf number_of,
+                           Splatting splatting, RayCounts& counts, Store store) {
   if (!frame.by_power) return;
-  const LightWalkScene<Rays> walk{
-      frame.scene,
-      frame.rays,
-      *frame.by_power,
-      photon_points(frame.pass.points, int(frame.frame), std::uint32_t(frame.light_paths())),
-      frame.pass.shutter.value_or(frame.scene.shutter),
-      {},
-      frame.paths.max_depth,
-      frame.paths.roulette_depth,
-      Densities::exact};
+  const LightWalkScene<Rays> walk{frame.scene,
+                                  frame.rays,
+                                  *frame.by_power,
+                                  photon_points(frame.pass.points, int(frame.frame), frame.light_path_count),
+                                  frame.pass.shutter.value_or(frame.scene.shutter),
+                                  {},
+                                  frame.paths.max_depth,
+                                  frame.paths.roulette_depth,
+                                  Densities::exact};
   using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store>;
-  Sink sink(frame, store, counts);
-  const auto width = std::uint32_t(tile.width());
-  LightWalk<F, Rays, Sink, Correction>(walk, sink, counts).run(std::uint32_t(tile.area()), [&](std::uint32_t i) {
-    return PathSite<float>{0, 0, frame.path_number(tile.x0 + int(i % width), tile.y0 + int(i / width))};
+  Sink sink(frame, store, splatting == Splatting::on && frame.splat_paths() > 0, counts);
+  LightWalk<F, Rays, Sink, Correction>(walk, sink, counts).run(count, [&](std::uint32_t i) {
+    return PathSite<float>{0, 0, number_of(i)};
   });
 }
 
 // Keeps them, to be connected with the paths from the eye of the same tile.
 template <class F, class Correction = AdjointCorrection, class Rays, class Weights>
 LightVertices light_vertices(const BidirectionalFrame<Rays, Weights>& frame, const PixelBounds& tile,
-                             RayCounts& counts) {
+                             Splatting splatting, RayCounts& counts) {
   LightVertices all(tile.area());
   const PixelBounds& b = frame.pass.bounds;
   const auto across = std::uint32_t(b.width());
-  follow_light_subpaths<F, Correction>(frame, tile, counts, [&](const LightVertexView<F>& view, Mask<F> on) {
+  const auto width = std::uint32_t(tile.width());
+  const auto number_of = [&](std::uint32_t i) {
+    return frame.path_number(tile.x0 + int(i % width), tile.y0 + int(i / width));
+  };
+  const auto store = [&](const LightVertexView<F>& view, Mask<F> on) {
     const LightPathVertex<F>& v = view.vertex;
     const LightVertex<F> vertex{stored(v.at), v.path.flux, view.weights, v.path.depth, Uint<F>(0u)};
     for_each_lane(on, [&](int k) {
@@ -229,7 +237,8 @@ LightVertices light_vertices(const BidirectionalFrame<Rays, Weights>& frame, con
       get_lane_words(vertex, k, one);
       all.add(std::uint32_t(y * tile.width() + x), one);
     });
-  });
+  };
+  follow_light_subpaths<F, Correction>(frame, std::uint32_t(tile.area()), number_of, splatting, counts, store);
   return all;
 }
 

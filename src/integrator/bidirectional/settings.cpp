@@ -15,6 +15,28 @@ Fields<BidirectionalPaths> path_fields() {
   return fields;
 }
 
+Fields<VcmSettings> merging_fields() {
+  using S = VcmSettings;
+  Fields<S> fields;
+  fields
+      .integer("photons", &S::photons,
+               "light paths in each frame, at least one per pixel; 0: one per pixel, at least 16384", 0, 1 << 28)
+      .number("radius", &S::radius, "radius of the first frame in world units; 0: one pixel wide", 0, 1e30)
+      .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
+              1)
+      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance",
+                            {{"constant", PhotonKernel::constant}, {"epanechnikov", PhotonKernel::epanechnikov}})
+      .integer("frames", &S::frames, "maximum number of frames over which the radius shrinks, which form one pass", 1,
+               1 << 16);
+  return fields;
+}
+Fields<BidirectionalPaths> connecting_fields() {
+  Fields<BidirectionalPaths> fields;
+  fields.boolean("connect", &BidirectionalPaths::connect,
+                 "connections of vertices beside mergings; off: mergings alone");
+  return fields;
+}
+
 }  // namespace
 
 EntitySpec bdpt_spec() {
@@ -29,6 +51,25 @@ BidirectionalPaths bdpt_settings(const ParameterList& list, std::optional<int> m
   // None of the rows can fail: their values have been checked.
   (void)path_fields().read(list, s);
   s.max_depth = max_depth;
+  return s;
+}
+
+EntitySpec vcm_spec() {
+  EntitySpec spec{"vcm",
+                  "vertex connection and merging: bidirectional path tracing and photon mapping by one set of weights; "
+                  "finds caustics, also in mirrors and through glass",
+                  merging_fields().specs({})};
+  for (ParameterSpec& more : connecting_fields().specs({})) spec.parameters.push_back(std::move(more));
+  for (ParameterSpec& more : path_fields().specs({})) spec.parameters.push_back(std::move(more));
+  return spec;
+}
+
+VcmSettings vcm_settings(const ParameterList& list, std::optional<int> max_depth) {
+  VcmSettings s;
+  (void)merging_fields().read(list, s);
+  (void)connecting_fields().read(list, s.paths);
+  (void)path_fields().read(list, s.paths);
+  s.paths.max_depth = max_depth;
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "integrator/path/settings.h"
+#include "integrator/photons/settings.h"
 #include "parameter/choice.h"
 
 namespace montelux {
@@ -19,7 +20,19 @@ struct BidirectionalPaths {
   Lanes lanes = Lanes::native;
 };
 
+// With vertices of the two subpaths that are merged where they lie within a radius.
+struct VcmSettings {
+  BidirectionalPaths paths;
+  int photons = 0;         // subpaths from the lights in each frame; 0: one for each pixel, and at least min_photons
+  float radius = 0;        // of the first frame; 0: by the pixels' footprints
+  float alpha = 2.0f / 3;  // how much of the photons stays as the radius shrinks
+  PhotonKernel kernel = PhotonKernel::epanechnikov;
+  int frames = 1024;  // of a chain, at most
+};
+
 EntitySpec bdpt_spec();
 BidirectionalPaths bdpt_settings(const ParameterList& list, std::optional<int> max_depth);
+EntitySpec vcm_spec();
+VcmSettings vcm_settings(const ParameterList& list, std::optional<int> max_depth);
 
 }  // namespace montelux

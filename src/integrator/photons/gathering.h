@@ -23,15 +23,23 @@ MONTELUX_INLINE F kernel_weight(PhotonKernel kernel, F distance_squared, float r
   return max(F(1.0f) - distance_squared * inverse, F(0.0f)) * (2 * inv_pi * inverse);
 }
 
+// A photon near a gathering point, in every lane.
+template <class F>
+struct FoundPhoton {
+  Uint<F> number;                  // in the map
+  Uint<F> events;                  // that have scattered it
+  Vec3<F> wi;                      // local, to where it came from
+  Density<SolidAngle, F> density;  // with which the BSDF samples that
+};
+
 // The photons of one frame as the paths from the eye look them up.
 class PhotonLookup {
  public:
   PhotonLookup(const PhotonMap& map, PhotonKernel kernel) : map_(map), kernel_(kernel) {}
 
-  // The radiance that photons send along wo. `accepts(density, events)` are the lanes in which a photon from there
-  // counts: `density` is that with which the BSDF samples its direction.
-  template <class F, class Accepts>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Accepts accepts) {
+  // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
+  template <class F, class Share>
+  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share) {
     using U = Uint<F>;
     std::size_t most = 0;
     for_each_lane(on, [&](int k) {
@@ -58,11 +66,13 @@ class PhotonLookup {
       if (!any(similar)) continue;
       BsdfContext<F> own = context;
       own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
-      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, at.bsdf.frame.to_local(wi), own);
-      const Mask<F> counts = similar & accepts(value.density.value, events);
+      const Vec3<F> local = at.bsdf.frame.to_local(wi);
+      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, local, own);
+      const F counted = select(similar, share(FoundPhoton<F>{photon, events, local, value.density}, similar), F(0.0f));
+      const Mask<F> counts = counted > F(0.0f);
       // Flux per area is irradiance on the surface itself, f |cos| scatters it by the shading normal.
       const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
-      const F weight = kernel_weight<F>(kernel_, distance_squared, map_.radius()) / cos;
+      const F weight = kernel_weight<F>(kernel_, distance_squared, map_.radius()) / cos * counted;
       Spectrum<F> flux;
       for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 6 + c, word);
       sum += select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
@@ -145,8 +155,10 @@ class PhotonGathering {
     if (any(queries)) add_direct(path, at, light, scattered.toward_light, queries);
     if (any(rough)) {
       const U room = U(settings_.max_depth ? std::uint32_t(*settings_.max_depth) - 1u : 0x7fffffffu) - path.depth;
-      const Spectrum<F> gathered = photons_.template radiance<F>(
-          at, context, rough, [&](F density, U events) { return (density <= F(settings_.glossy)) & (events <= room); });
+      const Spectrum<F> gathered =
+          photons_.template radiance<F>(at, context, rough, [&](const FoundPhoton<F>& photon, M) {
+            return select((photon.density.value <= F(settings_.glossy)) & (photon.events <= room), F(1.0f), F(0.0f));
+          });
       path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
     }
 

@@ -27,11 +27,12 @@ double cells_per_length(float radius) { return 0.5 / (double(radius) * (1 + 1e-6
 
 }  // namespace
 
-PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes)
+PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes, bool weighted)
     : mask_(std::uint32_t(std::bit_ceil(std::clamp<std::size_t>(expected, 1024, std::size_t{1} << 26))) - 1),
       counts_(std::size_t(mask_) + 1),
       starts_(std::size_t(mask_) + 2),
-      boxes_(boxes) {}
+      boxes_(boxes),
+      weighted_(weighted) {}
 
 std::uint32_t PhotonMap::hash(std::int64_t x, std::int64_t y, std::int64_t z) const {
   return mix_bits(std::uint32_t(x) * 0x9e3779b9u ^
@@ -57,6 +58,7 @@ void PhotonMap::lay_out(float radius) {
   dealt_.resize(sum);
   x_.resize(sum + padding), y_.resize(sum + padding), z_.resize(sum + padding);
   photons_.resize(sum + 1);
+  if (weighted_) weights_.resize(sum + 1);
 }
 
 void PhotonMap::deal(std::size_t tile) {
@@ -78,6 +80,7 @@ void PhotonMap::put_in_order(std::size_t begin, std::size_t end, std::size_t who
       const Photon& photon = *dealt_[i].photon;
       x_[i] = photon.p.x, y_[i] = photon.p.y, z_[i] = photon.p.z;
       photons_[i] = {photon.wi, photon.ng, photon.flux, photon.events};
+      if (weighted_) weights_[i] = photon.weights;
     }
   }
 }

@@ -10,6 +10,11 @@
 
 namespace montelux {
 
+// What photons carry where they share the light with other strategies; see PartialWeights.
+struct PhotonWeights {
+  float vcm = 0, vm = 0;
+};
+
 // Flux that arrives at a rough surface.
 struct Photon {
   Vec3f p;
@@ -18,6 +23,7 @@ struct Photon {
   Spectrum<float> flux;
   std::uint32_t events;  // that have scattered it
   std::uint32_t path;    // its number: a path leaves one photon for each number of events
+  PhotonWeights weights{};
 };
 
 // The part of a photon that a gathering point needs, as lanes gather it.
@@ -45,8 +51,8 @@ struct NearPhoton {
 // whatever the threads did, so that sums over them have the same bits.
 class PhotonMap {
  public:
-  // For about so many photons, in so many boxes.
-  PhotonMap(std::size_t expected, std::size_t boxes);
+  // For about so many photons, in so many boxes; `weighted`: their weights are kept.
+  PhotonMap(std::size_t expected, std::size_t boxes, bool weighted = false);
 
   // The photons of a tile, which has a number below that of boxes to itself.
   std::vector<Photon>& box(std::size_t tile) { return boxes_[tile]; }
@@ -59,6 +65,7 @@ class PhotonMap {
   std::size_t size() const { return dealt_.size(); }
   float radius() const { return radius_; }
   const GatheredPhoton* photons() const { return photons_.data(); }
+  const PhotonWeights* weights() const { return weights_.data(); }
   // Appends the photons within the radius of p that lie near the plane across n, in a fixed order.
   void near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& found) const;
 
@@ -79,6 +86,8 @@ class PhotonMap {
   std::vector<Dealt> dealt_;
   std::vector<float> x_, y_, z_;
   std::vector<GatheredPhoton> photons_;
+  bool weighted_;
+  std::vector<PhotonWeights> weights_;  // of the same photons
 };
 
 }  // namespace montelux

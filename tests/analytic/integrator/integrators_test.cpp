@@ -163,24 +163,26 @@ TEST(LightTracing, finds_the_closed_form_of_every_scene_that_it_sees_whole) {
 
 // Likewise photons, in scenes where enough of them arrive; with a radius so small that its bias is below the noise.
 TEST(Photons, find_the_closed_form_of_every_scene_where_enough_of_them_arrive) {
-  const std::vector<Expected> scenes = expected_means();
-  const double level = sidak_level(family_level, double(scenes.size()));
-  int tested = 0, caught = 0;
-  for (const Expected& e : scenes) {
-    const TestScene scene(read_text(folder / e.scene), folder.string());
-    const ChosenIntegrator chosen = scene.integrator("sppm:radius=0.02,alpha=1");
-    if (!chosen.missing.empty()) continue;
-    const Measured m = measure(scene, "sppm:radius=0.02,alpha=1", 4);
-    EXPECT_EQ(m.non_finite, 0u) << e.scene;
-    const bool arrives = m.standard_error < 0.05 * e.value && (m.standard_error > 0 || m.mean > 0);
-    if (e.value != 0 && !arrives) continue;
-    EXPECT_TRUE(agrees(m, e.value, level))
-        << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value << " is right ("
-        << (m.mean - e.value) / m.standard_error << " standard errors)";
-    ++tested, caught += !agrees(m, 0.9 * e.value, level) + !agrees(m, 1.1 * e.value, level);
+  for (const std::string way : {"sppm:radius=0.02,alpha=1", "vcm:radius=0.02,alpha=1"}) {
+    const std::vector<Expected> scenes = expected_means();
+    const double level = sidak_level(family_level, double(scenes.size()));
+    int tested = 0, caught = 0;
+    for (const Expected& e : scenes) {
+      const TestScene scene(read_text(folder / e.scene), folder.string());
+      const ChosenIntegrator chosen = scene.integrator(way);
+      if (!chosen.missing.empty()) continue;
+      const Measured m = measure(scene, way, 4);
+      EXPECT_EQ(m.non_finite, 0u) << way << " in " << e.scene;
+      const bool arrives = m.standard_error < 0.05 * e.value && (m.standard_error > 0 || m.mean > 0);
+      if (e.value != 0 && !arrives) continue;
+      EXPECT_TRUE(agrees(m, e.value, level))
+          << way << " in " << e.scene << ": " << m.mean << " +- " << m.standard_error << " where " << e.value
+          << " is right (" << (m.mean - e.value) / m.standard_error << " standard errors)";
+      ++tested, caught += !agrees(m, 0.9 * e.value, level) + !agrees(m, 1.1 * e.value, level);
+    }
+    EXPECT_GT(tested, 50);
+    EXPECT_GT(caught, 1.2 * tested);
   }
-  EXPECT_GT(tested, 50);
-  EXPECT_GT(caught, 1.2 * tested);
 }
 
 // Likewise interpolated irradiance, where nothing moves: where it changes over a surface it is interpolated so closely

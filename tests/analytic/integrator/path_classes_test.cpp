@@ -27,6 +27,7 @@ const std::vector<std::string> ways{"path",
                                     "light",
                                     "bdpt",
                                     "sppm",
+                                    "vcm",
                                     "metropolis:bootstrap=64",
                                     "irradiance-cache:samples=2048"};
 std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }

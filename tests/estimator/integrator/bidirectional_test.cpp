@@ -1,4 +1,5 @@
-// Bidirectional path tracing shows what path tracing shows, and faults in its weights and corrections are found.
+// Bidirectional path tracing shows what path tracing shows, likewise with mergings of a small radius, and faults in its
+// weights and corrections are found.
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/eye_subpaths.h"
@@ -22,10 +23,19 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
     Film film(bounds);
     std::vector<PixelPass> pixels(std::size_t(bounds.area()));
     for (int i = 0; i < per_pass; ++i) {
-      const Frame frame{scene.scene(),        scene.accel(), &by_power, pass, std::uint32_t(i), {},
-                        BidirectionalPaths{}, Weights(true), false,     plane};
+      const Frame frame{scene.scene(),
+                        scene.accel(),
+                        &by_power,
+                        pass,
+                        std::uint32_t(i),
+                        {},
+                        BidirectionalPaths{},
+                        Weights(true),
+                        false,
+                        plane,
+                        std::uint32_t(bounds.area())};
       RayCounts counts;
-      const LightVertices light = light_vertices<F, Correction>(frame, bounds, counts);
+      const LightVertices light = light_vertices<F, Correction>(frame, bounds, Splatting::on, counts);
       std::vector<PixelSample> samples(std::size_t(bounds.area()));
       EyeSubpaths<F, Frame, Correction>(frame, light).run(bounds, samples);
       for (int y = 0, k = 0; y < s.image.height; ++y)
@@ -232,6 +242,153 @@ TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
   };
   const Film one = film("bdpt", 1);
   for (const auto& [way, threads] : {std::pair("bdpt", 2), std::pair("bdpt", 5), std::pair("bdpt:lanes=one", 1)}) {
+    const Film other = film(way, threads);
+    for (int y = 0; y < one.bounds().y1; ++y)
+      for (int x = 0; x < one.bounds().x1; ++x)
+        for (int c = 0; c < rgb_size; ++c) ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way;
+  }
+}
+
+// ---- vertex connection and merging
+
+// So small that its bias is far below the noise of these tests, with so many photons that mergings have weight.
+const std::string merging = "vcm:radius=0.02,photons=16384,alpha=1";
+
+// What is planted in the weights of one pass, made as `vcm` makes it.
+template <class Weights>
+PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed) {
+  using F = NativeFloats;
+  using Frame = BidirectionalFrame<Accel, Weights>;
+  constexpr std::uint32_t paths = 16384;
+  constexpr float radius = 0.02f;
+  PassMeans means;
+  const AliasTable by_power = scene.scene().lights.by_power();
+  const RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
+  const PixelBounds& bounds = s.image.bounds;
+  PhotonMap map(paths, 1, true);
+  for (int number = 0; number < passes; ++number) {
+    const ChainPass pass{bounds, s.image.points(number, 1), {}, {}};
+    SplatPlane plane(bounds, scene.scene().filter);
+    const Frame frame{scene.scene(),
+                      scene.accel(),
+                      &by_power,
+                      pass,
+                      0,
+                      {},
+                      BidirectionalPaths{},
+                      Weights(true, pi * radius * radius * float(paths)),
+                      false,
+                      plane,
+                      paths,
+                      &map};
+    RayCounts counts;
+    std::vector<Photon>& photons = map.box(0);
+    photons.clear();
+    follow_light_subpaths<F>(
+        frame, paths, [](std::uint32_t i) { return i; }, Splatting::on, counts,
+        [&](const LightVertexView<F>& view, Mask<F> on) {
+          const auto& v = view.vertex;
+          const Spectrum<F> flux = v.path.flux * (1 / float(paths));
+          for_each_lane(on, [&](int k) {
+            photons.push_back({lane(v.at.x.point.p, k),
+                               lane(-v.at.d, k),
+                               lane(v.at.x.point.ng, k),
+                               lane(flux, k),
+                               lane(v.path.depth, k),
+                               lane(v.path.site.index, k),
+                               {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
+          });
+        });
+    map.count(photons, radius);
+    map.lay_out(radius);
+    map.deal(0);
+    map.put_in_order(0, 1, 1);
+    const LightVertices light = light_vertices<F>(frame, bounds, Splatting::off, counts);
+    std::vector<PixelSample> samples(std::size_t(bounds.area()));
+    EyeSubpaths<F, Frame>(frame, light).run(bounds, samples);
+    std::vector<PixelPass> pixels(samples.size());
+    for (int y = 0, k = 0; y < s.image.height; ++y)
+      for (int x = 0; x < s.image.width; ++x, ++k) {
+        const Rgb splat = plane.take(x, y);
+        PixelSample& sample = samples[std::size_t(k)];
+        for (int c = 0; c < rgb_size; ++c) sample.radiance.c[c] += splat.c[c];
+        pixels[std::size_t(k)].add(sample);
+      }
+    Film film(bounds);
+    film.add_pass(bounds, 0, pixels);
+    add_pass(film, {}, means);
+  }
+  return means;
+}
+// Mergings count in full beside connections.
+struct MergedTwice : StrategyWeights {
+  using StrategyWeights::StrategyWeights;
+  template <class F>
+  F merging(const PartialWeights<F>&, const PartialWeights<F>&, const BothDensities<F>&) const {
+    return F(1.0f);
+  }
+};
+// Connections do not know that their vertices could have been merged.
+struct ForgottenMergings : StrategyWeights {
+  ForgottenMergings(bool power, float merges) : StrategyWeights(power), whole_(power, merges) {}
+  template <class F>
+  F merging(const PartialWeights<F>& eye, const PartialWeights<F>& light, const BothDensities<F>& at_eye) const {
+    return whole_.merging(eye, light, at_eye);
+  }
+  StrategyWeights whole_;
+};
+
+TEST(Merging, agrees_with_path_in_a_coloured_room_and_planted_faults_are_found) {
+  const TestScene scene(room(lens, gaussian));
+  const PassMeans path = measured(scene, "path", 16, 60, 1);
+  for (const std::string& way :
+       {merging, merging + ",mis=balance", merging + ",kernel=constant", merging + ",connect=off"}) {
+    const Comparison c = compared(measured(scene, way, 8, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
+  const auto caught = [&](const PassMeans& other) { return compared(other, path).differ(); };
+  EXPECT_FALSE(caught(merged_by_hand<StrategyWeights>(scene, 200, 3)));
+  EXPECT_TRUE(caught(merged_by_hand<MergedTwice>(scene, 200, 3)));
+  EXPECT_TRUE(caught(merged_by_hand<ForgottenMergings>(scene, 200, 3)));
+}
+
+TEST(Merging, agrees_with_path_in_a_box_with_glass_and_metal) {
+  const TestScene scene(box(ball("\"dielectric\"", -0.5, 0.1) + ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5)));
+  const Comparison c =
+      compared(measured(scene, merging, 8, 60, 2), measured(scene, "path:roulette-depth=5", 256, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(Merging, agrees_with_path_where_things_move) {
+  std::string text = room(lens, gaussian);
+  text.insert(text.find("LookAt"), "ActiveTransform EndTime\nTranslate 0.3 0 0\nActiveTransform All\n");
+  const TestScene scene(text);
+  ASSERT_TRUE(scene.scene().moves());
+  const Comparison c = compared(measured(scene, merging, 8, 60, 2), measured(scene, "path", 16, 60, 1));
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+}
+
+TEST(Merging, ends_where_maxdepth_says) {
+  const TestScene scene(room(lens, gaussian));
+  for (const int depth : {0, 1, 2, 3})
+    for (const char* connect : {",connect=on", ",connect=off"}) {
+      const std::string most = "maxdepth=" + std::to_string(depth);
+      const Comparison c = compared(measured(scene, merging + connect + "," + most, 8, 40, 2),
+                                    measured(scene, "path:" + most, 16, 60, 1));
+      EXPECT_FALSE(c.differ()) << connect << depth << ": " << c.smallest << " of " << c.tests;
+    }
+}
+
+TEST(Merging, has_the_same_bits_for_any_number_of_threads_and_lanes) {
+  const TestScene scene(room(lens, gaussian));
+  const auto film = [&](const char* way, int threads) {
+    RenderObserver silent;
+    const ChosenIntegrator chosen = scene.integrator(way);
+    return render(chosen.any(), scene.settings(PointSetKind::blue_noise, {4, 3}, 5, threads), silent).film;
+  };
+  const Film one = film("vcm:radius=0.1", 1);
+  for (const auto& [way, threads] :
+       {std::pair("vcm:radius=0.1", 2), std::pair("vcm:radius=0.1", 5), std::pair("vcm:radius=0.1,lanes=one", 1)}) {
     const Film other = film(way, threads);
     for (int y = 0; y < one.bounds().y1; ++y)
       for (int x = 0; x < one.bounds().x1; ++x)

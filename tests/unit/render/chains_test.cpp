@@ -45,7 +45,7 @@ TEST(Chains, have_the_same_bits_for_any_number_of_threads) {
        {"restir-di:candidates=2,radius=10,rounds=2", "restir-di:groups=off,neighbours=3,radius=10,rounds=2",
         "restir-di:radius=10,visibility-reuse=off", "restir-di:groups=off,radius=10,visibility-reuse=off",
         "restir-di:rounds=0", "restir-pt:candidates=2,radius=10,temporal=on",
-        "restir-pt:groups=off,neighbours=3,radius=10,temporal=on", "light", "bdpt"}) {
+        "restir-pt:groups=off,neighbours=3,radius=10,temporal=on", "light", "bdpt", "vcm:radius=0.1"}) {
     SCOPED_TRACE(way);
     const RenderResult one = chains(way, {4, 2}, 1);
     EXPECT_EQ(one.film.image().passes, 2);

@@ -1,0 +1,146 @@
+#include "integrator/bidirectional/vcm.h"
+
+#include <algorithm>
+
+#include "integrator/bidirectional/eye_subpaths.h"
+#include "integrator/photons/sppm.h"
+
+namespace montelux {
+
+namespace {
+
+std::uint32_t light_paths_of(const VcmSettings& settings, const ChainPass& pass) {
+  const int pixels = pass.bounds.area();
+  return std::uint32_t(std::max(settings.photons > 0 ? settings.photons : min_photons, pixels));
+}
+
+template <class F>
+class VcmChain final : public Chain {
+ public:
+  // What is referred to must outlive the chain.
+  VcmChain(const Scene& scene, const Accel& accel, const VcmSettings& settings,
+           const std::optional<AliasTable>& by_power, const ChainPass& pass)
+      : scene_(scene),
+        accel_(accel),
+        settings_(settings),
+        by_power_(by_power),
+        pass_(pass),
+        one_sided_(has_one_sided_surfaces(scene)),
+        light_paths_(light_paths_of(settings, pass)),
+        map_(2 * std::size_t(light_paths_), std::size_t(pass.bounds.area()), true),
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
+
+  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    const std::size_t number = pixel_number(tile.x0, tile.y0);
+    const Frame frame = frame_of(step.frame);
+    switch (step.stage) {
+      case 0:
+        return follow_light(frame, tile);
+      case 1:
+        if (number == 0) map_.lay_out(radius(step.frame));
+        return {};
+      case 2:
+        map_.deal(number);
+        return {};
+      case 3:
+        for (int y = tile.y0; y < tile.y1; ++y)
+          map_.put_in_order(pixel_number(tile.x0, y), pixel_number(tile.x1, y), std::size_t(pass_.bounds.area()));
+        return {};
+      default:
+        return follow_eye(frame, tile, out);
+    }
+  }
+
+ private:
+  using Frame = BidirectionalFrame<Accel>;
+
+  std::size_t pixel_number(int x, int y) const {
+    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+  }
+  float radius(int frame) const { return float(sppm_radius(settings_.radius, settings_.alpha, frame)); }
+  // Subpaths that are merged have one moment: where surfaces move, a frame has one, as for `sppm`.
+  std::optional<float> moment(int frame) const {
+    if (!scene_.moves()) return std::nullopt;
+    return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
+  }
+  Frame frame_of(int frame) {
+    const float r = radius(frame), merges = pi * r * r * float(light_paths_);
+    return {scene_,
+            accel_,
+            by_power_ ? &*by_power_ : nullptr,
+            pass_,
+            std::uint32_t(frame),
+            moment(frame),
+            settings_.paths,
+            StrategyWeights(settings_.paths.mis == BidirectionalMis::power, merges, settings_.paths.connect),
+            one_sided_,
+            plane_,
+            light_paths_,
+            &map_,
+            settings_.kernel};
+  }
+
+  RayCounts follow_light(const Frame& frame, const PixelBounds& tile) {
+    RayCounts counts;
+    std::vector<Photon>& box = map_.box(pixel_number(tile.x0, tile.y0));
+    box.clear();
+    const LightPathShare share(pass_.bounds, tile, light_paths_);
+    const float scale = 1 / float(light_paths_);
+    const auto store = [&](const LightVertexView<F>& view, Mask<F> on) {
+      const LightPathVertex<F>& v = view.vertex;
+      const Spectrum<F> flux = v.path.flux * scale;
+      for_each_lane(on, [&](int k) {
+        box.push_back({lane(v.at.x.point.p, k),
+                       lane(-v.at.d, k),
+                       lane(v.at.x.point.ng, k),
+                       lane(flux, k),
+                       lane(v.path.depth, k),
+                       lane(v.path.site.index, k),
+                       {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
+      });
+    };
+    follow_light_subpaths<F>(
+        frame, share.count(), [&](std::uint32_t i) { return share[i]; }, Splatting::on, counts, store);
+    map_.count(box, radius(int(frame.frame)));
+    return counts;
+  }
+
+  RayCounts follow_eye(const Frame& frame, const PixelBounds& tile, std::span<PixelSample> out) {
+    RayCounts counts;
+    LightVertices light(tile.area());
+    if (settings_.paths.connect) light = light_vertices<F>(frame, tile, Splatting::off, counts);
+    std::fill(out.begin(), out.end(), PixelSample{});
+    counts += EyeSubpaths<F, Frame>(frame, light).run(tile, out);
+    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x, ++i) {
+        const Rgb splats = plane_.take(x, y);
+        for (int c = 0; c < rgb_size; ++c) out[std::size_t(i)].radiance.c[c] += splats.c[c];
+      }
+    return counts;
+  }
+
+  const Scene& scene_;
+  const Accel& accel_;
+  const VcmSettings& settings_;
+  const std::optional<AliasTable>& by_power_;
+  const ChainPass pass_;
+  const bool one_sided_;
+  const std::uint32_t light_paths_;
+  PhotonMap map_;
+  SplatPlane plane_;
+};
+
+}  // namespace
+
+VcmIntegrator::VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSettings& settings)
+    : scene_(scene), accel_(accel), settings_(settings) {
+  if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+}
+
+std::unique_ptr<Chain> VcmIntegrator::begin(const ChainPass& pass) const {
+  if (settings_.paths.lanes == Lanes::one)
+    return std::make_unique<VcmChain<float>>(scene_, accel_, settings_, by_power_, pass);
+  return std::make_unique<VcmChain<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
+}
+
+}  // namespace montelux
