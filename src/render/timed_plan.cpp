@@ -47,6 +47,7 @@ int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
 // The time of a chain's first sample, as a function of the number of cells: a part of it may not depend on the pixels.
 struct ChainSeconds {
   double fixed = 0, cell = 0;
+  double warm_up_share = 0;  // of the time, as far as it counts
   double of(double cells) const { return fixed + cell * cells; }
 };
 
@@ -69,9 +70,10 @@ class ChainMeasurement {
   ChainMeasurement(const CoupledIntegrator& coupled, RenderSettings settings, const TimeLimit& limit,
                    RenderObserver& observer)
       : coupled_(coupled), settings_(std::move(settings)), limit_(limit), observer_(observer) {
-    // The frames of a warm-up are like those after it: if they count, one of them is enough.
-    const bool by_one = coupled.warm_up() > 0 && limit.warm_up_counts();
+    // The frames of a long warm-up are like those after it: if they count, one of them is enough.
+    const bool by_one = coupled.warm_up() > 1 && limit.warm_up_counts();
     settings_.stop = std::make_shared<AfterFrames>(by_one ? 0 : most * limit.seconds());
+    if (limit.warm_up_counts()) warm_up_share_ = double(coupled.warm_up()) / (1 + coupled.warm_up());
   }
 
   ChainSeconds run() {
@@ -95,6 +97,7 @@ class ChainMeasurement {
       if (seconds < least) cells_of_least = cells, least = seconds;
       if (seconds > enough * limit_.seconds() || used_ + chain.of(4 * cells) > most * limit_.seconds()) break;
     }
+    chain.warm_up_share = warm_up_share_;
     return chain;
   }
 
@@ -116,7 +119,11 @@ class ChainMeasurement {
     const RenderResult result = render(coupled_, settings_, observer_);
     used_ += result.seconds;
     const int frames = 1 + coupled_.warm_up();
-    if (result.frames >= frames) return limit_.warm_up_counts() ? result.seconds : result.shown_seconds();
+    if (result.frames >= frames) {
+      if (!limit_.warm_up_counts()) return result.shown_seconds();
+      warm_up_share_ = result.warm_up / result.seconds;
+      return result.seconds;
+    }
     return result.seconds / std::max(result.frames, 1) * (limit_.warm_up_counts() ? frames : 1);
   }
 
@@ -125,6 +132,7 @@ class ChainMeasurement {
   const TimeLimit& limit_;
   RenderObserver& observer_;
   double used_ = 0;
+  double warm_up_share_ = 0;  // of the last chain that was measured
 };
 
 // The stride of a picture within the time: the smallest for which whole chains of one sample fill it to within a tenth,
@@ -147,11 +155,10 @@ int stride_within(const ChainSeconds& chain, const PixelBounds& bounds, double s
   return stride;
 }
 
-// For a coupled integrator whose frames fit into the time.
-PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, bool warm_up_counts, double affordable) {
-  const int warm_up = warm_up_counts ? coupled.warm_up() : 0;
-  const int frames = int(affordable) * (1 + warm_up) / min_chains - warm_up;
-  return {std::clamp(frames, 1, coupled.frames()), endless_passes};
+// For a coupled integrator of whose chains of one frame so many fit into the time.
+PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, double warm_up_share, double affordable) {
+  const double frames = (affordable / min_chains - warm_up_share) / std::max(1 - warm_up_share, 1e-3);
+  return {int(std::clamp(frames, 1.0, double(coupled.frames()))), endless_passes};
 }
 
 }  // namespace
@@ -170,7 +177,7 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
     const ChainSeconds chain = ChainMeasurement(*coupled, settings, limit, silent).run();
     timed.sample_seconds = std::max(chain.of(bounds.area()), 1e-6);
     const double affordable = std::min(limit.seconds() / timed.sample_seconds, most);
-    timed.plan = plan_chains_for_time(*coupled, limit.warm_up_counts(), affordable);
+    timed.plan = plan_chains_for_time(*coupled, chain.warm_up_share, affordable);
     timed.plan.stride = stride_within(chain, bounds, limit.seconds() - since_start.seconds());
     timed.first_seconds = chain.of(PixelGrid{bounds, timed.plan.stride}.cells().area());
     if (timed.plan.stride > 1) timed.plan.samples_per_pass = 1;

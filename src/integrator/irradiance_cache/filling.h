@@ -65,9 +65,9 @@ inline PathSettings cached_path_settings(const IrradianceCacheSettings& settings
   return path;
 }
 
-// The cache of one chain. In the first frame it is filled from coarse to fine: each level looks at the pixels of a grid
-// twice as dense as that before, and makes records where there are none yet. Later frames add records where the frame
-// before had none.
+// The cache of one chain. In the first frame, which is not shown, it is filled from coarse to fine: each level looks at
+// the pixels of a grid twice as dense as that before, and makes records where there are none yet. Later frames add
+// records where the frame before had none.
 //
 // A level has four stages: points without a record are found, with the distances around them (find); one tile decides
 // which of them become records (thin); their hemispheres are sampled (compute); one tile adds them to the cache (add).
@@ -82,7 +82,8 @@ class CacheFilling {
         rays_(rays),
         settings_(settings),
         path_(cached_path_settings(settings)),
-        pass_(pass),
+        pass_(shown(pass)),
+        random_(mix_bits(pass.points.seed ^ mix_bits(pass.points.pass + 0x510e527fu))),
         strata_(HemisphereStrata::of(settings.samples)),
         rules_{settings.accuracy, settings.min_spacing, std::max(settings.max_spacing, settings.min_spacing),
                settings.gradients, settings.clamping},
@@ -93,6 +94,8 @@ class CacheFilling {
   // Stage `stage` of the filling, over one tile.
   RayCounts run(int frame, int stage, const PixelBounds& tile) {
     const int level = stage / stages_of_level;
+    // The few pixels of a sparse picture have hardly a record in common: their paths continue instead.
+    if (pass_.grid) return {};
     if (frame > 0 && level + 1 < levels) return {};
     const bool is_first = number_of(tile.x0, tile.y0) == 0;
     RayCounts counts;
@@ -118,12 +121,19 @@ class CacheFilling {
   void miss(const PixelBounds& tile, std::vector<CachePoint> points) {
     missed_[number_of(tile.x0, tile.y0)] = std::move(points);
   }
-  // A frame's sample of the pixels of a tile.
+  const ChainPass& pass() const { return pass_; }
+  // A frame's sample of the pixels of a tile. The first frame looks where the second one, the first that is shown,
+  // will.
   TilePass request(int frame, const PixelBounds& tile) const {
-    return {tile, pass_.points, pass_.shutter, std::uint32_t(frame), {}, pass_.grid};
+    return {tile, pass_.points, pass_.shutter, std::uint32_t(std::max(frame - 1, 0)), {}, pass_.grid};
   }
 
  private:
+  // The points of the frames that are shown.
+  static ChainPass shown(ChainPass pass) {
+    pass.points.samples_per_pass = std::max(pass.points.samples_per_pass, 2u) - 1;
+    return pass;
+  }
   std::size_t number_of(int x, int y) const {
     return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
   }
@@ -138,12 +148,12 @@ class CacheFilling {
   // Points without a record in view of every 2^spacing-th pixel of every 2^spacing-th row.
   std::vector<CachePoint> points_of(const PixelBounds& tile, int spacing, RayCounts& counts) {
     std::vector<typename PixelStarts<F>::Pixel> pixels;
-    const int mask = (1 << spacing) - 1, half = mask / 2;
+    // The grid lies elsewhere in every pass.
+    const int mask = (1 << spacing) - 1, shift_x = int(random_ >> 16) & mask, shift_y = int(random_) & mask;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        if (((x - pass_.bounds.x0) & mask) == half && ((y - pass_.bounds.y0) & mask) == half)
-          pixels.push_back({std::uint32_t(pass_.grid ? pass_.grid->pixel_x(x) : x),
-                            std::uint32_t(pass_.grid ? pass_.grid->pixel_y(y) : y)});
+        if (((x - pass_.bounds.x0) & mask) == shift_x && ((y - pass_.bounds.y0) & mask) == shift_y)
+          pixels.push_back({std::uint32_t(x), std::uint32_t(y)});
     if (pixels.empty()) return {};
     const TilePass pass = request(0, tile);
     PixelStarts<F> starts(scene_, rays_, pass, pixels, counts);
@@ -159,14 +169,15 @@ class CacheFilling {
   // Points that a record of another one would cover are left out, in an order that is random, so that the records do
   // not follow the rows of the picture.
   void thin() {
-    std::vector<std::pair<std::uint64_t, const CachePoint*>> order;
+    using Place = std::pair<std::pair<std::uint32_t, std::uint64_t>, const CachePoint*>;
+    std::vector<Place> order;
     for (const std::vector<CachePoint>& tile : found_)
       for (const CachePoint& point : tile) {
         const std::uint64_t pixel = std::uint64_t(point.y) << 32 | point.x;
-        order.emplace_back(
-            std::uint64_t(mix_bits(pass_.points.seed ^ mix_bits(point.x + mix_bits(point.y)))) << 32 ^ pixel, &point);
+        const std::uint32_t key = mix_bits(random_ ^ mix_bits(point.x + mix_bits(point.y)));
+        order.emplace_back(std::pair(key, pixel), &point);
       }
-    std::ranges::sort(order, {}, &std::pair<std::uint64_t, const CachePoint*>::first);
+    std::ranges::sort(order, {}, &Place::first);
     IrradianceCache planned(rules_);
     chosen_.clear();
     for (const auto& [key, point] : order) {
@@ -207,6 +218,7 @@ class CacheFilling {
   const IrradianceCacheSettings& settings_;
   const PathSettings path_;
   const ChainPass pass_;
+  const std::uint32_t random_;  // of the pass
   const HemisphereStrata strata_;
   const CacheRules rules_;
   IrradianceCache cache_;

@@ -14,14 +14,16 @@ class IrradianceCacheChain final : public Chain {
   // What is referred to must outlive the chain.
   IrradianceCacheChain(const Scene& scene, const Accel& accel, const IrradianceCacheSettings& settings,
                        const ChainPass& pass)
-      : scene_(scene), accel_(accel), settings_(settings), pass_(pass), filling_(scene, accel, settings, pass) {}
+      : scene_(scene), accel_(accel), settings_(settings), filling_(scene, accel, settings, pass) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage < Filling::stages) return filling_.run(step.frame, step.stage, tile);
+    if (step.frame == 0) return {};
     const TilePass pass = filling_.request(step.frame, tile);
     FirstHits<F> starts(scene_, accel_, pass, out);
     const PathSettings& settings = filling_.path();
-    const std::vector<std::uint8_t> compared = BiasPairs::choose(pass_.points, step.frame, tile, settings_.pairs);
+    const std::vector<std::uint8_t> compared =
+        BiasPairs::choose(filling_.pass().points, step.frame, tile, settings_.pairs);
     CachedPaths<F, FirstHits<F>> paths(starts, filling_.cache(), out.size(), settings.max_depth.has_value(), compared);
     RayCounts counts = run_paths<F>(scene_, scene_.lights, accel_, settings, pass, out, paths, no_tally);
     counts.camera += starts.rays();
@@ -29,7 +31,7 @@ class IrradianceCacheChain final : public Chain {
     pairs_.count(compared);
     const HemisphereStrata strata = BiasPairs::strata();
     HemispherePaths<F, Accel> unbiased(scene_, accel_, settings, strata,
-                                       hemisphere_points(pass_.points, step.frame, 1, strata), counts);
+                                       hemisphere_points(filling_.pass().points, step.frame, 1, strata), counts);
     pairs_.compare(paths.cached(), unbiased);
     return counts;
   }
@@ -39,7 +41,6 @@ class IrradianceCacheChain final : public Chain {
   const Scene& scene_;
   const Accel& accel_;
   const IrradianceCacheSettings& settings_;
-  const ChainPass pass_;
   Filling filling_;
   BiasPairs pairs_;
 };
