@@ -1,7 +1,9 @@
 // The bias of the cache, by pairs at random samples: what the cache shows there, and an unbiased estimate of the same
 // light.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>

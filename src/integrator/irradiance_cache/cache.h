@@ -1,6 +1,7 @@
 // Records of irradiance and the interpolation between them (Ward, Rubinstein and Clear 1988, "A Ray Tracing Solution
 // for Diffuse Interreflection"; Krivanek et al. 2006, "Making Radiance and Irradiance Caching Practical").
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,8 @@
 // Paths from the eye that end at the first diffuse surface, where the cache knows the indirect light: a source of paths
 // for the path loop.
 #pragma once
-#include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "integrator/irradiance_cache/hemisphere_paths.h"

@@ -1,5 +1,6 @@
 // Paths from a point of a diffuse surface into its hemisphere: what other surfaces send there.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "integrator/irradiance_cache/cache.h"
