@@ -20,6 +20,7 @@ constexpr const char* description = "Monte Carlo renderer and integrator that st
 
 constexpr const char* notes = R"(Examples:
   montelux render scene.pbrt -o room.exr --spp 256
+  montelux denoise room.exr -o clean.exr
   montelux tonemap room.exr -o room.png
   montelux integrate '4*x^3' --over x=0:1
   montelux diff a.exr b.exr
@@ -88,8 +89,8 @@ int run(int argc, char** argv) {
   app.footer(notes);
   app.require_subcommand(1);
   Action chosen;
-  for (auto add : {add_render, add_integrate, add_merge, add_info, add_trace, add_diff, add_compare, add_tonemap,
-                   add_list, add_lab, add_completion})
+  for (auto add : {add_render, add_integrate, add_merge, add_info, add_trace, add_diff, add_compare, add_denoise,
+                   add_tonemap, add_list, add_lab, add_completion})
     add(app, chosen);
   for (CLI::App* verb : app.get_subcommands({})) verb->group("Verbs");
   try {

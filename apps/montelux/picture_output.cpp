@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
+#include "denoise_output.h"
 #include "display_json.h"
 #include "progress.h"
 #include "shortcomings.h"
@@ -149,6 +150,7 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
       known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
   json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
   json["unsure_error"] = known && outcome.error.is_unsure();
+  if (rendering.denoised) json["denoised"] = denoising_json<Json>(rendering.denoised->estimate);
   json["sampled_pixels"] = sampled_share(rendering);
   json["passes"] = outcome.image.passes;
   json["samples_per_pass"] = rendering.plan.samples_per_pass;
@@ -183,6 +185,7 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   print_mean(rendering);
   if (rendering.measured_bias) print_bias(*rendering.measured_bias);
   fmt::print("error    {}\n", error_line(rendering));
+  if (rendering.denoised) fmt::print("denoised {}\n", denoising_text(rendering.denoised->estimate));
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);

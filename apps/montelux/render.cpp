@@ -46,6 +46,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt                                 writes room.exr
   montelux render room.pbrt -o room.exr -o room.png --tone aces --spp 256
   montelux render room.pbrt --time 10m --resolution 1920x1080
+  montelux render room.pbrt --spp 64 --denoise -o room.exr -o room.png
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
   montelux render flight.pbrt --frames 0:23 -o flight.####.exr
   montelux render walk.glb --frames 0:47 --fps 24 --shutter 0:0.02 -o walk.####.exr
@@ -408,11 +409,12 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
              into(render.sampler, choice(samplers)));
   add_option(
       verb,
-      {"--layers", "bounces[:N],light-groups,errors,motion",
+      {"--layers", "bounces[:N],light-groups,errors,motion,halves",
        "layers in the .exr: of light, bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
        "each \"string group\" of the scene's lights; errors: also NAME_stderr; motion: offset in pixels from here "
        "to "
-       "where the same point was in the previous frame"},
+       "where the same point was in the previous frame; halves: colours, albedo and normals of both halves of the "
+       "passes, which montelux denoise needs"},
       into(render.layers, parse_layers));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, such as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {
@@ -444,6 +446,11 @@ void add_render(CLI::App& app, Action& chosen) {
   add_saving_options(verb, *arguments);
   add_algorithm_options(verb, arguments->render);
   add_display_options(verb, arguments->display);
+  verb.add_flag(
+          "--denoise", arguments->render.denoise,
+          "remove noise: adds the layers denoised and denoised_error (what is left, bias included) to an .exr, with "
+          "those of both halves; other files show the denoised colours")
+      ->excludes("--interactive-budget");
   verb.add_flag(
       "--half", arguments->half,
       "light, albedo and normals of an .exr as 16-bit floats, which halves the file; other layers stay 32-bit");

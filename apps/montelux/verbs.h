@@ -18,6 +18,7 @@ void add_info(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);
 void add_diff(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
+void add_denoise(CLI::App& app, Action& chosen);
 void add_tonemap(CLI::App& app, Action& chosen);
 void add_list(CLI::App& app, Action& chosen);
 void add_lab(CLI::App& app, Action& chosen);

@@ -58,7 +58,7 @@ Json options_json(const RenderOptions& o) {
           {"preset", or_null<Json>(o.preset)},
           {"sampler", or_null<Json>(o.sampler)},
           {"crop", o.crop ? bounds_json(*o.crop) : Json()},
-          {"layers", o.layers ? Json(to_text(*o.layers)) : Json()}};
+          {"layers", o.all_layers() ? Json(to_text(*o.all_layers())) : Json()}};
 }
 RenderOptions options_from(const Json& j) {
   RenderOptions o;
@@ -161,7 +161,8 @@ Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& lay
   const std::vector<PixelBounds> tiles = tiles_of(settings.crop, tile_side);
   // A tile takes a byte at least: room is not made for a picture that the file cannot hold.
   if (bytes.size() < tiles.size()) throw std::invalid_argument("its film is damaged");
-  Film film(settings.crop, layers);
+  const Result<LayerRequest> request = parse_layers(settings.layers);
+  Film film(settings.crop, layers, 1, request && request->halves);
   ByteReader in(bytes);
   for (const PixelBounds& tile : tiles) film.read_tile(tile, in);
   if (!in.at_end()) throw std::invalid_argument("it is damaged: more follows its film");

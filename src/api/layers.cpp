@@ -30,9 +30,11 @@ Status read_word(std::string_view word, LayerRequest& request) {
     request.errors = true;
   } else if (word == "motion") {
     request.motion = true;
+  } else if (word == "halves") {
+    request.halves = true;
   } else {
-    return Failure{
-        fmt::format("there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion", word)};
+    return Failure{fmt::format(
+        "there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion, halves", word)};
   }
   return Done{};
 }
@@ -58,7 +60,7 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     more = comma != std::string_view::npos;
     if (more) rest = rest.substr(comma + 1);
   }
-  if (!request.of_light() && (request.errors || !request.motion))
+  if (!request.of_light() && (request.errors || !(request.motion || request.halves)))
     return Failure{"errors needs layers: state bounces, light-groups, or both as well"};
   return request;
 }
@@ -69,6 +71,7 @@ std::string to_text(const LayerRequest& request) {
   if (request.light_groups) words.emplace_back("light-groups");
   if (request.errors) words.emplace_back("errors");
   if (request.motion) words.emplace_back("motion");
+  if (request.halves) words.emplace_back("halves");
   return fmt::format("{}", fmt::join(words, ","));
 }
 

@@ -120,6 +120,28 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
   }
 }
 
+// Appends both halves of the passes, for the rows from `first` on.
+void append_halves(PixelBuffer& image, int first, const Film& film) {
+  PixelBuffer added = make_pixel_buffer(image.width, image.height, {});
+  for (const HalfLayerNames& names : half_layer_names()) {
+    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(names.color + channel);
+    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(names.albedo + channel);
+    for (const char* channel : {".X", ".Y", ".Z"}) added.channels.push_back(names.normal + channel);
+    added.channels.push_back(names.share);
+  }
+  added.values.resize(added.pixel_count() * added.channels.size());
+  const PixelGrid& grid = film.grid();
+  fill_by_cells(grid, first, image.height, added.channel_count(), added.values.data(), [&](int x, int y, float* to) {
+    for (const PixelHalf& half : film.halves(grid.bounds.x0 + x, grid.bounds.y0 + y)) {
+      for (double channel : half.mean) *to++ = float(channel);
+      for (double channel : half.albedo) *to++ = float(channel);
+      for (double channel : half.normal) *to++ = float(channel);
+      *to++ = float(half.share);
+    }
+  });
+  append_layer(image, "", added);
+}
+
 // What an eye sees or a compositor weighs.
 std::vector<std::string> half_channels(const std::vector<std::string>& channels) {
   std::vector<std::string> names;
@@ -162,6 +184,8 @@ PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
       for (int x = 0; x < image.width; ++x)
         image.at(x, y, of_samples) = float(film.samples(bounds.x0 + x, bounds.y0 + first + y));
   if (rendering.motion) append_layer(image, "motion", rows_of(*rendering.motion, first, count));
+  if (film.has_halves()) append_halves(image, first, film);
+  if (rendering.denoised) append_layer(image, "", rows_of(rendering.denoised->layers, first, count));
   if (rendering.layers) append_light(image, first, *film.layers(), film.grid(), layer_names(*rendering.layers));
   return image;
 }
@@ -177,6 +201,7 @@ namespace {
 PixelBuffer colors_of(const Rendering& rendering) {
   const PixelGrid& grid = rendering.result.film.grid();
   PixelBuffer color = make_pixel_buffer(grid.bounds.width(), grid.bounds.height(), {"R", "G", "B"});
+  if (rendering.denoised) return *layer(rendering.denoised->layers, "denoised");
   fill_by_cells(grid, 0, color.height, 3, color.values.data(), [&](int x, int y, float* values) {
     for (double channel : color_at(rendering, x, y)) *values++ = float(channel);
   });
@@ -201,8 +226,9 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
 }
 
 // Two passes of noise.
-Rendering noise(const PixelBounds& bounds, int stride) {
-  Rendering rendering{RenderResult{Film(bounds, {}, stride), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
+Rendering noise(const PixelBounds& bounds, int stride, bool halves) {
+  Rendering rendering{
+      RenderResult{Film(bounds, {}, stride, halves), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
   const PixelBounds cells = rendering.result.film.grid().cells();
   std::vector<PixelSample> samples(std::size_t(cells.area()));
   RandomStream<float> random(0, 0);
@@ -227,10 +253,12 @@ Rendering noise(const PixelBounds& bounds, int stride) {
 struct StripTime {
   double error = 0, encoding = 0;
 };
-StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files) {
-  Rendering strip = noise(bounds, stride);
+StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, bool denoised) {
+  Rendering strip = noise(bounds, stride, denoised);
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
+  if (denoised && stride == 1)
+    if (Result<DenoisedLayers> layers = denoise(strip.result.film)) strip.denoised = *std::move(layers);
   const double error = since_start.seconds();
   for (const std::filesystem::path& file : files.paths) {
     const DisplayTransform display = is_display_file(file) ? choose_display(strip, {}).transform : DisplayTransform{};
@@ -251,14 +279,16 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
   return bytes ? write_file(file, *bytes) : Status(bytes.failure());
 }
 
-FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files) {
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise) {
   // Without what happens once: libraries are loaded, memory is mapped.
-  (void)time_strip({0, 0, 1, 1}, 1, files);
+  (void)time_strip({0, 0, 1, 1}, 1, files, denoise);
   // As many rows as an .exr packs together.
   const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), 32)};
   const double strips = double(bounds.height()) / strip.height();
-  const StripTime dense = time_strip(strip, 1, files);
-  const auto sparse = [&](int stride) { return std::min(time_strip(strip, stride, files).encoding, dense.encoding); };
+  const StripTime dense = time_strip(strip, 1, files, denoise);
+  const auto sparse = [&](int stride) {
+    return std::min(time_strip(strip, stride, files, denoise).encoding, dense.encoding);
+  };
   const double coarse = sparse(4), even = std::min(sparse(std::max(bounds.width(), bounds.height())), coarse);
   return {strips * dense.error, strips * dense.encoding, strips * coarse, strips * even};
 }

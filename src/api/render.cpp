@@ -26,16 +26,16 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan
   const PassPlan& passes = plan.settings.plan;
   LoadOptions load = parts.load;
   load.resolution = {image.width, image.height}, load.resolution_scale.reset();
-  SavedFilm film{
-      std::filesystem::absolute(parts.info.file),
-      load,
-      fingerprint_of(parts, options),
-      {plan.integrator_text, std::string(name_of(image.sampler)), options.layers ? to_text(*options.layers) : "",
-       image.seed, passes.samples_per_pass, image.width, image.height, image.bounds},
-      options,
-      {},
-      facts_of(parts, plan, plan.settings),
-      {Film({}), {}, 0}};
+  SavedFilm film{std::filesystem::absolute(parts.info.file),
+                 load,
+                 fingerprint_of(parts, options),
+                 {plan.integrator_text, std::string(name_of(image.sampler)),
+                  options.all_layers() ? to_text(*options.all_layers()) : "", image.seed, passes.samples_per_pass,
+                  image.width, image.height, image.bounds},
+                 options,
+                 {},
+                 facts_of(parts, plan, plan.settings),
+                 {Film({}), {}, 0}};
   if (!options.seconds) film.wanted = PassRange{passes.first_pass, passes.first_pass + passes.passes - 1};
   return film;
 }

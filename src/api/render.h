@@ -1,5 +1,6 @@
 // Rendering a scene, and the picture with everything that is known of it.
 #pragma once
+#include "api/denoise.h"
 #include "api/frames.h"
 #include "api/layers.h"
 #include "api/scene.h"
@@ -45,11 +46,15 @@ struct RenderOptions {
   std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
   std::optional<LayerRequest> layers;                         // of an integrator that has them
+  bool denoise = false;                                       // remove noise; adds the layers of both halves
   std::optional<ShutterTimes> shutter;                        // default: the file's
   std::optional<int> samples_per_pass;                        // default: by the number of samples
   std::optional<PassRange> passes;                            // only these, of those that the samples make
   std::optional<FilmCheckpoint> checkpoint;
   SavedFilm* resume = nullptr;  // to be continued, with the options that take_options() gives; its film is moved from
+
+  // The layers, with those that other options need.
+  std::optional<LayerRequest> all_layers() const;
 };
 
 // A rendered picture, its error and its layers.
@@ -71,6 +76,7 @@ struct Rendering {
   bool has_own_exposure = false;                // the scene states one
   bool found_no_light = false;                  // a picture of light, and every sample is zero: nothing tells its error
   Status saved{Done{}};                         // of the checkpoint's last writing
+  std::optional<DenoisedLayers> denoised{};     // if requested and possible
   // Whether a standard error of the mean is known: it takes two independent passes, and light.
   bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
   // Whether the error of the pixels is: it takes two passes of each, and light.
@@ -110,12 +116,13 @@ class PictureSequence {
 Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer);
 
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
-// P.X ...; Z; samples; id. Then the requested layers of light: bounce0.R ..., Combined_key.R ..., and with
-// errors bounce0_stderr.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding. Motion is
-// motion.X, motion.Y.
+// P.X ...; Z; samples; id. Both halves of the passes are first_half.R ..., denoise() adds its layers. Then the
+// requested layers of light: bounce0.R ..., Combined_key.R ..., and with errors bounce0_stderr.R .... Each family of
+// these sums to R, G, B: exactly in the film, here to rounding. Motion is motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
 
-// How an 8-bit picture shows the colours, by the request and by the image itself.
+// How an 8-bit picture shows the colours (those without noise if there are any), by the request and by the image
+// itself.
 ChosenDisplay choose_display(const Rendering& rendering, const DisplayRequest& request);
 
 // Writes .exr with all layers, .hdr and .pfm with the colour alone, .png and .jpg through the display transform. The
@@ -126,7 +133,7 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
 
 // What a picture of this size takes once its last sample is there, in seconds of one thread.
 struct FinishTime {
-  double error = 0;     // to estimate its error
+  double error = 0;     // to estimate its error, and to remove its noise
   double encoding = 0;  // for its files
   double coarse = 0;    // for those of a picture that samples one pixel of 4 x 4
   double even = 0;      // for those of a picture of one color
@@ -140,7 +147,7 @@ struct FinishTime {
   }
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
-FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files);
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise);
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

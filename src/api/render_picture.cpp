@@ -50,7 +50,8 @@ class TimeOfImage {
 void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before, RenderObserver& observer) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
-  const TimeOfImage time(*plan.seconds, before, since_start, seconds_to_finish(settings.image.bounds, plan.files));
+  const TimeOfImage time(*plan.seconds, before, since_start,
+                         seconds_to_finish(settings.image.bounds, plan.files, plan.denoise));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
@@ -81,6 +82,19 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
   before = time.used();
 }
 
+// Adds the layers without noise, or a note where that is not possible.
+void denoise_rendering(Rendering& rendering, int threads, RenderObserver& observer) {
+  if (rendering.found_no_light) return;
+  Result<DenoisedLayers> layers = denoise(rendering.result.film, {threads, {}});
+  if (!layers) {
+    observer.announce(layers.error());
+    return;
+  }
+  rendering.denoised = *std::move(layers);
+  const std::vector<Attribute> entries = header_of(rendering.denoised->estimate);
+  rendering.header.insert(rendering.header.end(), entries.begin(), entries.end());
+}
+
 }  // namespace
 
 Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
@@ -101,7 +115,9 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
     settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
     plan.ending = result.ending;
   }
-  return rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
+  Rendering rendering = rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
+  if (plan.denoise) denoise_rendering(rendering, settings.threads, observer);
+  return rendering;
 }
 
 }  // namespace montelux

@@ -143,6 +143,13 @@ Status plan_samples(const RenderOptions& options, int default_samples, RenderPla
 
 }  // namespace
 
+std::optional<LayerRequest> RenderOptions::all_layers() const {
+  if (!denoise) return layers;
+  LayerRequest all = layers.value_or(LayerRequest{});
+  all.halves = true;
+  return all;
+}
+
 Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture) {
   return shutter_of(times.open, times.close, picture.transforms_start, picture.transforms_end);
 }
@@ -155,6 +162,9 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   RenderPlan plan;
   if (Status good = plan_integrator(parts, options, *preset, plan); !good) return good.failure();
   plan.motion = options.layers && options.layers->motion;
+  plan.denoise = options.denoise;
+  const std::optional<LayerRequest> layers_and_halves = options.all_layers();
+  plan.settings.image.halves = layers_and_halves && layers_and_halves->halves;
   if (options.layers && options.layers->of_light()) {
     auto layers = plan_layers(*options.layers, plan.chosen, parts.scene);
     if (!layers) return layers.failure();

@@ -18,6 +18,7 @@ struct RenderPlan {
   std::optional<double> budget;         // the time of each image, without writing
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
+  bool denoise = false;
   double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
                            // image has counted them
   double ending = 0;       // seconds from the last frame of the image before to its end

@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "film/limits.h"
+
 namespace montelux {
 
 namespace {
@@ -17,9 +19,6 @@ bool is_kept(const Rgb& c) {
     if (!(std::abs(x) < ExactSum::largest)) return false;
   return true;
 }
-
-// The number clamped to the bounds; 0 for NaN.
-double within(double x, double bound) { return x >= -bound ? std::min(x, bound) : x < -bound ? -bound : 0; }
 
 bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
 
@@ -90,9 +89,9 @@ void PixelSums::add(int pass, const PixelPass& sums) {
   const PixelFeatures& f = sums.features;
   samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(sums.non_finite);
   if (f.hits == 0) return;
-  constexpr double largest = ExactSum::largest, largest_albedo = 64;
+  constexpr double largest = ExactSum::largest;
   emission.add(within(f.emission, largest));
-  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], largest_albedo * f.hits));
+  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], max_film_albedo * f.hits));
   for (int c = 0; c < 3; ++c)
     normal[c].add(within(f.normal[c], f.hits)), position[c].add(within(f.position[c], largest));
   depth.add(within(f.depth, largest));
@@ -157,9 +156,10 @@ double PixelEstimate::variance_of_mean(int channel) const {
 
 bool FilmTile::has(int pass) const { return std::ranges::binary_search(passes, pass, {}, &FilmPass::pass); }
 
-Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride)
+Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride, bool halves)
     : grid_{bounds, stride}, cells_(grid_.cells()), pixels_(std::size_t(cells_.area())) {
   if (layers) layers_.emplace(cells_, layers->count(), layers->spread);
+  if (halves) halves_.resize(pixels_.size());
 }
 
 FilmTile& Film::name_tile(const PixelBounds& cells) {
@@ -203,7 +203,7 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
         layers_->add(x, y, of_pixel.finite, own);
         for (int i = 0; i < rgb_size; ++i) of_pixel.sum[i] = own.front().c[i].value();
       }
-      add_pixel(pixels_[index_of_cell(x, y)], of_pixel, whole);
+      add_pixel(index_of_cell(x, y), of_pixel, whole);
     }
 }
 
@@ -211,7 +211,7 @@ void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass
   FilmPass& whole = new_pass(tile, pass);
   const PixelPass* of_pixel = pixels.data();
   for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) add_pixel(pixels_[index_of_cell(x, y)], *of_pixel, whole);
+    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) add_pixel(index_of_cell(x, y), *of_pixel, whole);
 }
 
 FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
@@ -221,7 +221,9 @@ FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
   return *passes.insert(at, {pass, 0, {}});
 }
 
-void Film::add_pixel(PixelSums& pixel, const PixelPass& sums, FilmPass& whole) {
+void Film::add_pixel(std::size_t index, const PixelPass& sums, FilmPass& whole) {
+  PixelSums& pixel = pixels_[index];
+  if (has_halves() && whole.pass % 2 == 0) halves_[index].add(sums);
   pixel.add(whole.pass, sums);
   if (sums.finite == 0) return;
   double mean[rgb_size] = {};
@@ -234,6 +236,7 @@ void Film::merge(const Film& other) {
   if (!(grid_ == other.grid_)) throw std::invalid_argument("films of different bounds or strides cannot be merged");
   if (layers_.has_value() != other.layers_.has_value())
     throw std::invalid_argument("films of different layers cannot be merged");
+  if (has_halves() != other.has_halves()) throw std::invalid_argument("films with and without halves cannot be merged");
   int cells = 0;
   for (const auto& [index, theirs] : other.tiles_)
     for (const FilmPass& pass : theirs.passes)
@@ -247,6 +250,7 @@ void Film::merge(const Film& other) {
   if (cells > cells_.area()) throw std::invalid_argument("films of different tiles cannot be merged");
   if (layers_) layers_->merge(*other.layers_);
   for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].merge(other.pixels_[i]);
+  for (std::size_t i = 0; i < halves_.size(); ++i) halves_[i].merge(other.halves_[i]);
 }
 
 std::uint64_t Film::non_finite() const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "film/half_sums.h"
 #include "film/layer_film.h"
 #include "film/picture_error.h"
 #include "image/pixel_sample.h"
@@ -102,8 +103,9 @@ struct FilmTile {
 // threads and any division into parts. Tiles may have different passes.
 class Film {
  public:
-  // `stride`: only the pixels of that grid are sampled.
-  explicit Film(PixelBounds bounds, const std::optional<LayerPlan>& layers = {}, int stride = 1);
+  // `stride`: only the pixels of that grid are sampled. `halves`: with the colours and features of one half of the
+  // passes.
+  explicit Film(PixelBounds bounds, const std::optional<LayerPlan>& layers = {}, int stride = 1, bool halves = false);
 
   const PixelBounds& bounds() const { return grid_.bounds; }
   const PixelGrid& grid() const { return grid_; }
@@ -142,6 +144,9 @@ class Film {
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
   // The mean alone, which takes less time than the whole estimate.
   std::array<double, rgb_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
+  bool has_halves() const { return !halves_.empty(); }
+  // Both halves of a pixel. Requires has_halves().
+  std::array<PixelHalf, 2> halves(int x, int y) const { return halves_[index(x, y)].halves(pixels_[index(x, y)]); }
   PixelFeatures features(int x, int y) const { return pixels_[index(x, y)].features(); }
   // The number of samples of a pixel.
   double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }
@@ -164,11 +169,12 @@ class Film {
   }
   std::size_t index(int x, int y) const { return index_of_cell(grid_.cell_x(x), grid_.cell_y(y)); }
   FilmPass& new_pass(const PixelBounds& tile, int pass);
-  static void add_pixel(PixelSums& pixel, const PixelPass& sums, FilmPass& whole);
+  void add_pixel(std::size_t index, const PixelPass& sums, FilmPass& whole);
 
   PixelGrid grid_;
   PixelBounds cells_;
   std::vector<PixelSums> pixels_;
+  std::vector<HalfSums> halves_;           // empty, or by pixel
   std::map<std::size_t, FilmTile> tiles_;  // by the index of the first cell
   std::optional<LayerFilm> layers_;
 };

@@ -169,6 +169,7 @@ void Film::write_tile(const PixelBounds& b, std::string& bytes) const {
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       write(out, pixels_[index_of_cell(x, y)]);
+      if (has_halves()) halves_[index_of_cell(x, y)].write(out);
       if (layers_) layers_->write_pixel(x, y, out);
     }
 }
@@ -188,6 +189,7 @@ void Film::read_tile(const PixelBounds& b, ByteReader& in) {
     for (int x = b.x0; x < b.x1; ++x) {
       PixelSums& pixel = pixels_[index_of_cell(x, y)];
       pixel = read_pixel(in, passes);
+      if (has_halves()) halves_[index_of_cell(x, y)].read(pixel, in);
       if (layers_) layers_->read_pixel(x, y, pixel, in);
     }
 }

@@ -17,6 +17,7 @@ struct ImageSettings {
   std::uint32_t seed = 0;
   std::optional<Shutter> shutter;   // instead of the scene's
   std::optional<LayerPlan> layers;  // only for integrators that have layers
+  bool halves = false;              // the film stores both halves of the passes
 
   PointSet points(int pass, int samples_per_pass) const {
     return {sampler,

@@ -127,8 +127,9 @@ std::chrono::milliseconds RenderWatch::interval(WatchedWork& work) const {
 }
 
 Film first_film(const RenderSettings& settings, int tile_side) {
-  Film film = settings.begun ? std::move(settings.begun->film)
-                             : Film(settings.image.bounds, settings.image.layers, settings.plan.stride);
+  Film film = settings.begun
+                  ? std::move(settings.begun->film)
+                  : Film(settings.image.bounds, settings.image.layers, settings.plan.stride, settings.image.halves);
   if (film.tiles().empty())
     for (const PixelBounds& tile : tiles_of(film.grid().cells(), tile_side)) film.name_tile(tile);
   return film;

@@ -1,0 +1,202 @@
+#include "api/denoise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "api/images.h"
+#include "denoise/denoise.h"
+#include "film/film.h"
+#include "render/stopwatch.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> layer_names_added{"denoised", "denoised_error"};
+
+bool has_both_halves(const NoisyImage& image) {
+  const Plane& share = image.halves[0].share;
+  return std::ranges::any_of(share, [](float s) { return s > 0 && s < 1; });
+}
+
+// A number that is not one, or too large to be squared, belongs to no pixel that can be filtered.
+bool is_usable(double x) { return std::abs(x) < 1e18; }
+
+NoisyImage noisy_image(const Film& film) {
+  const PixelBounds& b = film.bounds();
+  NoisyImage image(b.width(), b.height());
+  std::size_t i = 0;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x, ++i) {
+      const std::array<PixelHalf, 2> halves = film.halves(x, y);
+      const PixelEstimate pixel = film.pixel(x, y);
+      bool usable = true;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        const double variance = pixel.variance_of_mean(int(c));
+        usable &= is_usable(variance);
+        image.variance[c][i] = is_usable(variance) ? float(variance) : 0;
+      }
+      for (std::size_t h = 0; h < 2; ++h) {
+        HalfPlanes& to = image.halves[h];
+        const PixelHalf& from = halves[h];
+        to.share[i] = usable || from.share == 1 ? float(from.share) : 1.0f;
+        for (std::size_t c = 0; c < rgb_size; ++c) {
+          to.color[c][i] = float(usable ? from.mean[c] : pixel.mean[c]);
+          to.albedo[c][i] = float(from.albedo[c]);
+        }
+        for (std::size_t c = 0; c < 3; ++c) to.normal[c][i] = float(from.normal[c]);
+      }
+    }
+  return image;
+}
+
+// The planes of three channels; a failure names the first that is missing.
+Status read_planes(const PixelBuffer& image, const std::string& layer, std::string_view channels,
+                   std::array<Plane, 3>& planes) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string name = layer.empty() ? std::string(1, channels[c]) : fmt::format("{}.{}", layer, channels[c]);
+    const std::optional<int> channel = find_channel(image, name);
+    if (!channel) return Failure{fmt::format("it has no channel {}", name)};
+    planes[c].resize(image.pixel_count());
+    for (std::size_t i = 0; i < planes[c].size(); ++i) {
+      const float value = image.values[i * image.channels.size() + std::size_t(*channel)];
+      planes[c][i] = value;
+    }
+  }
+  return Done{};
+}
+
+Result<NoisyImage> noisy_image(const PixelBuffer& image) {
+  NoisyImage noisy(image.width, image.height);
+  ColorPlanes color;
+  if (Status read = read_planes(image, "", "RGB", color); !read) return read.failure();
+  if (Status read = read_planes(image, "stderr", "RGB", noisy.variance); !read) return read.failure();
+  for (std::size_t h = 0; h < 2; ++h) {
+    const HalfLayerNames& names = half_layer_names()[h];
+    HalfPlanes& half = noisy.halves[h];
+    if (Status read = read_planes(image, names.color, "RGB", half.color); !read) return read.failure();
+    if (Status read = read_planes(image, names.albedo, "RGB", half.albedo); !read) return read.failure();
+    if (Status read = read_planes(image, names.normal, "XYZ", half.normal); !read) return read.failure();
+    const std::optional<int> share = find_channel(image, names.share);
+    if (!share) return Failure{fmt::format("it has no channel {}", names.share)};
+    for (std::size_t i = 0; i < half.share.size(); ++i)
+      half.share[i] = image.values[i * image.channels.size() + std::size_t(*share)];
+  }
+  // Pixels with numbers that cannot be are left as they are.
+  for (std::size_t i = 0; i < noisy.pixels(); ++i) {
+    auto& [a, b] = noisy.halves;
+    bool usable = a.share[i] > 0 && b.share[i] > 0 && std::abs(a.share[i] + b.share[i] - 1) < 1e-4f;
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      float& error = noisy.variance[c][i];
+      usable &= error >= 0 && is_usable(double(error) * double(error));
+      error *= error;
+      for (const HalfPlanes& half : noisy.halves)
+        usable &= is_usable(double(half.color[c][i])) && is_usable(double(half.albedo[c][i])) &&
+                  is_usable(double(half.normal[c][i]));
+    }
+    if (usable) {
+      b.share[i] = 1 - a.share[i];
+      continue;
+    }
+    for (HalfPlanes& half : noisy.halves) {
+      half.share[i] = 1;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        half.color[c][i] = is_usable(double(color[c][i])) ? color[c][i] : 0;
+        half.albedo[c][i] = half.normal[c][i] = 0;
+      }
+    }
+    for (Plane& plane : noisy.variance) plane[i] = 0;
+  }
+  return noisy;
+}
+
+PixelBuffer buffer_of(const DenoisedImage& image, int width, int height) {
+  std::vector<std::string> channels;
+  for (std::string_view layer : layer_names_added)
+    for (char c : {'R', 'G', 'B'}) channels.push_back(fmt::format("{}.{}", layer, c));
+  PixelBuffer buffer = make_pixel_buffer(width, height, std::move(channels));
+  float* to = buffer.values.data();
+  for (std::size_t i = 0; i < buffer.pixel_count(); ++i) {
+    for (const Plane& plane : image.color) *to++ = plane[i];
+    for (const Plane& plane : image.error) *to++ = plane[i];
+  }
+  return buffer;
+}
+
+Result<DenoisedLayers> denoise(const NoisyImage& image, const DenoiseOptions& options) {
+  if (!has_both_halves(image))
+    return Failure{"noise cannot be removed: it takes two independent passes, in both halves of the layers"};
+  const Stopwatch since_start;
+  try {
+    const DenoisedImage done = denoise(image, DenoiseSettings{options.threads, options.stop});
+    return DenoisedLayers{
+        buffer_of(done, image.width, image.height),
+        {done.noisy_mse, done.noisy_relative_mse, done.mse, done.relative_mse, done.filtered, since_start.seconds()}};
+  } catch (const std::exception& e) {
+    return Failure{e.what()};
+  }
+}
+
+// Without the layers that are added.
+PixelBuffer without_added(const PixelBuffer& image) {
+  std::vector<std::size_t> kept;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < image.channels.size(); ++c) {
+    const std::string& name = image.channels[c];
+    const std::string layer = name.substr(0, std::min(name.rfind('.'), name.size()));
+    if (std::ranges::find(layer_names_added, layer) != layer_names_added.end()) continue;
+    kept.push_back(c), names.push_back(name);
+  }
+  PixelBuffer rest = make_pixel_buffer(image.width, image.height, std::move(names));
+  for (std::size_t i = 0; i < image.pixel_count(); ++i)
+    for (std::size_t c = 0; c < kept.size(); ++c)
+      rest.values[i * kept.size() + c] = image.values[i * image.channels.size() + kept[c]];
+  return rest;
+}
+
+}  // namespace
+
+const std::array<HalfLayerNames, 2>& half_layer_names() {
+  static const std::array<HalfLayerNames, 2> names{
+      {{"first_half", "first_half_albedo", "first_half_N", "first_half.share"},
+       {"second_half", "second_half_albedo", "second_half_N", "second_half.share"}}};
+  return names;
+}
+
+Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
+  if (!film.has_halves()) return Failure{"noise cannot be removed: the film has no halves"};
+  if (film.grid().stride > 1) return Failure{"noise is not removed: only a part of the pixels is sampled"};
+  return denoise(noisy_image(film), options);
+}
+
+Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const DenoiseOptions& options) {
+  Result<Image> image = read_image(file);
+  if (!image) return image.failure();
+  const Result<NoisyImage> noisy = noisy_image(image->pixels);
+  if (!noisy)
+    return Failure{
+        fmt::format("'{}' cannot be denoised: {}; render it with --layers halves", file.string(), noisy.error())};
+  const Result<DenoisedLayers> denoised = denoise(*noisy, options);
+  if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
+  DenoisedFile result{*std::move(image), denoised->estimate};
+  result.image.pixels = without_added(result.image.pixels);
+  append_layer(result.image.pixels, "", denoised->layers);
+  std::vector<Attribute>& header = result.image.attributes;
+  // Others describe how the file was stored.
+  std::erase_if(header,
+                [](const Attribute& entry) { return !entry.name.starts_with("montelux:") && entry.name != "capDate"; });
+  for (Attribute& entry : header_of(result.estimate)) {
+    std::erase_if(header, [&](const Attribute& other) { return other.name == entry.name; });
+    header.push_back(std::move(entry));
+  }
+  return result;
+}
+
+std::vector<Attribute> header_of(const Denoising& estimate) {
+  return {{"montelux:denoisedMSE", estimate.mse}, {"montelux:denoisedRelativeMSE", estimate.relative_mse}};
+}
+
+}  // namespace montelux

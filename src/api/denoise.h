@@ -1,0 +1,53 @@
+// Removal of noise from images, with an estimate of the error that is left.
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "image/image_file.h"
+#include "math/result.h"
+
+namespace montelux {
+
+class Film;
+
+struct DenoiseOptions {
+  int threads = 0;                  // 0: all of the machine
+  std::function<bool()> stop = {};  // queried now and then: true ends it early
+};
+
+// Estimated mean squared errors before and after, over channels and pixels. The relative ones are divided by the square
+// of the filtered image, plus 0.01.
+struct Denoising {
+  double noisy_mse = 0, noisy_relative_mse = 0;
+  double mse = 0, relative_mse = 0;  // bias included
+  double filtered = 0;               // share of the pixels that changed
+  double seconds = 0;
+};
+
+// The layers denoised.R, .G, .B and denoised_error.R, .G, .B (root of the estimated mean squared error, bias included),
+// and what is known of them.
+struct DenoisedLayers {
+  PixelBuffer layers;
+  Denoising estimate;
+};
+
+// Fails where the film has no halves, or no pixel with a pass in each of them, or where it was stopped.
+Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options = {});
+
+// An .exr that was rendered with the layers of both halves, with the layers above added, or replaced.
+struct DenoisedFile {
+  Image image;
+  Denoising estimate;
+};
+Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const DenoiseOptions& options = {});
+
+// Entries of a header.
+std::vector<Attribute> header_of(const Denoising& estimate);
+
+// Names of the layers of both halves: colours, albedos, normals, and the share of the passes.
+struct HalfLayerNames {
+  std::string color, albedo, normal, share;
+};
+const std::array<HalfLayerNames, 2>& half_layer_names();
+
+}  // namespace montelux

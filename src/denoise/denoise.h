@@ -1,0 +1,51 @@
+// Removal of noise: a filter over an image, and an estimate of the error that is left.
+#pragma once
+#include <array>
+#include <functional>
+
+#include "film/film_planes.h"
+
+namespace montelux {
+
+// One half of the passes: the image that they make, and what it shows. Features are means over samples that hit.
+struct HalfPlanes {
+  ColorPlanes color, albedo;
+  std::array<Plane, 3> normal;
+  Plane share;  // of the passes of the pixel; 0: the pixel has none
+
+  explicit HalfPlanes(std::size_t pixels);
+};
+
+// An image to be filtered, row by row from the top. The mean of the halves, weighted by their shares, is the image.
+struct NoisyImage {
+  int width = 0, height = 0;
+  std::array<HalfPlanes, 2> halves;
+  ColorPlanes variance;  // of the mean of both
+
+  NoisyImage(int w, int h);
+  std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+};
+
+struct DenoisedImage {
+  ColorPlanes color;
+  ColorPlanes error;  // root of the estimated mean squared error, bias included; a mean over 21 x 21 pixels
+  // Estimated mean squared errors, over channels and pixels, of the image and of the filtered one. Relative to the
+  // square of the filtered image, plus 0.01, as in ErrorEstimate.
+  double noisy_mse = 0, noisy_relative_mse = 0;
+  double mse = 0, relative_mse = 0;
+  double filtered = 0;  // share of the pixels that the filter changes
+};
+
+struct DenoiseSettings {
+  int threads = 0;                  // 0: all of the machine
+  std::function<bool()> stop = {};  // queried now and then: true ends it early
+};
+
+// Filters each half by weights that come from the other half alone: differences of its colours, relative to their
+// variance (Buades, Coll and Morel 2005; Rousselle, Knaus and Zwicker 2012), of its albedos and normals. Because the
+// weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Of three
+// filters and the unfiltered image each pixel takes the one with the least estimated error around it. The same bits for
+// any number of threads. Throws std::runtime_error if it was stopped.
+DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
+
+}  // namespace montelux

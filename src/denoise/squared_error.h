@@ -1,0 +1,33 @@
+// An estimate of the error of a filtered pixel, from the pixel itself.
+#pragma once
+
+namespace montelux {
+
+// A candidate at one pixel and channel: both halves, and the share of the pixel itself in each.
+struct Filtered {
+  double first, second;
+  double own_first, own_second;
+};
+
+// The image at one pixel and channel.
+struct Noisy {
+  double first, second;
+  double share;     // of the first half
+  double variance;  // of the mean of both
+  double mean() const { return share * first + (1 - share) * second; }
+};
+
+// An unbiased estimate of the squared error of share * first + (1 - share) * second, whose weights do not depend on
+// what they weigh. For a half y with variance v and its filtered value f, (f - y)^2 - v + 2 own v has the expectation
+// of the squared error of f (Stein 1981); that of a mean follows from those of its parts and from their difference.
+inline double squared_error(const Noisy& noisy, const Filtered& f) {
+  const double s = noisy.share, t = 1 - s;
+  const auto of_half = [](double value, double data, double variance, double own) {
+    return (value - data) * (value - data) - variance + 2 * own * variance;
+  };
+  const double first = of_half(f.first, noisy.first, noisy.variance / s, f.own_first);
+  const double second = of_half(f.second, noisy.second, noisy.variance / t, f.own_second);
+  return s * first + t * second - s * t * (f.first - f.second) * (f.first - f.second);
+}
+
+}  // namespace montelux

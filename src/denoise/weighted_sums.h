@@ -1,0 +1,27 @@
+// The filters: weighted sums over the pixels around each pixel.
+#pragma once
+#include <array>
+#include <functional>
+
+#include "denoise/denoise.h"
+
+namespace montelux {
+
+// How a filter weighs differences: the greater, the smoother.
+inline constexpr std::array<float, 3> color_scales{0.5f, 0.3f, 1.0f};  // in standard deviations
+inline constexpr int filter_count = int(color_scales.size());
+inline constexpr int filter_reach = 7;  // pixels
+// Distances of albedos and of normals at which a weight falls to 1/e.
+inline constexpr float albedo_scale = 0.16f, normal_scale = 0.63f;
+
+// One half after one filter.
+struct FilteredHalf {
+  ColorPlanes color;
+  Plane own;  // the share of the pixel itself in the sum of the weights
+};
+
+// Half 0 or 1 of the image after each filter, by weights of the other half.
+using FilteredHalves = std::array<std::array<FilteredHalf, filter_count>, 2>;
+FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings);
+
+}  // namespace montelux

@@ -1,0 +1,64 @@
+#include "film/half_sums.h"
+
+#include <algorithm>
+
+#include "film/film.h"
+#include "film/film_bytes.h"
+#include "film/limits.h"
+
+namespace montelux {
+
+void HalfSums::add(const PixelPass& sums) {
+  if (sums.finite > 0)
+    for (int c = 0; c < rgb_size; ++c) radiance[c].add(sums.sum[c] / sums.finite);
+  const PixelFeatures& f = sums.features;
+  hits += std::uint32_t(f.hits);
+  if (f.hits == 0) return;
+  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], max_film_albedo * f.hits));
+  for (int c = 0; c < 3; ++c) normal[c].add(within(f.normal[c], f.hits));
+}
+
+void HalfSums::merge(const HalfSums& other) {
+  for (int c = 0; c < rgb_size; ++c) radiance[c] += other.radiance[c], albedo[c] += other.albedo[c];
+  for (int c = 0; c < 3; ++c) normal[c] += other.normal[c];
+  hits += other.hits;
+}
+
+std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
+  const double passes = all.passes, first = all.half_passes, second = passes - first;
+  const bool both = first > 0 && second > 0;
+  const double rest = double(all.hits) - hits;
+  const std::array<double, rgb_size> mean = all.mean();
+  PixelHalf a, b;
+  a.share = both ? first / passes : 1, b.share = both ? second / passes : 1;
+  // A half of the features is the whole where it has none.
+  const auto split = [&](double part, double whole, double& of_a, double& of_b) {
+    const double average = all.hits > 0 ? whole / all.hits : 0;
+    of_a = hits > 0 ? part / hits : average, of_b = rest > 0 ? (whole - part) / rest : average;
+  };
+  for (int c = 0; c < rgb_size; ++c) {
+    const double sum = radiance[c].value(), m = mean[std::size_t(c)];
+    a.mean[c] = both ? sum / first : m, b.mean[c] = both ? (m * passes - sum) / second : m;
+    split(albedo[c].value(), all.albedo[c].value(), a.albedo[c], b.albedo[c]);
+  }
+  for (int c = 0; c < 3; ++c) split(normal[c].value(), all.normal[c].value(), a.normal[c], b.normal[c]);
+  return {a, b};
+}
+
+void HalfSums::write(ByteWriter& out) const {
+  out.count(hits);
+  for (const ExactSum& x : radiance) out.sum(x);
+  if (hits == 0) return;
+  for (const SmallExactSum& x : albedo) out.sum(x);
+  for (const SmallExactSum& x : normal) out.sum(x);
+}
+
+void HalfSums::read(const PixelSums& all, ByteReader& in) {
+  hits = std::uint32_t(in.count(all.hits));
+  for (ExactSum& x : radiance) x = in.sum(all.half_passes);
+  if (hits == 0) return;
+  for (SmallExactSum& x : albedo) x = in.small_sum();
+  for (SmallExactSum& x : normal) x = in.small_sum();
+}
+
+}  // namespace montelux

@@ -1,0 +1,80 @@
+"""Noise is removed from a picture, in one step or two, and what is left is stated."""
+import json
+import unittest
+
+from program import SCENE, ProgramTest, read_pfm
+
+
+def relative_error(picture, reference):
+    """Mean of the squared errors over the squares of the reference, plus 0.01."""
+    total, count = 0.0, 0
+    for row, true in zip(picture[2], reference[2]):
+        for x in range(0, len(row), 3):
+            scale = (sum(true[x:x + 3]) / 3) ** 2 + 0.01
+            total += sum((a - b) ** 2 for a, b in zip(row[x:x + 3], true[x:x + 3])) / scale / 3
+            count += 1
+    return total / count
+
+
+class DenoiseTest(ProgramTest):
+    def read(self, name):
+        return read_pfm(self.folder / name)
+
+    def test_one_step_and_two_give_the_same(self):
+        one = json.loads(self.render("--spp", 16, "--denoise", "--json", "--quiet", "-o", "a.exr", "-o", "a.pfm").stdout)
+        self.render("--spp", 16, "--layers", "halves", "-o", "b.exr", "-o", "b.pfm")
+        two = json.loads(self.run_program("denoise", "b.exr", "-o", "c.exr", "-o", "c.pfm", "-o", "c.png", "--json").stdout)
+        self.assertAlmostEqual(one["denoised"]["relative_mse"] / two["denoised"]["relative_mse"], 1, delta=1e-3)
+        a, c = self.read("a.pfm"), self.read("c.pfm")
+        for row, other in zip(a[2], c[2]):
+            for x, y in zip(row, other):
+                self.assertAlmostEqual(x, y, delta=1e-4 * (1 + abs(x)))
+        # A file that has the layers already gets them anew; R, G and B stay the estimate.
+        self.run_program("denoise", "c.exr", "-o", "d.exr", "--threads", 1)
+        self.assertEqual((self.folder / "c.exr").read_bytes(), (self.folder / "d.exr").read_bytes())
+        self.run_program("diff", "b.exr", "d.exr")
+
+    def test_the_error_falls_and_is_stated(self):
+        self.render("--spp", 1024, "--seed", 9, "-o", "true.pfm")
+        self.render("--spp", 16, "--layers", "halves", "-o", "noisy.exr", "-o", "noisy.pfm")
+        stated = json.loads(self.run_program("denoise", "noisy.exr", "-o", "clean.pfm", "--json").stdout)["denoised"]
+        true = self.read("true.pfm")
+        before, after = relative_error(self.read("noisy.pfm"), true), relative_error(self.read("clean.pfm"), true)
+        self.assertLess(after, before / 4)
+        self.assertLess(after, 1.5 * stated["relative_mse"])
+        self.assertGreater(stated["filtered_pixels"], 0.5)
+
+    def test_parts_merge_to_the_same_picture(self):
+        options = ["--spp", 16, "--layers", "halves"]
+        self.render(*options, "-o", "all.exr")
+        for name, passes in (("a", "0:2"), ("b", "3:7")):
+            self.render(*options, "--passes", passes, "--checkpoint", f"{name}.film", "-o", f"{name}.exr")
+        self.run_program("merge", "b.film", "a.film", "-o", "merged.exr")
+        self.run_program("denoise", "all.exr", "-o", "x.pfm")
+        self.run_program("denoise", "merged.exr", "-o", "y.pfm")
+        self.assertEqual((self.folder / "x.pfm").read_bytes(), (self.folder / "y.pfm").read_bytes())
+
+    def test_what_cannot_be_denoised_says_why(self):
+        self.render("--spp", 4, "-o", "plain.exr")
+        said = self.run_program("denoise", "plain.exr", "-o", "x.exr", status=2).stderr
+        self.assertIn("first_half.R", said)
+        self.assertIn("--layers halves", said)
+        self.render("--spp", 1, "--layers", "halves", "-o", "one.exr")
+        self.assertIn("two independent passes", self.run_program("denoise", "one.exr", "-o", "x.exr", status=2).stderr)
+        self.assertIn("no such file", self.run_program("denoise", "none.exr", "-o", "x.exr", status=2).stderr.lower())
+        self.assertIn("--output", self.run_program("denoise", "plain.exr", status=2).stderr)
+        self.assertFalse((self.folder / "x.exr").exists())
+        # A single pass is a picture all the same.
+        self.assertIn("noise cannot be removed", self.render("--spp", 1, "--denoise", "-o", "y.exr").stderr)
+        self.assertTrue((self.folder / "y.exr").exists())
+
+    def test_a_damaged_file_is_refused(self):
+        self.render("--spp", 4, "--layers", "halves", "-o", "a.exr")
+        data = (self.folder / "a.exr").read_bytes()
+        (self.folder / "cut.exr").write_bytes(data[:len(data) // 2])
+        self.run_program("denoise", "cut.exr", "-o", "x.exr", status=2)
+        self.assertFalse((self.folder / "x.exr").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,231 @@
+// The removal of noise: its error is estimated without bias, and it keeps what it should.
+#include "denoise/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "denoise/box_mean.h"
+#include "denoise/squared_error.h"
+#include "denoise/weighted_sums.h"
+
+namespace montelux {
+
+namespace {
+
+constexpr int width = 70, height = 37;  // no whole number of tiles
+
+// A coloured image with an edge that the features show, and one that only the colours show.
+double truth(int x, int y, std::size_t c) {
+  const double slope = 0.5 + 0.01 * x, object = y < height / 2 ? 1 : 0.3 + 0.2 * double(c), shadow = x < 25 ? 0.2 : 1;
+  return slope * object * shadow;
+}
+
+struct Made {
+  NoisyImage image{width, height};
+  ColorPlanes truth;
+};
+
+// With Gaussian noise of these standard errors, by channel; halves of `share` and 1 - share of the passes.
+Made made(unsigned seed, float share = 0.5f, std::array<double, 3> sigma = {0.1, 0.2, 0.05}) {
+  Made m;
+  std::mt19937 numbers(seed);
+  std::normal_distribution<double> normal;
+  for (Plane& plane : m.truth) plane.resize(m.image.pixels());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto i = std::size_t(y * width + x);
+      for (std::size_t h = 0; h < 2; ++h) {
+        HalfPlanes& half = m.image.halves[h];
+        half.share[i] = h == 0 ? share : 1 - share;
+        for (std::size_t c = 0; c < 3; ++c) {
+          m.truth[c][i] = float(truth(x, y, c));
+          half.color[c][i] = float(truth(x, y, c) + normal(numbers) * sigma[c] / std::sqrt(double(half.share[i])));
+          half.albedo[c][i] = y < height / 2 ? 0.2f : 0.8f;
+          half.normal[c][i] = c == 2 ? 1.0f : 0.0f;
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) m.image.variance[c][i] = float(sigma[c] * sigma[c]);
+    }
+  return m;
+}
+
+double mean_squared_error(const ColorPlanes& color, const ColorPlanes& truth) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < color[c].size(); ++i) sum += std::pow(double(color[c][i]) - double(truth[c][i]), 2);
+  return sum / (3.0 * double(color[0].size()));
+}
+
+double mean_relative_error(const ColorPlanes& color, const ColorPlanes& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < color[0].size(); ++i) {
+    const double mean = (double(color[0][i]) + double(color[1][i]) + double(color[2][i])) / 3;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += std::pow(double(color[c][i]) - double(truth[c][i]), 2) / (mean * mean + 0.01);
+  }
+  return sum / (3.0 * double(color[0].size()));
+}
+
+float mixed(const Made& m, std::size_t c, std::size_t i) {
+  const auto& [a, b] = m.image.halves;
+  return a.share[i] * a.color[c][i] + b.share[i] * b.color[c][i];
+}
+
+}  // namespace
+
+TEST(BoxMean, is_the_mean_over_the_pixels_that_exist) {
+  std::mt19937 numbers(3);
+  std::uniform_real_distribution<float> uniform;
+  for (const auto& [w, h, reach] : {std::array{9, 7, 2}, {1, 5, 3}, {4, 1, 1}, {3, 3, 0}}) {
+    Plane plane(std::size_t(w * h));
+    for (float& x : plane) x = uniform(numbers);
+    const Plane mean = box_mean(plane, w, h, reach);
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        double sum = 0, count = 0;
+        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, h - 1); ++v)
+          for (int u = std::max(x - reach, 0); u <= std::min(x + reach, w - 1); ++u)
+            sum += double(plane[std::size_t(v * w + u)]), count += 1;
+        EXPECT_NEAR(mean[std::size_t(y * w + x)], sum / count, 1e-6);
+      }
+  }
+}
+
+// A filter of fixed weights, with a bias, of two halves of unequal size: the mean over many draws of the estimate less
+// the true squared error is zero. Without the covariance of the filter with its data it is not.
+TEST(SquaredError, is_estimated_without_bias) {
+  std::mt19937 numbers(11);
+  std::normal_distribution<double> normal;
+  constexpr double share = 0.3, variance = 0.7, value = 2, bias = 0.4, own_first = 0.35, own_second = 0.2;
+  constexpr int draws = 400000;
+  double sum = 0, square = 0, planted = 0;
+  for (int i = 0; i < draws; ++i) {
+    const double v1 = variance / share, v2 = variance / (1 - share);
+    const Noisy data{value + std::sqrt(v1) * normal(numbers), value + std::sqrt(v2) * normal(numbers), share, variance};
+    const double others = value + bias + 0.3 * normal(numbers);
+    const Filtered f{own_first * data.first + (1 - own_first) * others,
+                     own_second * data.second + (1 - own_second) * others, own_first, own_second};
+    const double error = std::pow(share * f.first + (1 - share) * f.second - value, 2);
+    const double difference = squared_error(data, f) - error;
+    sum += difference, square += difference * difference;
+    planted += squared_error(data, {f.first, f.second, 0, 0}) - error;
+  }
+  const double mean = sum / draws, deviation = std::sqrt((square / draws - mean * mean) / draws);
+  EXPECT_LT(std::abs(mean), 4 * deviation);
+  EXPECT_GT(std::abs(planted / draws), 10 * deviation);
+}
+
+// What the estimate of the error stands on.
+TEST(FilterHalves, weights_do_not_depend_on_what_they_weigh) {
+  const Made m = made(1);
+  NoisyImage other = m.image;
+  std::mt19937 numbers(5);
+  std::normal_distribution<float> normal;
+  for (Plane& plane : other.halves[0].color)
+    for (float& x : plane) x += normal(numbers);
+  const FilteredHalves a = filter_halves(m.image, {}), b = filter_halves(other, {});
+  for (std::size_t k = 0; k < filter_count; ++k) {
+    EXPECT_EQ(a[0][k].own, b[0][k].own);
+    EXPECT_NE(a[0][k].color, b[0][k].color);
+    EXPECT_NE(a[1][k].own, b[1][k].own);
+  }
+}
+
+TEST(FilterHalves, weights_sum_to_one_at_edges_of_the_image_too) {
+  Made m = made(1);
+  for (HalfPlanes& half : m.image.halves)
+    for (Plane& plane : half.color) std::ranges::fill(plane, 0.75f);
+  for (const auto& half : filter_halves(m.image, {}))
+    for (const FilteredHalf& one : half)
+      for (const Plane& plane : one.color)
+        for (float x : plane) ASSERT_NEAR(x, 0.75f, 1e-5f);
+}
+
+TEST(Denoise, states_the_error_of_the_image_and_of_the_result) {
+  for (float share : {0.5f, 0.25f}) {
+    double relative_stated = 0, relative_left = 0, stated = 0, left = 0;
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      const Made m = made(seed, share);
+      const DenoisedImage result = denoise(m.image);
+      ColorPlanes before = m.truth;
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < before[c].size(); ++i) before[c][i] = mixed(m, c, i);
+      EXPECT_NEAR(result.noisy_mse, (0.01 + 0.04 + 0.0025) / 3, 1e-6);
+      const double error = mean_squared_error(result.color, m.truth);
+      EXPECT_LT(error, 0.1 * mean_squared_error(before, m.truth));
+      left += error, stated += result.mse;
+      relative_left += mean_relative_error(result.color, m.truth), relative_stated += result.relative_mse;
+    }
+    // The choice of the least of several estimates lowers the stated error, the lower bound by the difference of the
+    // halves raises it, most where the relative noise of a dark part is great.
+    EXPECT_GT(stated, 0.8 * left);
+    EXPECT_LT(stated, 1.3 * left);
+    EXPECT_GT(relative_stated, 0.9 * relative_left);
+    EXPECT_LT(relative_stated, 3 * relative_left);
+  }
+}
+
+TEST(Denoise, keeps_edges_that_only_the_colours_show) {
+  const Made m = made(2, 0.5f, {0.02, 0.02, 0.02});
+  const DenoisedImage result = denoise(m.image);
+  for (int y = 4; y < 12; ++y) {
+    const auto dark = std::size_t(y * width + 24), bright = dark + 1;
+    EXPECT_NEAR(result.color[0][dark], m.truth[0][dark], 0.06);
+    EXPECT_NEAR(result.color[0][bright], m.truth[0][bright], 0.06);
+  }
+}
+
+// One bright sample makes its own pixel look like any other; the others must not take it for one of theirs.
+TEST(Denoise, does_not_spread_a_rare_bright_sample_by_its_own_variance) {
+  Made m = made(4);
+  constexpr std::size_t at = 12 * width + 40;
+  for (std::size_t c = 0; c < 3; ++c) {
+    m.image.halves[0].color[c][at] = 400, m.image.halves[1].color[c][at] = 30;
+    m.image.variance[c][at] = 100 * 100;
+  }
+  const DenoisedImage result = denoise(m.image);
+  for (int dy = -7; dy <= 7; ++dy)
+    for (int dx = -7; dx <= 7; ++dx) {
+      if (dx == 0 && dy == 0) continue;
+      const auto i = std::size_t(int(at) + dy * width + dx);
+      ASSERT_NEAR(result.color[1][i], m.truth[1][i], 1.5) << dx << " " << dy;
+    }
+  EXPECT_LT(result.color[1][at], 100);
+}
+
+TEST(Denoise, leaves_pixels_alone_that_have_no_two_halves_or_no_noise) {
+  Made m = made(6);
+  for (std::size_t i = 0; i < m.image.pixels(); i += 7)
+    for (HalfPlanes& half : m.image.halves) {
+      half.share[i] = 1;
+      for (Plane& plane : half.color) plane[i] = 5;
+    }
+  const DenoisedImage result = denoise(m.image);
+  for (std::size_t i = 0; i < m.image.pixels(); i += 7) EXPECT_EQ(result.color[0][i], 5);
+
+  Made exact = made(6, 0.5f, {0, 0, 0});
+  const DenoisedImage same = denoise(exact.image);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < exact.image.pixels(); ++i) ASSERT_NEAR(same.color[c][i], exact.truth[c][i], 1e-4f);
+  EXPECT_NEAR(same.mse, 0, 1e-8);
+}
+
+TEST(Denoise, has_the_same_bits_for_any_number_of_threads) {
+  const Made m = made(8);
+  const DenoisedImage one = denoise(m.image, {1, {}});
+  for (int threads : {2, 3}) {
+    const DenoisedImage other = denoise(m.image, {threads, {}});
+    EXPECT_EQ(one.color, other.color);
+    EXPECT_EQ(one.error, other.error);
+    EXPECT_EQ(one.relative_mse, other.relative_mse);
+  }
+}
+
+TEST(Denoise, can_be_stopped) {
+  EXPECT_THROW(denoise(made(8).image, {1, [] { return true; }}), std::runtime_error);
+}
+
+}  // namespace montelux
