@@ -23,7 +23,7 @@ struct DenoiseArguments {
   std::string picture;
   std::vector<std::string> outputs;
   int threads = 0;
-  bool json = false;
+  bool json = false, quiet = false;
 };
 
 constexpr const char* examples = R"(Examples:
@@ -82,6 +82,7 @@ void add_denoise(CLI::App& app, Action& chosen) {
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(arguments->threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   verb.add_flag("--json", arguments->json, "the estimated errors, as one JSON object");
+  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_denoise(*arguments); }; });
 }
 

@@ -105,8 +105,11 @@ class TileFilter {
     sums_ = {};
     for (int dy = -filter_reach; dy <= filter_reach; ++dy)
       for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
+        constexpr float radius = filter_reach + 1;
+        const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
+        if (near <= 0) continue;
         find_differences(dx, dy);
-        for (int row = 0; row < tile_height; ++row) add_row(row, dx, dy);
+        for (int row = 0; row < tile_height; ++row) add_row(row, dx, dy, near);
       }
     return sums_;
   }
@@ -134,7 +137,7 @@ class TileFilter {
     }
   }
 
-  void add_row(int row, int dx, int dy) {
+  void add_row(int row, int dx, int dy, float near) {
     const int y = y0_ + row;
     const auto first = std::size_t(row);
     // Sums over the rows of a patch, from the column before the tile on.
@@ -156,7 +159,7 @@ class TileFilter {
         const F d = load(guide_.normal[c].at(x, y)) - load(guide_.normal[c].at(x + dx, y + dy));
         features += d * d * (1 / (normal_scale * normal_scale));
       }
-      const F exists = load(source_.exists.at(x + dx, y + dy)) * load(guide_.exists.at(x + dx, y + dy));
+      const F exists = load(source_.exists.at(x + dx, y + dy)) * load(guide_.exists.at(x + dx, y + dy)) * near;
       std::array<F, rgb_size> color;
       for (std::size_t c = 0; c < rgb_size; ++c) color[c] = load(source_.color[c].at(x + dx, y + dy));
       const std::size_t place = std::size_t(row) * tile_width + std::size_t(i);

@@ -10,7 +10,7 @@ namespace montelux {
 // How a filter weighs differences: the greater, the smoother.
 inline constexpr std::array<float, 3> color_scales{0.5f, 0.3f, 1.0f};  // in standard deviations
 inline constexpr int filter_count = int(color_scales.size());
-inline constexpr int filter_reach = 7;  // pixels
+inline constexpr int filter_reach = 8;  // pixels; weights fall to zero beyond, so that no edge of the window shows
 // Distances of albedos and of normals at which a weight falls to 1/e.
 inline constexpr float albedo_scale = 0.16f, normal_scale = 0.63f;
 

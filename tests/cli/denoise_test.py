@@ -29,7 +29,7 @@ class DenoiseTest(ProgramTest):
         for row, other in zip(a[2], c[2]):
             for x, y in zip(row, other):
                 self.assertAlmostEqual(x, y, delta=1e-4 * (1 + abs(x)))
-        # A file that has the layers already gets them anew; R, G and B stay the estimate.
+        # A file that has the layers already gets new ones; R, G and B stay the estimate.
         self.run_program("denoise", "c.exr", "-o", "d.exr", "--threads", 1)
         self.assertEqual((self.folder / "c.exr").read_bytes(), (self.folder / "d.exr").read_bytes())
         self.run_program("diff", "b.exr", "d.exr")

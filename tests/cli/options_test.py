@@ -155,12 +155,13 @@ class EveryVerb(ProgramTest):
                     "--no-cache", "--no-slopes", "--no-attribution"],
         "integrate": ["integrate", "x^-0.9", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--save", "c.json"],
         "merge": ["merge", "a.json", "b.json"],
+        "denoise": ["denoise", "halves.exr", "-o", "clean.exr"],
         "diff": ["diff", "one.pfm", "two.pfm"],
         "tonemap": ["tonemap", "one.pfm", "-o", "b.png", "--range", "auto"],
         "list": ["list", "materials"],
         "lab": ["lab", "run", "roulette", "-o", "out"],
     }
-    SILENT = {"diff", "list"}  # that have no notes
+    SILENT = {"denoise", "diff", "list"}  # that have no notes
     BRIEF = {"integrate", "merge"}  # whose results are shorter, too
     STATUS = {"diff": 1}  # the pictures differ
 
@@ -171,6 +172,7 @@ class EveryVerb(ProgramTest):
             '"integer indices" [ 0 1 2  0 1 1 ]\n')
         write_pfm(self.folder / "one.pfm", 4, 4, (1, 2, 3))
         write_pfm(self.folder / "two.pfm", 4, 4, (1, 2, 4))
+        self.render("--spp", 2, "--layers", "halves", "--quiet", "-o", "halves.exr")
         for seed, name in enumerate(("a.json", "b.json")):
             self.run_program("integrate", "x^-0.9", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--seed",
                              seed, "--save", name, "--quiet")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "denoise/box_mean.h"
@@ -28,7 +29,8 @@ struct Made {
   ColorPlanes truth;
 };
 
-// With Gaussian noise of these standard errors, by channel; halves of `share` and 1 - share of the passes.
+// With Gaussian noise of these standard errors relative to the truth, by channel; halves of `share` and 1 - share of
+// the passes.
 Made made(unsigned seed, float share = 0.5f, std::array<double, 3> sigma = {0.1, 0.2, 0.05}) {
   Made m;
   std::mt19937 numbers(seed);
@@ -42,12 +44,13 @@ Made made(unsigned seed, float share = 0.5f, std::array<double, 3> sigma = {0.1,
         half.share[i] = h == 0 ? share : 1 - share;
         for (std::size_t c = 0; c < 3; ++c) {
           m.truth[c][i] = float(truth(x, y, c));
-          half.color[c][i] = float(truth(x, y, c) + normal(numbers) * sigma[c] / std::sqrt(double(half.share[i])));
+          const double deviation = sigma[c] * truth(x, y, c) / std::sqrt(double(half.share[i]));
+          half.color[c][i] = float(truth(x, y, c) + normal(numbers) * deviation);
           half.albedo[c][i] = y < height / 2 ? 0.2f : 0.8f;
           half.normal[c][i] = c == 2 ? 1.0f : 0.0f;
         }
       }
-      for (std::size_t c = 0; c < 3; ++c) m.image.variance[c][i] = float(sigma[c] * sigma[c]);
+      for (std::size_t c = 0; c < 3; ++c) m.image.variance[c][i] = float(std::pow(sigma[c] * truth(x, y, c), 2));
     }
   return m;
 }
@@ -153,18 +156,20 @@ TEST(Denoise, states_the_error_of_the_image_and_of_the_result) {
       ColorPlanes before = m.truth;
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < before[c].size(); ++i) before[c][i] = mixed(m, c, i);
-      EXPECT_NEAR(result.noisy_mse, (0.01 + 0.04 + 0.0025) / 3, 1e-6);
+      double variance = 0;
+      for (const Plane& plane : m.image.variance) variance += std::accumulate(plane.begin(), plane.end(), 0.0);
+      EXPECT_NEAR(result.noisy_mse, variance / (3.0 * double(m.image.pixels())), 1e-6);
       const double error = mean_squared_error(result.color, m.truth);
       EXPECT_LT(error, 0.1 * mean_squared_error(before, m.truth));
       left += error, stated += result.mse;
       relative_left += mean_relative_error(result.color, m.truth), relative_stated += result.relative_mse;
     }
     // The choice of the least of several estimates lowers the stated error, the lower bound by the difference of the
-    // halves raises it, most where the relative noise of a dark part is great.
+    // halves raises it.
     EXPECT_GT(stated, 0.8 * left);
-    EXPECT_LT(stated, 1.3 * left);
+    EXPECT_LT(stated, 1.5 * left);
     EXPECT_GT(relative_stated, 0.9 * relative_left);
-    EXPECT_LT(relative_stated, 3 * relative_left);
+    EXPECT_LT(relative_stated, 2.4 * relative_left);
   }
 }
 
@@ -191,7 +196,7 @@ TEST(Denoise, does_not_spread_a_rare_bright_sample_by_its_own_variance) {
     for (int dx = -7; dx <= 7; ++dx) {
       if (dx == 0 && dy == 0) continue;
       const auto i = std::size_t(int(at) + dy * width + dx);
-      ASSERT_NEAR(result.color[1][i], m.truth[1][i], 1.5) << dx << " " << dy;
+      ASSERT_NEAR(result.color[1][i], m.truth[1][i], 2) << dx << " " << dy;
     }
   EXPECT_LT(result.color[1][at], 100);
 }
