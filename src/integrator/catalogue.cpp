@@ -254,11 +254,9 @@ Made make_bdpt(const Request& r) {
 
 Made make_vcm(const Request& r) {
   VcmSettings settings = vcm_settings(r.list, r.max_depth);
-  // A third of that of sppm: the rest is found by connections, and mergings of a wide radius have more weight than
-  // their correlated errors deserve.
   if (settings.radius == 0)
     settings.radius =
-        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1)) / 3;
+        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1));
   ChosenIntegrator chosen{"vcm", {}, {}, {}, std::make_unique<VcmIntegrator>(r.scene, r.accel, settings)};
   note_radius(chosen, settings.radius);
   note_depth(chosen, r.max_depth);

@@ -21,7 +21,7 @@ Fields<VcmSettings> merging_fields() {
   fields
       .integer("photons", &S::photons,
                "light paths in each frame, at least one per pixel; 0: one per pixel, at least 16384", 0, 1 << 28)
-      .number("radius", &S::radius, "radius of the first frame in world units; 0: one pixel wide", 0, 1e30)
+      .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
       .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
               1)
       .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance",

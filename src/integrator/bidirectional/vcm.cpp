@@ -9,6 +9,11 @@ namespace montelux {
 
 namespace {
 
+// Mergings count in the weights as this share of the paths from the lights. All mergings of a vertex share the path
+// from the eye that leads there, so that they are worth less than as many connections; any share is unbiased. A tenth
+// makes a wide radius cost little where connections do as well, and is enough where they do not.
+constexpr float merging_share = 0.1f;
+
 std::uint32_t light_paths_of(const VcmSettings& settings, const ChainPass& pass) {
   const int pixels = pass.bounds.area();
   return std::uint32_t(std::max(settings.photons > 0 ? settings.photons : min_photons, pixels));
@@ -64,7 +69,7 @@ class VcmChain final : public Chain {
     return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
   }
   Frame frame_of(int frame) {
-    const float r = radius(frame), merges = pi * r * r * float(light_paths_);
+    const float r = radius(frame), merges = merging_share * pi * r * r * float(light_paths_);
     return {scene_,
             accel_,
             by_power_ ? &*by_power_ : nullptr,
