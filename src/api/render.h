@@ -147,7 +147,7 @@ struct FinishTime {
   }
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
-FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise);
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise = false);
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

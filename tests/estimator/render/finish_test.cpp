@@ -17,6 +17,12 @@ TEST(SecondsToFinish, grow_with_the_picture_and_with_its_files) {
   EXPECT_GT(seconds_to_finish(large, {{"a.exr", "b.exr", "c.exr", "d.exr"}, false}).encoding, one);
 }
 
+// Its time is set aside where noise is removed, too.
+TEST(SecondsToFinish, contain_the_removal_of_noise) {
+  const PixelBounds bounds{0, 0, 512, 256};
+  EXPECT_GT(seconds_to_finish(bounds, {}, true).error, 3 * seconds_to_finish(bounds, {}).error);
+}
+
 // A picture of large squares has a smaller file, which takes less time to make.
 TEST(SecondsToFinish, fall_where_few_pixels_are_sampled) {
   const FinishTime time = seconds_to_finish({0, 0, 1024, 256}, {{"a.exr"}, false});
