@@ -54,7 +54,7 @@ NoisyImage noisy_image(const Film& film) {
 }
 
 // The planes of three channels; a failure names the first that is missing.
-Status read_planes(const PixelBuffer& image, const std::string& layer, std::string_view channels,
+Status read_planes(const PixelBuffer& image, std::string_view layer, std::string_view channels,
                    std::array<Plane, 3>& planes) {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = layer.empty() ? std::string(1, channels[c]) : fmt::format("{}.{}", layer, channels[c]);
@@ -75,7 +75,7 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image) {
   if (Status read = read_planes(image, "", "RGB", color); !read) return read.failure();
   if (Status read = read_planes(image, "stderr", "RGB", noisy.variance); !read) return read.failure();
   for (std::size_t h = 0; h < 2; ++h) {
-    const HalfLayerNames& names = half_layer_names()[h];
+    const HalfLayerNames& names = half_layer_names[h];
     HalfPlanes& half = noisy.halves[h];
     if (Status read = read_planes(image, names.color, "RGB", half.color); !read) return read.failure();
     if (Status read = read_planes(image, names.albedo, "RGB", half.albedo); !read) return read.failure();
@@ -158,13 +158,6 @@ PixelBuffer without_added(const PixelBuffer& image) {
 }
 
 }  // namespace
-
-const std::array<HalfLayerNames, 2>& half_layer_names() {
-  static const std::array<HalfLayerNames, 2> names{
-      {{"first_half", "first_half_albedo", "first_half_N", "first_half.share"},
-       {"second_half", "second_half_albedo", "second_half_N", "second_half.share"}}};
-  return names;
-}
 
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
   if (!film.has_halves()) return Failure{"noise cannot be removed: the film has no halves"};

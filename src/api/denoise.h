@@ -1,7 +1,9 @@
 // Removal of noise from images, with an estimate of the error that is left.
 #pragma once
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 #include "image/image_file.h"
 #include "math/result.h"
@@ -46,8 +48,10 @@ std::vector<Attribute> header_of(const Denoising& estimate);
 
 // Names of the layers of both halves: colours, albedos, normals, and the share of the passes.
 struct HalfLayerNames {
-  std::string color, albedo, normal, share;
+  std::string_view color, albedo, normal, share;
 };
-const std::array<HalfLayerNames, 2>& half_layer_names();
+inline constexpr std::array<HalfLayerNames, 2> half_layer_names{
+    {{"first_half", "first_half_albedo", "first_half_N", "first_half.share"},
+     {"second_half", "second_half_albedo", "second_half_N", "second_half.share"}}};
 
 }  // namespace montelux

@@ -123,11 +123,11 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
 // Appends both halves of the passes, for the rows from `first` on.
 void append_halves(PixelBuffer& image, int first, const Film& film) {
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {});
-  for (const HalfLayerNames& names : half_layer_names()) {
-    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(names.color + channel);
-    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(names.albedo + channel);
-    for (const char* channel : {".X", ".Y", ".Z"}) added.channels.push_back(names.normal + channel);
-    added.channels.push_back(names.share);
+  for (const HalfLayerNames& names : half_layer_names) {
+    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(std::string(names.color) + channel);
+    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(std::string(names.albedo) + channel);
+    for (const char* channel : {".X", ".Y", ".Z"}) added.channels.push_back(std::string(names.normal) + channel);
+    added.channels.emplace_back(names.share);
   }
   added.values.resize(added.pixel_count() * added.channels.size());
   const PixelGrid& grid = film.grid();
