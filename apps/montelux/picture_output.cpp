@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
+#include "api/target_text.h"
 #include "denoise_output.h"
 #include "display_json.h"
 #include "progress.h"
@@ -103,6 +104,50 @@ void print_mean(const Rendering& rendering) {
   if (rendering.has_error_bar()) fmt::print("{}\n", interval);
 }
 
+// A range of numbers, or of times.
+template <class Text>
+std::string range_text(const TargetResult& target, double (TargetResult::*more)(double) const, Text text) {
+  const auto of = [&](double work) { return text((target.*more)(work)); };
+  return fmt::format("{} ({} to {})", of(target.state.work), of(target.state.work_low), of(target.state.work_high));
+}
+
+std::string target_line(const TargetResult& target) {
+  const TargetState& state = target.state;
+  const ErrorTarget& error = target.request.error;
+  const std::string text = to_text(error), sure = fmt::format("{:.4g} %", 100 * error.confidence);
+  if (target.reached())
+    return fmt::format("{} reached: with {} confidence the error is at most {:.3g} %", text, sure, 100 * state.bound);
+  if (!state.is_known || state.is_unsure) return fmt::format("{} {}", text, why_not_reached(target));
+  std::string line =
+      fmt::format("{} not reached: with {} confidence the error is at most {:.3g} %", text, sure, 100 * state.bound);
+  if (std::isfinite(state.work_high))
+    line += fmt::format("\n         it takes about {} samples per pixel more, {}",
+                        range_text(target, &TargetResult::more_samples, [](double n) { return count_text(n); }),
+                        range_text(target, &TargetResult::more_seconds, time_text));
+  return line;
+}
+
+Json target_json(const TargetResult& target) {
+  const TargetState& state = target.state;
+  const auto range = [&](double (TargetResult::*more)(double) const) {
+    return state.is_known
+               ? Json{number_or_null((target.*more)(state.work_low)), number_or_null((target.*more)(state.work_high))}
+               : Json();
+  };
+  const auto value = [&](double number) { return state.is_known ? number_or_null(number) : Json(); };
+  return {{"request", to_text(target.request.error)},
+          {"confidence", target.request.error.confidence},
+          {"unbiased", target.request.unbiased},
+          {"reached", target.reached()},
+          {"unsure", state.is_unsure},
+          {"error", value(state.error)},
+          {"bound", value(state.bound)},
+          {"samples_needed", value(target.more_samples(state.work))},
+          {"samples_needed_range", range(&TargetResult::more_samples)},
+          {"seconds_needed", value(target.more_seconds(state.work))},
+          {"seconds_needed_range", range(&TargetResult::more_seconds)}};
+}
+
 // The error of a pixel; never that of a part of the picture.
 std::string error_line(const Rendering& rendering) {
   const ErrorEstimate& error = rendering.error;
@@ -150,6 +195,7 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
       known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
   json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
   json["unsure_error"] = known && outcome.error.is_unsure();
+  if (rendering.target) json["target"] = target_json(*rendering.target);
   if (rendering.denoised) json["denoised"] = denoising_json<Json>(rendering.denoised->estimate);
   json["sampled_pixels"] = sampled_share(rendering);
   json["passes"] = outcome.image.passes;
@@ -185,6 +231,7 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   print_mean(rendering);
   if (rendering.measured_bias) print_bias(*rendering.measured_bias);
   fmt::print("error    {}\n", error_line(rendering));
+  if (rendering.target) fmt::print("target   {}\n", target_line(*rendering.target));
   if (rendering.denoised) fmt::print("denoised {}\n", denoising_text(rendering.denoised->estimate));
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);

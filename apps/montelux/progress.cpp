@@ -21,8 +21,11 @@ int terminal_columns() {
 // The known figures without the bar: speed and error of the image, times of all.
 std::string numbers(const Progress& p, double elapsed, std::optional<double> left) {
   const double speed = p.elapsed > 0 ? double(p.samples) / p.elapsed : 0;
-  return fmt::format("{}  left {}  {}  error {}", time_text(elapsed), left ? time_text(*left) : "-",
-                     count_text(speed, "samples/s"), error_text(p.error));
+  std::string time_left = left ? time_text(*left) : "-";
+  if (p.to_target && left && *left == p.to_target->seconds)
+    time_left += fmt::format(" ({} to {})", time_text(p.to_target->low), time_text(p.to_target->high));
+  return fmt::format("{}  left {}  {}  error {}", time_text(elapsed), time_left, count_text(speed, "samples/s"),
+                     error_text(p.error));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "api/images.h"
 #include "api/saved_film.h"
+#include "api/target_text.h"
 #include "options.h"
 #include "picture_output.h"
 #include "progress.h"
@@ -32,6 +33,9 @@ struct RenderArguments {
   bool json = false, quiet = false, no_progress = false, half = false;
   std::optional<std::string> checkpoint, resume;
   std::optional<double> every;  // seconds between checkpoints
+  std::optional<ErrorTarget> target;
+  std::optional<double> confidence;
+  bool unbiased = false;
   std::optional<FrameRange> frames;
   std::optional<double> fps;
   std::optional<int> frame;  // the current one
@@ -46,6 +50,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt                                 writes room.exr
   montelux render room.pbrt -o room.exr -o room.png --tone aces --spp 256
   montelux render room.pbrt --time 10m --resolution 1920x1080
+  montelux render room.pbrt --target-error 2% --time 10m    ends when the error is below 2 %
   montelux render room.pbrt --spp 64 --denoise -o room.exr -o room.png
   montelux render room.pbrt --crop 100,100,200,200 --seed 7 --json
   montelux render flight.pbrt --frames 0:23 -o flight.####.exr
@@ -259,7 +264,7 @@ Result<SavedFilm> resumed(RenderArguments& arguments) {
   RenderOptions& render = arguments.render;
   Result<SavedFilm> film = load_film(*arguments.resume);
   if (!film) return film;
-  if (!film->wanted && !render.samples && !render.seconds && !render.passes)
+  if (!film->wanted && !film->options.target && !render.target && !render.samples && !render.seconds && !render.passes)
     return Failure{
         fmt::format("{} was rendered within a time; --time says how much more, or --spp how many samples per "
                     "pixel there shall be",
@@ -269,8 +274,17 @@ Result<SavedFilm> resumed(RenderArguments& arguments) {
   return film;
 }
 
+// What the options about a requested error say together.
+void set_target(RenderArguments& arguments) {
+  if (!arguments.target) return;
+  TargetRequest target{*arguments.target, arguments.unbiased};
+  if (arguments.confidence) target.error.confidence = *arguments.confidence;
+  arguments.render.target = target;
+}
+
 int run_render(RenderArguments& arguments) {
   if (Status good = check_saving(arguments); !good) return complain(good.error());
+  set_target(arguments);
   if (arguments.fps && arguments.frames->of)
     return complain("--fps and the /N of --frames exclude each other: both set the duration of a frame");
   if (arguments.frames) arguments.frames->fps = arguments.fps;
@@ -349,6 +363,25 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
              into(render.threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   add_option(verb, {"--crop", "x0,y0,x1,y1", "only these pixels (x1 and y1 are excluded)"},
              into(render.crop, parse_crop));
+}
+
+// A requested error.
+void add_target_options(CLI::App& verb, RenderArguments& arguments) {
+  add_option(
+      verb,
+      {"--target-error", "ERROR",
+       "end as soon as the error is below this, with certainty --confidence: 2% (root of the mean relative square "
+       "over the pixels), pixels:5%@95% (95 % of the pixels within 5 %) or mean:0.1% (of the mean of the image); "
+       "--time or --spp are the most"},
+      into(arguments.target, parse_target));
+  add_option(verb, {"--confidence", "P", "probability that the true error is below the requested one (default 0.95)"},
+             into(arguments.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
+  verb.add_flag(
+      "--unbiased", arguments.unbiased,
+      "two stages: samples of a pilot decide their number, the image is of others, so that its mean is unbiased");
+  for (const char* needs : {"--confidence", "--unbiased"}) verb.get_option(needs)->needs("--target-error");
+  for (const char* other : {"--interactive-budget", "--preset", "--passes"})
+    verb.get_option("--target-error")->excludes(other);
 }
 
 // "A" or "A:B".
@@ -445,6 +478,7 @@ void add_render(CLI::App& app, Action& chosen) {
   add_frame_options(verb, *arguments);
   add_saving_options(verb, *arguments);
   add_algorithm_options(verb, arguments->render);
+  add_target_options(verb, *arguments);
   add_display_options(verb, arguments->display);
   verb.add_flag(
           "--denoise", arguments->render.denoise,

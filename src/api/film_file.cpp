@@ -11,6 +11,7 @@
 #include "api/film_keeper.h"
 #include "api/saved_film.h"
 #include "api/saved_scene.h"
+#include "api/target_text.h"
 #include "film/film_bytes.h"
 
 namespace montelux {
@@ -52,13 +53,27 @@ FilmSettings settings_from(const Json& j) {
   return s;
 }
 
+Json target_json(const TargetRequest& target) {
+  return {{"error", to_text(target.error)}, {"confidence", target.error.confidence}, {"unbiased", target.unbiased}};
+}
+TargetRequest target_from(const Json& j) {
+  const Result<ErrorTarget> error = parse_target(j.at("error").get<std::string>());
+  TargetRequest target;
+  if (error) target.error = *error;
+  target.error.confidence = j.at("confidence"), target.unbiased = j.at("unbiased");
+  if (!error || !(target.error.confidence > 0 && target.error.confidence < 1))
+    throw std::invalid_argument("its requested error is damaged");
+  return target;
+}
+
 Json options_json(const RenderOptions& o) {
   return {{"integrator", or_null<Json>(o.integrator)},
           {"settings", o.settings},
           {"preset", or_null<Json>(o.preset)},
           {"sampler", or_null<Json>(o.sampler)},
           {"crop", o.crop ? bounds_json(*o.crop) : Json()},
-          {"layers", o.all_layers() ? Json(to_text(*o.all_layers())) : Json()}};
+          {"layers", o.all_layers() ? Json(to_text(*o.all_layers())) : Json()},
+          {"target", o.target ? target_json(*o.target) : Json()}};
 }
 RenderOptions options_from(const Json& j) {
   RenderOptions o;
@@ -70,6 +85,8 @@ RenderOptions options_from(const Json& j) {
     if (!request) throw std::invalid_argument("its layers are damaged");
     o.layers = *request;
   }
+  // Films of older versions have none.
+  if (const auto target = j.find("target"); target != j.end() && !target->is_null()) o.target = target_from(*target);
   return o;
 }
 
@@ -271,7 +288,11 @@ void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& optio
   if (!options.layers) options.layers = o.layers;
   if (!options.seed) options.seed = film.settings.seed;
   if (!options.samples_per_pass) options.samples_per_pass = film.settings.samples_per_pass;
-  if (!options.samples && !options.seconds && !options.passes) options.passes = film.wanted;
+  if (!options.target) options.target = o.target;
+  // The number of samples of an unbiased render is decided, whatever its time.
+  const bool is_decided = options.target && options.target->unbiased && o.target && o.target->unbiased;
+  const bool is_open = !options.samples && !options.seconds && !options.passes && !options.target;
+  if (is_decided || is_open) options.passes = film.wanted;
 }
 
 Status check_continues(const SavedFilm& film, const SavedFilm& now) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "api/film_keeper.h"
+#include "api/target_text.h"
+#include "render/target_plan.h"
 
 namespace montelux {
 
@@ -70,6 +72,12 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
     add("estimatedRelativeMSEHigh", error.relative_high);
     if (error.is_unsure()) add("unsureError", std::string("few bright samples determine the error"));
   }
+  if (const auto& target = rendering.target) {
+    add("targetError", to_text(target->request.error));
+    add("targetConfidence", target->request.error.confidence);
+    add("targetReached", std::string(target->reached() ? "yes" : why_not_reached(*target)));
+    if (target->state.is_known) add("targetErrorBound", target->state.bound);
+  }
   for (int c = 0; c < rgb_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
     if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
@@ -94,6 +102,11 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
   Rendering rendering{std::move(result), {}, facts.notes, plan, facts.layers, 0, {}, image, error};
   rendering.found_no_light = facts.content == Content::light && is_black(rendering.result.film);
   rendering.measured_bias = estimate_bias(rendering.result.bias);
+  if (facts.target) {
+    const Film& film = rendering.result.film;
+    rendering.target = TargetResult{*facts.target, judge(facts.target->error, film, facts.target->unbiased),
+                                    double(image.passes) * plan.samples_per_pass, rendering.result.seconds};
+  }
   rendering.header = header_of(facts, rendering);
   rendering.missing = std::move(facts.missing), rendering.replaced = std::move(facts.replaced);
   rendering.left_out = std::move(facts.left_out);
@@ -106,6 +119,7 @@ Rendering rendering_of(SavedFilm film) {
   RenderResult result{std::move(begun.film), begun.rays, begun.seconds, false};
   result.bias = std::move(begun.bias);
   const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
+  film.facts.target = film.options.target;
   return rendering_of(std::move(film.facts), std::move(result), plan);
 }
 

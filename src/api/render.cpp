@@ -36,7 +36,8 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan
                  {},
                  facts_of(parts, plan, plan.settings),
                  {Film({}), {}, 0}};
-  if (!options.seconds) film.wanted = PassRange{passes.first_pass, passes.first_pass + passes.passes - 1};
+  const bool has_number = !options.target || (options.resume && options.passes);
+  if (!options.seconds && has_number) film.wanted = PassRange{passes.first_pass, passes.first_pass + passes.passes - 1};
   return film;
 }
 

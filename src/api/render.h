@@ -33,11 +33,19 @@ struct FilmCheckpoint {
   double every = 300;  // seconds
 };
 
+// An error at which a render ends.
+struct TargetRequest {
+  ErrorTarget error;
+  // Two stages: a pilot decides the number of samples, and the picture has others.
+  bool unbiased = false;
+};
+
 struct RenderOptions {
   std::optional<int> samples;             // a pixel; default: what the file states
   std::optional<double> seconds;          // instead of a number of samples; includes preparation and what follows
   FilesToWrite files{};                   // `seconds` includes the time to encode them
   std::optional<double> budget;           // seconds: whole frames of one chain, or passes of one sample, as many as fit
+  std::optional<TargetRequest> target;    // the samples that reach it; `samples` or `seconds` are then the most
   std::optional<std::uint32_t> seed;      // default: the file's
   int threads = 0;                        // 0: all of the machine
   std::optional<PixelBounds> crop;        // within the picture; default: the file's
@@ -57,6 +65,17 @@ struct RenderOptions {
   std::optional<LayerRequest> all_layers() const;
 };
 
+// What became of a requested error.
+struct TargetResult {
+  TargetRequest request;
+  TargetState state;
+  double samples = 0, seconds = 0;  // of a pixel, and of the render
+  bool reached() const { return state.reaches(request.error); }
+  // What a render with `work` times the samples, as TargetState has it, would take in addition.
+  double more_samples(double work) const { return samples * (work > 1 ? work - 1 : 0); }
+  double more_seconds(double work) const { return seconds * (work > 1 ? work - 1 : 0); }
+};
+
 // A rendered picture, its error and its layers.
 struct Rendering {
   RenderResult result;
@@ -68,6 +87,7 @@ struct Rendering {
   std::optional<PixelBuffer> motion;            // to the picture before, as motion_vectors() has it
   ImageEstimate image;                          // the mean of the whole picture
   ErrorEstimate error;                          // of the pixels
+  std::optional<TargetResult> target{};         // if an error was requested
   std::optional<BiasEstimate> measured_bias{};  // of the mean, where the integrator measures it in two passes or more
   std::vector<std::string> missing{};           // sorts of light of the scene that the integrator cannot find
   std::vector<Replacement> replaced{};          // of what the file names and no option replaces

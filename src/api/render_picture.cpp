@@ -6,6 +6,7 @@
 
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
+#include "render/target_plan.h"
 #include "render/timed_plan.h"
 
 namespace montelux {
@@ -44,6 +45,22 @@ class TimeOfImage {
   FinishTime finish_;
 };
 
+// The passes of a render to an error, with at most so many samples per pixel.
+PassPlan plan_to_target(const RenderPlan& plan, const RenderSettings& settings, int most, RenderObserver& observer) {
+  const TargetRequest& target = *plan.target;
+  const std::optional<int> stated = plan.samples_per_pass;
+  PassPlan passes = settings.plan;
+  if (target.unbiased)
+    passes = plan_in_two_stages(plan.chosen.any(), settings, target.error, most, observer);
+  else if (!stated)
+    passes = plan_for_target(plan.chosen.any(), settings, target.error, most, observer);
+  if (stated) {
+    const int samples = target.unbiased ? passes.samples() : most;
+    passes.samples_per_pass = *stated, passes.passes = (samples + *stated - 1) / *stated;
+  }
+  return passes;
+}
+
 // Plans the passes for the time that is left, and sets the rule that ends it. The time includes the making of the
 // integrator, the measurement of its speed, and the writing of the image. `before` is the time used so far, and grows
 // by what this takes.
@@ -66,6 +83,15 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
                     "saved has one all the same",
                     timed.sample_seconds));
     timed.plan.stride = 1;
+  }
+  // Too few samples to spend some of them on a pilot.
+  constexpr double min_samples = 64;
+  const double affordable = time.left() / timed.sample_seconds;
+  if (plan.target && timed.plan.stride == 1 && affordable >= min_samples) {
+    const int most = int(std::min(affordable, double(plan.max_samples)));
+    const PassPlan passes = plan_to_target(plan, settings, most, observer);
+    timed.plan.samples_per_pass = std::min(passes.samples_per_pass, timed.plan.samples_per_pass);
+    if (plan.target->unbiased) timed.plan.passes = (passes.samples() - 1) / timed.plan.samples_per_pass + 1;
   }
   const double first_seconds = timed.plan.stride > 1 ? timed.first_seconds : timed.sample_seconds;
   settings.plan = timed.plan;
@@ -102,10 +128,17 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   // The integrator is made once for all images of a sequence; the first one counts it.
   double before = std::exchange(plan.preparation, 0.0);
   if (plan.seconds) plan_timed(plan, settings, before, observer);
+  if (plan.target && !plan.seconds && !settings.begun) {
+    const Stopwatch since_start;
+    settings.plan = plan_to_target(plan, settings, plan.max_samples, observer);
+    before += since_start.seconds();
+  }
   if (plan.budget) settings.stop = std::make_shared<TimeBudget>(*plan.budget - before, plan.ending);
   if (film) {
     film->settings.samples_per_pass = film->facts.samples_per_pass = settings.plan.samples_per_pass;
     film->begun.seconds = before;
+    if (plan.target && plan.target->unbiased)
+      film->wanted = PassRange{settings.plan.first_pass, settings.plan.first_pass + settings.plan.passes - 1};
   }
   RenderResult result = render(plan.chosen.any(), settings, observer);
   result.seconds += before;

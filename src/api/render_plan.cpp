@@ -6,6 +6,7 @@
 
 #include "api/shortcomings.h"
 #include "integrator/direct/settings.h"
+#include "render/target_plan.h"
 #include "render/timed_plan.h"
 
 namespace montelux {
@@ -125,12 +126,42 @@ Status adjust_passes(const RenderOptions& options, const AnyIntegrator& integrat
   return Done{};
 }
 
+// Whether an error can be requested with these options.
+Status check_target(const RenderOptions& options, PointSetKind sampler) {
+  if (!options.target) return Done{};
+  const ErrorTarget& target = options.target->error;
+  if (!(target.error > 0 && target.error <= 1))
+    return Failure{fmt::format("a requested error is above 0 and at most 1; found {}", target.error)};
+  if (!(target.share >= 0.5 && target.share < 1))
+    return Failure{
+        fmt::format("the share of pixels within an error is from 0.5 to less than 1; found {}", target.share)};
+  if (!(target.confidence >= 0.5 && target.confidence < 1))
+    return Failure{fmt::format("a confidence is from 0.5 to less than 1; found {}", target.confidence)};
+  if (is_fixed(sampler))
+    return Failure{
+        fmt::format("sampler {} uses the same points in every pass: its error is not known, and cannot be "
+                    "requested",
+                    name_of(sampler))};
+  if (options.budget) return Failure{"a picture within a time budget has the error that the time allows"};
+  if (options.preset) return Failure{"a preset has its own number of samples: it is not rendered to an error"};
+  const bool continues_its_own = options.resume && options.target->unbiased && options.resume->options.target;
+  if (options.passes && !continues_its_own)
+    return Failure{"an error is that of all passes: a range of them is not rendered to an error"};
+  if (options.resume && options.target->unbiased &&
+      !(options.resume->options.target && options.resume->options.target->unbiased))
+    return Failure{"an unbiased render decides its number of samples first: it does not continue a film of another"};
+  return Done{};
+}
+
 // `default_samples`: if the options state none.
 Status plan_samples(const RenderOptions& options, int default_samples, RenderPlan& plan) {
   if (options.samples && (*options.samples < 1 || *options.samples > (1 << 24)))
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
   const PointSetKind sampler = plan.settings.image.sampler;
+  if (Status good = check_target(options, sampler); !good) return good;
   const AnyIntegrator integrator = plan.chosen.any();
+  if (options.target && options.samples) plan.max_samples = *options.samples;
+  if (options.target && !options.samples) default_samples = int(max_film_samples);
   PassPlan& passes = plan.settings.plan;
   passes = options.budget ? plan_for_budget(integrator)
                           : plan_passes(integrator, options.samples.value_or(default_samples), sampler);
@@ -176,6 +207,11 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   plan.settings.threads = options.threads;
   plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
   plan.seconds = options.seconds, plan.budget = options.budget;
+  plan.target = options.target;
+  if (plan.target) {
+    plan.settings.target = plan.target->error;
+    if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(plan.target->error);
+  }
   return plan;
 }
 
@@ -192,7 +228,8 @@ PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, c
           plan.replaced,
           plan.chosen.content,
           parts.info.states_exposure,
-          settings.image.layers};
+          settings.image.layers,
+          plan.target};
 }
 
 }  // namespace montelux

@@ -16,6 +16,8 @@ struct RenderPlan {
   std::string integrator_text;          // the integrator, with its settings in a canonical order
   std::optional<double> seconds;        // the time, including preparation and writing; or
   std::optional<double> budget;         // the time of each image, without writing
+  std::optional<TargetRequest> target;  // the error that ends it, with at most these samples per pixel
+  int max_samples = max_film_samples;
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
   bool denoise = false;

@@ -19,6 +19,7 @@ struct PictureFacts {
   Content content = Content::light;
   bool states_exposure = false;
   std::optional<LayerPlan> layers;
+  std::optional<TargetRequest> target{};
 };
 
 // What decides the passes of a film, besides its scene. Films can only be continued or merged where all of it agrees.

@@ -37,7 +37,7 @@ class ChainJob final : public WatchedWork {
       has_image_ = film_.passes(tiles_.front().bounds) > 0;
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
-    over_ = is_whole_ = pass_ == settings.plan.passes;
+    over_ = is_whole_ = is_planned();
     if (!over_) begin_chain();
   }
 
@@ -79,10 +79,14 @@ class ChainJob final : public WatchedWork {
     return std::uint64_t(film_.passes(tiles_.front().bounds));
   }
 
-  std::optional<ErrorEstimate> error() override {
+  std::optional<FilmError> error() override {
     const std::scoped_lock lock(mutex_);
     if (film_.passes(tiles_.front().bounds) < 2 || film_.grid().stride > 1) return std::nullopt;
-    return film_.error();
+    FilmPlanes planes(settings_.image.bounds);
+    planes.copy(film_, settings_.image.bounds);
+    FilmError error{estimate_error(planes), {}};
+    if (settings_.target) error.target = judge(*settings_.target, planes, error.error, film_.image(), 1);
+    return error;
   }
 
   FilmSnapshot snapshot() override {
@@ -148,8 +152,8 @@ class ChainJob final : public WatchedWork {
     const bool stops = watch_.query(state);
     const bool ends = step_.frame == frames_ || (stops && chain_counts());
     if (ends) end_chain();
-    over_ = stops || pass_ == settings_.plan.passes;
-    is_whole_ = pass_ == settings_.plan.passes && step_.frame == frames_;
+    is_whole_ = step_.frame == frames_ && is_planned();
+    over_ = stops || is_whole_ || pass_ == settings_.plan.passes;
     if (ends && !over_) begin_chain();
   }
 
@@ -168,6 +172,12 @@ class ChainJob final : public WatchedWork {
   bool chain_counts() const {
     const int shown = step_.frame - integrator_.warm_up();
     return shown > 0 && (!has_image_ || 2 * shown >= settings_.plan.samples_per_pass);
+  }
+
+  // Whether the film has what the plan of work requires.
+  bool is_planned() const {
+    if (pass_ == settings_.plan.passes) return true;
+    return settings_.work && settings_.work->next_round(film_, settings_.plan).count == 0;
   }
 
   // Skips the passes that the film has.

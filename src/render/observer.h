@@ -1,11 +1,17 @@
 // What the caller of a render receives while it runs.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "film/picture_error.h"
 
 namespace montelux {
+
+// Seconds until a film has a requested error, as expected and with an interval for about 95 %.
+struct TimeToTarget {
+  double seconds = 0, low = 0, high = 0;
+};
 
 // For a film that is continued, this includes the passes and the time that it had before.
 struct Progress {
@@ -14,6 +20,7 @@ struct Progress {
   double remaining = 0;  // seconds, estimated
   std::uint64_t samples = 0;
   ErrorEstimate error;
+  std::optional<TimeToTarget> to_target;  // as far as it is known
   bool finished = false;
 };
 

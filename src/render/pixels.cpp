@@ -55,8 +55,8 @@ class PixelJob final : public WatchedWork {
     const bool requested = watch_.run(
         *this, [this] { drive(); }, observer);
     watch_.report_end(*this, observer);
-    const bool is_done = plan().next_round(film_, settings_.plan).count == 0;
-    return {std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), requested && !is_done};
+    const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
+    return {std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
   }
 
   RenderState state() override {
@@ -80,7 +80,7 @@ class PixelJob final : public WatchedWork {
 
   std::uint64_t passes() override { return units_done_; }
 
-  std::optional<ErrorEstimate> error() override {
+  std::optional<FilmError> error() override {
     const bool has_two_passes = tiles_with_two_ == tiles_.size();
     if (!has_two_passes || settings_.plan.stride > 1) return std::nullopt;
     FilmPlanes planes(settings_.image.bounds);
@@ -88,7 +88,9 @@ class PixelJob final : public WatchedWork {
       const std::scoped_lock lock(tile.mutex);
       planes.copy(film_, tile.bounds);
     }
-    return estimate_error(planes);
+    FilmError error{estimate_error(planes), {}};
+    if (settings_.target) error.target = judge(*settings_.target, planes, error.error, image_now(), 1);
+    return error;
   }
 
   FilmSnapshot snapshot() override {
@@ -158,6 +160,13 @@ class PixelJob final : public WatchedWork {
     }
     const std::scoped_lock lock(rays_mutex_);
     rays_ += rays;
+  }
+
+  // While other threads add passes to tiles.
+  ImageEstimate image_now() {
+    std::deque<std::scoped_lock<std::mutex>> locks;
+    for (TileState& tile : tiles_) locks.emplace_back(tile.mutex);
+    return film_.image();
   }
 
   bool has(TileState& tile, int pass) {

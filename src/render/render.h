@@ -1,7 +1,9 @@
 // Renders a film: gives the passes of tiles to threads, until the plan is done or a rule stops the render.
 #pragma once
 #include <memory>
+#include <optional>
 
+#include "film/error_target.h"
 #include "film/film.h"
 #include "integrator/integrator.h"
 #include "render/image_settings.h"
@@ -19,8 +21,9 @@ namespace montelux {
 struct RenderSettings {
   ImageSettings image;                       // what is measured
   PassPlan plan;                             // with how many samples, in which passes
-  std::shared_ptr<const WorkPlan> work;      // in which order, for pixel integrators; null: PassByPass
+  std::shared_ptr<const WorkPlan> work;      // in which order; null: PassByPass. It ends chains, too
   std::shared_ptr<const StoppingRule> stop;  // when it stops before the plan is done; null: never
+  std::optional<ErrorTarget> target;         // whose time left the progress shows; a rule or a plan ends the render
   BegunFilm* begun = nullptr;                // the film to continue, of the same image; it is moved from
   FilmKeeping keeping;                       // where the film is saved; nowhere if `keep` is empty
   SequenceSettings sequence;                 // what chains keep for the next image

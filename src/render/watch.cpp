@@ -28,7 +28,7 @@ bool RenderWatch::query(const RenderState& state) {
   if (stops_ || !settings_.stop) return stops_;
   RenderState with_error = state;
   const std::scoped_lock lock(mutex_);
-  with_error.error = error_;
+  with_error.error = error_.error;
   if (!stops_ && settings_.stop->stops(with_error)) {
     rule_at_ = state.seconds;
     stops_ = true;
@@ -83,7 +83,7 @@ void RenderWatch::drop_late_units(WatchedWork& work) {
 
 void RenderWatch::update_error(WatchedWork& work) {
   const double available = settings_.stop ? settings_.stop->time_for_estimate(work.state()) : infinite;
-  const ErrorEstimate error = error_watch_.of(seconds(), available, [&] { return work.error(); });
+  const FilmError error = error_watch_.of(seconds(), available, [&] { return work.error(); });
   const std::scoped_lock lock(mutex_);
   error_ = error;
 }
@@ -92,9 +92,10 @@ Progress RenderWatch::progress(WatchedWork& work, bool finished) {
   const WorkDone done = work.done();
   RenderState state = work.state();
   Progress p;
+  TargetState target;
   {
     const std::scoped_lock lock(mutex_);
-    state.error = error_;
+    state.error = error_.error, target = error_.target;
   }
   // At the end the film has a better estimate.
   if (!finished) p.error = state.error;
@@ -104,7 +105,13 @@ Progress RenderWatch::progress(WatchedWork& work, bool finished) {
   // The share of the time that the rule leaves.
   const double by_time = state.seconds + by_rule > 0 ? state.seconds / (state.seconds + by_rule) : 1;
   p.fraction = std::min(std::max(done.now, by_time), 1.0);
-  const double left = std::min(by_plan, by_rule);
+  double left = std::min(by_plan, by_rule);
+  if (settings_.target && std::isfinite(target.work)) {
+    const auto seconds_of = [&](double times) { return std::max(times - 1, 0.0) * p.elapsed; };
+    p.to_target = {seconds_of(target.work), seconds_of(target.work_low), seconds_of(target.work_high)};
+    left = std::min(left, p.to_target->seconds);
+    if (!finished) p.fraction = std::clamp(p.elapsed / (p.elapsed + left), p.fraction, 1.0);
+  }
   p.remaining = std::isfinite(left) ? std::max(left, 0.0) : 0;
   return p;
 }

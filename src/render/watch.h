@@ -21,16 +21,22 @@ struct WorkDone {
   std::uint64_t samples = 0;
 };
 
+// The error of a film, and what is known of it against the target, if there is one.
+struct FilmError {
+  ErrorEstimate error;
+  TargetState target;
+};
+
 // The work that is watched. All functions are called by the watching thread while others work.
 class WatchedWork {
  public:
   virtual ~WatchedWork() = default;
   virtual RenderState state() = 0;
   virtual WorkDone done() = 0;
-  virtual std::uint64_t passes() = 0;                // of all tiles of the film
-  virtual std::optional<ErrorEstimate> error() = 0;  // of the film; it needs two passes of every pixel
-  virtual FilmSnapshot snapshot() = 0;               // the watch sets its seconds
-  virtual void drop_unfinished_units() {}            // units in work should end at once, and do not enter the film
+  virtual std::uint64_t passes() = 0;            // of all tiles of the film
+  virtual std::optional<FilmError> error() = 0;  // it needs two passes of every pixel
+  virtual FilmSnapshot snapshot() = 0;           // the watch sets its seconds
+  virtual void drop_unfinished_units() {}        // units in work should end at once, and do not enter the film
 };
 
 // Estimates the error of a film now and then, so that this takes a small part of the time.
@@ -41,11 +47,11 @@ class ErrorWatch {
   // The last estimate, or a new one if it is due and takes at most `available` seconds. `estimate` returns it; nothing:
   // it is not possible yet.
   template <class Estimate>
-  const ErrorEstimate& of(double elapsed, double available, Estimate estimate) {
+  const FilmError& of(double elapsed, double available, Estimate estimate) {
     constexpr double share = 0.02;  // of the time
     if (elapsed < next_ || expected_ > available) return error_;
     const Stopwatch since_start;
-    const std::optional<ErrorEstimate> error = estimate();
+    const std::optional<FilmError> error = estimate();
     if (!error) return error_;
     error_ = *error, expected_ = since_start.seconds();
     next_ = elapsed + std::max(expected_ / share, 0.1);
@@ -54,7 +60,7 @@ class ErrorWatch {
 
  private:
   static constexpr double pixel_seconds = 4e-7;  // until the first estimate shows how long it takes
-  ErrorEstimate error_;
+  FilmError error_;
   double expected_;  // seconds of the next estimate
   double next_ = 0;  // when it is due
 };
@@ -98,8 +104,8 @@ class RenderWatch {
   FilmKeeper keeper_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
-  ErrorEstimate error_;  // the last one
-  bool ended_ = false;   // `drive`
+  FilmError error_;     // the last one
+  bool ended_ = false;  // `drive`
   std::exception_ptr failure_;
 };
 

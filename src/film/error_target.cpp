@@ -1,0 +1,174 @@
+#include "film/error_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "film/film.h"
+#include "mc/confidence.h"
+
+namespace montelux {
+
+namespace {
+
+// The standard deviation of the logarithm of a squared error because of its divisors, as PictureError has it.
+constexpr double divisor_deviation = 0.223 / 1.96;
+
+// The factor for the upper end of a squared error. `deviation`: of its logarithm, by chance.
+double upper_factor(const ErrorTarget& target, double deviation, double spent) {
+  const double wrong = 1 - target.confidence;
+  return std::exp(
+      std::hypot(normal_quantile(1 - wrong * spent) * deviation, normal_quantile(1 - wrong) * divisor_deviation));
+}
+
+// Work for an error that falls like the root of the number of samples. `deviation`: of the logarithm of the squared
+// error's estimate.
+void predict_work(const ErrorTarget& target, double deviation, TargetState& state) {
+  constexpr double of_rate = 0.1;  // how well the errors of longer passes follow that law
+  const double factor = std::exp(std::hypot(1.96 * deviation, of_rate));
+  const double root = state.bound / target.error;
+  state.work = root * root, state.work_low = state.work / factor, state.work_high = state.work * factor;
+}
+
+void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, double passes, double spent,
+                    TargetState& state) {
+  const double of_estimate = std::sqrt(2 / (error.effective_pixels * (passes - 1)));
+  const double of_picture = std::sqrt(2 / error.effective_pixels);
+  state.error = std::sqrt(error.relative_mse);
+  state.bound = std::sqrt(error.relative_mse * upper_factor(target, std::hypot(of_picture, of_estimate), spent));
+  predict_work(target, of_estimate, state);
+}
+
+// The relative variances of the pixels that have two passes, shrunk toward the mean of the eight around them: a pixel
+// that missed its light has none of its own.
+constexpr double prior_degrees = 2;
+std::vector<double> pixel_variances(const FilmPlanes& p, double passes) {
+  constexpr double dark = 0.01;
+  const int width = p.bounds.width(), height = p.bounds.height();
+  std::vector<double> own(p.passes.size(), -1);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (p.passes[i] < 2) continue;
+    own[i] = 0;
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      own[i] += double(p.variance[c][i]) / (double(p.mean[c][i]) * double(p.mean[c][i]) + dark) / rgb_size;
+  }
+  std::vector<double> shrunk;
+  shrunk.reserve(own.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto at = [&](int px, int py) { return own[std::size_t(py) * std::size_t(width) + std::size_t(px)]; };
+      const double variance = at(x, y);
+      if (variance < 0) continue;
+      double sum = 0, count = 0;
+      for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py)
+        for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px)
+          if ((px != x || py != y) && at(px, py) >= 0) sum += at(px, py), ++count;
+      const double around = count > 0 ? sum / count : variance;
+      shrunk.push_back(((passes - 1) * variance + prior_degrees * around) / (passes - 1 + prior_degrees));
+    }
+  return shrunk;
+}
+
+// The mean over pixels of P(|T| > error / deviation), T by Student's law; by its table, since there are many pixels.
+class MissedShare {
+ public:
+  MissedShare(const std::vector<double>& variances, double degrees) : variances_(variances) {
+    for (std::size_t i = 0; i < table_.size(); ++i)
+      table_[i] = 2 * (1 - student_t_cdf(largest * double(i) / double(table_.size() - 1), degrees));
+  }
+  double operator()(double error) const {
+    double sum = 0;
+    for (double variance : variances_) {
+      if (variance <= 0) continue;
+      const double at = error / std::sqrt(variance) / largest * double(table_.size() - 1);
+      if (at >= double(table_.size() - 1)) continue;
+      const auto below = std::size_t(at);
+      sum += table_[below] + (at - double(below)) * (table_[below + 1] - table_[below]);
+    }
+    return sum / double(variances_.size());
+  }
+  // The error beyond which there is this share of the pixels.
+  double error_of(double share) const {
+    double low = 0, high = 1e-6;
+    while ((*this)(high) > share && high < 1e6) high *= 4;
+    if (high <= 1e-6) return (*this)(0) > share ? high : 0;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = (low + high) / 2;
+      ((*this)(middle) > share ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  static constexpr double largest = 24;
+  const std::vector<double>& variances_;
+  std::array<double, 1025> table_{};
+};
+
+void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double passes, double spent,
+                  TargetState& state) {
+  const std::vector<double> variances = pixel_variances(planes, passes);
+  const MissedShare missed(variances, passes - 1 + prior_degrees);
+  const double share = 1 - target.share, count = std::max(share * double(variances.size()), 1.0);
+  const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_picture = 1 / std::sqrt(count);
+  state.error = missed.error_of(share);
+  state.bound = missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), spent));
+  predict_work(target, of_estimate, state);
+}
+
+// The standard error of the mean over pixels and channels if pixels were independent: inaccurate in what it assumes,
+// but known from few passes.
+double error_of_independent_pixels(const FilmPlanes& p) {
+  double variance = 0, pixels = 0;
+  for (std::size_t i = 0; i < p.passes.size(); ++i) {
+    if (p.passes[i] < 2) continue;
+    double deviation = 0;
+    for (std::size_t c = 0; c < rgb_size; ++c) deviation += std::sqrt(double(p.variance[c][i])) / rgb_size;
+    variance += deviation * deviation, ++pixels;
+  }
+  return std::sqrt(variance) / pixels;
+}
+
+void judge_mean(const ErrorTarget& target, const FilmPlanes& planes, const ImageEstimate& image, TargetState& state) {
+  double mean = 0, error = 0;
+  for (int c = 0; c < rgb_size; ++c) {
+    mean += image.mean[c] / rgb_size;
+    // The standard error of a mean of channels is at most the mean of theirs.
+    error += image.standard_error[c] / rgb_size;
+  }
+  const double passes = image.passes;
+  state.error = error / std::abs(mean);
+  state.bound = state.error * student_t_quantile((1 + target.confidence) / 2, passes - 1);
+  constexpr double few_passes = 8;
+  if (passes >= few_passes) return predict_work(target, std::sqrt(2 / (passes - 1)), state);
+  TargetState predicted;
+  const double normal = normal_quantile((1 + target.confidence) / 2);
+  predicted.bound = normal * error_of_independent_pixels(planes) / std::abs(mean);
+  predict_work(target, 0.5, predicted);
+  state.work = predicted.work, state.work_low = predicted.work_low, state.work_high = predicted.work_high;
+}
+
+}  // namespace
+
+TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const ErrorEstimate& error,
+                  const ImageEstimate& image, double spent) {
+  TargetState state;
+  const bool has_light = std::ranges::any_of(image.mean, [](double mean) { return mean != 0; });
+  if (image.passes < 2 || !error.whole() || !has_light) return state;
+  state.is_known = true;
+  switch (target.measure) {
+    case TargetMeasure::relative:
+      judge_relative(target, error, image.passes, spent, state);
+      state.is_unsure = error.is_unsure() && error.relative_mse > 0;
+      break;
+    case TargetMeasure::pixels:
+      judge_pixels(target, planes, image.passes, spent, state);
+      break;
+    case TargetMeasure::mean:
+      judge_mean(target, planes, image, state);
+      break;
+  }
+  return state;
+}
+
+}  // namespace montelux

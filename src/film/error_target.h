@@ -1,0 +1,54 @@
+// A requested error of a picture, and whether a film has it.
+#pragma once
+#include <limits>
+
+#include "film/film_planes.h"
+#include "film/picture_error.h"
+
+namespace montelux {
+
+struct ImageEstimate;
+
+// Which error of a picture against its expectation. All of them are relative.
+enum class TargetMeasure {
+  relative,  // the root of the mean relative squared error, as ErrorEstimate has it
+  pixels,    // the error that a share of the pixels is within; that of a pixel is the root of the mean over channels of
+             // difference^2 / (expectation^2 + 0.01)
+  mean,      // that of the mean over all pixels and channels
+};
+
+struct ErrorTarget {
+  TargetMeasure measure = TargetMeasure::relative;
+  double error = 0.01;
+  double share = 0.95;       // of the pixels; for TargetMeasure::pixels
+  double confidence = 0.95;  // the probability that the true error is within the requested one
+  bool operator==(const ErrorTarget&) const = default;
+};
+
+// What is known of a film's error against a target.
+struct TargetState {
+  bool is_known = false;                                   // false: it takes two passes of every pixel, and light
+  bool is_unsure = false;                                  // few bright samples determine it: the bound may be far off
+  double error = std::numeric_limits<double>::infinity();  // the estimate
+  double bound = std::numeric_limits<double>::infinity();  // with the target's confidence the true error is below
+  // How many times the film's samples bring the bound down to the target: as expected, and the ends of about 95 %.
+  double work = std::numeric_limits<double>::infinity(), work_low = work, work_high = work;
+
+  bool reaches(const ErrorTarget& target) const { return is_known && !is_unsure && bound <= target.error; }
+};
+
+// `spent`: the share of the probability of a wrong statement that this look at the film may use; 1 if it is the only
+// one. `image` and `error` are those of the film whose planes these are.
+//
+// The true error of a picture is random around its expectation, of which the film gives an estimate. The bound includes
+// both, and the uncertainty of the divisors:
+// - relative: the logarithm of the sum over pixels, with the number of effective pixels (Kish 1965);
+// - pixels: Student's t of each pixel, with variances that are shrunk toward those of the pixels around it (James and
+//   Stein 1961); the number of pixels beyond the error is a Poisson number;
+// - mean: Student's t over the passes. Here looks spend nothing: they see only the spread of the passes, which is
+//   independent of their mean where they are normal (Chow and Robbins 1965), as long as they are few and the first one
+//   is at eight passes or more.
+TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const ErrorEstimate& error,
+                  const ImageEstimate& image, double spent);
+
+}  // namespace montelux

@@ -1,0 +1,146 @@
+#include "render/target_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace montelux {
+
+namespace {
+
+// Passes that the render itself never takes.
+constexpr int first_pilot_pass = 1 << 30;
+
+// Shows that the render has begun, without figures of the picture.
+class PilotObserver final : public RenderObserver {
+ public:
+  explicit PilotObserver(RenderObserver& other) : other_(other) {}
+  void progress(const Progress& of_pilot) override {
+    if (of_pilot.finished) return;
+    Progress p;
+    p.elapsed = of_pilot.elapsed, p.samples = of_pilot.samples;
+    other_.progress(p);
+  }
+  bool stop_requested() override { return other_.stop_requested(); }
+
+ private:
+  RenderObserver& other_;
+};
+
+// How many of the plan's passes every tile has, and the most that any has.
+struct PassesDone {
+  int all = std::numeric_limits<int>::max(), most = 0;
+};
+PassesDone passes_of(const Film& film, const PassPlan& plan) {
+  PassesDone done;
+  for (const auto& [index, tile] : film.tiles()) {
+    const auto is_of_plan = [&](const FilmPass& p) { return plan.contains(p.pass); };
+    const int own = int(std::ranges::count_if(tile.passes, is_of_plan));
+    done.all = std::min(done.all, own), done.most = std::max(done.most, own);
+  }
+  if (film.tiles().empty()) done.all = 0;
+  return done;
+}
+
+int predicted_samples(double samples, double work, int most) {
+  const double all = samples * work;
+  return std::isfinite(all) ? int(std::clamp(all, 1.0, double(most))) : most;
+}
+
+void clear_for_pilot(RenderSettings& settings) {
+  settings.work = nullptr, settings.stop = nullptr, settings.begun = nullptr, settings.target.reset();
+  settings.keeping = {}, settings.sequence = {};
+  settings.image.layers.reset(), settings.image.halves = false;
+}
+
+}  // namespace
+
+int Looks::after(int passes) const {
+  if (passes < first_) return first_;
+  int look = first_;
+  while (look <= passes) look += std::max(look / 8, 1);
+  return look;
+}
+
+double Looks::spent(int passes) const {
+  double number = 1;
+  for (int look = first_; look < passes; look = after(look)) ++number;
+  return 1 / (number * (number + 1));
+}
+
+WorkRound TargetPlan::next_round(const Film& film, const PassPlan& passes) const {
+  const PassesDone done = passes_of(film, passes);
+  if (done.all >= passes.passes) return {};
+  const bool is_whole = done.all == done.most;
+  if (is_whole && looks_.is_look(done.all) && judge(target_, film, false).reaches(target_)) return {};
+  // A round that was interrupted is completed first.
+  const int end = std::min(looks_.after(is_whole ? done.all : done.most - 1), passes.passes);
+  const std::size_t tiles = film.tiles().size();
+  const int first = passes.first_pass + done.all;
+  const auto unit = [tiles, first](std::size_t i) { return WorkUnit{i % tiles, first + int(i / tiles)}; };
+  return {tiles * std::size_t(end - done.all), unit};
+}
+
+std::uint64_t TargetPlan::expected_units(const Film& film, const PassPlan& passes) const {
+  return std::uint64_t(film.tiles().size()) * std::uint64_t(passes.passes);
+}
+
+TargetState judge(const ErrorTarget& target, const Film& film, bool single_look) {
+  const ImageEstimate image = film.image();
+  if (image.passes < 2 || film.grid().stride > 1) return {};
+  FilmPlanes planes(film.bounds());
+  planes.copy(film, film.bounds());
+  const double spent = single_look ? 1 : Looks(target).spent(image.passes);
+  return judge(target, planes, estimate_error(planes), image, spent);
+}
+
+PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target, int most,
+                         RenderObserver& observer) {
+  constexpr int share = 16;  // at least so many times the samples of a pilot are predicted when it is replaced
+  constexpr int growth = 4;
+  clear_for_pilot(settings);
+  PilotObserver silent(observer);
+  const PointSetKind sampler = settings.image.sampler;
+  const int longest = integrator.coupled() ? integrator.coupled()->frames() : 1024;
+  settings.plan = {1, 2, first_pilot_pass};
+  int predicted = most;
+  for (;;) {
+    const RenderResult pilot = render(integrator, settings, silent);
+    const double samples = settings.plan.samples();
+    predicted = predicted_samples(samples, judge(target, pilot.film, true).work, most);
+    settings.plan.first_pass += settings.plan.passes;
+    const int k = settings.plan.samples_per_pass * growth;
+    if (pilot.interrupted || 2.0 * k * share > predicted || k > longest) break;
+    settings.plan.samples_per_pass = k;
+  }
+  PassPlan plan = plan_passes(integrator, predicted, sampler);
+  // The error of the mean is known by the spread of the passes alone.
+  constexpr int passes_for_mean = 24;
+  while (target.measure == TargetMeasure::mean && plan.samples_per_pass > 1 &&
+         predicted / plan.samples_per_pass < passes_for_mean)
+    plan.samples_per_pass /= 2;
+  plan.passes = std::max((most + plan.samples_per_pass - 1) / plan.samples_per_pass, 1);
+  return plan;
+}
+
+PassPlan plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                            int most, RenderObserver& observer) {
+  // Twice the error takes a quarter of the samples.
+  ErrorTarget of_pilot = target;
+  of_pilot.error *= 2;
+  settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(most / 4, 1), observer);
+  clear_for_pilot(settings);
+  // Behind the passes of the first pilots.
+  settings.plan.first_pass = first_pilot_pass + (1 << 8);
+  settings.work = std::make_shared<TargetPlan>(of_pilot);
+  PilotObserver silent(observer);
+  const RenderResult pilot = render(integrator, settings, silent);
+  const double samples = double(settings.plan.samples_per_pass) * std::max(pilot.film.image().passes, 1);
+  const TargetState state = judge(target, pilot.film, true);
+  // Enough for most pictures, by the uncertainty of the pilot.
+  const double work = std::sqrt(state.work * state.work_high);
+  return plan_passes(integrator, predicted_samples(samples, work, most), settings.image.sampler);
+}
+
+}  // namespace montelux

@@ -1,0 +1,54 @@
+// Renders that end when their film has a requested error.
+#pragma once
+#include "film/error_target.h"
+#include "render/render.h"
+
+namespace montelux {
+
+// Looks at a film after whole passes over all tiles, at numbers of passes that grow by an eighth or by one. The
+// probability of a wrong statement is spent over the looks: of look i = 0, 1, ... the share 1 / ((i + 1) (i + 2)),
+// which add up to 1 (alpha spending, Lan and DeMets 1983; with such weights over epochs that grow geometrically:
+// Howard, Ramdas, McAuliffe and Sekhon 2021).
+class Looks {
+ public:
+  explicit Looks(const ErrorTarget& target) : first_(target.measure == TargetMeasure::mean ? 8 : 4) {}
+  // The first look after this number of passes.
+  int after(int passes) const;
+  bool is_look(int passes) const { return passes >= first_ && after(passes - 1) == passes; }
+  // The share that a look at this number of passes spends; of a number between two looks, that of the later one.
+  double spent(int passes) const;
+
+ private:
+  int first_;
+};
+
+// Passes over all tiles until a look shows the requested error. Depends only on the film, and so gives the same bits
+// for any number of threads; a film that is continued continues as if it had never stopped. Coupled integrators, whose
+// passes are chains, end by it as well.
+class TargetPlan final : public WorkPlan {
+ public:
+  explicit TargetPlan(const ErrorTarget& target) : target_(target), looks_(target) {}
+  WorkRound next_round(const Film& film, const PassPlan& passes) const override;
+  std::uint64_t expected_units(const Film& film, const PassPlan& passes) const override;
+
+ private:
+  ErrorTarget target_;
+  Looks looks_;
+};
+
+// What is known of a whole film against the target. `single_look`: the film's number of samples does not depend on it.
+TargetState judge(const ErrorTarget& target, const Film& film, bool single_look);
+
+// The plan for a render to a target, of at most `most` samples per pixel. Passes should be as long as possible while
+// there are enough of them, so the number of samples is predicted from a few passes of numbers that the render itself
+// never takes. Each such pilot has two passes over all pixels, and takes less than a tenth of the predicted samples; it
+// is replaced by a longer one as long as that is so. Ends early if the observer requests a stop.
+PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target, int most,
+                         RenderObserver& observer);
+
+// The same in two stages: a pilot of about a quarter of the samples decides their number, which the picture of other
+// samples then has. Its mean is unbiased whatever the pilot's is.
+PassPlan plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                            int most, RenderObserver& observer);
+
+}  // namespace montelux

@@ -1,0 +1,105 @@
+"""montelux render --target-error: ends at the requested error, says whether it is reached, and continues where it stopped."""
+import json
+import unittest
+
+from program import ProgramTest, read_pfm
+
+
+class Target(ProgramTest):
+    def told(self, *arguments, **options):
+        return json.loads(self.render("--json", "--quiet", *arguments, **options).stdout)
+
+    def test_the_render_ends_at_the_error_with_the_same_bytes_for_any_number_of_threads(self):
+        for target in "12%", "pixels:25%@90%", "mean:0.5%":
+            with self.subTest(target=target):
+                told = [self.told("--target-error", target, "--spp", 4096, "--threads", n, "-o", f"{n}.exr")
+                        for n in (1, 2)]
+                result = told[0]["target"]
+                self.assertTrue(result["reached"])
+                self.assertEqual((result["request"], result["confidence"], result["unbiased"]), (target, 0.95, False))
+                self.assertLess(told[0]["passes"] * told[0]["samples_per_pass"], 4096)
+                self.assertLess(result["error"], result["bound"])
+                one, two = ((self.folder / f"{n}.exr").read_bytes() for n in (1, 2))
+                self.assertEqual(one, two)
+                self.assertIn(b"targetReached", one)
+
+    def test_an_error_that_is_not_reached_says_how_much_more_it_takes(self):
+        result = self.render("--target-error", "4%", "--spp", 64, "-o", "a.pfm").stdout
+        self.assertRegex(result, r"target   4% not reached: with 95 % confidence the error is at most [\d.]+ %")
+        self.assertRegex(result, r"it takes about [\d.]+ k? ?\([^)]*\) samples per pixel more, ")
+        target = self.told("--target-error", "4%", "--spp", 64, "-o", "a.pfm")["target"]
+        self.assertFalse(target["reached"])
+        self.assertGreater(target["bound"], 0.04)
+        low, high = target["samples_needed_range"]
+        self.assertTrue(0 < low < target["samples_needed"] < high)
+        # As many do.
+        more = self.told("--target-error", "4%", "--spp", 65536, "-o", "a.pfm")
+        samples = more["passes"] * more["samples_per_pass"] - 64
+        self.assertTrue(more["target"]["reached"])
+        self.assertTrue(low / 1.6 < samples < high * 1.6, f"{samples} {low} {high}")
+
+    def test_a_time_may_be_the_most(self):
+        told = self.told("--target-error", "0.1%", "--time", "700ms", "-o", "a.pfm")
+        self.assertFalse(told["target"]["reached"])
+        self.assertGreater(told["target"]["seconds_needed"], 0)
+        self.assertLess(told["seconds"], 5)
+
+    def test_a_film_is_continued_to_its_error(self):
+        whole = ["--target-error", "12%", "--spp", 4096]
+        told = self.told(*whole, "--checkpoint", "whole.film", "-o", "whole.pfm")
+        k = told["samples_per_pass"]
+        # The most samples end it at first.
+        self.told("--target-error", "12%", "--spp", 5 * k, "--samples-per-pass", k, "--checkpoint", "a.film", "-o", "a.pfm")
+        result = json.loads(self.run_program("render", "--resume", "a.film", "--json", "--quiet", "-o", "b.pfm").stdout)
+        self.assertTrue(result["target"]["reached"])
+        self.assertEqual(result["passes"], told["passes"])
+        self.assertEqual(read_pfm(self.folder / "whole.pfm"), read_pfm(self.folder / "b.pfm"))
+
+    def test_an_unbiased_render_has_other_samples_than_those_that_decide(self):
+        told = self.told("--target-error", "12%", "--unbiased", "--spp", 4096, "--checkpoint", "a.film", "-o", "a.pfm")
+        self.assertTrue(told["target"]["unbiased"])
+        # The image is that of as many samples without any target.
+        self.told("--spp", told["passes"] * told["samples_per_pass"], "--samples-per-pass", told["samples_per_pass"], "-o", "b.pfm")
+        self.assertEqual(read_pfm(self.folder / "a.pfm"), read_pfm(self.folder / "b.pfm"))
+        again = json.loads(self.run_program("render", "--resume", "a.film", "--json", "--quiet", "-o", "c.pfm").stdout)
+        self.assertEqual((again["passes"], again["target"]), (told["passes"], {**told["target"], **{
+            key: again["target"][key] for key in ("seconds_needed", "seconds_needed_range")}}))
+        self.assertEqual(read_pfm(self.folder / "a.pfm"), read_pfm(self.folder / "c.pfm"))
+
+    def test_each_frame_of_a_sequence_has_its_error(self):
+        lines = self.render("--frames", "0:1", "--target-error", "15%", "--spp", 4096, "--json", "--quiet", "-o", "a.####.pfm").stdout
+        frames = [json.loads(line) for line in lines.splitlines()]
+        self.assertEqual(len(frames), 2)
+        for frame in frames:
+            self.assertTrue(frame["target"]["reached"])
+
+    def test_chains_end_at_the_error(self):
+        told = self.told("--target-error", "15%", "--integrator", "restir-di:chain=4", "--spp", 4096, "-o", "a.pfm")
+        self.assertTrue(told["target"]["reached"])
+        self.assertLess(told["passes"] * told["samples_per_pass"], 4096)
+
+    def test_requests_that_make_no_sense_are_refused(self):
+        for options, message in (
+                (["--target-error", "2"], "takes an error in percent"),
+                (["--target-error", "two%"], "takes an error in percent"),
+                (["--target-error", "0%"], "the error is from"),
+                (["--target-error", "-1%"], "the error is from"),
+                (["--target-error", "nan%"], "takes an error in percent"),
+                (["--target-error", "pixels:5%"], "takes an error in percent"),
+                (["--target-error", "pixels:5%@100%"], "the share of the pixels"),
+                (["--target-error", "mean:5%@95%"], "takes an error in percent"),
+                (["--target-error", "2%", "--confidence", "1.5"], "--confidence"),
+                (["--confidence", "0.9"], "--target-error"),
+                (["--unbiased"], "--target-error"),
+                (["--target-error", "2%", "--interactive-budget", "1s"], "--interactive-budget"),
+                (["--target-error", "2%", "--passes", "0:3"], "--passes"),
+                (["--target-error", "2%", "--preset", "none"], "--preset"),
+                (["--target-error", "2%", "--sampler", "uniform-grid"], "same points in every pass")):
+            with self.subTest(options=options):
+                result = self.render(*options, "-o", "a.pfm", status=2)
+                self.assertIn(message, result.stderr)
+                self.assertFalse((self.folder / "a.pfm").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

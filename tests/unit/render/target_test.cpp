@@ -1,0 +1,221 @@
+// Renders that end at a requested error.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mc/random.h"
+#include "render/target_plan.h"
+
+namespace montelux {
+namespace {
+
+constexpr PixelBounds bounds{0, 0, 32, 24};
+
+// The expectation of a pixel.
+double truth(int x, int y) { return 0.2 + 0.02 * x + 0.01 * y; }
+
+// Samples around it: exponentially distributed, so that the mean of few of them is skewed.
+class Noise final : public PixelIntegrator {
+ public:
+  explicit Noise(std::uint32_t seed) : seed_(seed) {}
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    const std::uint32_t tile = std::uint32_t(1000 * pass.tile.y0 + pass.tile.x0);
+    RandomStream<float> random(mix_bits(pass.points.pass + 1) ^ mix_bits(seed_ + 77), tile);
+    std::size_t i = 0;
+    for (int y = pass.tile.y0; y < pass.tile.y1; ++y)
+      for (int x = pass.tile.x0; x < pass.tile.x1; ++x)
+        for (std::uint32_t s = 0; s < pass.points.samples_per_pass; ++s)
+          out[i++].radiance = gray_rgb(float(truth(x, y)) * -std::log1p(-random.next()));
+    return {out.size(), 0, 0};
+  }
+
+ private:
+  std::uint32_t seed_;
+};
+
+// The same as a coupled integrator.
+class ChainNoise final : public CoupledIntegrator {
+ public:
+  explicit ChainNoise(std::uint32_t seed) : noise_(seed) {}
+  int frames() const override { return 2; }
+  int warm_up() const override { return 0; }
+  int stages() const override { return 1; }
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
+    return std::make_unique<Frames>(noise_, pass.points);
+  }
+
+ private:
+  class Frames final : public Chain {
+   public:
+    Frames(const Noise& noise, const PointSet& points) : noise_(noise), points_(points) {}
+    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+      PointSet points = points_;
+      points.samples_per_pass = 1, points.pass = 1000 * points.pass + std::uint32_t(step.frame);
+      return noise_.trace({tile, points, {}, {}, {}, {}}, out);
+    }
+
+   private:
+    const Noise& noise_;
+    PointSet points_;
+  };
+  Noise noise_;
+};
+
+double true_error(const Film& film, const ErrorTarget& target) {
+  double sum = 0, difference = 0, all = 0, beyond = 0;
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const double expected = truth(x, y), off = film.mean(x, y)[0] - expected;
+      const double square = off * off / (expected * expected + 0.01);
+      sum += square, difference += off, all += expected, beyond += square > target.error * target.error;
+    }
+  switch (target.measure) {
+    case TargetMeasure::mean:
+      return std::abs(difference / all);
+    case TargetMeasure::pixels:
+      return beyond <= (1 - target.share) * bounds.area() ? 0 : 1;
+    default:
+      return std::sqrt(sum / bounds.area());
+  }
+}
+
+RenderSettings settings_for(int threads) {
+  RenderSettings s;
+  s.image.bounds = bounds, s.image.width = bounds.width(), s.image.height = bounds.height();
+  s.image.sampler = PointSetKind::independent;
+  s.threads = threads;
+  return s;
+}
+
+RenderResult render_to(const AnyIntegrator& integrator, const ErrorTarget& target, RenderSettings s,
+                       int passes = 4000) {
+  s.plan = {1, passes};
+  s.work = std::make_shared<TargetPlan>(target), s.target = target;
+  RenderObserver silent;
+  return render(integrator, s, silent);
+}
+
+constexpr ErrorTarget relative{TargetMeasure::relative, 0.25}, pixels{TargetMeasure::pixels, 0.4, 0.9},
+    mean{TargetMeasure::mean, 0.0175};
+
+void expect_same(const Film& a, const Film& b) {
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      ASSERT_EQ(a.pixel(x, y).passes, b.pixel(x, y).passes) << x << " " << y;
+      ASSERT_EQ(a.mean(x, y), b.mean(x, y)) << x << " " << y;
+    }
+}
+
+TEST(TargetPlan, gives_the_same_bits_for_any_number_of_threads_and_after_a_stop) {
+  const Noise noise(1);
+  for (const ErrorTarget& target : {relative, pixels, mean}) {
+    const RenderResult one = render_to(noise, target, settings_for(1));
+    EXPECT_FALSE(one.interrupted);
+    EXPECT_GT(one.film.image().passes, 8);
+    expect_same(one.film, render_to(noise, target, settings_for(3)).film);
+    for (int before : {3, 4, 11}) {
+      RenderResult part = render_to(noise, target, settings_for(2), before);
+      BegunFilm begun{std::move(part.film), part.rays, part.seconds, {}};
+      RenderSettings s = settings_for(2);
+      s.begun = &begun;
+      const RenderResult whole = render_to(noise, target, s);
+      // A stop between two looks is one more look than without it only if it shows the target.
+      expect_same(one.film, whole.film);
+    }
+  }
+}
+
+TEST(TargetPlan, ends_chains) {
+  const ChainNoise noise(1);
+  RenderSettings s = settings_for(2);
+  s.plan = {2, 4000};
+  s.work = std::make_shared<TargetPlan>(relative), s.target = relative;
+  RenderObserver silent;
+  const RenderResult result = render(noise, s, silent);
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_TRUE(judge(relative, result.film, false).reaches(relative));
+  EXPECT_NEAR(2 * result.film.image().passes, render_to(Noise(1), relative, settings_for(1)).film.image().passes, 6);
+}
+
+TEST(TargetPlan, does_not_end_without_light) {
+  class Dark final : public PixelIntegrator {
+   public:
+    RayCounts trace(const TilePass&, std::span<PixelSample> out) const override {
+      for (PixelSample& s : out) s.radiance = gray_rgb(0.0f);
+      return {};
+    }
+  };
+  const RenderResult result = render_to(Dark(), relative, settings_for(2), 100);
+  EXPECT_EQ(result.film.image().passes, 100);
+  EXPECT_FALSE(judge(relative, result.film, false).is_known);
+}
+
+TEST(Looks, spend_all_of_the_probability_and_not_more) {
+  const Looks looks(relative);
+  double spent = 0;
+  int look = 0, number = 0;
+  while (number < 400) {
+    const int next = looks.after(look);
+    EXPECT_TRUE(looks.is_look(next));
+    for (int between = look + 1; between < next; ++between) EXPECT_FALSE(looks.is_look(between));
+    spent += looks.spent(next), look = next, ++number;
+    if (look > (1 << 20)) break;
+  }
+  EXPECT_LT(spent, 1);
+  EXPECT_GT(spent, 0.95);
+}
+
+// Of many renders, the share whose true error is within the target.
+template <class Render>
+double share_within(const ErrorTarget& target, int seeds, Render render_one) {
+  int within = 0;
+  for (int seed = 0; seed < seeds; ++seed)
+    within += true_error(render_one(std::uint32_t(seed)), target) <= target.error;
+  return double(within) / seeds;
+}
+
+// A rule that looks after every pass, and takes the estimate for the truth.
+class LooksTooOften final : public WorkPlan {
+ public:
+  explicit LooksTooOften(const ErrorTarget& target) : target_(target) {}
+  WorkRound next_round(const Film& film, const PassPlan& passes) const override {
+    const int done = film.image().passes;
+    const TargetState state = judge(target_, film, true);
+    const double normal = target_.measure == TargetMeasure::mean ? 1.96 : 1;
+    if (done == passes.passes || (state.is_known && normal * state.error <= target_.error)) return {};
+    return {film.tiles().size(), [done](std::size_t i) { return WorkUnit{i, done}; }};
+  }
+  std::uint64_t expected_units(const Film& film, const PassPlan& passes) const override {
+    return std::uint64_t(film.tiles().size()) * std::uint64_t(passes.passes);
+  }
+
+ private:
+  ErrorTarget target_;
+};
+
+// 200 renders: with a probability of 95 % at least 183 are within, in 99 of 100 tests.
+constexpr int seeds = 200;
+constexpr double min_share = 183.0 / seeds;
+
+TEST(TargetPlan, keeps_its_promise) {
+  for (const ErrorTarget& target : {relative, pixels, mean}) {
+    const double share = share_within(
+        target, seeds, [&](std::uint32_t seed) { return render_to(Noise(seed), target, settings_for(1)).film; });
+    EXPECT_GE(share, min_share) << "measure " << int(target.measure);
+  }
+}
+
+TEST(TargetPlan, is_better_than_a_rule_that_looks_too_often) {
+  for (const ErrorTarget& target : {relative, pixels, mean}) {
+    const double share = share_within(target, seeds, [&](std::uint32_t seed) {
+      RenderSettings s = settings_for(1);
+      s.plan = {1, 4000}, s.work = std::make_shared<LooksTooOften>(target);
+      RenderObserver silent;
+      return render(Noise(seed), s, silent).film;
+    });
+    EXPECT_LT(share, min_share) << "measure " << int(target.measure);
+  }
+}
+
+}  // namespace
+}  // namespace montelux
