@@ -442,12 +442,13 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
              into(render.sampler, choice(samplers)));
   add_option(
       verb,
-      {"--layers", "bounces[:N],light-groups,errors,motion,halves",
+      {"--layers", "bounces[:N],light-groups,errors,motion,halves,intervals",
        "layers in the .exr: of light, bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
        "each \"string group\" of the scene's lights; errors: also NAME_stderr; motion: offset in pixels from here "
        "to "
        "where the same point was in the previous frame; halves: colours, albedo and normals of both halves of the "
-       "passes, which montelux denoise needs"},
+       "passes, which montelux denoise needs; intervals: low and high, which contain the true value of a pixel with 95 "
+       "%"},
       into(render.layers, parse_layers));
   add_option(verb, {"--set", "key=value", "a setting of the integrator, such as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {

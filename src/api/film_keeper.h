@@ -13,6 +13,9 @@ Status check_continues(const SavedFilm& film, const SavedFilm& now);
 // The picture of a film, with its errors and its header.
 Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan);
 
+// Adds the intervals of the pixels. Returns false where they are unknown.
+bool add_intervals(Rendering& rendering);
+
 // What a picture is called of which only one pixel in each square of pixels is sampled.
 std::string sparse_text(int stride);
 

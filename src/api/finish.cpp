@@ -114,13 +114,23 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
   return rendering;
 }
 
+bool add_intervals(Rendering& rendering) {
+  if (rendering.error.pixels == 0 || rendering.found_no_light) return false;
+  rendering.intervals = pixel_intervals(rendering.result.film);
+  rendering.header.push_back({"montelux:intervalConfidence", rendering.intervals->confidence});
+  return true;
+}
+
 Rendering rendering_of(SavedFilm film) {
   BegunFilm& begun = film.begun;
   RenderResult result{std::move(begun.film), begun.rays, begun.seconds, false};
   result.bias = std::move(begun.bias);
   const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
   film.facts.target = film.options.target;
-  return rendering_of(std::move(film.facts), std::move(result), plan);
+  const Result<LayerRequest> layers = parse_layers(film.settings.layers);
+  Rendering rendering = rendering_of(std::move(film.facts), std::move(result), plan);
+  if (layers && layers->intervals) add_intervals(rendering);
+  return rendering;
 }
 
 std::optional<Interval> Rendering::interval_of_mean(int channel, double confidence) const {

@@ -32,9 +32,12 @@ Status read_word(std::string_view word, LayerRequest& request) {
     request.motion = true;
   } else if (word == "halves") {
     request.halves = true;
+  } else if (word == "intervals") {
+    request.intervals = true;
   } else {
     return Failure{fmt::format(
-        "there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion, halves", word)};
+        "there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion, halves, intervals",
+        word)};
   }
   return Done{};
 }
@@ -60,7 +63,7 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     more = comma != std::string_view::npos;
     if (more) rest = rest.substr(comma + 1);
   }
-  if (!request.of_light() && (request.errors || !(request.motion || request.halves)))
+  if (!request.of_light() && (request.errors || !(request.motion || request.halves || request.intervals)))
     return Failure{"errors needs layers: state bounces, light-groups, or both as well"};
   return request;
 }
@@ -72,6 +75,7 @@ std::string to_text(const LayerRequest& request) {
   if (request.errors) words.emplace_back("errors");
   if (request.motion) words.emplace_back("motion");
   if (request.halves) words.emplace_back("halves");
+  if (request.intervals) words.emplace_back("intervals");
   return fmt::format("{}", fmt::join(words, ","));
 }
 

@@ -142,6 +142,18 @@ void append_halves(PixelBuffer& image, int first, const Film& film) {
   append_layer(image, "", added);
 }
 
+// Appends the intervals of the pixels, for the rows from `first` on.
+void append_intervals(PixelBuffer& image, int first, const PixelIntervals& intervals) {
+  PixelBuffer added = make_pixel_buffer(image.width, image.height, {"R", "G", "B"});
+  const std::size_t begin = std::size_t(first) * std::size_t(image.width);
+  const auto append = [&](const std::string& name, const ColorPlanes& planes) {
+    for (std::size_t i = 0; i < added.pixel_count(); ++i)
+      for (std::size_t c = 0; c < rgb_size; ++c) added.values[i * rgb_size + c] = planes[c][begin + i];
+    append_layer(image, name, added);
+  };
+  append("low", intervals.low), append("high", intervals.high);
+}
+
 // What an eye sees or a compositor weighs.
 std::vector<std::string> half_channels(const std::vector<std::string>& channels) {
   std::vector<std::string> names;
@@ -185,6 +197,7 @@ PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
         image.at(x, y, of_samples) = float(film.samples(bounds.x0 + x, bounds.y0 + first + y));
   if (rendering.motion) append_layer(image, "motion", rows_of(*rendering.motion, first, count));
   if (film.has_halves()) append_halves(image, first, film);
+  if (rendering.intervals) append_intervals(image, first, *rendering.intervals);
   if (rendering.denoised) append_layer(image, "", rows_of(rendering.denoised->layers, first, count));
   if (rendering.layers) append_light(image, first, *film.layers(), film.grid(), layer_names(*rendering.layers));
   return image;
@@ -253,11 +266,12 @@ Rendering noise(const PixelBounds& bounds, int stride, bool halves) {
 struct StripTime {
   double error = 0, encoding = 0;
 };
-StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, bool denoised) {
-  Rendering strip = noise(bounds, stride, denoised);
+StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, PictureSteps steps) {
+  Rendering strip = noise(bounds, stride, steps.denoise);
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
-  if (denoised && stride == 1)
+  if (steps.intervals && stride == 1) strip.intervals = pixel_intervals(strip.result.film);
+  if (steps.denoise && stride == 1)
     if (Result<DenoisedLayers> layers = denoise(strip.result.film)) strip.denoised = *std::move(layers);
   const double error = since_start.seconds();
   for (const std::filesystem::path& file : files.paths) {
@@ -279,15 +293,15 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
   return bytes ? write_file(file, *bytes) : Status(bytes.failure());
 }
 
-FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise) {
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps) {
   // Without what happens once: libraries are loaded, memory is mapped.
-  (void)time_strip({0, 0, 1, 1}, 1, files, denoise);
+  (void)time_strip({0, 0, 1, 1}, 1, files, steps);
   // As many rows as an .exr packs together.
   const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), 32)};
   const double strips = double(bounds.height()) / strip.height();
-  const StripTime dense = time_strip(strip, 1, files, denoise);
+  const StripTime dense = time_strip(strip, 1, files, steps);
   const auto sparse = [&](int stride) {
-    return std::min(time_strip(strip, stride, files, denoise).encoding, dense.encoding);
+    return std::min(time_strip(strip, stride, files, steps).encoding, dense.encoding);
   };
   const double coarse = sparse(4), even = std::min(sparse(std::max(bounds.width(), bounds.height())), coarse);
   return {strips * dense.error, strips * dense.encoding, strips * coarse, strips * even};

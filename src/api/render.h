@@ -4,6 +4,7 @@
 #include "api/frames.h"
 #include "api/layers.h"
 #include "api/scene.h"
+#include "film/intervals.h"
 #include "image/display.h"
 #include "image/image_file.h"
 #include "math/result.h"
@@ -97,6 +98,7 @@ struct Rendering {
   bool found_no_light = false;                  // a picture of light, and every sample is zero: nothing tells its error
   Status saved{Done{}};                         // of the checkpoint's last writing
   std::optional<DenoisedLayers> denoised{};     // if requested and possible
+  std::optional<PixelIntervals> intervals{};    // likewise
   // Whether a standard error of the mean is known: it takes two independent passes, and light.
   bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
   // Whether the error of the pixels is: it takes two passes of each, and light.
@@ -136,7 +138,8 @@ class PictureSequence {
 Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer);
 
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
-// P.X ...; Z; samples; id. Both halves of the passes are first_half.R ..., denoise() adds its layers. Then the
+// P.X ...; Z; samples; id. Both halves of the passes are first_half.R ..., denoise() adds its layers. Intervals
+// are low.R ..., high.R .... Then the
 // requested layers of light: bounce0.R ..., Combined_key.R ..., and with errors bounce0_stderr.R .... Each family of
 // these sums to R, G, B: exactly in the film, here to rounding. Motion is motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
@@ -153,7 +156,7 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
 
 // What a picture of this size takes once its last sample is there, in seconds of one thread.
 struct FinishTime {
-  double error = 0;     // to estimate its error, and to remove its noise
+  double error = 0;     // to estimate its error and its intervals, and to remove its noise
   double encoding = 0;  // for its files
   double coarse = 0;    // for those of a picture that samples one pixel of 4 x 4
   double even = 0;      // for those of a picture of one color
@@ -166,8 +169,12 @@ struct FinishTime {
     return coarse + (encoding - coarse) * share;
   }
 };
+// What is done with a picture before it is written.
+struct PictureSteps {
+  bool denoise = false, intervals = false;
+};
 // Measured on a strip of noise, which takes some percent of that time itself.
-FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, bool denoise = false);
+FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps = {});
 
 // Sorts of light that the scene's own integrator, with the scene's settings, cannot find: a line each.
 std::vector<std::string> missing_light_of(const LoadedScene& scene);

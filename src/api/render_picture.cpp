@@ -68,7 +68,7 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
   const TimeOfImage time(*plan.seconds, before, since_start,
-                         seconds_to_finish(settings.image.bounds, plan.files, plan.denoise));
+                         seconds_to_finish(settings.image.bounds, plan.files, {plan.denoise, plan.intervals}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
@@ -150,6 +150,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   }
   Rendering rendering = rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
   if (plan.denoise) denoise_rendering(rendering, settings.threads, observer);
+  if (plan.intervals && !add_intervals(rendering))
+    observer.announce("the intervals of the pixels are unknown: it takes two independent passes, and light");
   return rendering;
 }
 

@@ -194,6 +194,7 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   if (Status good = plan_integrator(parts, options, *preset, plan); !good) return good.failure();
   plan.motion = options.layers && options.layers->motion;
   plan.denoise = options.denoise;
+  plan.intervals = options.layers && options.layers->intervals;
   const std::optional<LayerRequest> layers_and_halves = options.all_layers();
   plan.settings.image.halves = layers_and_halves && layers_and_halves->halves;
   if (options.layers && options.layers->of_light()) {

@@ -21,6 +21,7 @@ struct RenderPlan {
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
   bool denoise = false;
+  bool intervals = false;  // of the pixels
   double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
                            // image has counted them
   double ending = 0;       // seconds from the last frame of the image before to its end

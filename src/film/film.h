@@ -142,7 +142,8 @@ class Film {
 
   // For a pixel that is not sampled, the result is that of the sampled pixel of its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }
-  // The mean alone, which takes less time than the whole estimate.
+  // The number of its passes alone, or its mean, which take less time than the whole estimate.
+  std::uint32_t passes_of(int x, int y) const { return pixels_[index(x, y)].passes; }
   std::array<double, rgb_size> mean(int x, int y) const { return pixels_[index(x, y)].mean(); }
   bool has_halves() const { return !halves_.empty(); }
   // Both halves of a pixel. Requires has_halves().

@@ -4,15 +4,14 @@
 #include <cstdlib>
 #include <utility>
 
+#include "film/likeness.h"
+
 namespace montelux {
 
 namespace {
 
 constexpr int reach = 4;  // pixels
 constexpr float spatial_scale = 2.0f * reach / 3.0f;
-// Squared distances of albedos and of normals at which a neighbour's weight is a quarter, and its share where it shows
-// another object.
-constexpr float albedo_scale = 0.02f, normal_scale = 0.1f, other_object = 0.1f;
 
 float mean_of_channels(const ColorPlanes& planes, std::size_t i) {
   float sum = 0;
@@ -90,9 +89,7 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
       const float d = normal[c][x] - normal_there[c][x];
       normals += d * d;
     }
-    const float alike = 1 / (1 + albedos * (1 / albedo_scale) + normals * (1 / normal_scale));
-    const float same = object[x] == object_there[x] ? 1.0f : other_object;
-    const float w = near * same * alike * alike * float(passes_there[x] > 0);
+    const float w = likeness(near, albedos, normals, object[x] == object_there[x]) * float(passes_there[x] > 0);
     for (std::size_t c = 0; c < rgb_size; ++c) light[c][x] += w * mean_there[c][x];
     weights[x] += w, squares[x] += w * w;
     variances[x] += w * variance_there[x], emissions[x] += w * emission_there[x];

@@ -20,7 +20,7 @@ TEST(SecondsToFinish, grow_with_the_picture_and_with_its_files) {
 // Its time is set aside where noise is removed, too.
 TEST(SecondsToFinish, contain_the_removal_of_noise) {
   const PixelBounds bounds{0, 0, 512, 256};
-  EXPECT_GT(seconds_to_finish(bounds, {}, true).error, 3 * seconds_to_finish(bounds, {}).error);
+  EXPECT_GT(seconds_to_finish(bounds, {}, {.denoise = true}).error, 3 * seconds_to_finish(bounds, {}).error);
 }
 
 // A picture of large squares has a smaller file, which takes less time to make.
