@@ -6,16 +6,16 @@
 #include "api/render.h"
 #include "camera/table.h"
 #include "filter/table.h"
-#include "geometry/table.h"
 #include "integrator/catalogue.h"
 #include "io/pbrt/parameters.h"
+#include "io/pbrt/picture_models.h"
 #include "lab/domain/domain.h"
 #include "lab/expression/table.h"
 #include "lab/integral/methods.h"
 #include "light/table.h"
 #include "material/table.h"
 #include "medium/table.h"
-#include "scene/table.h"
+#include "scene/shape_models.h"
 #include "texture/table.h"
 
 namespace montelux {
@@ -76,14 +76,15 @@ constexpr Topic topics[] = {
     {"textures", "textures of a scene", [] { return entries_of(texture_table()); }},
     {"lights", "lights of a scene that are not shapes", [] { return entries_of(light_table()); }},
     {"area-lights", "emission of the surface of a shape", [] { return entries_of(area_light_table()); }},
-    {"shapes", "shapes of a scene", [] { return entries_of(shape_table()); }},
-    {"cameras", "cameras of a scene", [] { return entries_of(camera_table()); }},
-    {"films", "films of a scene", [] { return entries_of(film_table()); }},
-    {"filters", "pixel filters of a scene", [] { return entries_of(filter_table()); }},
+    {"shapes", "shapes of a scene", [] { return entries_of(shape_models().specs()); }},
+    {"cameras", "cameras of a scene", [] { return entries_of(camera_models().specs()); }},
+    {"films", "films of a scene", [] { return entries_of(pbrt::film_models().specs()); }},
+    {"filters", "pixel filters of a scene", [] { return entries_of(filter_models().specs()); }},
     {"media", "participating media of a scene", [] { return entries_of(medium_table()); }},
-    {"scene-integrators", "integrators that a scene can state", [] { return entries_of(integrator_table()); }},
-    {"scene-samplers", "samplers that a scene can state", [] { return entries_of(sampler_table()); }},
-    {"options", "options of a scene", [] { return std::vector{entry_of(option_spec())}; }},
+    {"scene-integrators", "integrators that a scene can state",
+     [] { return entries_of(pbrt::integrator_models().specs()); }},
+    {"scene-samplers", "samplers that a scene can state", [] { return entries_of(pbrt::sampler_models().specs()); }},
+    {"options", "options of a scene", [] { return std::vector{entry_of(pbrt::option_models().specs()[0])}; }},
 };
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "io/report.h"
 #include "io/scene_file.h"
 #include "scene/prepare.h"
-#include "scene/table.h"
 
 namespace montelux {
 
@@ -67,7 +66,10 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   SceneInfo info;
   info.file = desc.file;
   info.width = picture.width, info.height = picture.height, info.crop = picture.crop;
-  info.camera = desc.camera.type, info.film = desc.film.type, info.filter = desc.filter.type;
+  info.camera = name_of(desc.camera.kind), info.filter = name_of(desc.filter.kind);
+  info.film = "rgb";
+  for (const ReplacedName& name : desc.replaced)
+    if (name.family == "film") info.film = name.stated;
   info.sampler = name_of(picture.sampler), info.integrator = picture.integrator;
   info.picture_file = picture.file, info.seed = picture.seed;
   info.samples = picture.samples, info.max_depth = picture.max_depth;
@@ -77,7 +79,7 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   const auto whole = desc.whole_time.value_or(std::pair{desc.transforms_start, desc.transforms_end});
   info.time_start = whole.first, info.time_end = whole.second;
   info.frame_rate = desc.frame_rate, info.frames_held = desc.frames_held;
-  info.states_exposure = desc.film.parameters.find("iso") != nullptr;
+  info.states_exposure = desc.film.iso.has_value();
   count_geometry(parts.scene.geometry, info);
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
   for (const MaterialDesc& material : desc.materials) {
@@ -104,15 +106,8 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
 // such name.
 std::vector<Replacement> replacements(const SceneDesc& desc) {
   std::vector<Replacement> all;
-  const auto look_at = [&](const char* family, const Entity& entity, std::span<const EntitySpec> table) {
-    const EntitySpec* spec = find_entity(table, entity.type);
-    if (entity.where.file && spec && !spec->instead.empty())
-      all.push_back({family, entity.type, std::string(spec->instead)});
-  };
-  look_at("integrator", desc.integrator, integrator_table());
-  if (desc.integrator.type == "bdpt" && !desc.media.empty()) all.push_back({"integrator", "bdpt", "path"});
-  look_at("sampler", desc.sampler, sampler_table());
-  look_at("film", desc.film, film_table());
+  for (const ReplacedName& name : desc.replaced) all.push_back({name.family, name.stated, name.instead});
+  if (desc.integrator.name == "bdpt" && !desc.media.empty()) all.push_back({"integrator", "bdpt", "path"});
   return all;
 }
 
@@ -131,12 +126,10 @@ std::vector<std::string> left_out(const std::vector<Omission>& omissions) {
 // Width and height where they are not the film's.
 std::optional<std::pair<int, int>> resolution_of(const LoadOptions& options, const SceneDesc& desc) {
   if (!options.resolution_scale) return options.resolution;
-  const PictureSettings otherwise;
-  const auto scaled = [&](std::string_view name, int size) {
-    const double pixels = desc.film.parameters.integer(name, size) * *options.resolution_scale;
-    return int(std::clamp(std::round(pixels), 1.0, 1e9));
+  const auto scaled = [&](int size) {
+    return int(std::clamp(std::round(double(size) * *options.resolution_scale), 1.0, 1e9));
   };
-  return std::pair{scaled("xresolution", otherwise.width), scaled("yresolution", otherwise.height)};
+  return std::pair{scaled(desc.film.width), scaled(desc.film.height)};
 }
 
 // The part of an animation that the pictures need: each frame's moment and that of the frame before the first.
@@ -221,9 +214,9 @@ LoadResult load_description(ReadResult read, const LoadOptions& options, double 
     if (!prepared || result.diagnostics.has_errors()) return;
     // The description's meshes are copied: their memory goes before the kernel takes its own.
     SceneDesc desc = std::move(*read.scene);
-    for (ShapeDesc& shape : desc.shapes) shape.mesh.reset();
+    for (ShapeDesc& shape : desc.shapes) shape.form = MeshForm{};
     for (ObjectDesc& object : desc.objects)
-      for (ShapeDesc& shape : object.shapes) shape.mesh.reset();
+      for (ShapeDesc& shape : object.shapes) shape.form = MeshForm{};
     const double prepare_seconds = watch.lap();
     auto parts = std::make_unique<LoadedScene::Parts>(
         LoadedScene::Parts{std::move(prepared->scene), std::move(prepared->picture), nullptr, {}, settled});

@@ -27,24 +27,22 @@ struct ScreenWindow {
   double x_low, x_high, y_low, y_high;
 };
 
-ScreenWindow screen_window(const Entity& entity, int width, int height, Diagnostics& diagnostics) {
+ScreenWindow screen_window(const CameraDesc& camera, int width, int height, Diagnostics& diagnostics) {
   double aspect = double(width) / height;
-  float stated = entity.parameters.number("frameaspectratio", float(aspect));
-  if (stated > 0)
-    aspect = entity.parameters.find("frameaspectratio") ? double(stated) : aspect;
-  else
-    diagnostics.error(entity.where, "frameaspectratio must be positive");
-  const bool of_height = entity.parameters.string("fovaxis", "shorter") == "y";
-  ScreenWindow window =
-      aspect > 1 || of_height ? ScreenWindow{-aspect, aspect, -1, 1} : ScreenWindow{-1, 1, -1 / aspect, 1 / aspect};
-  const std::vector<float>& given = entity.parameters.array<float>("screenwindow");
-  if (given.empty()) return window;
-  if (given.size() != 4 || given[0] == given[1] || given[2] == given[3]) {
-    diagnostics.error(entity.where, "screenwindow takes four numbers: x low, x high, y low, y high",
-                      "the window must not be empty");
+  if (camera.aspect && *camera.aspect > 0)
+    aspect = double(*camera.aspect);
+  else if (camera.aspect)
+    diagnostics.error(camera.where, "the camera's ratio of width to height must be positive");
+  const ScreenWindow window = aspect > 1 || camera.fov_axis == FovAxis::y
+                                  ? ScreenWindow{-aspect, aspect, -1, 1}
+                                  : ScreenWindow{-1, 1, -1 / aspect, 1 / aspect};
+  if (!camera.screen_window) return window;
+  const auto& [x_low, x_high, y_low, y_high] = *camera.screen_window;
+  if (x_low == x_high || y_low == y_high) {
+    diagnostics.error(camera.where, "the camera's screen window is empty");
     return window;
   }
-  return {given[0], given[1], given[2], given[3]};
+  return {x_low, x_high, y_low, y_high};
 }
 
 // corner + x dx + y dy for the window scaled by `scale`. `at` maps a point of the window to the world.
@@ -54,74 +52,71 @@ RasterPlane raster_plane(const ScreenWindow& w, double scale, int width, int hei
           space.direction(0, (w.y_low - w.y_high) * scale / height, 0)};
 }
 
-ThinLens thin_lens(const Entity& entity, const CameraSpace& space, Diagnostics& diagnostics) {
-  float radius = entity.parameters.number("lensradius", 0.0f);
-  float distance = entity.parameters.number("focaldistance", 1e6f);
-  if (!(radius >= 0)) diagnostics.error(entity.where, "lensradius must not be negative");
+ThinLens thin_lens(const CameraDesc& camera, const CameraSpace& space, Diagnostics& diagnostics) {
+  const float radius = camera.lens_radius;
+  if (!(radius >= 0)) diagnostics.error(camera.where, "the radius of the lens must not be negative");
   if (!(radius > 0)) return {};
-  if (!(distance > 0)) {
-    diagnostics.error(entity.where, "focaldistance must be positive");
+  if (!(camera.focal_distance > 0)) {
+    diagnostics.error(camera.where, "the distance in focus must be positive");
     return {};
   }
-  const int blades = entity.parameters.integer("apertureblades", 0);
+  const float inverse_distance = 1.0f / camera.focal_distance;
+  const int blades = camera.aperture_blades;
   if (blades != 0 && blades < 3) {
-    diagnostics.error(entity.where, "apertureblades must be 0, for a round aperture, or at least 3");
+    diagnostics.error(camera.where, "an aperture has at least 3 blades, or 0 if it is round");
     return {};
   }
-  if (blades == 0) return {space.direction(radius, 0, 0), space.direction(0, radius, 0), 1.0f / distance, true};
-  const double turn = double(entity.parameters.number("aperturerotation", 0.0f)) * std::numbers::pi / 180;
+  if (blades == 0) return {space.direction(radius, 0, 0), space.direction(0, radius, 0), inverse_distance, true};
+  const double turn = double(camera.aperture_rotation) * std::numbers::pi / 180;
   const double x = double(radius) * std::cos(turn), y = double(radius) * std::sin(turn);
-  return {space.direction(x, y, 0), space.direction(-y, x, 0), 1.0f / distance, true, blades};
+  return {space.direction(x, y, 0), space.direction(-y, x, 0), inverse_distance, true, blades};
 }
 
-PerspectiveCamera build_perspective(const Entity& entity, const CameraSpace& space, int width, int height,
+PerspectiveCamera build_perspective(const CameraDesc& camera, const CameraSpace& space, int width, int height,
                                     Diagnostics& diagnostics) {
-  double fov = entity.parameters.number("fov", 90.0f);
+  double fov = camera.fov;
   if (!(fov > 0 && fov < 180)) {
-    diagnostics.error(entity.where, "fov must lie between 0 and 180 degrees");
+    diagnostics.error(camera.where, "the field of view must be between 0 and 180 degrees");
     fov = 90;
   }
-  double half_width = std::tan(fov * std::numbers::pi / 360);
-  ScreenWindow window = screen_window(entity, width, height, diagnostics);
-  auto at = [&](double x, double y) { return space.direction(x, y, 1); };
+  const double half_width = std::tan(fov * std::numbers::pi / 360);
+  const ScreenWindow window = screen_window(camera, width, height, diagnostics);
+  const auto at = [&](double x, double y) { return space.direction(x, y, 1); };
   return {space.point(0, 0, 0), raster_plane(window, half_width, width, height, space, at),
-          thin_lens(entity, space, diagnostics)};
+          thin_lens(camera, space, diagnostics)};
 }
 
-OrthographicCamera build_orthographic(const Entity& entity, const CameraSpace& space, int width, int height,
+OrthographicCamera build_orthographic(const CameraDesc& camera, const CameraSpace& space, int width, int height,
                                       Diagnostics& diagnostics) {
-  ScreenWindow window = screen_window(entity, width, height, diagnostics);
-  auto at = [&](double x, double y) { return space.point(x, y, 0); };
+  const ScreenWindow window = screen_window(camera, width, height, diagnostics);
+  const auto at = [&](double x, double y) { return space.point(x, y, 0); };
   return {raster_plane(window, 1, width, height, space, at), space.direction(0, 0, 1),
-          thin_lens(entity, space, diagnostics)};
+          thin_lens(camera, space, diagnostics)};
 }
 
-SphericalCamera build_spherical(const Entity& entity, const CameraSpace& space, int width, int height,
-                                Diagnostics& diagnostics) {
-  std::string mapping = entity.parameters.string("mapping", "equalarea");
-  if (mapping != "equalarea" && mapping != "equirectangular")
-    diagnostics.error(entity.where, "unknown mapping \"" + mapping + "\" of the spherical camera",
-                      "equalarea or equirectangular");
-  return {
-      space.point(0, 0, 0),
-      space.direction(1, 0, 0),
-      space.direction(0, 1, 0),
-      space.direction(0, 0, 1),
-      {1.0f / float(width), 1.0f / float(height)},
-      mapping == "equirectangular" ? SphericalCamera::Mapping::equirectangular : SphericalCamera::Mapping::equal_area};
+SphericalCamera build_spherical(const CameraDesc& camera, const CameraSpace& space, int width, int height) {
+  return {space.point(0, 0, 0),
+          space.direction(1, 0, 0),
+          space.direction(0, 1, 0),
+          space.direction(0, 0, 1),
+          {1.0f / float(width), 1.0f / float(height)},
+          camera.mapping};
 }
 
 }  // namespace
 
-Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
+Camera build_camera(const CameraDesc& camera, const Transform& world_to_camera, int width, int height,
                     Diagnostics& diagnostics) {
-  CameraSpace space(world_to_camera);
-  if (entity.type == "orthographic")
-    return Camera::Variant(build_orthographic(entity, space, width, height, diagnostics));
-  if (entity.type == "spherical") return Camera::Variant(build_spherical(entity, space, width, height, diagnostics));
-  if (entity.type != "perspective")
-    diagnostics.error(entity.where, "unknown camera \"" + entity.type + "\"", "perspective, orthographic or spherical");
-  return Camera::Variant(build_perspective(entity, space, width, height, diagnostics));
+  const CameraSpace space(world_to_camera);
+  switch (camera.kind) {
+    case CameraKind::orthographic:
+      return Camera::Variant(build_orthographic(camera, space, width, height, diagnostics));
+    case CameraKind::spherical:
+      return Camera::Variant(build_spherical(camera, space, width, height));
+    case CameraKind::perspective:
+      break;
+  }
+  return Camera::Variant(build_perspective(camera, space, width, height, diagnostics));
 }
 
 }  // namespace montelux

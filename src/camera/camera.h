@@ -4,13 +4,13 @@
 #include <optional>
 #include <variant>
 
+#include "camera/description.h"
 #include "camera/importance.h"
 #include "geometry/ray.h"
 #include "math/motion.h"
 #include "math/square_maps.h"
 #include "math/transform.h"
 #include "mc/regular_polygon.h"
-#include "parameter/value.h"
 
 namespace montelux {
 
@@ -161,8 +161,7 @@ struct OrthographicCamera {
 
 // All directions from a point; y of camera space is up.
 struct SphericalCamera {
-  // equirectangular: azimuth along x of the raster and polar angle along y; equal_area: octahedral.
-  enum class Mapping { equirectangular, equal_area };
+  using Mapping = SpherePicture;
   Vec3f origin;
   Vec3f x, y, z;  // the axes of camera space
   Vec2f to_unit;  // one over the resolution
@@ -328,11 +327,9 @@ class Camera {
   std::optional<Motion> motion_;
 };
 
-// The camera for an image of width x height pixels (the whole image, not a crop). Parameters: fov (degrees, of the
-// shorter axis, or the height by fovaxis), screenwindow (x low, x high, y low, y high), frameaspectratio, lensradius,
-// focaldistance, apertureblades, aperturerotation; mapping. Invalid values are reported and replaced by the
-// defaults.
-Camera build_camera(const Entity& entity, const Transform& world_to_camera, int width, int height,
+// The camera for an image of width x height pixels (the whole image, not a crop). Values that make no camera are
+// reported and replaced by the usual ones.
+Camera build_camera(const CameraDesc& camera, const Transform& world_to_camera, int width, int height,
                     Diagnostics& diagnostics);
 
 }  // namespace montelux

@@ -4,71 +4,79 @@ namespace montelux {
 
 namespace {
 
-using enum ParameterType;
-using List = std::vector<ParameterSpec>;
+using S = CameraDesc;
 
 constexpr double most = 1e30;
 
-List shutter() {
-  return {{"shutteropen", {number}, "time at which the shutter opens; default 0"},
-          {"shutterclose", {number}, "time at which the shutter closes; default 1"}};
+Fields<S> shutter() {
+  Fields<S> fields;
+  fields.number("shutteropen", &S::shutter_open, "time at which the shutter opens", -most, most);
+  fields.number("shutterclose", &S::shutter_close, "time at which the shutter closes", -most, most);
+  return fields;
 }
 
-List lens(List more) {
-  List list{{"frameaspectratio", {number}, "width over height; default that of the film", 1e-6, 1e6},
-            {"screenwindow",
-             {number},
-             "x0 x1 y0 y1 on the screen; default [-1, 1] on the shorter side",
-             -most,
-             most,
-             {},
-             true},
-            {"fovaxis",
-             {string},
-             "the axis of the field of view and of the default screen window: the shorter side, or always the height; "
-             "default shorter (Montelux alone)",
-             0,
-             0,
-             {"shorter", "y"}},
-            {"lensradius", {number}, "radius of the aperture; default 0", 0, most},
-            {"focaldistance", {number}, "distance in focus; default 1e6", 1e-30, most},
-            {"apertureblades",
-             {integer},
-             "corners of the aperture, on the circle of lensradius; default 0, a round one (Montelux alone)",
-             0,
-             64},
-            {"aperturerotation",
-             {number},
-             "rotation of the first corner from the right of the image upward, in degrees; default 0 (Montelux "
-             "alone)",
-             -most,
-             most}};
-  for (const List& part : {more, shutter()}) list.insert(list.end(), part.begin(), part.end());
-  return list;
+Fields<S> lens() {
+  Fields<S> fields;
+  fields.optional("frameaspectratio", &S::aspect, "width over height; default that of the film", 1e-6, 1e6);
+  fields.list<4>("screenwindow", &S::screen_window, "x0 x1 y0 y1 on the screen; default [-1, 1] on the shorter side",
+                 -most, most);
+  fields.choice<FovAxis>("fovaxis", &S::fov_axis,
+                         "the axis of the field of view and of the default screen window: the shorter side, or always "
+                         "the height (Montelux alone)",
+                         {{"shorter", FovAxis::shorter}, {"y", FovAxis::y}});
+  fields.number("lensradius", &S::lens_radius, "radius of the aperture", 0, most);
+  fields.number("focaldistance", &S::focal_distance, "distance in focus", 1e-30, most);
+  fields.integer("apertureblades", &S::aperture_blades,
+                 "corners of the aperture, on the circle of lensradius; 0: a round one (Montelux alone)", 0, 64);
+  fields.number("aperturerotation", &S::aperture_rotation,
+                "rotation of the first corner from the right of the image upward, in degrees (Montelux alone)", -most,
+                most);
+  return fields;
 }
 
-List with_shutter(List list) {
-  for (const ParameterSpec& spec : shutter()) list.push_back(spec);
-  return list;
+S initial(CameraKind kind) {
+  S camera;
+  camera.kind = kind;
+  return camera;
+}
+
+Model<S> perspective() {
+  Fields<S> fields;
+  fields.number("fov", &S::fov, "field of view of the shorter side in degrees", 1e-3, 179.99);
+  fields.append(lens()).append(shutter());
+  return {name_of(CameraKind::perspective), "a thin lens or a pinhole", initial(CameraKind::perspective), fields};
+}
+
+Model<S> orthographic() {
+  return {name_of(CameraKind::orthographic), "parallel projection", initial(CameraKind::orthographic),
+          lens().append(shutter())};
+}
+
+Model<S> spherical() {
+  Fields<S> fields;
+  fields.choice<SpherePicture>(
+      "mapping", &S::mapping, "how directions are laid out on the image",
+      {{"equalarea", SpherePicture::equal_area}, {"equirectangular", SpherePicture::equirectangular}});
+  return {name_of(CameraKind::spherical), "all directions from one point", initial(CameraKind::spherical),
+          fields.append(shutter())};
+}
+
+Model<S> realistic() {
+  using enum ParameterType;
+  Fields<S> fields;
+  fields.other({"lensfile", {string}, "description of the lenses"});
+  fields.other({"aperturediameter", {number}, "in mm; default 1", 0, most});
+  fields.other({"focusdistance", {number}, "in m; default 10", 0, most});
+  fields.other({"aperture", {string}, "shape of the aperture or an image of it; default circular"});
+  return {"realistic", "a lens system traced lens by lens", initial(CameraKind::perspective), fields.append(shutter()),
+          true,        name_of(CameraKind::perspective)};
 }
 
 }  // namespace
 
-std::span<const EntitySpec> camera_table() {
-  static const std::vector<EntitySpec> table{
-      {"perspective", "a thin lens or a pinhole",
-       lens({{"fov", {number}, "field of view of the shorter side in degrees; default 90", 1e-3, 179.99}})},
-      {"orthographic", "parallel projection", lens({})},
-      {"spherical", "all directions from one point",
-       with_shutter({{"mapping", {string}, "default equalarea", 0, 0, {"equalarea", "equirectangular"}}})},
-      {"realistic", "a lens system traced lens by lens",
-       with_shutter({{"lensfile", {string}, "description of the lenses"},
-                     {"aperturediameter", {number}, "in mm; default 1", 0, most},
-                     {"focusdistance", {number}, "in m; default 10", 0, most},
-                     {"aperture", {string}, "shape of the aperture or an image of it; default circular"}}),
-       true, "perspective"},
-  };
-  return table;
+const Models<CameraDesc>& camera_models() {
+  static const Models<S> models({perspective(), orthographic(), spherical(), realistic()});
+  return models;
 }
 
 }  // namespace montelux

@@ -1,12 +1,11 @@
 // The cameras that a scene may state.
 #pragma once
-#include <span>
-
-#include "parameter/spec.h"
+#include "camera/description.h"
+#include "parameter/models.h"
 
 namespace montelux {
 
 // Every camera by name, with its parameters.
-std::span<const EntitySpec> camera_table();
+const Models<CameraDesc>& camera_models();
 
 }  // namespace montelux

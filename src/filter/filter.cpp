@@ -2,38 +2,26 @@
 
 namespace montelux {
 
-namespace {
-
-// The stated radii, or the default of the filter. Positive.
-Vec2f radii(const ParameterList& parameters, float usual) {
-  auto positive = [&](const char* name) {
-    float radius = parameters.number(name, usual);
-    return radius > 0 ? radius : usual;
-  };
-  return {positive("xradius"), positive("yradius")};
-}
-
-}  // namespace
-
 Filter::Filter() : filter_(GaussianFilter(GaussianProfile{}, GaussianProfile{})) {}
 
-Filter Filter::build(const Entity& entity) {
-  const ParameterList& p = entity.parameters;
-  if (entity.type == "box") return Filter(BoxFilter{radii(p, 0.5f)});
-  if (entity.type == "triangle") return Filter(TriangleFilter{radii(p, 2.0f)});
-  if (entity.type == "mitchell") {
-    Vec2f radius = radii(p, 2.0f);
-    float b = p.number("B", 1.0f / 3.0f), c = p.number("C", 1.0f / 3.0f);
-    return Filter(MitchellFilter(MitchellProfile{radius.x, b, c}, MitchellProfile{radius.y, b, c}));
+Filter Filter::build(const FilterDesc& stated) {
+  const FilterDesc usual = FilterDesc::usual(stated.kind);
+  const Vec2f radius{stated.x_radius > 0 ? stated.x_radius : usual.x_radius,
+                     stated.y_radius > 0 ? stated.y_radius : usual.y_radius};
+  switch (stated.kind) {
+    case FilterKind::box:
+      return Filter(BoxFilter{radius});
+    case FilterKind::triangle:
+      return Filter(TriangleFilter{radius});
+    case FilterKind::mitchell:
+      return Filter(
+          MitchellFilter(MitchellProfile{radius.x, stated.b, stated.c}, MitchellProfile{radius.y, stated.b, stated.c}));
+    case FilterKind::sinc:
+      return Filter(SincFilter(SincProfile{radius.x, stated.tau}, SincProfile{radius.y, stated.tau}));
+    case FilterKind::gaussian:
+      break;
   }
-  if (entity.type == "sinc") {
-    Vec2f radius = radii(p, 4.0f);
-    float tau = p.number("tau", 3.0f);
-    return Filter(SincFilter(SincProfile{radius.x, tau}, SincProfile{radius.y, tau}));
-  }
-  Vec2f radius = radii(p, 1.5f);
-  float sigma = p.number("sigma", 0.5f);
-  return Filter(GaussianFilter(GaussianProfile{radius.x, sigma}, GaussianProfile{radius.y, sigma}));
+  return Filter(GaussianFilter(GaussianProfile{radius.x, stated.sigma}, GaussianProfile{radius.y, stated.sigma}));
 }
 
 }  // namespace montelux

@@ -4,9 +4,9 @@
 #include <memory>
 #include <variant>
 
+#include "filter/description.h"
 #include "filter/inverse_cdf.h"
 #include "filter/profile.h"
-#include "parameter/value.h"
 
 namespace montelux {
 
@@ -94,7 +94,7 @@ using GaussianFilter = TabulatedFilter<GaussianProfile>;
 using MitchellFilter = TabulatedFilter<MitchellProfile>;
 using SincFilter = TabulatedFilter<SincProfile>;
 
-// One of the filters, selected by name: box, gaussian, mitchell, sinc, triangle.
+// One of the filters.
 class Filter {
  public:
   using Variant = std::variant<BoxFilter, GaussianFilter, MitchellFilter, SincFilter, TriangleFilter>;
@@ -106,9 +106,8 @@ class Filter {
   requires(!std::is_same_v<Alternative, Filter> &&
            std::is_constructible_v<Variant, Alternative>) explicit Filter(const Alternative& filter)
       : filter_(filter) {}
-  // From the parameters xradius, yradius; sigma; B, C; tau. An unknown name, which the reader has reported, selects the
-  // default filter.
-  static Filter build(const Entity& entity);
+  // A radius that is not positive is replaced by the usual one.
+  static Filter build(const FilterDesc& stated);
 
   // u in [0, 1)^2. To compile a loop for one filter, std::visit on variant() outside it.
   template <class F>

@@ -4,28 +4,30 @@ namespace montelux {
 
 namespace {
 
-using enum ParameterType;
+using S = FilterDesc;
 
-std::vector<ParameterSpec> with_radius(const char* x, const char* y, std::vector<ParameterSpec> list = {}) {
-  list.insert(list.begin(), {{"xradius", {number}, x, 1e-3, 64}, {"yradius", {number}, y, 1e-3, 64}});
-  return list;
+Model<S> model(FilterKind kind, std::string_view meaning) {
+  Fields<S> fields;
+  fields.number("xradius", &S::x_radius, "half the width in pixels", 1e-3, 64);
+  fields.number("yradius", &S::y_radius, "half the height in pixels", 1e-3, 64);
+  if (kind == FilterKind::gaussian) fields.number("sigma", &S::sigma, "standard deviation in pixels", 1e-3, 1e3);
+  if (kind == FilterKind::mitchell) {
+    fields.number("B", &S::b, "first parameter of the cubic", -1e3, 1e3);
+    fields.number("C", &S::c, "second parameter of the cubic", -1e3, 1e3);
+  }
+  if (kind == FilterKind::sinc) fields.number("tau", &S::tau, "cycles of the window", 1e-3, 1e3);
+  return {name_of(kind), meaning, FilterDesc::usual(kind), fields};
 }
 
 }  // namespace
 
-std::span<const EntitySpec> filter_table() {
-  static const std::vector<EntitySpec> table{
-      {"box", "the mean of the pixel", with_radius("default 0.5", "default 0.5")},
-      {"gaussian", "a Gaussian that falls to zero at the radius",
-       with_radius("default 1.5", "default 1.5", {{"sigma", {number}, "standard deviation; default 0.5", 1e-3, 1e3}})},
-      {"mitchell", "Mitchell and Netravali's cubic",
-       with_radius("default 2", "default 2",
-                   {{"B", {number}, "default 1/3", -1e3, 1e3}, {"C", {number}, "default 1/3", -1e3, 1e3}})},
-      {"sinc", "a Lanczos-windowed sinc",
-       with_radius("default 4", "default 4", {{"tau", {number}, "cycles of the window; default 3", 1e-3, 1e3}})},
-      {"triangle", "a tent", with_radius("default 2", "default 2")},
-  };
-  return table;
+const Models<FilterDesc>& filter_models() {
+  static const Models<S> models({model(FilterKind::box, "the mean of the pixel"),
+                                 model(FilterKind::gaussian, "a Gaussian that falls to zero at the radius"),
+                                 model(FilterKind::mitchell, "Mitchell and Netravali's cubic"),
+                                 model(FilterKind::sinc, "a Lanczos-windowed sinc"),
+                                 model(FilterKind::triangle, "a tent")});
+  return models;
 }
 
 }  // namespace montelux

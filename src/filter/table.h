@@ -1,12 +1,11 @@
-// The pixel filters that a scene may state.
+// The filters that a scene may state.
 #pragma once
-#include <span>
-
-#include "parameter/spec.h"
+#include "filter/description.h"
+#include "parameter/models.h"
 
 namespace montelux {
 
-// Every pixel filter by name, with its parameters. Radii are in pixels.
-std::span<const EntitySpec> filter_table();
+// Every filter by name, with its parameters.
+const Models<FilterDesc>& filter_models();
 
 }  // namespace montelux

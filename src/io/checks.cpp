@@ -5,13 +5,13 @@
 
 #include "camera/table.h"
 #include "filter/table.h"
-#include "geometry/table.h"
 #include "io/numbers.h"
+#include "io/pbrt/picture_models.h"
 #include "io/text_file.h"
 #include "light/table.h"
 #include "material/table.h"
 #include "medium/table.h"
-#include "scene/table.h"
+#include "scene/shape_models.h"
 #include "texture/table.h"
 
 namespace montelux {
@@ -34,23 +34,23 @@ std::span<const EntitySpec> table_of(Family family) {
     case Family::area_light:
       return area_light_table();
     case Family::shape:
-      return shape_table();
+      return shape_models().specs();
     case Family::camera:
-      return camera_table();
+      return camera_models().specs();
     case Family::filter:
-      return filter_table();
+      return filter_models().specs();
     case Family::film:
-      return film_table();
+      return pbrt::film_models().specs();
     case Family::sampler:
-      return sampler_table();
+      return pbrt::sampler_models().specs();
     case Family::integrator:
-      return integrator_table();
+      return pbrt::integrator_models().specs();
     case Family::accelerator:
-      return accelerator_table();
+      return pbrt::accelerator_models().specs();
     case Family::medium:
       return medium_table();
     case Family::option:
-      return {&option_spec(), 1};
+      return pbrt::option_models().specs();
   }
   return {};
 }

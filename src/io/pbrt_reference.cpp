@@ -4,7 +4,6 @@
 #include "io/numbers.h"
 #include "io/pbrt/parameters.h"
 #include "medium/table.h"
-#include "scene/table.h"
 
 namespace montelux {
 

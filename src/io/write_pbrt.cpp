@@ -5,6 +5,8 @@
 #include "image/output_file.h"
 #include "io/numbers.h"
 #include "io/pbrt/parameters.h"
+#include "io/pbrt/picture.h"
+#include "scene/shape_models.h"
 
 namespace montelux {
 
@@ -163,18 +165,18 @@ class Writer {
   }
 
   void write_options() {
-    for (const Parameter& option : scene_.options.all()) text_ += "Option" + parameter_text(option) + "\n";
-    text_ += "Film " + entity_text(scene_.film) + "\n";
-    text_ += "PixelFilter " + entity_text(scene_.filter) + "\n";
-    text_ += "Sampler " + entity_text(scene_.sampler) + "\n";
-    text_ += "Integrator " + entity_text(scene_.integrator) + "\n";
-    text_ += "Accelerator " + entity_text(scene_.accelerator) + "\n";
+    const pbrt::StatedPicture picture = pbrt::stated_picture(scene_);
+    for (const Parameter& option : picture.options.all()) text_ += "Option" + parameter_text(option) + "\n";
+    text_ += "Film " + entity_text(picture.film) + "\n";
+    text_ += "PixelFilter " + entity_text(picture.filter) + "\n";
+    text_ += "Sampler " + entity_text(picture.sampler) + "\n";
+    text_ += "Integrator " + entity_text(picture.integrator) + "\n";
     if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
       text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
     for (const MediumDesc& medium : scene_.media) write_medium(medium);
     if (has_camera_medium()) text_ += "MediumInterface \"\" " + medium_name(scene_.camera_medium) + "\n";
     text_ += moving_transform_text(scene_.world_to_camera, scene_.world_to_camera_later);
-    text_ += "Camera " + entity_text(scene_.camera) + "\n";
+    text_ += "Camera " + entity_text(picture.camera) + "\n";
   }
 
   void write_texture(const TextureDesc& texture) {
@@ -232,9 +234,11 @@ class Writer {
     const std::string inside = medium_name(shape.media.inside), outside = medium_name(shape.media.outside);
     if (inside != outside) text += "MediumInterface " + inside + " " + outside + "\n";
     if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
-    text += "Shape " + entity_text(shape.entity);
+    text += "Shape " + entity_text(shape_models().write(name_of(shape.form), shape));
     // The mesh of a file stays in that file.
-    if (shape.mesh && shape.entity.type != "plymesh") text += mesh_text(*shape.mesh);
+    const auto* form = std::get_if<MeshForm>(&shape.form);
+    const bool is_in_file = form && !form->file.empty();
+    if (const auto mesh = mesh_of(shape); mesh && !is_in_file) text += mesh_text(*mesh);
     write_block(shape.object_to_world, text, shape.object_to_world_later);
   }
 

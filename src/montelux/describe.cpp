@@ -5,9 +5,11 @@
 
 #include "io/mesh_check.h"
 #include "io/pbrt/meshes.h"
+#include "io/pbrt/picture.h"
 #include "io/ply.h"
 #include "io/text_file.h"
 #include "montelux/parameters.h"
+#include "scene/shape_models.h"
 
 namespace montelux::api {
 
@@ -31,6 +33,7 @@ class Description {
   void take(Family family, const std::optional<Model>& model, Entity& target);
   std::optional<montelux::Transform> transform(const Transform& t, const SourceLocation& where);
   void add_shape(const Shape& shape, const SourceLocation& where);
+  bool set_shape(const Entity& stated, ShapeDesc& desc);
   bool set_form(const Model& model, ShapeDesc& desc, const SourceLocation& where);
   bool set_form(const Mesh& mesh, ShapeDesc& desc, const SourceLocation& where);
   std::optional<montelux::Mesh> checked_mesh(const Mesh& mesh, const SourceLocation& where);
@@ -111,6 +114,19 @@ std::optional<montelux::Mesh> Description::checked_mesh(const Mesh& mesh, const 
   return result;
 }
 
+// What the entity states of a shape besides its mesh.
+bool Description::set_shape(const Entity& stated, ShapeDesc& desc) {
+  montelux::Result<ShapeDesc> read = shape_models().read(stated);
+  if (!read) {
+    report_.error(stated.where, read.error());
+    return false;
+  }
+  pbrt::report_unused("shape '" + stated.type + "'", stated.parameters, report_);
+  desc = *std::move(read);
+  desc.where = stated.where;
+  return true;
+}
+
 bool Description::set_form(const Mesh& mesh, ShapeDesc& desc, const SourceLocation& where) {
   auto stated = entity(Family::shape, {"trianglemesh", mesh.parameters}, where);
   for (const char* array : {"P", "N", "S", "uv", "indices", "P1", "N1"})
@@ -119,35 +135,37 @@ bool Description::set_form(const Mesh& mesh, ShapeDesc& desc, const SourceLocati
   auto checked = checked_mesh(mesh, where);
   if (!stated || !checked) return false;
   expect_uses(stated->parameters, *find_entity(table_of(Family::shape), "trianglemesh"));
-  desc.entity = *std::move(stated);
-  desc.mesh = std::make_shared<const montelux::Mesh>(*std::move(checked));
-  return !desc.mesh->triangles.empty() || !desc.mesh->quads.empty();
+  if (!set_shape(*stated, desc)) return false;
+  const bool has_faces = !checked->triangles.empty() || !checked->quads.empty();
+  set_mesh(desc, std::make_shared<const montelux::Mesh>(*std::move(checked)));
+  return has_faces;
 }
 
 bool Description::set_form(const Model& model, ShapeDesc& desc, const SourceLocation& where) {
   auto stated = entity(Family::shape, model, where);
   if (!stated) return false;
-  desc.entity = *std::move(stated);
-  const bool is_file = model.name == "plymesh";
-  if (!is_file && model.name != "trianglemesh" && model.name != "bilinearmesh" && model.name != "loopsubdiv")
-    return true;
   std::optional<montelux::Mesh> mesh;
-  if (!is_file) {
-    mesh = pbrt::take_mesh(desc.entity, report_);
-  } else if (desc.entity.parameters.find("filename1")) {
+  if (is_mesh(model.name) && model.name != "plymesh") {
+    mesh = pbrt::take_mesh(*stated, report_);
+    if (!mesh) return false;
+  }
+  if (!set_shape(*stated, desc)) return false;
+  if (!is_mesh(model.name)) return true;
+  if (const auto* form = std::get_if<MeshForm>(&desc.form); form && !form->later_files.empty()) {
     report_.error(where, "'filename1' is read from scene files only");
-  } else {
-    const std::string path = resolve_path(folder_, desc.entity.parameters.string("filename", ""));
+  } else if (form && !form->file.empty()) {
+    const std::string path = resolve_path(folder_, form->file);
     if (is_regular_file(path)) mesh = read_ply(path, where, diagnostics_);
   }
   if (!mesh) return false;
-  desc.mesh = std::make_shared<const montelux::Mesh>(*std::move(mesh));
-  return !desc.mesh->triangles.empty() || !desc.mesh->quads.empty();
+  const bool has_faces = !mesh->triangles.empty() || !mesh->quads.empty();
+  set_mesh(desc, std::make_shared<const montelux::Mesh>(*std::move(mesh)));
+  return has_faces;
 }
 
 void Description::add_shape(const Shape& shape, const SourceLocation& where) {
   const Surface& surface = shape.surface;
-  ShapeDesc desc;
+  ShapeDesc desc{};
   bool good = std::visit([&](const auto& form) { return set_form(form, desc, where); }, shape.form);
   const auto place = transform(surface.object_to_world, where);
   if (place) desc.object_to_world = *place;
@@ -170,11 +188,13 @@ void Description::add_shape(const Shape& shape, const SourceLocation& where) {
 
 ReadResult Description::make() {
   desc_.file = "the scene", desc_.folder = folder_;
-  take(Family::film, content_.film, desc_.film);
-  take(Family::camera, content_.camera.model, desc_.camera);
-  take(Family::filter, content_.filter, desc_.filter);
-  take(Family::sampler, content_.sampler, desc_.sampler);
-  take(Family::integrator, content_.integrator, desc_.integrator);
+  pbrt::StatedPicture picture;
+  take(Family::film, content_.film, picture.film);
+  take(Family::camera, content_.camera.model, picture.camera);
+  take(Family::filter, content_.filter, picture.filter);
+  take(Family::sampler, content_.sampler, picture.sampler);
+  take(Family::integrator, content_.integrator, picture.integrator);
+  pbrt::describe_picture(picture, desc_, report_);
   if (const auto t = transform(content_.camera.transform, part("camera"))) desc_.world_to_camera = t->inverted();
 
   for (std::size_t i = 0; i < content_.textures.size(); ++i) {

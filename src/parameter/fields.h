@@ -1,6 +1,8 @@
 // Settings of a struct, each stated once: name, type, range and meaning of the parameter, and where its value is
-// stored. The default is the value that the struct has; help, documentation and reader follow from the row.
+// stored. The default is the value that the struct has; help, documentation, reader and writer follow from the row.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -20,6 +22,15 @@ std::string setting_text(float value);
 
 // The row with its default at the end of the meaning.
 ParameterSpec with_default(ParameterSpec row, const std::string& value);
+
+// Values as parameters.
+Parameter parameter_of(std::string_view name, bool value);
+Parameter parameter_of(std::string_view name, int value);
+Parameter parameter_of(std::string_view name, float value);
+Parameter parameter_of(std::string_view name, std::string value);
+Parameter parameter_of(std::string_view name, std::vector<int> values);
+Parameter parameter_of(std::string_view name, std::vector<float> values);
+Parameter parameter_of(std::string_view name, std::vector<std::string> values);
 
 // A name for each value of an enumeration.
 template <class E>
@@ -41,6 +52,15 @@ class Fields {
   Fields& boolean(std::string_view name, Place<bool> place, std::string meaning) {
     return value<bool>({name, {ParameterType::boolean}, std::move(meaning)}, place, &ParameterList::boolean);
   }
+  // The same where a file states "true" and "false".
+  Fields& flag(std::string_view name, Place<bool> place, std::string meaning) {
+    boolean(name, place, std::move(meaning));
+    rows_.back().shown = [place](const S& s) {
+      S copy = s;
+      return std::string(place(copy) ? "true" : "false");
+    };
+    return *this;
+  }
   // One of the names.
   template <class E>
   Fields& choice(std::string_view name, Place<E> place, std::string meaning, NamedValues<E> names) {
@@ -52,12 +72,96 @@ class Fields {
         if (value == place(copy)) return std::string(word);
       return std::string();
     };
-    rows_.push_back({std::move(row), shown, [name, place, names](const ParameterList& list, S& s) -> Status {
+    const auto write = [name, place, shown](S& s, S& defaults, ParameterList& list) {
+      if (place(s) != place(defaults)) list.add(parameter_of(name, shown(s)));
+    };
+    rows_.push_back({std::move(row), shown,
+                     [name, place, names](const ParameterList& list, S& s) -> Status {
                        const std::string stated = list.string(name, "");
                        for (const auto& [word, value] : names)
                          if (word == stated) place(s) = value;
                        return Done{};
-                     }});
+                     },
+                     write});
+    return *this;
+  }
+  // Numbers, integers and text that have no default value; the meaning states what is used instead.
+  Fields& optional(std::string_view name, Place<std::optional<float>> place, std::string meaning, double low,
+                   double high) {
+    return optional_value<float>({name, {ParameterType::number}, std::move(meaning), low, high}, place,
+                                 &ParameterList::number);
+  }
+  Fields& optional(std::string_view name, Place<std::optional<int>> place, std::string meaning, double low,
+                   double high) {
+    return optional_value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place,
+                               &ParameterList::integer);
+  }
+  // As many values as the array has. A list of another length, which the checks report, is ignored.
+  template <std::size_t N>
+  Fields& list(std::string_view name, Place<std::optional<std::array<float, N>>> place, std::string meaning, double low,
+               double high) {
+    return array_value<float, N>({name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place);
+  }
+  template <std::size_t N>
+  Fields& list(std::string_view name, Place<std::optional<std::array<int, N>>> place, std::string meaning, double low,
+               double high) {
+    return array_value<int, N>({name, {ParameterType::integer}, std::move(meaning), low, high, {}, true}, place);
+  }
+  // A list of any length; by default it is empty. The type is that of the values or one like it: point3, normal.
+  template <class T>
+  Fields& list(std::string_view name, ParameterType type, Place<std::vector<T>> place, std::string meaning) {
+    const auto write = [name, type, place](S& s, S& defaults, ParameterList& list) {
+      if (!place(s).empty() && place(defaults).empty())
+        list.add({std::string(name), type, Values(place(s)), SourceLocation{}});
+    };
+    rows_.push_back({{name, {type}, std::move(meaning), -1e30, 1e30, {}, true},
+                     {},
+                     [name, place](const ParameterList& list, S& s) -> Status {
+                       if (list.find(name)) place(s) = list.array<T>(name);
+                       return Done{};
+                     },
+                     write});
+    return *this;
+  }
+  // Text without a default.
+  Fields& words(std::string_view name, Place<std::string> place, std::string meaning) {
+    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
+      if (place(s) != place(defaults)) list.add(parameter_of(name, place(s)));
+    };
+    rows_.push_back({{name, {ParameterType::string}, std::move(meaning), 0, 0},
+                     {},
+                     [name, place](const ParameterList& list, S& s) -> Status {
+                       place(s) = list.string(name, place(s));
+                       return Done{};
+                     },
+                     write});
+    return *this;
+  }
+  // A parameter of several types, kept as it is stated: a number or the name of a texture.
+  Fields& stated(ParameterSpec row, Place<std::optional<Parameter>> place) {
+    const std::string_view name = row.name;
+    const auto write = [place](S& s, S&, ParameterList& list) {
+      if (place(s)) list.add(*place(s));
+    };
+    rows_.push_back({std::move(row),
+                     {},
+                     [name, place](const ParameterList& list, S& s) -> Status {
+                       if (const Parameter* p = list.find(name)) place(s) = *p;
+                       return Done{};
+                     },
+                     write});
+    return *this;
+  }
+  // A number that sets several others, each of which has a row of its own after it; the meaning states the default.
+  Fields& common(ParameterSpec row, std::function<void(float, S&)> set) {
+    const std::string_view name = row.name;
+    rows_.push_back({std::move(row),
+                     {},
+                     [name, set](const ParameterList& list, S& s) -> Status {
+                       if (list.find(name)) set(list.number(name, 0), s);
+                       return Done{};
+                     },
+                     {}});
     return *this;
   }
   // Text, any or one of the choices, that `read` takes apart where it is stated; `shown` writes the default.
@@ -67,12 +171,18 @@ class Fields {
                      std::move(shown),
                      [name, read](const ParameterList& list, S& s) -> Status {
                        return list.find(name) ? read(list.string(name, ""), s) : Status(Done{});
-                     }});
+                     },
+                     {}});
     return *this;
   }
   // A row whose meaning states the default, since that is no value of its own, and that is read elsewhere.
   Fields& other(ParameterSpec row) {
-    rows_.push_back({std::move(row), {}, [](const ParameterList&, S&) -> Status { return Done{}; }});
+    rows_.push_back({std::move(row), {}, [](const ParameterList&, S&) -> Status { return Done{}; }, {}});
+    return *this;
+  }
+  // The rows of another table after these.
+  Fields& append(const Fields& more) {
+    rows_.insert(rows_.end(), more.rows_.begin(), more.rows_.end());
     return *this;
   }
 
@@ -99,11 +209,20 @@ class Fields {
     return Done{};
   }
 
+  // The parameters that state `s` where they differ from `defaults`.
+  ParameterList write(S s, S defaults) const {
+    ParameterList list;
+    for (const Row& row : rows_)
+      if (row.write) row.write(s, defaults, list);
+    return list;
+  }
+
  private:
   struct Row {
     ParameterSpec spec;
     std::function<std::string(const S&)> shown;  // the default; empty: the meaning states it
     std::function<Status(const ParameterList&, S&)> read;
+    std::function<void(S&, S& defaults, ParameterList&)> write;  // empty: other rows state it
   };
 
   template <class T>
@@ -113,10 +232,51 @@ class Fields {
       S copy = s;
       return setting_text(place(copy));
     };
-    rows_.push_back({std::move(spec), shown, [name, place, get](const ParameterList& list, S& s) -> Status {
+    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
+      if (place(s) != place(defaults)) list.add(parameter_of(name, place(s)));
+    };
+    rows_.push_back({std::move(spec), shown,
+                     [name, place, get](const ParameterList& list, S& s) -> Status {
                        place(s) = (list.*get)(name, place(s));
                        return Done{};
-                     }});
+                     },
+                     write});
+    return *this;
+  }
+
+  template <class T>
+  Fields& optional_value(ParameterSpec spec, Place<std::optional<T>> place,
+                         T (ParameterList::*get)(std::string_view, T) const) {
+    const std::string_view name = spec.name;
+    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
+      if (place(s) && place(s) != place(defaults)) list.add(parameter_of(name, *place(s)));
+    };
+    rows_.push_back({std::move(spec),
+                     {},
+                     [name, place, get](const ParameterList& list, S& s) -> Status {
+                       if (list.find(name)) place(s) = (list.*get)(name, T{});
+                       return Done{};
+                     },
+                     write});
+    return *this;
+  }
+
+  template <class T, std::size_t N>
+  Fields& array_value(ParameterSpec spec, Place<std::optional<std::array<T, N>>> place) {
+    const std::string_view name = spec.name;
+    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
+      if (place(s) && place(s) != place(defaults))
+        list.add(parameter_of(name, std::vector<T>(place(s)->begin(), place(s)->end())));
+    };
+    rows_.push_back({std::move(spec),
+                     {},
+                     [name, place](const ParameterList& list, S& s) -> Status {
+                       const std::vector<T>& values = list.template array<T>(name);
+                       if (values.size() != N) return Done{};
+                       std::copy(values.begin(), values.end(), place(s).emplace().begin());
+                       return Done{};
+                     },
+                     write});
     return *this;
   }
 

@@ -11,10 +11,6 @@ namespace montelux {
 
 namespace {
 
-bool is_mesh(const std::string& type) {
-  return type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv";
-}
-
 Bounds3 bounds_of(const std::vector<Vec3f>& points) {
   Bounds3 box;
   for (const Vec3f& p : points) box = join(box, p);
@@ -30,20 +26,17 @@ bool faces_backward(const Mesh& world, std::size_t i, bool flip) {
   return dot(n, world.normals[v[0]] + world.normals[v[1]] + world.normals[v[2]]) < 0;
 }
 
-// The quadric that the parameters state; no value for other types.
+// The quadric that a form is; no value for other forms.
 std::optional<Shape> quadric_of(const ShapeDesc& shape) {
-  const ParameterList& p = shape.entity.parameters;
-  float radius = p.number("radius", 1), phi_max = p.number("phimax", 360);
-  if (shape.entity.type == "sphere")
-    return clamped(Sphere{shape.object_to_world, shape.reverse_orientation, radius, p.number("zmin", -radius),
-                          p.number("zmax", radius), phi_max});
-  if (shape.entity.type == "disk")
-    return Disk{shape.object_to_world,      shape.reverse_orientation,
-                p.number("height", 0),      radius,
-                p.number("innerradius", 0), phi_max};
-  if (shape.entity.type == "cylinder")
-    return clamped(Cylinder{shape.object_to_world, shape.reverse_orientation, radius, p.number("zmin", -1),
-                            p.number("zmax", 1), phi_max});
+  const Transform& place = shape.object_to_world;
+  const bool reverse = shape.reverse_orientation;
+  if (const auto* f = std::get_if<SphereForm>(&shape.form))
+    return clamped(
+        Sphere{place, reverse, f->radius, f->z_min.value_or(-f->radius), f->z_max.value_or(f->radius), f->phi_max});
+  if (const auto* f = std::get_if<DiskForm>(&shape.form))
+    return Disk{place, reverse, f->height, f->radius, f->inner_radius, f->phi_max};
+  if (const auto* f = std::get_if<CylinderForm>(&shape.form))
+    return clamped(Cylinder{place, reverse, f->radius, f->z_min, f->z_max, f->phi_max});
   return std::nullopt;
 }
 
@@ -65,20 +58,6 @@ PatchShape light_shape(const BilinearPatch& s) {
   bool flip = s.flip_normal;
   if (s.normals) flip = dot(cross(s.p[1] - s.p[0], s.p[2] - s.p[0]), (*s.normals)[0]) < 0;
   return {s.p[0], s.p[1], s.p[2], s.p[3], s.uv[0], s.uv[1], s.uv[2], s.uv[3], flip};
-}
-
-CurveDesc curve_of(const ShapeDesc& shape) {
-  const ParameterList& p = shape.entity.parameters;
-  CurveDesc curve;
-  curve.points = p.array<Vec3f>("P");
-  curve.normals = p.array<Vec3f>("N");
-  curve.basis = p.string("basis", "bezier") == "bspline" ? CurveBasis::bspline : CurveBasis::bezier;
-  curve.degree = p.integer("degree", 3);
-  const std::string type = p.string("type", "flat");
-  curve.type = type == "cylinder" ? CurveType::cylinder : type == "ribbon" ? CurveType::ribbon : CurveType::flat;
-  const float width = p.number("width", 1);
-  curve.width0 = p.number("width0", width), curve.width1 = p.number("width1", width);
-  return curve;
 }
 
 }  // namespace
@@ -109,9 +88,6 @@ std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
   if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
     still.reverse_orientation = !moving.reverse_orientation;
   const std::uint32_t object = add_store_object([&] { add_shape(still, false); });
-  // Parameters that the copy used count as used.
-  for (const Parameter& p : still.entity.parameters.all())
-    if (p.used) moving.entity.parameters.use(p.name);
   if (moving.area_light) moving.area_light->parameters.use_all();  // it is reported that it does not emit
   return object;
 }
@@ -201,12 +177,11 @@ GeometryStore GeometryBuilder::take() {
 }
 
 void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
-  std::optional<std::uint32_t> alpha = inputs_.alpha(shape.entity);
+  std::optional<std::uint32_t> alpha = inputs_.alpha(shape);
   const bool interface = inputs_.is_interface(shape.material);
   const bool partly_interface = inputs_.is_partly_interface(shape.material);
   const std::optional<MediumSides> media = inputs_.media(shape);
   if (!alpha || (interface && !shape.area_light && !media)) {  // nothing that light could hit
-    shape.entity.parameters.use_all();
     if (shape.area_light) shape.area_light->parameters.use_all();
     return;
   }
@@ -227,18 +202,15 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   }
   if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
   if (partly_interface) row.flags |= GeometryRow::open_to_some_shadow_rays;
-  if (shape.entity.parameters.boolean("onesided", false)) row.flags |= GeometryRow::one_sided;
-  const std::string& type = shape.entity.type;
-  if (is_mesh(type) && shape.mesh) {
-    if (type == "loopsubdiv")
-      add_mesh(loop_subdivide(*shape.mesh, shape.entity.parameters.integer("levels", 3)), shape, row, emission);
-    else
-      add_mesh(*shape.mesh, shape, row, emission);
-  } else if (type == "curve") {
-    add_curves(shape, row);
-  } else if (std::optional<Shape> quadric = quadric_of(shape)) {
+  if (shape.one_sided) row.flags |= GeometryRow::one_sided;
+  if (const auto* mesh = std::get_if<MeshForm>(&shape.form); mesh && mesh->mesh)
+    add_mesh(*mesh->mesh, shape, row, emission);
+  else if (const auto* surface = std::get_if<SubdivisionForm>(&shape.form); surface && surface->control)
+    add_mesh(loop_subdivide(*surface->control, surface->levels), shape, row, emission);
+  else if (const auto* curve = std::get_if<CurveDesc>(&shape.form))
+    add_curves(*curve, shape, row);
+  else if (std::optional<Shape> quadric = quadric_of(shape))
     add_single(std::move(*quadric), row, emission);
-  }
 }
 
 void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const GeometryRow& row,
@@ -332,11 +304,11 @@ void GeometryBuilder::add_single(Shape shape, const GeometryRow& like, const std
   store_.rows.push_back(row);
 }
 
-void GeometryBuilder::add_curves(const ShapeDesc& shape, const GeometryRow& like) {
+void GeometryBuilder::add_curves(const CurveDesc& stated, const ShapeDesc& shape, const GeometryRow& like) {
   GeometryRow row = like;
-  Result<CurveSet> made = make_curves(curve_of(shape));
+  Result<CurveSet> made = make_curves(stated);
   if (!made) {
-    diagnostics_.error(shape.entity.where, made.error());
+    diagnostics_.error(shape.where, made.error());
     return;
   }
   CurveSet curves = to_world(*made, shape.object_to_world, shape.reverse_orientation);

@@ -21,7 +21,7 @@ struct ShapeInputs {
   // Emission of an area light.
   std::function<Emission(const Entity& area_light)> emission;
   // 1 + number of the texture, or 0 for a surface without a mask; none if the surface is fully transparent.
-  std::function<std::optional<std::uint32_t>(const Entity& shape)> alpha;
+  std::function<std::optional<std::uint32_t>(const ShapeDesc&)> alpha;
   // Whether light passes the material unchanged.
   std::function<bool(MaterialDescId)> is_interface;
   // Whether light sometimes passes it unchanged: a mixture that contains an interface.
@@ -70,7 +70,7 @@ class GeometryBuilder {
   void add_later_poses(const Mesh& world, GeometryRow& row);
   void add_patches(const Mesh& world, bool flip, const GeometryRow& like, const std::optional<Emission>& emission);
   void add_single(Shape shape, const GeometryRow& like, const std::optional<Emission>& emission);
-  void add_curves(const ShapeDesc& shape, const GeometryRow& like);
+  void add_curves(const CurveDesc& stated, const ShapeDesc& shape, const GeometryRow& like);
   void grow(const Bounds3& box) {
     (in_object_ ? object_bounds_.back() : bounds_) = join(in_object_ ? object_bounds_.back() : bounds_, box);
   }

@@ -71,7 +71,7 @@ class Preparation {
   void add_light(const LightDesc& light, LightSetBuilder& lights);
   LightInputs light_inputs();
   std::shared_ptr<const LightImage> light_image(const std::string& file, const SourceLocation& where);
-  std::optional<std::uint32_t> alpha_of(const Entity& shape);
+  std::optional<std::uint32_t> alpha_of(const ShapeDesc& shape);
 
   const SceneDesc& desc_;
   Diagnostics& diagnostics_;
@@ -153,7 +153,7 @@ bool is_partly_interface(const std::vector<Material>& materials, std::uint32_t n
 
 GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
   ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs(), diagnostics_); },
-                     [this](const Entity& shape) { return alpha_of(shape); },
+                     [this](const ShapeDesc& shape) { return alpha_of(shape); },
                      [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
                      [&](MaterialDescId id) { return is_partly_interface(materials, std::uint32_t(id)); },
                      [&](MaterialDescId id) { return uses_parameters(materials[std::size_t(id)]); },
@@ -170,8 +170,9 @@ GeometryStore Preparation::make_geometry(const std::vector<Material>& materials,
   return store;
 }
 
-std::optional<std::uint32_t> Preparation::alpha_of(const Entity& shape) {
-  std::optional<NumberTextureId> texture = texture_builder_.number_if_stated(shape, "alpha");
+std::optional<std::uint32_t> Preparation::alpha_of(const ShapeDesc& shape) {
+  if (!shape.alpha) return 0;
+  const std::optional<NumberTextureId> texture = texture_builder_.number_if_stated(*shape.alpha);
   if (!texture) return 0;
   if (std::optional<float> constant = textures_->constant(*texture)) {
     if (*constant >= 1) return 0;

@@ -22,7 +22,6 @@ class UnusedReport {
     add(family + " '" + entity.type + "'", entity.parameters);
   }
   void add(const ShapeDesc& shape) {
-    add("shape", shape.entity);
     if (shape.area_light) add("area light", *shape.area_light);
   }
 
@@ -35,13 +34,6 @@ class UnusedReport {
 
 void report_unused(const SceneDesc& scene, Diagnostics& diagnostics) {
   UnusedReport report(diagnostics);
-  report.add("Option", scene.options);
-  report.add("camera", scene.camera);
-  report.add("film", scene.film);
-  report.add("filter", scene.filter);
-  report.add("sampler", scene.sampler);
-  report.add("integrator", scene.integrator);
-  report.add("accelerator", scene.accelerator);
   for (const TextureDesc& texture : scene.textures) report.add("texture", texture.entity);
   for (const MaterialDesc& material : scene.materials) report.add("material", material.entity);
   for (const MediumDesc& medium : scene.media) report.add("medium", medium.entity);

@@ -74,9 +74,13 @@ std::optional<V> TextureBuilder::value(const Parameter& parameter) const {
 template <class V>
 std::optional<TextureId<V>> TextureBuilder::if_stated(const Entity& entity, std::string_view name) {
   const Parameter* stated = entity.parameters.find(name);
-  if (!stated) return std::nullopt;
+  return stated ? stated_by<V>(*stated) : std::nullopt;
+}
+
+template <class V>
+std::optional<TextureId<V>> TextureBuilder::stated_by(const Parameter& stated) {
   constexpr const char* kind = std::is_same_v<V, float> ? "number" : "spectrum";
-  if (const auto* link = std::get_if<TextureName>(&stated->values)) {
+  if (const auto* link = std::get_if<TextureName>(&stated.values)) {
     auto found = names<V>().find(link->name);
     if (found != names<V>().end()) return found->second;
     std::vector<std::string_view> known;
@@ -84,12 +88,13 @@ std::optional<TextureId<V>> TextureBuilder::if_stated(const Entity& entity, std:
     const bool other_kind =
         std::is_same_v<V, float> ? find_spectrum(link->name).has_value() : find_number(link->name).has_value();
     diagnostics_.error(
-        stated->where, in_quotes(link->name) + " is not the name of a " + kind + " texture stated before",
+        stated.where, in_quotes(link->name) + " is not the name of a " + kind + " texture stated before",
         other_kind ? "the texture with this name is of the other kind" : std::string(nearest_name(link->name, known)));
-  } else if (std::optional<V> x = value<V>(*stated)) {
+  } else if (std::optional<V> x = value<V>(stated)) {
     return constant(*x);
   } else {
-    diagnostics_.error(stated->where, in_quotes(name) + " takes a " + kind + " or the name of a " + kind + " texture");
+    diagnostics_.error(stated.where,
+                       in_quotes(stated.name) + " takes a " + kind + " or the name of a " + kind + " texture");
   }
   return constant(uniform<V>(0));
 }
@@ -109,6 +114,9 @@ SpectrumTextureId TextureBuilder::spectrum(const Entity& entity, std::string_vie
 }
 std::optional<NumberTextureId> TextureBuilder::number_if_stated(const Entity& entity, std::string_view name) {
   return if_stated<float>(entity, name);
+}
+std::optional<NumberTextureId> TextureBuilder::number_if_stated(const Parameter& stated) {
+  return stated_by<float>(stated);
 }
 std::optional<SpectrumTextureId> TextureBuilder::spectrum_if_stated(const Entity& entity, std::string_view name) {
   return if_stated<Rgb>(entity, name);

@@ -29,6 +29,7 @@ class TextureBuilder {
   SpectrumTextureId spectrum(const Entity& entity, std::string_view parameter, Rgb otherwise);
   // Nothing if the parameter is absent.
   std::optional<NumberTextureId> number_if_stated(const Entity& entity, std::string_view parameter);
+  std::optional<NumberTextureId> number_if_stated(const Parameter& stated);
   std::optional<SpectrumTextureId> spectrum_if_stated(const Entity& entity, std::string_view parameter);
 
   NumberTextureId constant(float value);
@@ -64,6 +65,8 @@ class TextureBuilder {
   std::optional<V> value(const Parameter& parameter) const;
   template <class V>
   std::optional<TextureId<V>> if_stated(const Entity& entity, std::string_view name);
+  template <class V>
+  std::optional<TextureId<V>> stated_by(const Parameter& stated);
   template <class V>
   TextureId<V> folded(TextureId<V> id, bool all_constant);
   template <class V>

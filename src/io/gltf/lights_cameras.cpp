@@ -17,8 +17,7 @@ constexpr int longer_side = 1280;
 void state_film(double aspect, SceneDesc& scene) {
   const int width = aspect >= 1 ? longer_side : std::max(int(std::lround(longer_side * aspect)), 1);
   const int height = aspect >= 1 ? std::max(int(std::lround(longer_side / aspect)), 1) : longer_side;
-  put_integer(scene.film, "xresolution", width);
-  put_integer(scene.film, "yresolution", height);
+  scene.film.width = width, scene.film.height = height;
 }
 
 // A node's matrix without scale and shear: its axes orthogonal, z kept first (glTF 2.0, 3.10: scale is ignored).
@@ -98,23 +97,25 @@ Matrix4 camera_to_world(const Document& document, std::size_t camera, const Matr
 void state_camera(Document& document, std::size_t camera, const Matrix4& node_to_world, SceneDesc& scene) {
   const Element element = document.list("cameras")[camera];
   const auto type = element.required("type").choice({"perspective", "orthographic"});
-  Entity e{type.value_or("perspective"), {}, element.where()};
+  CameraDesc stated;
+  stated.where = element.where();
   double aspect = 16.0 / 9;
   if (type == "perspective") {
     const Element perspective = element.required("perspective");
     const auto yfov = perspective.required("yfov").number(1e-4, std::numbers::pi - 1e-4);
-    put_number(e, "fov", yfov.value_or(1) * 180 / std::numbers::pi);
+    stated.fov = float(yfov.value_or(1) * 180 / std::numbers::pi);
     aspect = perspective["aspectRatio"].number(1e-3, 1e3).value_or(aspect);
   } else if (type == "orthographic") {
+    stated.kind = CameraKind::orthographic;
     const Element orthographic = element.required("orthographic");
     const double x = std::abs(orthographic.required("xmag").number().value_or(1));
     const double y = std::abs(orthographic.required("ymag").number().value_or(1));
     if (!(x > 0) || !(y > 0)) orthographic.error("xmag and ymag must not be zero");
     aspect = x > 0 && y > 0 ? std::clamp(x / y, 1e-3, 1e3) : 1;
   }
-  put_string(e, "fovaxis", "y");
+  stated.fov_axis = FovAxis::y;
   state_film(aspect, scene);
-  scene.camera = std::move(e);
+  scene.camera = stated;
   if (const auto placed = from_matrix(camera_to_world(document, camera, node_to_world)))
     scene.world_to_camera = placed->inverted();
   else
@@ -136,8 +137,8 @@ void state_default_camera(const Bounds3& box, SceneDesc& scene) {
   for (std::size_t i = 0; i < 3; ++i) eye[i] = centre[i] + way[i] / length * distance;
   // look_at() assumes a left-handed world: seen from there, x points to the left.
   if (const auto look = look_at(eye, centre, {0, 1, 0})) scene.world_to_camera = scale(-1, 1, 1) * *look;
-  scene.camera = {"perspective", {}, {}};
-  put_number(scene.camera, "fov", fov);
+  scene.camera = {};
+  scene.camera.fov = float(fov);
 }
 
 std::optional<LightDesc> light_of(Document& document, std::size_t light, const Matrix4& node_to_world) {

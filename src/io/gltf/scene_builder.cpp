@@ -34,7 +34,6 @@ SceneDesc SceneBuilder::build() {
   scene_.file = *document_.whole().file;
   scene_.folder = document_.folder();
   scene_.materials.push_back({"", {"diffuse", {}, {}}});
-  scene_.integrator = {"path", {}, {}};
   read_animation_and_time();
   read_meshes();
   place_meshes();
@@ -119,9 +118,9 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   // A map that mirrors inverts the mirroring of texture coordinates.
   const bool turned = primitive.is_mirrored != mirrored;
   ShapeDesc shape;
-  shape.entity = {"trianglemesh", {}, primitive.where.where()};
-  if (material.alpha) shape.entity.parameters.add(*material.alpha);
-  if (material.one_sided) put_boolean(shape.entity, "onesided", true);
+  shape.where = primitive.where.where();
+  shape.alpha = material.alpha;
+  shape.one_sided = material.one_sided;
   shape.material = turned ? material.mirrored.value_or(material.id) : material.id;
   shape.area_light = material.area_light;
   const auto& uvs = primitive.mesh->uvs;
@@ -131,7 +130,7 @@ ShapeDesc SceneBuilder::shape_of(const Primitive& primitive, bool mirrored) {
   };
   if (material.repeats_emission && std::any_of(uvs.begin(), uvs.end(), is_beyond))
     primitive.where.warning("texture coordinates are outside [0, 1], where an emissive texture is clamped to its edge");
-  shape.mesh = primitive.mesh;
+  shape.form = MeshForm{primitive.mesh};
   return shape;
 }
 
@@ -189,7 +188,7 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   const bool mirrored = !skin && placed.swaps_handedness();
   ShapeDesc shape = shape_of(primitive, mirrored);
   shape.reverse_orientation = mirrored;  // the winding refers to the mesh's own space
-  shape.mesh = std::move(mesh);
+  shape.form = MeshForm{std::move(mesh)};
   scene_.shapes.push_back(std::move(shape));
 }
 

@@ -1,7 +1,6 @@
 // Entities in general, and the directives that state how to render the image.
 #include "io/pbrt/parser.h"
 #include "io/text_file.h"
-#include "scene/table.h"
 
 namespace montelux::pbrt {
 
@@ -86,7 +85,7 @@ void Parser::stated_option(Family family, Entity& target) {
 
 void Parser::directive_camera() {
   bool outside = !in_world_;
-  stated_option(Family::camera, scene_.camera);
+  stated_option(Family::camera, picture_.camera);
   if (!outside) return;
   scene_.world_to_camera = state_.transform.start;
   scene_.camera_medium = state_.media.outside;
@@ -100,8 +99,8 @@ void Parser::directive_option() {
   if (stated.all().empty()) return report_.error(here(), "Option takes a parameter, such as \"integer seed\" 1");
   CheckContext context{report_, scene_.folder, spelling};
   ParameterList good = checked_parameters(Family::option, table_of(Family::option)[0], stated, context);
-  expect_uses(good, option_spec());
-  for (const Parameter& p : good.all()) scene_.options.add(p);
+  expect_uses(good, table_of(Family::option)[0]);
+  for (const Parameter& p : good.all()) picture_.options.add(p);
 }
 
 void Parser::directive_color_space() {

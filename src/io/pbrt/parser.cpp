@@ -261,6 +261,7 @@ SceneDesc Parser::finish() {
   resolve_materials();
   resolve_instances();
   resolve_media();
+  describe_picture(picture_, scene_, report_);
   report_.finish();
   return std::move(scene_);
 }

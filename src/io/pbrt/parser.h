@@ -11,6 +11,7 @@
 #include "io/checks.h"
 #include "io/pbrt/lexer.h"
 #include "io/pbrt/parameters.h"
+#include "io/pbrt/picture.h"
 #include "io/reporter.h"
 #include "scene/description.h"
 
@@ -118,11 +119,11 @@ class Parser {
   const EntitySpec* stand_in(Family family, const EntitySpec& spec, const SourceLocation& where);
   void note_texture_uses(const Stated& stated);
   void directive_camera();
-  void directive_film() { stated_option(Family::film, scene_.film); }
-  void directive_filter() { stated_option(Family::filter, scene_.filter); }
-  void directive_sampler() { stated_option(Family::sampler, scene_.sampler); }
-  void directive_integrator() { stated_option(Family::integrator, scene_.integrator); }
-  void directive_accelerator() { stated_option(Family::accelerator, scene_.accelerator); }
+  void directive_film() { stated_option(Family::film, picture_.film); }
+  void directive_filter() { stated_option(Family::filter, picture_.filter); }
+  void directive_sampler() { stated_option(Family::sampler, picture_.sampler); }
+  void directive_integrator() { stated_option(Family::integrator, picture_.integrator); }
+  void directive_accelerator() { stated_option(Family::accelerator, picture_.accelerator); }
   void stated_option(Family family, Entity& target);
   void directive_option();
   void directive_color_space();
@@ -150,7 +151,8 @@ class Parser {
   void directive_object_begin();
   void directive_object_end();
   void directive_object_instance();
-  std::shared_ptr<const Mesh> mesh_of(Entity& shape);
+  std::optional<ShapeDesc> shape_of(Entity stated);
+  std::shared_ptr<const Mesh> mesh_stated_by(Entity& shape);
   std::shared_ptr<const Mesh> ply_mesh(const Entity& shape);
   std::shared_ptr<const Mesh> one_ply_mesh(const std::string& file, const SourceLocation& where);
   std::shared_ptr<const Mesh> posed_ply_mesh(const Mesh& first, const Parameter& later);
@@ -166,6 +168,7 @@ class Parser {
 
   Reporter report_;
   SceneDesc scene_;
+  StatedPicture picture_;
   GraphicsState state_;
   std::vector<OpenBlock> blocks_;
   Lexer* lexer_ = nullptr;

@@ -3,6 +3,7 @@
 #include "io/pbrt/parser.h"
 #include "io/ply.h"
 #include "io/text_file.h"
+#include "scene/shape_models.h"
 
 namespace montelux::pbrt {
 
@@ -67,10 +68,26 @@ std::shared_ptr<const Mesh> Parser::ply_mesh(const Entity& shape) {
   return mesh && later ? posed_ply_mesh(*mesh, *later) : mesh;
 }
 
-std::shared_ptr<const Mesh> Parser::mesh_of(Entity& shape) {
+std::shared_ptr<const Mesh> Parser::mesh_stated_by(Entity& shape) {
   if (shape.type == "plymesh") return ply_mesh(shape);
   auto mesh = take_mesh(shape, report_);
   return mesh ? std::make_shared<const Mesh>(std::move(*mesh)) : nullptr;
+}
+
+// Its form and what belongs to it; no value where nothing is left of it.
+std::optional<ShapeDesc> Parser::shape_of(Entity stated) {
+  const bool has_mesh = is_mesh(stated.type);
+  const std::shared_ptr<const Mesh> mesh = has_mesh ? mesh_stated_by(stated) : nullptr;
+  if (has_mesh && (!mesh || (mesh->triangles.empty() && mesh->quads.empty()))) return std::nullopt;
+  Result<ShapeDesc> shape = shape_models().read(stated);
+  if (!shape) {
+    report_.error(stated.where, shape.error());
+    return std::nullopt;
+  }
+  report_unused("shape '" + stated.type + "'", stated.parameters, report_);
+  shape->where = stated.where;
+  set_mesh(*shape, mesh);
+  return *std::move(shape);
 }
 
 void Parser::directive_shape() {
@@ -79,26 +96,21 @@ void Parser::directive_shape() {
   note_texture_uses(*stated);
   // Lights that are sampled cannot move.
   const bool shines = state_.area_light && !open_object_;
-  ShapeDesc shape{std::move(stated->entity),
-                  shines ? still_transform("shape, which emits light,") : state_.transform.start,
-                  state_.reverse_orientation,
-                  static_cast<MaterialDescId>(state_.material),
-                  state_.area_light,
-                  nullptr,
-                  shines ? std::vector<Transform>() : transform_at_end("shape"),
-                  state_.media};
-  const std::string& type = shape.entity.type;
-  if (type == "trianglemesh" || type == "plymesh" || type == "bilinearmesh" || type == "loopsubdiv") {
-    shape.mesh = mesh_of(shape.entity);
-    // A mesh that has lost all its faces is not a shape.
-    if (!shape.mesh || (shape.mesh->triangles.empty() && shape.mesh->quads.empty())) return;
-    if (shines && !shape.mesh->later.empty()) {
-      report_.tolerable(here(), "this shape emits light and deforms; only shapes without emission can",
-                        report_.lenient() ? "it keeps its first pose" : "lenient reading keeps its first pose");
-      auto first_form = std::make_shared<Mesh>(*shape.mesh);
-      first_form->later.clear();
-      shape.mesh = std::move(first_form);
-    }
+  const Transform place = shines ? still_transform("shape, which emits light,") : state_.transform.start;
+  const std::vector<Transform> later = shines ? std::vector<Transform>() : transform_at_end("shape");
+  std::optional<ShapeDesc> made = shape_of(std::move(stated->entity));
+  if (!made) return;
+  ShapeDesc& shape = *made;
+  shape.object_to_world = place, shape.object_to_world_later = later;
+  shape.reverse_orientation = state_.reverse_orientation;
+  shape.material = static_cast<MaterialDescId>(state_.material);
+  shape.area_light = state_.area_light, shape.media = state_.media;
+  if (const auto mesh = mesh_of(shape); mesh && shines && !mesh->later.empty()) {
+    report_.tolerable(here(), "this shape emits light and deforms; only shapes without emission can",
+                      report_.lenient() ? "it keeps its first pose" : "lenient reading keeps its first pose");
+    auto first_form = std::make_shared<Mesh>(*mesh);
+    first_form->later.clear();
+    set_mesh(shape, std::move(first_form));
   }
   if (!open_object_) {
     scene_.shapes.push_back(std::move(shape));

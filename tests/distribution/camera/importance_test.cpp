@@ -21,16 +21,9 @@ struct Case {
   bool directions = true;  // sees_directions()
 };
 
-Parameter number(const char* name, float value) { return {name, ParameterType::number, std::vector<float>{value}, {}}; }
-Parameter integer(const char* name, int value) { return {name, ParameterType::integer, std::vector<int>{value}, {}}; }
-Parameter text(const char* name, std::string value) {
-  return {name, ParameterType::string, std::vector<std::string>{std::move(value)}, {}};
-}
-Camera camera(const char* type, std::vector<Parameter> parameters, const Transform& world_to_camera) {
-  Entity e{type, {}, {}};
-  for (Parameter& p : parameters) e.parameters.add(std::move(p));
+Camera camera(const CameraDesc& stated, const Transform& world_to_camera) {
   Diagnostics diagnostics;
-  Camera built = build_camera(e, world_to_camera, width, height, diagnostics);
+  Camera built = build_camera(stated, world_to_camera, width, height, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
   return built;
 }
@@ -38,22 +31,24 @@ Camera camera(const char* type, std::vector<Parameter> parameters, const Transfo
 std::vector<Case> cases() {
   const Transform placed = rotate(30, 1, 2, 0.5) * translate(-1, 0.5, 2), skew = scale(1, 1.4, 0.8) * placed;
   std::vector<Case> all{
-      {"pinhole", camera("perspective", {number("fov", 70)}, placed)},
-      {"pinhole, skew", camera("perspective", {number("fov", 50)}, skew)},
-      {"thin lens",
-       camera("perspective", {number("fov", 60), number("lensradius", 0.3f), number("focaldistance", 3)}, placed)},
-      {"thin lens of six blades", camera("perspective",
-                                         {number("fov", 60), number("lensradius", 0.3f), number("focaldistance", 3),
-                                          integer("apertureblades", 6), number("aperturerotation", 20)},
-                                         skew)},
-      {"orthographic", camera("orthographic", {}, placed), false},
-      {"orthographic thin lens", camera("orthographic", {number("lensradius", 0.3f), number("focaldistance", 3)}, skew),
-       false},
-      {"equal-area sphere", camera("spherical", {}, placed)},
-      {"equirectangular sphere", camera("spherical", {text("mapping", "equirectangular")}, skew)}};
+      {"pinhole", camera(CameraDesc{.fov = 70}, placed)},
+      {"pinhole, skew", camera(CameraDesc{.fov = 50}, skew)},
+      {"thin lens", camera(CameraDesc{.fov = 60, .lens_radius = 0.3f, .focal_distance = 3}, placed)},
+      {"thin lens of six blades",
+       camera(
+           CameraDesc{
+               .fov = 60, .lens_radius = 0.3f, .focal_distance = 3, .aperture_blades = 6, .aperture_rotation = 20},
+           skew)},
+      {"orthographic", camera(CameraDesc{.kind = CameraKind::orthographic}, placed), false},
+      {"orthographic thin lens",
+       camera(CameraDesc{.kind = CameraKind::orthographic, .lens_radius = 0.3f, .focal_distance = 3}, skew), false},
+      {"equal-area sphere", camera(CameraDesc{.kind = CameraKind::spherical}, placed)},
+      {"equirectangular sphere",
+       camera(CameraDesc{.kind = CameraKind::spherical, .mapping = SpherePicture::equirectangular}, skew)}};
   const Motion motion(Transform{}, translate(0.5, 0, 0.2) * rotate(25, 0, 1, 0) * scale(1.3, 0.8, 1.1));
-  all.push_back({"moving pinhole", camera("perspective", {number("fov", 70)}, placed).moved(motion)});
-  all.push_back({"moving orthographic", camera("orthographic", {}, placed).moved(motion), false});
+  all.push_back({"moving pinhole", camera(CameraDesc{.fov = 70}, placed).moved(motion)});
+  all.push_back(
+      {"moving orthographic", camera(CameraDesc{.kind = CameraKind::orthographic}, placed).moved(motion), false});
   return all;
 }
 

@@ -23,8 +23,8 @@ SceneDesc made_gray(SceneDesc scene) {
     if (shape.area_light)
       if (auto c = shape.area_light->parameters.spectrum("L"))
         shape.area_light->parameters.add(gray_parameter("L", luminance(std::get<RgbValue>(*c).rgb)));
-  scene.filter.parameters.add({"sigma", ParameterType::number, std::vector<float>{0.5f}, {}});
-  scene.integrator.parameters.add({"maxdepth", ParameterType::integer, std::vector<int>{16}, {}});
+  scene.filter.sigma = 0.5f;
+  scene.integrator.max_depth = 16;
   return scene;
 }
 

@@ -11,13 +11,7 @@
 namespace montelux {
 namespace {
 
-Parameter number(const char* name, float value) { return {name, ParameterType::number, std::vector<float>{value}, {}}; }
-Entity entity(const char* type, std::vector<Parameter> parameters = {}) {
-  Entity e{type, {}, {}};
-  for (Parameter& p : parameters) e.parameters.add(std::move(p));
-  return e;
-}
-Camera built(const Entity& e, const Transform& world_to_camera, int width, int height) {
+Camera built(const CameraDesc& e, const Transform& world_to_camera, int width, int height) {
   Diagnostics diagnostics;
   Camera camera = build_camera(e, world_to_camera, width, height, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
@@ -33,27 +27,27 @@ Ray<float> ray(const Camera& camera, float x, float y, Vec2f lens = {0.5f, 0.5f}
 }
 
 TEST(PerspectiveCamera, edge_rays_enclose_the_field_of_view_of_the_shorter_axis) {
-  Camera wide = built(entity("perspective", {number("fov", 40)}), {}, 640, 480);
+  Camera wide = built(CameraDesc{.fov = 40}, {}, 640, 480);
   float t = std::tan(20 * pi / 180);
   expect_near(ray(wide, 320, 240).d, {0, 0, 1});
   expect_near(ray(wide, 320, 0).d, normalize(Vec3f{0, t, 1}));
   expect_near(ray(wide, 320, 480).d, normalize(Vec3f{0, -t, 1}));
   expect_near(ray(wide, 640, 240).d, normalize(Vec3f{t * 4 / 3, 0, 1}));
-  Camera tall = built(entity("perspective", {number("fov", 40)}), {}, 480, 640);
+  Camera tall = built(CameraDesc{.fov = 40}, {}, 480, 640);
   expect_near(ray(tall, 0, 320).d, normalize(Vec3f{-t, 0, 1}));
   expect_near(ray(tall, 240, 0).d, normalize(Vec3f{0, t * 4 / 3, 1}));
 }
 
 TEST(PerspectiveCamera, screen_window_replaces_the_aspect_of_the_picture) {
-  Entity e = entity("perspective", {number("fov", 90)});
-  e.parameters.add({"screenwindow", ParameterType::number, std::vector<float>{-0.5f, 1.0f, -0.25f, 2.0f}, {}});
+  CameraDesc e = CameraDesc{.fov = 90};
+  e.screen_window = {-0.5f, 1.0f, -0.25f, 2.0f};
   Camera camera = built(e, {}, 100, 100);
   expect_near(ray(camera, 0, 0).d, normalize(Vec3f{-0.5f, 2, 1}));
   expect_near(ray(camera, 100, 100).d, normalize(Vec3f{1, -0.25f, 1}));
 }
 
 TEST(PerspectiveCamera, frame_aspect_ratio_replaces_that_of_the_resolution) {
-  Camera camera = built(entity("perspective", {number("fov", 90), number("frameaspectratio", 2)}), {}, 100, 100);
+  Camera camera = built(CameraDesc{.fov = 90, .aspect = 2}, {}, 100, 100);
   expect_near(ray(camera, 0, 50).d, normalize(Vec3f{-2, 0, 1}));
   expect_near(ray(camera, 50, 0).d, normalize(Vec3f{0, 1, 1}));
 }
@@ -61,7 +55,7 @@ TEST(PerspectiveCamera, frame_aspect_ratio_replaces_that_of_the_resolution) {
 TEST(PerspectiveCamera, looks_from_the_eye_at_the_target_with_right_and_up_on_the_picture) {
   auto view = look_at({1, 2, 3}, {1, 2, 13}, {0, 1, 0});
   ASSERT_TRUE(view);
-  Camera camera = built(entity("perspective"), *view, 200, 200);
+  Camera camera = built(CameraDesc{}, *view, 200, 200);
   expect_near(ray(camera, 100, 100).o, {1, 2, 3});
   expect_near(ray(camera, 100, 100).d, {0, 0, 1});
   // Left-handed: looking along +z with y up, +x is to the right.
@@ -72,9 +66,9 @@ TEST(PerspectiveCamera, looks_from_the_eye_at_the_target_with_right_and_up_on_th
 TEST(PerspectiveCamera, mirroring_the_camera_space_mirrors_the_picture_and_scaling_it_changes_nothing) {
   auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
   ASSERT_TRUE(view);
-  Camera plain = built(entity("perspective"), *view, 300, 200);
-  Camera mirrored = built(entity("perspective"), scale(-1, 1, 1) * *view, 300, 200);
-  Camera scaled = built(entity("perspective"), scale(7, 7, 7) * *view, 300, 200);
+  Camera plain = built(CameraDesc{}, *view, 300, 200);
+  Camera mirrored = built(CameraDesc{}, scale(-1, 1, 1) * *view, 300, 200);
+  Camera scaled = built(CameraDesc{}, scale(7, 7, 7) * *view, 300, 200);
   for (Vec2f p : {Vec2f{12, 30}, Vec2f{150, 100}, Vec2f{250.5f, 199}}) {
     expect_near(ray(mirrored, p.x, p.y).d, ray(plain, 300 - p.x, p.y).d);
     expect_near(ray(mirrored, p.x, p.y).o, {3, 1, -2});
@@ -92,9 +86,9 @@ Vec3f at_depth(const Ray<float>& r, const Transform& to_camera, float depth) {
 TEST(ThinLens, all_rays_of_a_pixel_meet_in_the_plane_in_focus_and_start_on_the_lens) {
   auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
   ASSERT_TRUE(view);
-  for (const char* type : {"perspective", "orthographic"}) {
-    Camera camera = built(entity(type, {number("lensradius", 0.25f), number("focaldistance", 4)}), *view, 300, 200);
-    Camera pinhole = built(entity(type), *view, 300, 200);
+  for (CameraKind kind : {CameraKind::perspective, CameraKind::orthographic}) {
+    Camera camera = built({.kind = kind, .lens_radius = 0.25f, .focal_distance = 4}, *view, 300, 200);
+    Camera pinhole = built({.kind = kind}, *view, 300, 200);
     RandomStream<float> random(3u, 4u);
     for (int k = 0; k < 100; ++k) {
       Vec2f raster{random.next() * 300, random.next() * 200}, u = random.next2();
@@ -109,15 +103,15 @@ TEST(ThinLens, all_rays_of_a_pixel_meet_in_the_plane_in_focus_and_start_on_the_l
 }
 
 TEST(OrthographicCamera, rays_are_parallel_and_start_on_the_screen_window) {
-  Camera camera = built(entity("orthographic"), translate(0, 0, 5), 400, 200);
+  Camera camera = built(CameraDesc{.kind = CameraKind::orthographic}, translate(0, 0, 5), 400, 200);
   expect_near(ray(camera, 0, 0).o, {-2, 1, -5});
   expect_near(ray(camera, 400, 200).o, {2, -1, -5});
   expect_near(ray(camera, 17, 120).d, {0, 0, 1});
 }
 
 TEST(SphericalCamera, equirectangular_rows_are_polar_angles_about_y) {
-  Entity e = entity("spherical");
-  e.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
+  CameraDesc e = CameraDesc{.kind = CameraKind::spherical};
+  e.mapping = SpherePicture::equirectangular;
   Camera camera = built(e, {}, 400, 200);
   expect_near(ray(camera, 0, 0).d, {0, 1, 0});
   expect_near(ray(camera, 123, 200).d, {0, -1, 0});
@@ -128,7 +122,7 @@ TEST(SphericalCamera, equirectangular_rows_are_polar_angles_about_y) {
 }
 
 TEST(SphericalCamera, equal_area_centre_is_up_and_corners_are_down) {
-  Camera camera = built(entity("spherical"), {}, 200, 200);
+  Camera camera = built(CameraDesc{.kind = CameraKind::spherical}, {}, 200, 200);
   expect_near(ray(camera, 100, 100).d, {0, 1, 0});
   expect_near(ray(camera, 0, 0).d, {0, -1, 0});
   expect_near(ray(camera, 200, 100).d, {1, 0, 0});
@@ -166,10 +160,11 @@ TEST(SphereSquare, the_sphere_map_goes_on_across_its_edges) {
 TEST(Camera, a_lane_gives_the_bits_of_a_float) {
   using F = NativeFloats;
   auto view = look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
-  Entity equirectangular = entity("spherical");
-  equirectangular.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
-  for (const Entity& e : {entity("perspective", {number("lensradius", 0.1f), number("focaldistance", 3)}),
-                          entity("orthographic", {number("lensradius", 0.1f)}), entity("spherical"), equirectangular}) {
+  CameraDesc equirectangular = CameraDesc{.kind = CameraKind::spherical};
+  equirectangular.mapping = SpherePicture::equirectangular;
+  for (const CameraDesc& e : {CameraDesc{.lens_radius = 0.1f, .focal_distance = 3},
+                              CameraDesc{.kind = CameraKind::orthographic, .lens_radius = 0.1f},
+                              CameraDesc{.kind = CameraKind::spherical}, equirectangular}) {
     Camera camera = built(e, *view, 64, 48);
     RandomStream<float> random(5u, 6u);
     for (int round = 0; round < 50; ++round) {
@@ -182,15 +177,15 @@ TEST(Camera, a_lane_gives_the_bits_of_a_float) {
       for (int k = 0; k < native_lanes; ++k) {
         Ray<float> one = camera.generate(lane(raster, k), lane(u, k)).ray;
         Vec3f o = lane(pack.ray.o, k), d = lane(pack.ray.d, k);
-        ASSERT_TRUE(o.x == one.o.x && o.y == one.o.y && o.z == one.o.z) << e.type;
-        ASSERT_TRUE(d.x == one.d.x && d.y == one.d.y && d.z == one.d.z) << e.type;
+        ASSERT_TRUE(o.x == one.o.x && o.y == one.o.y && o.z == one.o.z) << name_of(e.kind);
+        ASSERT_TRUE(d.x == one.d.x && d.y == one.d.y && d.z == one.d.z) << name_of(e.kind);
       }
     }
   }
 }
 
 TEST(Camera, in_motion_is_the_camera_that_stands_there_at_each_end_and_half_way_between) {
-  const Entity e = entity("perspective", {number("fov", 40), number("lensradius", 0.3f), number("focaldistance", 4)});
+  const CameraDesc e = CameraDesc{.fov = 40, .lens_radius = 0.3f, .focal_distance = 4};
   const Transform start = *look_at({1, 2, 3}, {0, 0, 0}, {0, 1, 0});
   const Transform turn = rotate(60, 1, 2, 3), shift = translate(4, 0, 0);
   const Transform end = start * (shift * turn).inverted();
@@ -211,13 +206,14 @@ TEST(Camera, in_motion_is_the_camera_that_stands_there_at_each_end_and_half_way_
 
 // Every camera at rest and in motion, in skew and mirrored spaces.
 std::vector<Camera> all_cameras(int width, int height) {
-  Entity equirectangular = entity("spherical");
-  equirectangular.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"equirectangular"}, {}});
+  CameraDesc equirectangular = CameraDesc{.kind = CameraKind::spherical};
+  equirectangular.mapping = SpherePicture::equirectangular;
   const Transform view = scale(-1, 1, 1.5) * *look_at({3, 1, -2}, {0, 0.5, 0}, {0, 1, 0});
   const Transform end = rotate(50, 1, 2, -1) * translate(1, -2, 0.5);
   std::vector<Camera> cameras;
-  for (const Entity& e : {entity("perspective", {number("fov", 70)}), entity("perspective", {number("fov", 15)}),
-                          entity("orthographic"), entity("spherical"), equirectangular}) {
+  for (const CameraDesc& e :
+       {CameraDesc{.fov = 70}, CameraDesc{.fov = 15}, CameraDesc{.kind = CameraKind::orthographic},
+        CameraDesc{.kind = CameraKind::spherical}, equirectangular}) {
     cameras.push_back(built(e, view, width, height));
     cameras.push_back(built(e, {}, width, height).moved({view.inverted(), (end * view).inverted()}));
   }
@@ -256,7 +252,7 @@ TEST(Camera, does_not_see_points_behind_it) {
 }
 
 TEST(Camera, projects_through_the_centre_of_its_lens) {
-  const Entity e = entity("perspective", {number("fov", 40), number("lensradius", 0.3f), number("focaldistance", 4)});
+  const CameraDesc e = CameraDesc{.fov = 40, .lens_radius = 0.3f, .focal_distance = 4};
   const Camera camera = built(e, *look_at({1, 2, 3}, {0, 0, 0}, {0, 1, 0}), 64, 48);
   // In the plane in focus all rays of a raster place meet.
   const Ray<float> a = camera.generate(Vec2f{32, 24}, Vec2f{0.1f, 0.9f}).ray;
@@ -268,9 +264,9 @@ TEST(Camera, projects_through_the_centre_of_its_lens) {
 }
 
 TEST(Camera, blades_make_a_polygon_of_the_lens_with_its_first_corner_turned) {
-  Entity e =
-      entity("orthographic", {number("lensradius", 2), number("focaldistance", 5), number("aperturerotation", 30)});
-  e.parameters.add({"apertureblades", ParameterType::integer, std::vector<int>{5}, {}});
+  CameraDesc e =
+      CameraDesc{.kind = CameraKind::orthographic, .lens_radius = 2, .focal_distance = 5, .aperture_rotation = 30};
+  e.aperture_blades = 5;
   const Camera camera = built(e, {}, 10, 10);
   // Places next to the rim of the square go next to that of the polygon, whose corners are at distance 2.
   float farthest = 0, nearest = 9;
@@ -290,12 +286,12 @@ TEST(Camera, blades_make_a_polygon_of_the_lens_with_its_first_corner_turned) {
 }
 
 TEST(Camera, values_that_make_no_camera_are_reported) {
-  for (const Entity& e : {entity("perspective", {number("fov", 180)}), entity("fisheye"),
-                          entity("orthographic", {number("lensradius", 1), number("focaldistance", 0)}),
-                          entity("perspective", {number("screenwindow", 1)})}) {
+  for (const CameraDesc& e : {CameraDesc{.fov = 180}, CameraDesc{.aspect = 0},
+                              CameraDesc{.kind = CameraKind::orthographic, .lens_radius = 1, .focal_distance = 0},
+                              CameraDesc{.screen_window = {{1, 1, 0, 1}}}}) {
     Diagnostics diagnostics;
     build_camera(e, {}, 10, 10, diagnostics);
-    EXPECT_TRUE(diagnostics.has_errors()) << e.type;
+    EXPECT_TRUE(diagnostics.has_errors()) << name_of(e.kind);
   }
 }
 

@@ -78,8 +78,8 @@ TEST(Attributes, end_with_their_block) {
 TEST(Attributes, give_defaults_that_statements_override) {
   SceneDesc scene =
       read("WorldBegin Attribute \"shape\" \"float radius\" 2 Shape \"sphere\" Shape \"sphere\" \"float radius\" 3");
-  EXPECT_EQ(scene.shapes.at(0).entity.parameters.number("radius", 0), 2);
-  EXPECT_EQ(scene.shapes.at(1).entity.parameters.number("radius", 0), 3);
+  EXPECT_EQ(std::get<SphereForm>(scene.shapes.at(0).form).radius, 2);
+  EXPECT_EQ(std::get<SphereForm>(scene.shapes.at(1).form).radius, 3);
 }
 TEST(Names, of_materials_may_be_used_before_they_are_defined) {
   SceneDesc scene =
@@ -112,10 +112,9 @@ TEST(Meshes, take_their_arrays_from_the_parameters) {
       "WorldBegin Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"normal N\" [ 0 0 1 0 0 1 0 0 1 ]\n"
       "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]");
   ASSERT_EQ(scene.shapes.size(), 2u);
-  EXPECT_EQ(scene.shapes[0].mesh->triangles, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(scene.shapes[0].mesh->normals.size(), 3u);
-  EXPECT_FALSE(scene.shapes[0].entity.parameters.find("P"));
-  EXPECT_EQ(scene.shapes[1].mesh->quads, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(mesh_of(scene.shapes[0])->triangles, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(mesh_of(scene.shapes[0])->normals.size(), 3u);
+  EXPECT_EQ(mesh_of(scene.shapes[1])->quads, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 TEST(Objects, hold_their_shapes_until_they_are_placed) {
   SceneDesc scene = read(

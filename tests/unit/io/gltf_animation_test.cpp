@@ -337,7 +337,7 @@ std::string deforming(const std::string& path, bool skinned) {
 TEST(GltfAnimation, of_morph_targets_makes_poses_of_the_mesh) {
   const ReadResult result = read_window(deforming("weights", false), {0, 2, 4, false});
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
-  const Mesh& mesh = *result.scene->shapes.at(0).mesh;
+  const Mesh& mesh = *mesh_of(result.scene->shapes.at(0));
   ASSERT_EQ(mesh.later.size(), 4u);
   EXPECT_FLOAT_EQ(mesh.positions[2].y, 3);
   EXPECT_FLOAT_EQ(mesh.positions[2].z, 7);  // in the world
@@ -348,7 +348,7 @@ TEST(GltfAnimation, of_joints_moves_vertices_by_their_weights) {
   // Joints are children of the mesh's node, which is at z = 7; the second goes to x = 4.
   const ReadResult result = read_window(deforming("translation", true), {0, 2, 2, false});
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
-  const Mesh& mesh = *result.scene->shapes.at(0).mesh;
+  const Mesh& mesh = *mesh_of(result.scene->shapes.at(0));
   ASSERT_EQ(mesh.later.size(), 2u);
   const std::vector<Vec3f>& end = mesh.later[1].positions;
   EXPECT_NEAR(mesh.positions[0].z, 7, 1e-6);

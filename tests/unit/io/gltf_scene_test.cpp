@@ -25,7 +25,7 @@ std::string mesh_json(const Bytes& bytes, const std::string& views, const std::s
 const Mesh& only_mesh(const ReadResult& result) {
   EXPECT_TRUE(result.scene) << render(result.diagnostics);
   EXPECT_EQ(result.scene->shapes.size(), 1u);
-  return *result.scene->shapes.at(0).mesh;
+  return *mesh_of(result.scene->shapes.at(0));
 }
 
 void expect_point(Vec3f p, double x, double y, double z, double tolerance = 1e-5) {
@@ -139,10 +139,10 @@ TEST(GltfCamera, looks_along_its_own_minus_z_with_x_to_the_right) {
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
   const SceneDesc& scene = *result.scene;
   expect_point(scene.world_to_camera.point(Vec3f{1, 2, 2}), 1, 2, 3);
-  EXPECT_NEAR(scene.camera.parameters.number("fov", 0), 180 / std::numbers::pi, 1e-4);
-  EXPECT_EQ(scene.camera.parameters.string("fovaxis", ""), "y");
-  EXPECT_EQ(scene.film.parameters.integer("xresolution", 0), 1280);
-  EXPECT_EQ(scene.film.parameters.integer("yresolution", 0), 640);
+  EXPECT_NEAR(scene.camera.fov, 180 / std::numbers::pi, 1e-4);
+  EXPECT_EQ(scene.camera.fov_axis, FovAxis::y);
+  EXPECT_EQ(scene.film.width, 1280);
+  EXPECT_EQ(scene.film.height, 640);
 }
 
 TEST(GltfCamera, may_be_orthographic_with_half_its_height_in_the_screen_window) {
@@ -151,10 +151,10 @@ TEST(GltfCamera, may_be_orthographic_with_half_its_height_in_the_screen_window) 
                               R"(, "cameras": [{"type": "orthographic", "orthographic": {"xmag": 6, "ymag": 3,
                                     "znear": 0.1, "zfar": 9}}])"));
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
-  EXPECT_EQ(result.scene->camera.type, "orthographic");
+  EXPECT_EQ(result.scene->camera.kind, CameraKind::orthographic);
   // The upper edge of the picture is y = 3, its right one x = 6.
   expect_point(result.scene->world_to_camera.point(Vec3f{6, 3, -4}), 2, 1, 4);
-  EXPECT_EQ(result.scene->film.parameters.integer("yresolution", 0), 640);
+  EXPECT_EQ(result.scene->film.height, 640);
 }
 
 TEST(GltfCamera, is_chosen_by_name_or_number) {
@@ -168,7 +168,7 @@ TEST(GltfCamera, is_chosen_by_name_or_number) {
     options.camera = choice;
     const ReadResult result = read_text(json, options);
     EXPECT_TRUE(result.scene) << render(result.diagnostics);
-    return result.scene ? float(result.scene->camera.parameters.number("fov", 0)) * std::numbers::pi_v<float> / 180 : 0;
+    return result.scene ? result.scene->camera.fov * std::numbers::pi_v<float> / 180 : 0;
   };
   EXPECT_FLOAT_EQ(fov(std::nullopt), 0.5f);  // the first of the scene
   EXPECT_FLOAT_EQ(fov("far"), 0.5f);
@@ -259,7 +259,8 @@ TEST(GltfMaterial, cuts_out_what_is_below_the_threshold_of_a_mask) {
         R"(, "materials": [{"alphaMode": ")" + mode + R"(", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" +
             std::to_string(factor) + "]}}]"));
     EXPECT_TRUE(result.scene) << render(result.diagnostics);
-    return result.scene->shapes.at(0).entity.parameters.number("alpha", -1);
+    const std::optional<Parameter>& stated = result.scene->shapes.at(0).alpha;
+    return stated ? std::get<std::vector<float>>(stated->values).at(0) : -1;
   };
   EXPECT_EQ(alpha("OPAQUE", 0.25), -1);  // not stated
   EXPECT_EQ(alpha("MASK", 0.25), 0);

@@ -32,7 +32,7 @@ Rgb rgb_of(const Entity& e, const char* name) {
 
 bool is_one_sided(const ReadResult& result) {
   EXPECT_TRUE(result.scene) << render(result.diagnostics);
-  return result.scene->shapes.at(0).entity.parameters.boolean("onesided", false);
+  return result.scene->shapes.at(0).one_sided;
 }
 
 TEST(GltfMaterial, shows_its_back_if_it_is_double_sided_or_glass) {

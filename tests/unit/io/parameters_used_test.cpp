@@ -10,6 +10,7 @@
 #include "io/checks.h"
 #include "io/pbrt.h"
 #include "io/pbrt/parameters.h"
+#include "io/pbrt/picture.h"
 #include "mc/point_set.h"
 #include "scene/prepare.h"
 #include "scene/unused.h"
@@ -338,27 +339,38 @@ TEST(Parameter, that_nothing_reads_is_told) {
   const SourceLocation where{std::make_shared<const std::string>("room.pbrt"), 7, 9};
   const Parameter planted{"grain", ParameterType::number, std::vector<float>{1}, where};
   SceneDesc& scene = *read.scene;
-  for (ParameterList* list : {&scene.sampler.parameters, &scene.shapes[0].entity.parameters, &scene.options}) {
-    SceneDesc faulty = scene;
-    (list == &scene.options              ? faulty.options
-     : list == &scene.sampler.parameters ? faulty.sampler.parameters
-                                         : faulty.shapes[0].entity.parameters)
-        .add(planted);
-    Diagnostics said;
-    ASSERT_TRUE(prepare(faulty, {}, said));
-    ASSERT_EQ(said.all().size(), 1u);
+  const auto expect_one = [](const Diagnostics& said, const std::string& owner) {
+    ASSERT_EQ(said.all().size(), 1u) << owner;
     EXPECT_EQ(said.all()[0].where.line, 7);
     EXPECT_EQ(said.all()[0].where.column, 9);
-    EXPECT_NE(said.all()[0].message.find("'grain' of "), std::string::npos);
+    EXPECT_NE(said.all()[0].message.find("'grain' of " + owner), std::string::npos) << said.all()[0].message;
+  };
+  for (ParameterList* list : {&scene.lights[0].entity.parameters, &scene.materials[0].entity.parameters}) {
+    SceneDesc faulty = scene;
+    const bool is_light = list == &scene.lights[0].entity.parameters;
+    (is_light ? faulty.lights[0].entity : faulty.materials[0].entity).parameters.add(planted);
+    Diagnostics said;
+    ASSERT_TRUE(prepare(faulty, {}, said));
+    expect_one(said, is_light ? "light 'point'" : "material 'diffuse'");
+  }
+  // The words of a file that are read into the description.
+  for (const char* owner : {"sampler 'zsobol'", "Option"}) {
+    pbrt::StatedPicture picture;
+    (owner == std::string("Option") ? picture.options : picture.sampler.parameters).add(planted);
+    Diagnostics said;
+    Reporter report(said, false);
+    pbrt::describe_picture(picture, scene, report);
+    expect_one(said, owner);
   }
 }
 
 TEST(Parameter, that_is_only_checked_is_not_used) {
-  ReadResult read = read_pbrt_text("Sampler \"zsobol\" \"integer pixelsamples\" 4 WorldBegin", ".");
+  ReadResult read = read_pbrt_text("WorldBegin LightSource \"point\" \"float scale\" 4", ".");
   ASSERT_TRUE(read.scene);
-  EXPECT_EQ(read.scene->sampler.parameters.unused().size(), 1u);
-  EXPECT_EQ(read.scene->sampler.parameters.integer("pixelsamples", 1), 4);
-  EXPECT_TRUE(read.scene->sampler.parameters.unused().empty());
+  const ParameterList& light = read.scene->lights.at(0).entity.parameters;
+  EXPECT_EQ(light.unused().size(), 1u);
+  EXPECT_EQ(light.number("scale", 1), 4);
+  EXPECT_TRUE(light.unused().empty());
 }
 
 // The picture's settings of a text before WorldBegin, and what was said.
@@ -373,7 +385,9 @@ Taken taken(const std::string& options) {
   std::optional<PreparedScene> prepared = prepare(*read.scene, {}, said);
   EXPECT_TRUE(prepared);
   Taken t{prepared->picture, ""};
-  for (const Diagnostic& d : said.all())
+  Diagnostics all = read.diagnostics;
+  for (const Diagnostic& d : said.all()) all.add(d);
+  for (const Diagnostic& d : all.all())
     t.said += std::to_string(d.where.line) + ":" + std::to_string(d.where.column) + " " + d.message + "\n";
   return t;
 }

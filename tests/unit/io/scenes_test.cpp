@@ -9,6 +9,7 @@
 #include "io/pbrt.h"
 #include "io/report.h"
 #include "io/write_pbrt.h"
+#include "scene/shape_models.h"
 
 namespace montelux {
 namespace {
@@ -66,14 +67,15 @@ bool same_mesh(const Mesh& a, const Mesh& b) {
 void expect_same_shapes(const std::vector<ShapeDesc>& a, const std::vector<ShapeDesc>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].entity.type, b[i].entity.type);
+    EXPECT_EQ(name_of(a[i].form), name_of(b[i].form));
     EXPECT_TRUE(same_matrix(a[i].object_to_world, b[i].object_to_world));
     EXPECT_TRUE(same_motion(a[i].object_to_world_later, b[i].object_to_world_later));
     EXPECT_EQ(a[i].material, b[i].material);
     EXPECT_EQ(a[i].reverse_orientation, b[i].reverse_orientation);
     EXPECT_EQ(a[i].area_light.has_value(), b[i].area_light.has_value());
-    ASSERT_EQ(a[i].mesh == nullptr, b[i].mesh == nullptr);
-    EXPECT_TRUE(!a[i].mesh || same_mesh(*a[i].mesh, *b[i].mesh));
+    const auto first = mesh_of(a[i]), second = mesh_of(b[i]);
+    ASSERT_EQ(first == nullptr, second == nullptr);
+    EXPECT_TRUE(!first || same_mesh(*first, *second));
   }
 }
 void expect_same(const SceneDesc& a, const SceneDesc& b) {
@@ -175,7 +177,7 @@ LightSource "point" "spectrum I" "stdillum-D65"
   ASSERT_TRUE(first.scene) << render(first.diagnostics);
   ReadResult second = read_pbrt_text(write_pbrt(*first.scene), ".");
   ASSERT_TRUE(second.scene) << render(second.diagnostics) << write_pbrt(*first.scene);
-  EXPECT_EQ(second.scene->film.parameters.string("filename", ""), "a \"b\" \\ c.exr");
+  EXPECT_EQ(second.scene->film.file, "a \"b\" \\ c.exr");
   for (std::size_t i = 0; i < first.scene->materials.size(); ++i)
     first.scene->materials[i].name = second.scene->materials.at(i).name;
   expect_same(*first.scene, *second.scene);
