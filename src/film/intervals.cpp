@@ -23,6 +23,9 @@ constexpr float sure_difference = 8;
 constexpr double prior_freedom = 10, few_alike = 0.5;
 // The relative variance of the mean over the near neighbourhood from that over the wide one.
 constexpr double scale_heterogeneity = 0.3;
+// The least standard error of a pixel beside an emitter, in units of the emitter's: it may show a part of it that no
+// sample has hit.
+constexpr float beside_emitter = 0.2f;
 
 // Standard errors of pixels, or of blocks of pixels, and what makes them alike.
 struct Spreads {
@@ -238,6 +241,19 @@ double error_around(const Pooled& near, std::size_t i, const Pooled& wide, std::
   return own + share * (other - own);
 }
 
+// At each pixel the largest standard error of the emitters that the 3 x 3 pixels around it show.
+Plane emitters_around(const Spreads& s, const std::vector<std::uint8_t>& emitters, std::size_t c) {
+  const std::size_t width = std::size_t(s.width), height = std::size_t(s.height);
+  Plane rows(s.size()), all(s.size());
+  const auto error = [&](std::size_t i) { return emitters[i] ? s.error[c][i] : 0.0f; };
+  for (std::size_t y = 0, i = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x, ++i)
+      rows[i] = std::max({error(i), x > 0 ? error(i - 1) : 0.0f, x + 1 < width ? error(i + 1) : 0.0f});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = std::max({rows[i], i >= width ? rows[i - width] : 0.0f, i + width < all.size() ? rows[i + width] : 0.0f});
+  return all;
+}
+
 }  // namespace
 
 PixelIntervals pixel_intervals(const Film& film, double confidence) {
@@ -248,6 +264,8 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
   const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
+  ColorPlanes beside;
+  for (std::size_t c = 0; c < rgb_size; ++c) beside[c] = emitters_around(spreads, emitters, c);
   PixelIntervals intervals{b, confidence, planes.mean, planes.mean};
   Quantiles quantiles(confidence);
   std::size_t i = 0;
@@ -266,6 +284,7 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
         if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);
+        around = std::max(around, double(beside_emitter * beside[c][i]));
         const double variance = (prior * around * around + freedom * double(planes.variance[c][i])) / (prior + freedom);
         const double mean = double(planes.mean[c][i]), half_width = quantile * std::sqrt(variance);
         intervals.low[c][i] = float(mean - half_width), intervals.high[c][i] = float(mean + half_width);

@@ -21,6 +21,7 @@ struct Law {
   float base = 0.2f, spread = 0.3f, bright = 0;
   double probability = 0;
   std::uint32_t object = 1;
+  bool emits = false;  // the bright samples are those of an emitter that the camera sees
   double expectation() const { return double(base) + probability * double(bright); }
   // Of the mean over all passes of one sample.
   double standard_error() const {
@@ -42,6 +43,7 @@ Film film_of(LawOf law_of, std::uint32_t seed) {
       const bool hit = double(random.at(number)) < law.probability;
       s.radiance = gray_rgb(law.base * (1 + law.spread * (2 * random.at(number + 1) - 1)) + (hit ? law.bright : 0.0f));
       s.features.coverage = 1, s.features.object = law.object;
+      if (hit && law.emits) s.features.emission = gray_rgb(law.bright);
       s.features.albedo = gray_rgb(law.object % 2 == 0 ? 0.9f : 0.2f);
     }
     film.add_pass(bounds, pass, 1, samples);
@@ -119,6 +121,13 @@ Law shadow(int x, int) { return x < side / 2 ? Law{0.05f} : Law{0.45f}; }
 // Objects of four pixels width, of which every other one has 25 times the noise.
 Law stripes(int x, int) { return x / 4 % 2 ? Law{0.5f, 0.5f, 0, 0, 2} : Law{0.1f, 0.1f, 0, 0, 1}; }
 
+// Lamps that fill one pixel, and a small part of those around it.
+bool beside_lamp(int x, int y) { return x % 8 >= 3 && x % 8 <= 5 && y % 8 >= 3 && y % 8 <= 5; }
+Law lamps(int x, int y) {
+  const bool lamp = x % 8 == 4 && y % 8 == 4;
+  return {0.05f, 0.3f, beside_lamp(x, y) ? 30.0f : 0.0f, lamp ? 0.8 : 0.04, 1, true};
+}
+
 }  // namespace
 
 TEST(PixelIntervals, contain_the_expectation_with_their_probability) {
@@ -162,6 +171,12 @@ TEST(PixelIntervals, keep_to_the_pixels_of_the_same_object) {
   // The same figures reject neighbours of which none is unlike.
   EXPECT_GT(coverage_by_box(stripes, quiet).width, 5);
   EXPECT_LT(coverage_by_box(stripes, noisy).share, 0.9);
+}
+
+TEST(PixelIntervals, know_of_a_lamp_beside_the_pixel) {
+  const Coverage c = coverage_of(lamps, beside_lamp);
+  EXPECT_GT(c.share, 0.9);
+  EXPECT_LT(c.width, 1.25);
 }
 
 // A sample of a thousand of a thousand times the light: the interval of a pixel that has none is not that of one.
