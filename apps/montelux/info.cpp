@@ -1,4 +1,4 @@
-// montelux info: the contents of a scene.
+// montelux info: the contents of a scene, or what a picture states about itself.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include "api/json_text.h"
 #include "api/render.h"
 #include "options.h"
+#include "picture_info_output.h"
 #include "progress.h"
 #include "shortcomings.h"
 #include "status.h"
@@ -125,7 +126,18 @@ void print_text(const SceneInfo& info, const std::vector<std::string>& missing) 
   print_text(Shortcomings{missing, info.replaced, info.left_out}, 10);
 }
 
+int run_picture_info(const InfoArguments& arguments) {
+  const Result<PictureInfo> info = picture_info(arguments.scene);
+  if (!info) return complain(info.error());
+  if (arguments.json)
+    print_picture_info_json(arguments.scene, *info);
+  else
+    print_picture_info(arguments.scene, *info);
+  return done;
+}
+
 int run_info(const InfoArguments& arguments) {
+  if (is_picture_name(arguments.scene)) return run_picture_info(arguments);
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
@@ -141,8 +153,11 @@ int run_info(const InfoArguments& arguments) {
 
 void add_info(CLI::App& app, Action& chosen) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App& verb = *app.add_subcommand("info", "Describe a scene: counts, names, sizes, lights, memory");
-  verb.footer("Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n");
+  CLI::App& verb = *app.add_subcommand(
+      "info", "Describe a scene (counts, sizes, lights, memory) or an image (layers, samples, error, bias)");
+  verb.footer(
+      "Examples:\n  montelux info room.pbrt\n  montelux info room.pbrt --json --lenient\n"
+      "  montelux info room.exr                   how it was rendered, its error, and what biases it\n");
   add_scene_options(verb, arguments->scene, arguments->load);
   verb.add_flag("--json", arguments->json, "as one JSON object");
   verb.add_flag("--quiet", arguments->quiet, "no notes or warnings");
