@@ -450,6 +450,10 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
        "passes, which montelux denoise needs; intervals: low and high, which contain the true value of a pixel with 95 "
        "%"},
       into(render.layers, parse_layers));
+  verb.add_flag(
+      "--measure-bias", render.measure_bias,
+      "measure by how much maxdepth and maxcomponent bias the mean: an eighth of the samples is taken without "
+      "them as well");
   add_option(verb, {"--set", "key=value", "a setting of the integrator, such as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {
                auto setting = parse_setting(text);

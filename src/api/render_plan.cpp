@@ -35,6 +35,35 @@ std::string canonical_text(const ChoiceText& choice) {
   return choice.name + (settings.empty() ? "" : ":") + fmt::format("{}", fmt::join(settings, ","));
 }
 
+// The same integrator without a limit of depth and without a clamp, whose samples show what these change.
+Status plan_unbiased(ChoiceText choice, const LoadedScene::Parts& parts, const RenderOptions& options,
+                     RenderPlan& plan) {
+  if (options.checkpoint || options.resume)
+    return Failure{"the bias of a film that is saved or resumed is not measured"};
+  if (plan.chosen.biases.empty()) {
+    plan.chosen.notes.push_back("the integrator has no bias to measure");
+    return Done{};
+  }
+  const Failure other{
+      fmt::format("the bias of {} cannot be measured: only that of maxdepth and maxcomponent can, of an "
+                  "integrator whose pixels share no samples",
+                  fmt::join(plan.chosen.biases, ", "))};
+  if (!plan.chosen.integrator) return other;
+  for (const std::string name : {"maxdepth", "maxcomponent"}) {
+    const bool is_set =
+        std::ranges::any_of(plan.chosen.biases, [&](const std::string& bias) { return bias.starts_with(name + "="); });
+    if (!is_set) continue;
+    std::erase_if(choice.settings, [&](const auto& setting) { return setting.first == name; });
+    choice.settings.emplace_back(name, "none");
+  }
+  auto unbiased = choose_integrator(choice, integrator_defaults(parts.picture), parts.scene, *parts.accel);
+  if (!unbiased) return unbiased.failure();
+  if (!unbiased->biases.empty() || !unbiased->integrator) return other;
+  plan.unbiased = std::move(unbiased->integrator);
+  plan.settings.unbiased = plan.unbiased.get();
+  return Done{};
+}
+
 // The integrator, with what its images lack.
 Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& options, const DirectPreset* preset,
                        RenderPlan& plan) {
@@ -48,6 +77,8 @@ Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& opt
   auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
   if (!chosen) return chosen.failure();
   plan.chosen = *std::move(chosen);
+  if (options.measure_bias)
+    if (Status good = plan_unbiased(*choice, parts, options, plan); !good) return good;
   note_light(plan.chosen, parts);
   plan.replaced = replaced_in(parts.info, options.integrator || preset, options.sampler.has_value());
   plan.preparation = since_choice.seconds();

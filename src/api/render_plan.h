@@ -11,6 +11,7 @@ namespace montelux {
 struct RenderPlan {
   RenderSettings settings;  // without stopping rule
   ChosenIntegrator chosen;
+  std::unique_ptr<PixelIntegrator> unbiased;  // the same without limits, if the bias is to be measured
   std::vector<Replacement> replaced;
   FilesToWrite files;
   std::string integrator_text;          // the integrator, with its settings in a canonical order

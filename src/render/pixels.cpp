@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/float_mode.h"
+#include "render/paired_bias.h"
 #include "render/watch.h"
 #include "work/scheduler.h"
 
@@ -49,6 +50,7 @@ class PixelJob final : public WatchedWork {
       if (passes > 1) ++tiles_with_two_;
     }
     if (settings.begun) rays_ = settings.begun->rays;
+    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
   }
 
   RenderResult run(RenderObserver& observer) {
@@ -56,7 +58,9 @@ class PixelJob final : public WatchedWork {
         *this, [this] { drive(); }, observer);
     watch_.report_end(*this, observer);
     const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
-    return {std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
+    RenderResult result{std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
+    if (paired_) result.bias = paired_->bias();
+    return result;
   }
 
   RenderState state() override {
@@ -110,7 +114,7 @@ class PixelJob final : public WatchedWork {
  private:
   // The memory of one worker, reused for all its units.
   struct Workspace {
-    std::vector<PixelSample> samples;
+    std::vector<PixelSample> samples, unbiased;
     std::vector<ExactRgb> sums;
   };
 
@@ -135,7 +139,7 @@ class PixelJob final : public WatchedWork {
     TileState& tile = tiles_.at(unit.tile);
     if (!tile.begun.exchange(true)) ++tiles_begun_;
     try {
-      do_unit(tile, unit.pass, space);
+      do_unit(unit.tile, unit.pass, space);
     } catch (...) {
       drop_.request_stop();
       throw;
@@ -143,14 +147,20 @@ class PixelJob final : public WatchedWork {
     watch_.query(state());
   }
 
-  void do_unit(TileState& tile, int pass, Workspace& space) {
+  void do_unit(std::size_t number, int pass, Workspace& space) {
+    TileState& tile = tiles_.at(number);
     if (has(tile, pass)) return;
     const int k = settings_.plan.samples_per_pass;
     space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds, settings_.image.points(pass, k), settings_.image.shutter};
     if (settings_.plan.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
-    const RayCounts rays = trace(request, space);
+    RayCounts rays = trace(request, space);
+    const bool compares = paired_ && paired_->compares(number, pass);
+    if (compares) {
+      space.unbiased.resize(space.samples.size());
+      rays += paired_->unbiased().trace(request, space.unbiased);
+    }
     {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
@@ -158,6 +168,7 @@ class PixelJob final : public WatchedWork {
       const int passes = film_.passes(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }
+    if (compares) paired_->add(number, pass, k, space.samples, space.unbiased);
     const std::scoped_lock lock(rays_mutex_);
     rays_ += rays;
   }
@@ -193,6 +204,7 @@ class PixelJob final : public WatchedWork {
   StopFlag drop_;
   std::mutex rays_mutex_;
   RayCounts rays_;
+  std::optional<PairedBias> paired_;
 };
 
 }  // namespace

@@ -19,16 +19,17 @@
 namespace montelux {
 
 struct RenderSettings {
-  ImageSettings image;                       // what is measured
-  PassPlan plan;                             // with how many samples, in which passes
-  std::shared_ptr<const WorkPlan> work;      // in which order; null: PassByPass. It ends chains, too
-  std::shared_ptr<const StoppingRule> stop;  // when it stops before the plan is done; null: never
-  std::optional<ErrorTarget> target;         // whose time left the progress shows; a rule or a plan ends the render
-  BegunFilm* begun = nullptr;                // the film to continue, of the same image; it is moved from
-  FilmKeeping keeping;                       // where the film is saved; nowhere if `keep` is empty
-  SequenceSettings sequence;                 // what chains keep for the next image
-  int threads = 0;                           // 0: all of the machine
-  SecondsClock clock;                        // of the rule and of the result's time; empty: the machine's
+  ImageSettings image;                        // what is measured
+  PassPlan plan;                              // with how many samples, in which passes
+  std::shared_ptr<const WorkPlan> work;       // in which order; null: PassByPass. It ends chains, too
+  std::shared_ptr<const StoppingRule> stop;   // when it stops before the plan is done; null: never
+  std::optional<ErrorTarget> target;          // whose time left the progress shows; a rule or a plan ends the render
+  BegunFilm* begun = nullptr;                 // the film to continue, of the same image; it is moved from
+  FilmKeeping keeping;                        // where the film is saved; nowhere if `keep` is empty
+  SequenceSettings sequence;                  // what chains keep for the next image
+  int threads = 0;                            // 0: all of the machine
+  SecondsClock clock;                         // of the rule and of the result's time; empty: the machine's
+  const PixelIntegrator* unbiased = nullptr;  // tells the bias of a pixel integrator; null: it is not measured
 };
 
 struct RenderResult {
