@@ -105,11 +105,16 @@ class Figures:
                     self.classes[name][1] += 1
 
 
-def oracle_width(truth, times):
-    """The sum over pixels of 1.96 standard errors of the reference, as if it had so many times fewer samples."""
-    return sum(1.96 * math.sqrt(times) * doubt
-               for doubts, trues in zip(truth.layer("stderr"), truth.layer(""))
-               for doubt, true in zip(doubts, trues) if doubt > 1e-6 * abs(true))
+def oracle_width(pictures, truth):
+    """The sum over pixels of 1.96 standard errors, these from the passes of all seeds."""
+    total = 0.0
+    for c in range(3):
+        doubts, trues = truth.layer("stderr")[c], truth.layer("")[c]
+        errors = [picture.layer("stderr")[c] for picture in pictures]
+        for i, (doubt, true) in enumerate(zip(doubts, trues)):
+            if doubt > 1e-6 * abs(true):
+                total += 1.96 * math.sqrt(sum(e[i] ** 2 for e in errors) / len(errors))
+    return total
 
 
 def main():
@@ -150,7 +155,7 @@ def main():
                          for covered, count in figures.classes.values()]
                 print(f"| {scene.stem} | {samples} | {100 * figures.by_student / figures.count:.1f} % | "
                       f"{100 * figures.covered / figures.count:.1f} % | " + " | ".join(cells) +
-                      f" | {figures.width / oracle_width(truth, arguments.reference / samples) / arguments.seeds:.2f} |", flush=True)
+                      f" | {figures.width / oracle_width(pictures, truth) / arguments.seeds:.2f} |", flush=True)
 
 
 if __name__ == "__main__":

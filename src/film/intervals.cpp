@@ -70,7 +70,7 @@ class Quantiles {
   std::array<double, std::size_t(prior_freedom) * steps + 1> values_{};
 };
 
-// Numbers that no sum of squares can hold belong to no pixel that others can learn from.
+// Numbers that no sum of squares can hold belong to no pixel that others can use.
 bool is_usable(double x) { return std::abs(x) < 1e15; }
 
 // `planes` have the same pixels as the film.
