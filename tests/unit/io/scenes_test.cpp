@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "io/pbrt.h"
 #include "io/report.h"
@@ -181,6 +182,53 @@ LightSource "point" "spectrum I" "stdillum-D65"
   for (std::size_t i = 0; i < first.scene->materials.size(); ++i)
     first.scene->materials[i].name = second.scene->materials.at(i).name;
   expect_same(*first.scene, *second.scene);
+}
+
+// The picture of a text, and that of what the writer makes of it.
+TEST(Writing, keeps_the_picture_in_the_words_of_the_file) {
+  const std::vector<std::string> texts{
+      "",
+      "Integrator \"ambientocclusion\" \"float maxdistance\" 2.5 \"bool cossample\" false",
+      "Integrator \"simplepath\" \"bool samplelights\" false \"integer maxdepth\" 3",
+      "Integrator \"mlt\" \"float largestepprobability\" 0.4 \"integer mutationsperpixel\" 33",
+      "Integrator \"sppm\" \"integer photonsperiteration\" 5000 \"float radius\" 0.25 \"integer seed\" 9",
+      "Integrator \"bdpt\" \"string lightsampler\" \"power\"",
+      "Sampler \"stratified\" \"integer xsamples\" 4 \"integer ysamples\" 4 \"integer seed\" 8",
+      "Sampler \"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 3 \"bool jitter\" false",
+      "Sampler \"paddedsobol\" \"integer pixelsamples\" 7 Option \"integer seed\" 4",
+      "Sampler \"halton\" Option \"bool disablepixeljitter\" true",
+      "PixelFilter \"mitchell\" \"float B\" 0.2 \"float xradius\" 3",
+      "Camera \"spherical\" \"string mapping\" \"equirectangular\" \"float shutterclose\" 0.5",
+      "Camera \"orthographic\" \"float lensradius\" 0.1 \"integer apertureblades\" 6 \"string fovaxis\" \"y\"",
+      "Film \"rgb\" \"float iso\" 200 \"float cropwindow\" [ 0 0.5 0.25 1 ] \"float maxcomponentvalue\" 8",
+      "Film \"rgb\" \"integer xresolution\" 9 \"integer pixelbounds\" [ 1 3 2 4 ]"};
+  std::set<std::string> written;
+  for (const std::string& text : texts) {
+    SCOPED_TRACE(text);
+    const ReadResult first = read_pbrt_text(text + "\nWorldBegin", ".");
+    ASSERT_TRUE(first.scene) << render(first.diagnostics);
+    const std::string out = write_pbrt(*first.scene);
+    EXPECT_TRUE(written.insert(out).second) << "the same as for another picture:\n" << out;
+    const ReadResult second = read_pbrt_text(out, ".");
+    ASSERT_TRUE(second.scene) << render(second.diagnostics) << out;
+    const SceneDesc &a = *first.scene, &b = *second.scene;
+    EXPECT_EQ(write_pbrt(b), out);
+    EXPECT_EQ(a.integrator.name, b.integrator.name);
+    EXPECT_EQ(a.integrator.settings, b.integrator.settings);
+    EXPECT_EQ(a.integrator.max_depth, b.integrator.max_depth);
+    EXPECT_EQ(a.integrator.light_selection, b.integrator.light_selection);
+    EXPECT_EQ(a.sampling.points, b.sampling.points);
+    EXPECT_EQ(a.sampling.samples, b.sampling.samples);
+    EXPECT_EQ(a.sampling.seed, b.sampling.seed);
+    EXPECT_EQ(a.sampling.pixel_centres, b.sampling.pixel_centres);
+    EXPECT_EQ(a.film.crop_window, b.film.crop_window);
+    EXPECT_EQ(a.film.pixel_bounds, b.film.pixel_bounds);
+    EXPECT_EQ(a.film.iso, b.film.iso);
+    EXPECT_EQ(a.camera.kind, b.camera.kind);
+    EXPECT_EQ(a.camera.mapping, b.camera.mapping);
+    EXPECT_EQ(a.camera.shutter_close, b.camera.shutter_close);
+    EXPECT_EQ(a.filter.b, b.filter.b);
+  }
 }
 
 }  // namespace
