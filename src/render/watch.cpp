@@ -111,6 +111,9 @@ Progress RenderWatch::progress(WatchedWork& work, bool finished) {
     p.to_target = {seconds_of(target.work), seconds_of(target.work_low), seconds_of(target.work_high)};
     left = std::min(left, p.to_target->seconds);
     if (!finished) p.fraction = std::clamp(p.elapsed / (p.elapsed + left), p.fraction, 1.0);
+  } else if (settings_.target && !finished) {
+    // The plan's end is the most that it may take: it says nothing of the time to the error.
+    left = by_rule, p.fraction = std::isfinite(by_rule) ? by_time : 0;
   }
   p.remaining = std::isfinite(left) ? std::max(left, 0.0) : 0;
   return p;

@@ -1,7 +1,9 @@
 // Renders that end at a requested error.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "mc/random.h"
 #include "render/target_plan.h"
@@ -148,6 +150,37 @@ TEST(TargetPlan, does_not_end_without_light) {
   const RenderResult result = render_to(Dark(), relative, settings_for(2), 100);
   EXPECT_EQ(result.film.image().passes, 100);
   EXPECT_FALSE(judge(relative, result.film, false).is_known);
+}
+
+// The end of the plan is the most that it may take: it is no time left to the error.
+TEST(TargetPlan, shows_no_time_left_as_long_as_it_is_not_known) {
+  class SlowAndDark final : public PixelIntegrator {
+   public:
+    RayCounts trace(const TilePass&, std::span<PixelSample> out) const override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      for (PixelSample& s : out) s.radiance = gray_rgb(0.0f);
+      return {};
+    }
+  };
+  class Watching final : public RenderObserver {
+   public:
+    void progress(const Progress& p) override {
+      if (p.finished) return;
+      ++looks;
+      shown = std::max({shown, p.fraction, p.remaining});
+    }
+    int looks = 0;
+    double shown = 0;
+  };
+  for (const bool with_target : {true, false}) {
+    RenderSettings s = settings_for(2);
+    s.plan = {1, 40};
+    if (with_target) s.work = std::make_shared<TargetPlan>(relative), s.target = relative;
+    Watching observer;
+    (void)render(SlowAndDark(), s, observer);
+    EXPECT_GT(observer.looks, 0);
+    EXPECT_EQ(observer.shown > 0, !with_target) << observer.shown;
+  }
 }
 
 TEST(Looks, spend_all_of_the_probability_and_not_more) {
