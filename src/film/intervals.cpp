@@ -21,6 +21,8 @@ constexpr float sure_difference = 8;
 // The degrees of freedom of what is known from the neighbours: how much standard errors of like pixels differ. Half of
 // them where the weights of all neighbours sum to `few_alike`; a neighbour that shows the like has nearly 1.
 constexpr double prior_freedom = 10, few_alike = 0.5;
+// Those of the pixel's own variance at most: many passes are short, and short passes are far from normal.
+constexpr double own_freedom = 15;
 // The relative variance of the mean over the near neighbourhood from that over the wide one.
 constexpr double scale_heterogeneity = 0.3;
 // The least standard error of a pixel beside an emitter, in units of the emitter's: it may show a part of it that no
@@ -272,7 +274,7 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
   for (int y = 0; y < b.height(); ++y)
     for (int x = 0; x < b.width(); ++x, ++i) {
       const std::size_t k = std::size_t(y / block) * std::size_t(blocks.width) + std::size_t(x / block);
-      const double freedom = double(film.passes_of(b.x0 + x, b.y0 + y)) - 1;
+      const double freedom = std::min(double(film.passes_of(b.x0 + x, b.y0 + y)) - 1, own_freedom);
       if (freedom < 1) {
         for (std::size_t c = 0; c < rgb_size; ++c)
           intervals.low[c][i] = -std::numeric_limits<float>::infinity(), intervals.high[c][i] = -intervals.low[c][i];
