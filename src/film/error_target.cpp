@@ -11,32 +11,47 @@ namespace montelux {
 
 namespace {
 
-// The standard deviation of the logarithm of a squared error because of its divisors, as PictureError has it.
-constexpr double divisor_deviation = 0.223 / 1.96;
+// The standard deviation of the logarithm of a squared error because of its divisors, as estimate_error() has it.
+constexpr double of_divisors = 0.223 / 1.96;
+// The same for pixels that few bright samples determine, as those that an edge of a lamp crosses: their own divisor and
+// the chance in their error are both unknown.
+constexpr double of_few_samples = 1;
 
-// The factor for the upper end of a squared error. `deviation`: of its logarithm, by chance.
-double upper_factor(const ErrorTarget& target, double deviation, double spent) {
+// The factor for the upper end of a squared error. Deviations of its logarithm: by chance, and for another reason,
+// which is the same at all looks.
+double upper_factor(const ErrorTarget& target, double by_chance, double constant, double spent) {
   const double wrong = 1 - target.confidence;
-  return std::exp(
-      std::hypot(normal_quantile(1 - wrong * spent) * deviation, normal_quantile(1 - wrong) * divisor_deviation));
+  return std::exp(std::hypot(normal_quantile(1 - wrong * spent) * by_chance, normal_quantile(1 - wrong) * constant));
+}
+
+// Whether rare bright samples determine the error, so that its chance cannot be told from this film either. Where every
+// pixel has many bright samples, a few pixels with most of the error, as at the edge of a lamp, are known well.
+bool is_unsure(const ErrorEstimate& error) {
+  constexpr double few_pixels = 16, small_share = 0.1;
+  const bool has_tail = error.tail_index < 1 || error.effective_pixels < std::min(few_pixels, double(error.pixels) / 8);
+  return has_tail && error.share_of_few_samples > small_share;
 }
 
 // Work for an error that falls like the root of the number of samples. `deviation`: of the logarithm of the squared
-// error's estimate.
-void predict_work(const ErrorTarget& target, double deviation, TargetState& state) {
+// error's estimate. `later`: the bound by what is in it however many samples there are; the rest may fall.
+void predict_work(const ErrorTarget& target, double deviation, double later, TargetState& state) {
   constexpr double of_rate = 0.1;  // how well the errors of longer passes follow that law
   const double factor = std::exp(std::hypot(1.96 * deviation, of_rate));
-  const double root = state.bound / target.error;
-  state.work = root * root, state.work_low = state.work / factor, state.work_high = state.work * factor;
+  const auto work_of = [&](double bound) { return bound * bound / (target.error * target.error); };
+  const double now = work_of(state.bound), then = work_of(std::min(later, state.bound));
+  state.work = std::sqrt(now * then), state.work_low = then / factor, state.work_high = now * factor;
 }
 
 void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, double passes, double spent,
                     TargetState& state) {
   const double of_estimate = std::sqrt(2 / (error.effective_pixels * (passes - 1)));
   const double of_picture = std::sqrt(2 / error.effective_pixels);
+  const double constant = of_divisors + of_few_samples * error.share_of_few_samples;
   state.error = std::sqrt(error.relative_mse);
-  state.bound = std::sqrt(error.relative_mse * upper_factor(target, std::hypot(of_picture, of_estimate), spent));
-  predict_work(target, of_estimate, state);
+  state.bound =
+      std::sqrt(error.relative_mse * upper_factor(target, std::hypot(of_picture, of_estimate), constant, spent));
+  const double later = std::sqrt(error.relative_mse * upper_factor(target, of_picture, of_divisors, spent));
+  predict_work(target, of_estimate, later, state);
 }
 
 // The relative variances of the pixels that have two passes, shrunk toward the mean of the eight around them: a pixel
@@ -112,8 +127,8 @@ void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double pa
   const double share = 1 - target.share, count = std::max(share * double(variances.size()), 1.0);
   const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_picture = 1 / std::sqrt(count);
   state.error = missed.error_of(share);
-  state.bound = missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), spent));
-  predict_work(target, of_estimate, state);
+  state.bound = missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), of_divisors, spent));
+  predict_work(target, of_estimate, state.bound, state);
 }
 
 // The standard error of the mean over pixels and channels if pixels were independent: inaccurate in what it assumes,
@@ -140,11 +155,11 @@ void judge_mean(const ErrorTarget& target, const FilmPlanes& planes, const Image
   state.error = error / std::abs(mean);
   state.bound = state.error * student_t_quantile((1 + target.confidence) / 2, passes - 1);
   constexpr double few_passes = 8;
-  if (passes >= few_passes) return predict_work(target, std::sqrt(2 / (passes - 1)), state);
+  if (passes >= few_passes) return predict_work(target, std::sqrt(2 / (passes - 1)), state.bound, state);
   TargetState predicted;
   const double normal = normal_quantile((1 + target.confidence) / 2);
   predicted.bound = normal * error_of_independent_pixels(planes) / std::abs(mean);
-  predict_work(target, 0.5, predicted);
+  predict_work(target, 0.5, predicted.bound, predicted);
   state.work = predicted.work, state.work_low = predicted.work_low, state.work_high = predicted.work_high;
 }
 
@@ -159,7 +174,7 @@ TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const Err
   switch (target.measure) {
     case TargetMeasure::relative:
       judge_relative(target, error, image.passes, spent, state);
-      state.is_unsure = error.is_unsure() && error.relative_mse > 0;
+      state.is_unsure = is_unsure(error) && error.relative_mse > 0;
       break;
     case TargetMeasure::pixels:
       judge_pixels(target, planes, image.passes, spent, state);

@@ -126,11 +126,13 @@ double reciprocal_of(double own, double neighbours, const Excess& e, const Belie
 // Sums over pixels.
 struct Sums {
   double squared = 0, relative = 0, relative_squares = 0;
+  double of_few_samples = 0;  // of the relative
   LargestTerms largest;
 };
 
-void add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreement& agreement, std::size_t i,
-               Sums& sums) {
+// Returns its relative squared error.
+double add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreement& agreement, std::size_t i,
+                 Sums& sums) {
   const Excess e = excess_of(p, neighbours, i);
   const Belief belief = belief_of(e, agreement);
   double relative = 0;
@@ -140,7 +142,23 @@ void add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreeme
     relative += variance * reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
   }
   sums.relative += relative, sums.relative_squares += relative * relative;
+  constexpr double few_samples = 5;
+  if (e.own * e.own < few_samples * e.variance) sums.of_few_samples += relative;
   sums.largest.add(relative);
+  return relative;
+}
+
+// Sums over the pixels that have two passes; `visit` gets the number of each with its relative squared error.
+template <class Visit>
+Sums sum_pixels(const FilmPlanes& p, Visit visit) {
+  const ColorPlanes neighbours = mean_of_neighbours(p);
+  Agreement agreement;
+  for (std::size_t i = 0; i < p.passes.size(); ++i)
+    if (p.passes[i] == 2) agreement.add(excess_of(p, neighbours, i));
+  Sums sums;
+  for (std::size_t i = 0; i < p.passes.size(); ++i)
+    if (p.passes[i] == 2) visit(i, add_pixel(p, neighbours, agreement, i, sums));
+  return sums;
 }
 
 }  // namespace
@@ -150,23 +168,24 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   error.all = std::size_t(std::count(p.expected.begin(), p.expected.end(), std::uint8_t(1)));
   error.pixels = std::size_t(std::count(p.passes.begin(), p.passes.end(), std::uint8_t(2)));
   if (error.pixels == 0) return error;
-  const ColorPlanes neighbours = mean_of_neighbours(p);
-  Agreement agreement;
-  for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) agreement.add(excess_of(p, neighbours, i));
-  Sums sums;
-  for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) add_pixel(p, neighbours, agreement, i, sums);
+  const Sums sums = sum_pixels(p, [](std::size_t, double) {});
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);
   // Their number decides how far the logarithm of the sum may be off. The divisor is another part of it: pictures of
   // many scenes show 0.8 to 1.25 of the true error in their mean.
   error.effective_pixels =
       sums.relative_squares > 0 ? sums.relative * sums.relative / sums.relative_squares : double(error.pixels);
+  if (sums.relative > 0) error.share_of_few_samples = sums.of_few_samples / sums.relative;
   constexpr double divisor = 0.223;
   const double factor = std::exp(std::hypot(1.96 * std::sqrt(2 / error.effective_pixels), divisor));
   error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
   error.tail_index = hill_index(sums.largest.sorted());
   return error;
+}
+
+Plane relative_errors(const FilmPlanes& p) {
+  Plane errors(p.passes.size());
+  sum_pixels(p, [&](std::size_t i, double relative) { errors[i] = float(relative); });
+  return errors;
 }
 
 }  // namespace montelux

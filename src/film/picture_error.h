@@ -18,8 +18,10 @@ struct ErrorEstimate {
   // tail. Below 1 they have no finite mean.
   double tail_index = std::numeric_limits<double>::infinity();
   double effective_pixels = 0;  // number of pixels of equal error with the same uncertainty (Kish 1965)
-  std::size_t pixels = 0;       // pixels that have two passes
-  std::size_t all = 0;          // pixels that could have two: sampled, with a finite sample
+  // The share of the relative error in pixels whose brightness fewer than five bright samples determine.
+  double share_of_few_samples = 0;
+  std::size_t pixels = 0;  // pixels that have two passes
+  std::size_t all = 0;     // pixels that could have two: sampled, with a finite sample
 
   // Whether it is the error of the whole image.
   bool whole() const { return pixels > 0 && pixels == all; }
@@ -35,5 +37,8 @@ struct ErrorEstimate {
 // neighbours, and from the pixel itself as far as it is known to differ from them: by more than its noise explains, or,
 // where few samples made it bright, as often as such pixels of this picture are bright in both halves of their passes.
 ErrorEstimate estimate_error(const FilmPlanes& planes);
+
+// The relative squared error of each pixel, of which estimate_error() has the mean: 0 below two passes.
+Plane relative_errors(const FilmPlanes& planes);
 
 }  // namespace montelux
