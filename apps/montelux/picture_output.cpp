@@ -236,7 +236,11 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
-  fmt::print("samples  {:.3g} per pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes, k,
+  std::size_t most = 0;
+  for (const auto& [index, tile] : rendering.result.film.tiles()) most = std::max(most, tile.passes.size());
+  const std::string passes_text =
+      most > std::size_t(passes) ? fmt::format("{} to {}", passes, most) : fmt::format("{}", passes);
+  fmt::print("samples  {:.3g} per pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes_text, k,
              count_text(outcome.samples));
   if (share < 1) fmt::print("         {:.3g} % of the pixels have samples\n", 100 * share);
   fmt::print("time     {}, {}, {}{}\n", time_text(seconds), count_text(outcome.samples / seconds, "samples/s"),

@@ -379,6 +379,17 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
   verb.add_flag(
       "--unbiased", arguments.unbiased,
       "two stages: samples of a pilot decide their number, the image is of others, so that its mean is unbiased");
+  add_option(
+      verb,
+      {"--adaptive", "on|off",
+       "more passes for the tiles where they lower the requested error most (without one, that of the pixels); a "
+       "pilot of other samples decides; default: off"},
+      [&arguments](const std::string& text) -> Status {
+        const Result<std::string> choice = parse_choice(text, {"on", "off"});
+        if (!choice) return choice.failure();
+        arguments.render.adaptive = *choice == "on";
+        return Done{};
+      });
   for (const char* needs : {"--confidence", "--unbiased"}) verb.get_option(needs)->needs("--target-error");
   for (const char* other : {"--interactive-budget", "--preset", "--passes"})
     verb.get_option("--target-error")->excludes(other);

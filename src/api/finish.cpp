@@ -30,6 +30,14 @@ bool is_black(const Film& film) {
   return sampled;
 }
 
+double samples_per_pixel(const Film& film) {
+  const PixelBounds& b = film.bounds();
+  double samples = 0;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) samples += film.samples(x, y);
+  return samples / b.area();
+}
+
 std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& rendering) {
   const RenderResult& result = rendering.result;
   std::vector<Attribute> header;
@@ -105,7 +113,7 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
   if (facts.target) {
     const Film& film = rendering.result.film;
     rendering.target = TargetResult{*facts.target, judge(facts.target->error, film, facts.target->unbiased),
-                                    double(image.passes) * plan.samples_per_pass, rendering.result.seconds};
+                                    samples_per_pixel(film), rendering.result.seconds};
   }
   rendering.header = header_of(facts, rendering);
   rendering.missing = std::move(facts.missing), rendering.replaced = std::move(facts.replaced);

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
+#include "render/adaptive_plan.h"
 #include "render/target_plan.h"
 #include "render/timed_plan.h"
 
@@ -45,20 +47,39 @@ class TimeOfImage {
   FinishTime finish_;
 };
 
-// The passes of a render to an error, with at most so many samples per pixel.
-PassPlan plan_to_target(const RenderPlan& plan, const RenderSettings& settings, int most, RenderObserver& observer) {
+// The passes of a render to an error, with at most so many samples per pixel, and the pilot that decided them.
+struct PassesToTarget {
+  PassPlan passes;
+  std::optional<Pilot> pilot;
+};
+PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& settings, int most,
+                              RenderObserver& observer) {
   const TargetRequest& target = *plan.target;
   const std::optional<int> stated = plan.samples_per_pass;
-  PassPlan passes = settings.plan;
-  if (target.unbiased)
-    passes = plan_in_two_stages(plan.chosen.any(), settings, target.error, most, observer);
-  else if (!stated)
-    passes = plan_for_target(plan.chosen.any(), settings, target.error, most, observer);
-  if (stated) {
-    const int samples = target.unbiased ? passes.samples() : most;
-    passes.samples_per_pass = *stated, passes.passes = (samples + *stated - 1) / *stated;
+  if (stated && !target.unbiased && !plan.adaptive) return {{*stated, (most + *stated - 1) / *stated}, {}};
+  const auto plan_by_pilot = target.unbiased ? plan_in_two_stages : plan_for_target;
+  PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, target.error, most, observer);
+  PassPlan passes = planned.plan;
+  if (stated) passes = {*stated, (passes.samples() + *stated - 1) / *stated};
+  return {passes, std::move(planned.pilot)};
+}
+
+// Gives tiles passes by a pilot. The number of samples that a target needs falls by the gain.
+void make_adaptive(const RenderPlan& plan, RenderSettings& settings, const Pilot& pilot) {
+  const int k = settings.plan.samples_per_pass;
+  const int side = std::min(adaptive_tile_side(k), settings.plan.tile_side());
+  settings.plan.max_unit_samples = side * side * k;
+  const TargetMeasure measure = plan.target ? plan.target->error.measure : TargetMeasure::relative;
+  const PilotTiles tiles = tiles_of_pilot(pilot, measure, side);
+  const std::vector<double> shares = pass_shares(tiles.tiles, tiles.columns);
+  std::optional<ErrorTarget> target;
+  if (plan.target && !plan.target->unbiased) target = plan.target->error;
+  if (plan.target && plan.target->unbiased) {
+    // Half of the gain that the pilot itself shows, which the chance in it makes too large.
+    const double gain = (1 + std::max(expected_gain(tiles.tiles, shares), 1.0)) / 2;
+    settings.plan.passes = std::max(int(std::ceil(settings.plan.passes / gain)), std::min(settings.plan.passes, 4));
   }
-  return passes;
+  settings.work = std::make_shared<AdaptivePlan>(shares, target);
 }
 
 // Plans the passes for the time that is left, and sets the rule that ends it. The time includes the making of the
@@ -84,17 +105,23 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
                     timed.sample_seconds));
     timed.plan.stride = 1;
   }
+  std::optional<Pilot> pilot;
   // Too few samples to spend some of them on a pilot.
   constexpr double min_samples = 64;
   const double affordable = time.left() / timed.sample_seconds;
   if (plan.target && timed.plan.stride == 1 && affordable >= min_samples) {
     const int most = int(std::min(affordable, double(plan.max_samples)));
-    const PassPlan passes = plan_to_target(plan, settings, most, observer);
+    PassesToTarget to_target = plan_to_target(plan, settings, most, observer);
+    const PassPlan& passes = to_target.passes;
     timed.plan.samples_per_pass = std::min(passes.samples_per_pass, timed.plan.samples_per_pass);
     if (plan.target->unbiased) timed.plan.passes = (passes.samples() - 1) / timed.plan.samples_per_pass + 1;
+    pilot = std::move(to_target.pilot);
   }
+  if (plan.adaptive && !plan.target && timed.plan.stride == 1)
+    pilot = run_pilot(integrator, settings, int(std::min(affordable, double(max_film_samples))), observer);
   const double first_seconds = timed.plan.stride > 1 ? timed.first_seconds : timed.sample_seconds;
   settings.plan = timed.plan;
+  if (plan.adaptive && pilot) make_adaptive(plan, settings, *pilot);
   const int stride = settings.plan.stride;
   time.announce_if_late(stride, observer);
   if (stride > 1)
@@ -130,7 +157,15 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   if (plan.seconds) plan_timed(plan, settings, before, observer);
   if (plan.target && !plan.seconds && !settings.begun) {
     const Stopwatch since_start;
-    settings.plan = plan_to_target(plan, settings, plan.max_samples, observer);
+    PassesToTarget to_target = plan_to_target(plan, settings, plan.max_samples, observer);
+    settings.plan = to_target.passes;
+    if (plan.adaptive && to_target.pilot) make_adaptive(plan, settings, *to_target.pilot);
+    before += since_start.seconds();
+  }
+  if (plan.adaptive && !plan.target && !plan.seconds) {
+    const Stopwatch since_start;
+    const auto pilot = run_pilot(plan.chosen.any(), settings, settings.plan.samples(), observer);
+    if (pilot) make_adaptive(plan, settings, *pilot);
     before += since_start.seconds();
   }
   if (plan.budget) settings.stop = std::make_shared<TimeBudget>(*plan.budget - before, plan.ending);

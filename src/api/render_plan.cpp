@@ -184,12 +184,29 @@ Status check_target(const RenderOptions& options, PointSetKind sampler) {
   return Done{};
 }
 
+// Whether tiles can have different numbers of passes with these options.
+Status check_adaptive(const RenderOptions& options, const ChosenIntegrator& chosen, PointSetKind sampler) {
+  if (!options.adaptive) return Done{};
+  if (chosen.coupled)
+    return Failure{
+        fmt::format("the pixels of {} share samples: none of them can have more passes than others", chosen.name)};
+  if (is_fixed(sampler))
+    return Failure{
+        fmt::format("sampler {} takes all its samples in one pass: no pixel can have more", name_of(sampler))};
+  if (options.budget || options.passes)
+    return Failure{"a range of passes and a time budget are the same for all pixels: they are not adaptive"};
+  if (options.checkpoint || options.resume)
+    return Failure{"an adaptive render is not saved, and continues no saved film"};
+  return Done{};
+}
+
 // `default_samples`: if the options state none.
 Status plan_samples(const RenderOptions& options, int default_samples, RenderPlan& plan) {
   if (options.samples && (*options.samples < 1 || *options.samples > (1 << 24)))
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
   const PointSetKind sampler = plan.settings.image.sampler;
   if (Status good = check_target(options, sampler); !good) return good;
+  if (Status good = check_adaptive(options, plan.chosen, sampler); !good) return good;
   const AnyIntegrator integrator = plan.chosen.any();
   if (options.target && options.samples) plan.max_samples = *options.samples;
   if (options.target && !options.samples) default_samples = int(max_film_samples);
@@ -239,7 +256,7 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   plan.settings.threads = options.threads;
   plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
   plan.seconds = options.seconds, plan.budget = options.budget;
-  plan.target = options.target;
+  plan.target = options.target, plan.adaptive = options.adaptive;
   if (plan.target) {
     plan.settings.target = plan.target->error;
     if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(plan.target->error);

@@ -19,6 +19,7 @@ struct RenderPlan {
   std::optional<double> budget;         // the time of each image, without writing
   std::optional<TargetRequest> target;  // the error that ends it, with at most these samples per pixel
   int max_samples = max_film_samples;
+  bool adaptive = false;
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
   bool denoise = false;

@@ -30,6 +30,7 @@ struct TileState {
   PixelBounds bounds;
   std::mutex mutex;                // guards the tile's part of the film
   std::atomic<bool> begun{false};  // it has a pass, or one in work
+  std::uint64_t rays = 0;          // of this render
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
@@ -60,6 +61,7 @@ class PixelJob final : public WatchedWork {
     const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
     RenderResult result{std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
     if (paired_) result.bias = paired_->bias();
+    for (const TileState& tile : tiles_) result.rays_of_tiles.push_back(tile.rays);
     return result;
   }
 
@@ -165,6 +167,7 @@ class PixelJob final : public WatchedWork {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
       film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
+      tile.rays += rays.all();
       const int passes = film_.passes(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }

@@ -91,12 +91,23 @@ TargetState judge(const ErrorTarget& target, const Film& film, bool single_look)
   if (image.passes < 2 || film.grid().stride > 1) return {};
   FilmPlanes planes(film.bounds());
   planes.copy(film, film.bounds());
-  const double spent = single_look ? 1 : Looks(target).spent(image.passes);
+  std::size_t most = 0;
+  for (const auto& [index, tile] : film.tiles()) most = std::max(most, tile.passes.size());
+  const double spent = single_look ? 1 : Looks(target).spent(int(most));
   return judge(target, planes, estimate_error(planes), image, spent);
 }
 
-PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target, int most,
-                         RenderObserver& observer) {
+Pilot pilot_of(const AnyIntegrator& integrator, RenderSettings settings, int samples_per_pass, int passes,
+               RenderObserver& observer) {
+  clear_for_pilot(settings);
+  settings.plan = {samples_per_pass, passes, first_pilot_pass};
+  PilotObserver silent(observer);
+  RenderResult result = render(integrator, settings, silent);
+  return {std::move(result.film), std::move(result.rays_of_tiles)};
+}
+
+PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                            int most, RenderObserver& observer) {
   constexpr int share = 16;  // at least so many times the samples of a pilot are predicted when it is replaced
   constexpr int growth = 4;
   clear_for_pilot(settings);
@@ -105,8 +116,9 @@ PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings setting
   const int longest = integrator.coupled() ? integrator.coupled()->frames() : 1024;
   settings.plan = {1, 2, first_pilot_pass};
   int predicted = most;
+  RenderResult pilot{Film({}), {}, 0, false};
   for (;;) {
-    const RenderResult pilot = render(integrator, settings, silent);
+    pilot = render(integrator, settings, silent);
     const double samples = settings.plan.samples();
     predicted = predicted_samples(samples, judge(target, pilot.film, true).work, most);
     settings.plan.first_pass += settings.plan.passes;
@@ -121,26 +133,26 @@ PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings setting
          predicted / plan.samples_per_pass < passes_for_mean)
     plan.samples_per_pass /= 2;
   plan.passes = std::max((most + plan.samples_per_pass - 1) / plan.samples_per_pass, 1);
-  return plan;
+  return {plan, {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }
 
-PassPlan plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                            int most, RenderObserver& observer) {
+PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                               int most, RenderObserver& observer) {
   // Twice the error takes a quarter of the samples.
   ErrorTarget of_pilot = target;
   of_pilot.error *= 2;
-  settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(most / 4, 1), observer);
+  settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(most / 4, 1), observer).plan;
   clear_for_pilot(settings);
   // Behind the passes of the first pilots.
   settings.plan.first_pass = first_pilot_pass + (1 << 8);
   settings.work = std::make_shared<TargetPlan>(of_pilot);
   PilotObserver silent(observer);
-  const RenderResult pilot = render(integrator, settings, silent);
+  RenderResult pilot = render(integrator, settings, silent);
   const double samples = double(settings.plan.samples_per_pass) * std::max(pilot.film.image().passes, 1);
-  const TargetState state = judge(target, pilot.film, true);
-  // Enough for most pictures, by the uncertainty of the pilot.
-  const double work = std::sqrt(state.work * state.work_high);
-  return plan_passes(integrator, predicted_samples(samples, work, most), settings.image.sampler);
+  // A little more than expected, so that most images reach it.
+  return {plan_passes(integrator, predicted_samples(samples, 1.1 * judge(target, pilot.film, true).work, most),
+                      settings.image.sampler),
+          {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }
 
 }  // namespace montelux

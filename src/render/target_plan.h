@@ -36,19 +36,34 @@ class TargetPlan final : public WorkPlan {
   Looks looks_;
 };
 
-// What is known of a whole film against the target. `single_look`: the film's number of samples does not depend on it.
+// What is known of a whole film against the target, by the passes of the tile that has most. `single_look`: the film's
+// number of samples does not depend on it.
 TargetState judge(const ErrorTarget& target, const Film& film, bool single_look);
+
+// A short render of passes of numbers that no other render takes.
+struct Pilot {
+  Film film;
+  std::vector<std::uint64_t> rays;  // of each tile; none of coupled integrators
+};
+Pilot pilot_of(const AnyIntegrator& integrator, RenderSettings settings, int samples_per_pass, int passes,
+               RenderObserver& observer);
+
+// A plan, and the last pilot that it is based on.
+struct PlanOfPilot {
+  PassPlan plan;
+  Pilot pilot;
+};
 
 // The plan for a render to a target, of at most `most` samples per pixel. Passes should be as long as possible while
 // there are enough of them, so the number of samples is predicted from a few passes of numbers that the render itself
 // never takes. Each such pilot has two passes over all pixels, and takes less than a tenth of the predicted samples; it
 // is replaced by a longer one as long as that is so. Ends early if the observer requests a stop.
-PassPlan plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target, int most,
-                         RenderObserver& observer);
+PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                            int most, RenderObserver& observer);
 
 // The same in two stages: a pilot of about a quarter of the samples decides their number, which the picture of other
 // samples then has. Its mean is unbiased whatever the pilot's is.
-PassPlan plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                            int most, RenderObserver& observer);
+PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+                               int most, RenderObserver& observer);
 
 }  // namespace montelux

@@ -78,6 +78,25 @@ class Target(ProgramTest):
         self.assertTrue(told["target"]["reached"])
         self.assertLess(told["passes"] * told["samples_per_pass"], 4096)
 
+    def test_adaptive_tiles_have_different_samples_and_the_same_bytes_for_any_number_of_threads(self):
+        for options in (["--spp", 128], ["--target-error", "12%"], ["--target-error", "15%", "--unbiased"]):
+            with self.subTest(options=options):
+                told = [self.told(*options, "--adaptive", "on", "--threads", n, "-o", f"{n}.exr") for n in (1, 2)]
+                one, two = ((self.folder / f"{n}.exr").read_bytes() for n in (1, 2))
+                self.assertEqual(one, two)
+                # More than those of the tile with the fewest passes.
+                self.assertGreater(told[0]["samples"], 64 * 48 * told[0]["passes"] * told[0]["samples_per_pass"])
+        self.run_program("tonemap", "1.exr", "-o", "samples.png", "--layer", "samples")
+
+    def test_renders_that_cannot_be_adaptive_are_refused(self):
+        for options, message in (
+                (["--adaptive", "maybe"], "on"),
+                (["--adaptive", "on", "--integrator", "restir-di"], "share samples"),
+                (["--adaptive", "on", "--sampler", "uniform-grid"], "one pass"),
+                (["--adaptive", "on", "--checkpoint", "a.film"], "is not saved")):
+            with self.subTest(options=options):
+                self.assertIn(message, self.render("--spp", 64, *options, "-o", "a.pfm", status=2).stderr)
+
     def test_requests_that_make_no_sense_are_refused(self):
         for options, message in (
                 (["--target-error", "2"], "takes an error in percent"),
