@@ -79,6 +79,8 @@ void make_adaptive(const RenderPlan& plan, RenderSettings& settings, const Pilot
     const double gain = (1 + std::max(expected_gain(tiles.tiles, shares), 1.0)) / 2;
     settings.plan.passes = std::max(int(std::ceil(settings.plan.passes / gain)), std::min(settings.plan.passes, 4));
   }
+  // Its passes would compare the tiles that have most of them.
+  settings.unbiased = nullptr;
   settings.work = std::make_shared<AdaptivePlan>(shares, target);
 }
 

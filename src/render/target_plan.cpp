@@ -50,7 +50,7 @@ int predicted_samples(double samples, double work, int most) {
 
 void clear_for_pilot(RenderSettings& settings) {
   settings.work = nullptr, settings.stop = nullptr, settings.begun = nullptr, settings.target.reset();
-  settings.keeping = {}, settings.sequence = {};
+  settings.keeping = {}, settings.sequence = {}, settings.unbiased = nullptr;
   settings.image.layers.reset(), settings.image.halves = false;
 }
 
