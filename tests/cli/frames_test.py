@@ -167,7 +167,9 @@ class Frames(ProgramTest):
         self.assertEqual([t["mean"] for t in told], [t["mean"] for t in again])
         off = self.told("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
         late = self.told("--frames", "2:2/3", *way, "-o", "late.#.pfm")
-        self.assertEqual([t["history_bytes"] for t in told], [16 * 16 * 4 * 324] * 2 + [0])  # nothing follows the last
+        # Nothing follows the last one. With four components of the spectrum, a pixel has 16 bytes more.
+        sizes = [[16 * 16 * 4 * bytes_] * 2 + [0] for bytes_ in (324, 340)]
+        self.assertIn([t["history_bytes"] for t in told], sizes)
         self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
         # The first frame has no history; what begins later has none either.
         same = [(self.folder / f"on.{n}.pfm").read_bytes() == (self.folder / f"off.{n}.pfm").read_bytes()
