@@ -335,7 +335,7 @@ class Signals(FilesTest):
         self.assertEqual((self.folder / "a.png").read_bytes()[:4], b"\x89PNG")
 
     def test_an_ignored_hangup_stays_ignored(self):
-        process = self.begin("render", SCENE, "--resolution", "64x48", "--time", "2s", "--json", "-o", "a.png",
+        process = self.begin("render", SCENE, "--resolution", "64x48", "--time", "6s", "--json", "-o", "a.png",
                              preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         self.assertIn("samples/s", process.stderr.readline())
         process.send_signal(signal.SIGHUP)
