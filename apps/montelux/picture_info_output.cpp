@@ -38,12 +38,13 @@ std::string layers_text(const PictureInfo& info) {
 
 std::string samples_text(const PictureInfo& info, const RenderFacts& facts) {
   std::string text;
-  if (facts.passes && facts.samples_per_pass)
+  const bool is_uneven = info.samples && info.samples->least != info.samples->most;
+  if (is_uneven)
+    text = fmt::format("{:.3g} per pixel, from {:.0f} to {:.0f}", info.samples->mean, info.samples->least,
+                       info.samples->most);
+  else if (facts.passes && facts.samples_per_pass)
     text = fmt::format("{:.0f} per pixel ({:.0f} passes of {:.0f})", *facts.passes * *facts.samples_per_pass,
                        *facts.passes, *facts.samples_per_pass);
-  if (info.samples && (*info.samples)[0] != (*info.samples)[1])
-    text += fmt::format("{}from {:.0f} to {:.0f} of a pixel", text.empty() ? "" : "; ", (*info.samples)[0],
-                        (*info.samples)[1]);
   if (facts.non_finite.value_or(0) > 0)
     text += fmt::format("; {:.0f} were not finite and are left out", *facts.non_finite);
   return text;

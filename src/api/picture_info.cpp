@@ -65,15 +65,16 @@ std::vector<LayerChannels> layers_of(const std::vector<std::string>& channels) {
   return layers;
 }
 
-std::optional<std::array<double, 2>> samples_of(const PixelBuffer& image) {
+std::optional<SampleCounts> samples_of(const PixelBuffer& image) {
   const std::optional<int> channel = find_channel(image, "samples");
   if (!channel || image.pixel_count() == 0) return std::nullopt;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  SampleCounts counts{std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const auto n = double(image.values[i * image.channels.size() + std::size_t(*channel)]);
-    least = std::min(least, n), most = std::max(most, n);
+    counts.least = std::min(counts.least, n), counts.most = std::max(counts.most, n);
+    counts.mean += n / double(image.pixel_count());
   }
-  return std::array{least, most};
+  return counts;
 }
 
 std::optional<MeanOfFile> mean_of(const Header& header, double confidence) {

@@ -49,12 +49,17 @@ struct RenderFacts {
   std::optional<double> denoised_relative_mse;
 };
 
+// Of the pixels of an image.
+struct SampleCounts {
+  double least = 0, mean = 0, most = 0;
+};
+
 struct PictureInfo {
   int width = 0, height = 0;
-  std::vector<LayerChannels> layers;             // in the order of the file
-  std::optional<std::array<double, 2>> samples;  // the least and the most of a pixel, if there is such a layer
-  std::optional<RenderFacts> render;             // if Montelux rendered it
-  std::vector<Attribute> header;                 // all entries "montelux:NAME", as NAME
+  std::vector<LayerChannels> layers;    // in the order of the file
+  std::optional<SampleCounts> samples;  // if there is such a layer
+  std::optional<RenderFacts> render;    // if Montelux rendered it
+  std::vector<Attribute> header;        // all entries "montelux:NAME", as NAME
 };
 
 // Whether a file of this name is taken as a picture, by its extension.

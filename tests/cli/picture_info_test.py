@@ -27,6 +27,12 @@ class PictureInfoTest(ProgramTest):
                       "95 %", "low (", "first-light"):
             self.assertIn(words, said)
 
+    def test_an_image_with_more_samples_in_some_pixels_states_their_mean(self):
+        told = json.loads(self.render("--spp", 96, "--adaptive", "on", "-o", "a.exr", "--json", "--quiet").stdout)
+        mean = told["samples"] / (64 * 48)
+        said = self.run_program("info", "a.exr").stdout
+        self.assertRegex(said, r"samples   %.3g per pixel, from \d+ to \d+\n" % mean)
+
     def test_an_unbiased_image_says_so(self):
         self.render("--spp", 1, "--integrator", "path:maxdepth=none", "-o", "a.exr")
         said = self.run_program("info", "a.exr").stdout
