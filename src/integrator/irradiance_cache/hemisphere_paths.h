@@ -99,7 +99,7 @@ class HemispherePaths {
       begin_paths(path, start, media, on);
       path.p = p, path.depth = U(first_depth_);
       for_each_lane(found, [&](int k) {
-        distances_[lane(start.slot, k)] = lane(hit.t, k);
+        distances_[lane(start.slot, k)] = lane(start.hit.t, k);
         get_lane_words(path, k, starts_.emplace_back());
       });
     }
