@@ -11,8 +11,9 @@ namespace montelux {
 // not normalised, and the proposal is symmetric. A chain at a point with target zero always moves.
 inline double metropolis_acceptance(double from, double to) { return from > 0 ? std::min(1.0, to / from) : 1.0; }
 // The same in lanes.
-template <class F>
-MONTELUX_INLINE F metropolis_acceptance(F from, std::type_identity_t<F> to) requires(lanes_of<F> > 1) {
+template <int N>
+MONTELUX_INLINE Floats<N> metropolis_acceptance(Floats<N> from, std::type_identity_t<Floats<N>> to) {
+  using F = Floats<N>;
   return select(from > F(0.0f), min(F(1.0f), to / max(from, F(1e-37f))), F(1.0f));
 }
 
