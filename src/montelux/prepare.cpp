@@ -38,7 +38,8 @@ Result<PreparedScene> result_of(LoadResult loaded) {
   std::vector<Message> messages;
   for (const Diagnostic& diagnostic : loaded.diagnostics.all()) messages.push_back(message_of(diagnostic));
   if (!loaded.scene) return Error("the scene cannot be rendered", std::move(messages));
-  return PreparedScene(std::make_unique<PreparedScene::Parts>(*std::move(loaded.scene), std::move(messages)));
+  return PreparedScene(
+      std::make_unique<PreparedScene::Parts>(PreparedScene::Parts{*std::move(loaded.scene), std::move(messages)}));
 }
 
 // Hands progress to a function of the caller's, and keeps what that throws until the render has ended.
@@ -88,7 +89,7 @@ Result<Picture> PreparedScene::render(const RenderSettings& settings) const {
     montelux::Result<Rendering> rendering = render_scene(parts_->scene, options, observer);
     observer.rethrow();
     if (!rendering) return Error(rendering.error());
-    return Picture(std::make_unique<Picture::Parts>(*std::move(rendering)));
+    return Picture(std::make_unique<Picture::Parts>(Picture::Parts{*std::move(rendering)}));
   });
 }
 
