@@ -31,7 +31,8 @@ struct TargetState {
   bool is_unsure = false;                                  // few bright samples determine it: the bound may be far off
   double error = std::numeric_limits<double>::infinity();  // the estimate
   double bound = std::numeric_limits<double>::infinity();  // with the target's confidence the true error is below
-  // How many times the film's samples bring the bound down to the target: as expected, and the ends of about 95 %.
+  // The total number of samples that the target requires, over the number that the film has: the expected factor, and
+  // an interval that contains it with a probability of about 95 %.
   double work = std::numeric_limits<double>::infinity(), work_low = work, work_high = work;
 
   bool reaches(const ErrorTarget& target) const { return is_known && !is_unsure && bound <= target.error; }

@@ -30,7 +30,7 @@ struct RenderSettings {
   SequenceSettings sequence;                  // what chains keep for the next image
   int threads = 0;                            // 0: all of the machine
   SecondsClock clock;                         // of the rule and of the result's time; empty: the machine's
-  const PixelIntegrator* unbiased = nullptr;  // tells the bias of a pixel integrator; null: it is not measured
+  const PixelIntegrator* unbiased = nullptr;  // the same without its limits, to measure their bias; or null
 };
 
 struct RenderResult {

@@ -143,7 +143,7 @@ PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings s
   of_pilot.error *= 2;
   settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(most / 4, 1), observer).plan;
   clear_for_pilot(settings);
-  // Behind the passes of the first pilots.
+  // After the passes of the first pilots.
   settings.plan.first_pass = first_pilot_pass + (1 << 8);
   settings.work = std::make_shared<TargetPlan>(of_pilot);
   PilotObserver silent(observer);
