@@ -38,10 +38,10 @@ std::string layers_text(const PictureInfo& info) {
 
 std::string samples_text(const PictureInfo& info, const RenderFacts& facts) {
   std::string text;
-  const bool is_uneven = info.samples && info.samples->least != info.samples->most;
+  const bool is_uneven = info.samples && info.samples->min != info.samples->max;
   if (is_uneven)
-    text = fmt::format("{:.3g} per pixel, from {:.0f} to {:.0f}", info.samples->mean, info.samples->least,
-                       info.samples->most);
+    text = fmt::format("{:.3g} per pixel, from {:.0f} to {:.0f}", info.samples->mean, info.samples->min,
+                       info.samples->max);
   else if (facts.passes && facts.samples_per_pass)
     text = fmt::format("{:.0f} per pixel ({:.0f} passes of {:.0f})", *facts.passes * *facts.samples_per_pass,
                        *facts.passes, *facts.samples_per_pass);

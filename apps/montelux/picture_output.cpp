@@ -236,10 +236,10 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);
-  std::size_t most = 0;
-  for (const auto& [index, tile] : rendering.result.film.tiles()) most = std::max(most, tile.passes.size());
+  std::size_t max_passes = 0;
+  for (const auto& [index, tile] : rendering.result.film.tiles()) max_passes = std::max(max_passes, tile.passes.size());
   const std::string passes_text =
-      most > std::size_t(passes) ? fmt::format("{} to {}", passes, most) : fmt::format("{}", passes);
+      max_passes > std::size_t(passes) ? fmt::format("{} to {}", passes, max_passes) : fmt::format("{}", passes);
   fmt::print("samples  {:.3g} per pixel ({} passes of {}), {} in all\n", outcome.samples / pixels, passes_text, k,
              count_text(outcome.samples));
   if (share < 1) fmt::print("         {:.3g} % of the pixels have samples\n", 100 * share);

@@ -71,7 +71,7 @@ std::optional<SampleCounts> samples_of(const PixelBuffer& image) {
   SampleCounts counts{std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const auto n = double(image.values[i * image.channels.size() + std::size_t(*channel)]);
-    counts.least = std::min(counts.least, n), counts.most = std::max(counts.most, n);
+    counts.min = std::min(counts.min, n), counts.max = std::max(counts.max, n);
     counts.mean += n / double(image.pixel_count());
   }
   return counts;

@@ -51,7 +51,7 @@ struct RenderFacts {
 
 // Of the pixels of an image.
 struct SampleCounts {
-  double least = 0, mean = 0, most = 0;
+  double min = 0, mean = 0, max = 0;
 };
 
 struct PictureInfo {

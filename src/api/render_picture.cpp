@@ -52,13 +52,13 @@ struct PassesToTarget {
   PassPlan passes;
   std::optional<Pilot> pilot;
 };
-PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& settings, int most,
+PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& settings, int max_samples,
                               RenderObserver& observer) {
   const TargetRequest& target = *plan.target;
   const std::optional<int> stated = plan.samples_per_pass;
-  if (stated && !target.unbiased && !plan.adaptive) return {{*stated, (most + *stated - 1) / *stated}, {}};
+  if (stated && !target.unbiased && !plan.adaptive) return {{*stated, (max_samples + *stated - 1) / *stated}, {}};
   const auto plan_by_pilot = target.unbiased ? plan_in_two_stages : plan_for_target;
-  PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, target.error, most, observer);
+  PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, target.error, max_samples, observer);
   PassPlan passes = planned.plan;
   if (stated) passes = {*stated, (passes.samples() + *stated - 1) / *stated};
   return {passes, std::move(planned.pilot)};
@@ -112,8 +112,8 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
   constexpr double min_samples = 64;
   const double affordable = time.left() / timed.sample_seconds;
   if (plan.target && timed.plan.stride == 1 && affordable >= min_samples) {
-    const int most = int(std::min(affordable, double(plan.max_samples)));
-    PassesToTarget to_target = plan_to_target(plan, settings, most, observer);
+    const int max_samples = int(std::min(affordable, double(plan.max_samples)));
+    PassesToTarget to_target = plan_to_target(plan, settings, max_samples, observer);
     const PassPlan& passes = to_target.passes;
     timed.plan.samples_per_pass = std::min(passes.samples_per_pass, timed.plan.samples_per_pass);
     if (plan.target->unbiased) timed.plan.passes = (passes.samples() - 1) / timed.plan.samples_per_pass + 1;

@@ -11,8 +11,6 @@ namespace montelux {
 
 namespace {
 
-// The standard deviation of the logarithm of a squared error because of its divisors, as estimate_error() has it.
-constexpr double of_divisors = 0.223 / 1.96;
 // The same for pixels that few bright samples determine, as those that an edge of a lamp crosses: their own divisor and
 // the chance in their error are both unknown.
 constexpr double of_few_samples = 1;
@@ -46,11 +44,11 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
                     TargetState& state) {
   const double of_estimate = std::sqrt(2 / (error.effective_pixels * (passes - 1)));
   const double of_picture = std::sqrt(2 / error.effective_pixels);
-  const double constant = of_divisors + of_few_samples * error.share_of_few_samples;
+  const double constant = divisor_deviation + of_few_samples * error.share_of_few_samples;
   state.error = std::sqrt(error.relative_mse);
   state.bound =
       std::sqrt(error.relative_mse * upper_factor(target, std::hypot(of_picture, of_estimate), constant, spent));
-  const double later = std::sqrt(error.relative_mse * upper_factor(target, of_picture, of_divisors, spent));
+  const double later = std::sqrt(error.relative_mse * upper_factor(target, of_picture, divisor_deviation, spent));
   predict_work(target, of_estimate, later, state);
 }
 
@@ -58,14 +56,13 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
 // that missed its light has none of its own.
 constexpr double prior_degrees = 2;
 std::vector<double> pixel_variances(const FilmPlanes& p, double passes) {
-  constexpr double dark = 0.01;
   const int width = p.bounds.width(), height = p.bounds.height();
   std::vector<double> own(p.passes.size(), -1);
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (p.passes[i] < 2) continue;
     own[i] = 0;
     for (std::size_t c = 0; c < rgb_size; ++c)
-      own[i] += double(p.variance[c][i]) / (double(p.mean[c][i]) * double(p.mean[c][i]) + dark) / rgb_size;
+      own[i] += double(p.variance[c][i]) / (double(p.mean[c][i]) * double(p.mean[c][i]) + relative_epsilon) / rgb_size;
   }
   std::vector<double> shrunk;
   shrunk.reserve(own.size());
@@ -127,7 +124,8 @@ void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double pa
   const double share = 1 - target.share, count = std::max(share * double(variances.size()), 1.0);
   const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_picture = 1 / std::sqrt(count);
   state.error = missed.error_of(share);
-  state.bound = missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), of_divisors, spent));
+  state.bound =
+      missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), divisor_deviation, spent));
   predict_work(target, of_estimate, state.bound, state);
 }
 

@@ -10,8 +10,6 @@ namespace montelux {
 
 namespace {
 
-constexpr double dark = 0.01;  // added to the squared expectation
-
 // A pixel against its neighbours, by the mean of the channels.
 struct Excess {
   double own = 0, neighbours = 0, variance = 0;
@@ -70,8 +68,8 @@ class Agreement {
   std::array<Class, 2 * ratios> classes_{};
 };
 
-// The mean of 1 / (expectation^2 + dark) where the excess over the neighbours is known by `samples` bright samples: it
-// has a gamma distribution then, here by eight of its quantiles (Wilson and Hilferty 1931).
+// The mean of 1 / (expectation^2 + relative_epsilon) where the excess over the neighbours is known by `samples` bright
+// samples: it has a gamma distribution then, here by eight of its quantiles (Wilson and Hilferty 1931).
 double mean_reciprocal(double neighbours, double excess, double samples) {
   constexpr double normal_quantiles[] = {-1.534, -0.887, -0.489, -0.157, 0.157, 0.489, 0.887, 1.534};
   const double k = std::max(samples, 1.0);
@@ -79,7 +77,7 @@ double mean_reciprocal(double neighbours, double excess, double samples) {
   for (double z : normal_quantiles) {
     const double root = std::max(1 - 1 / (9 * k) + z / (3 * std::sqrt(k)), 0.0);
     const double value = neighbours + excess * root * root * root;
-    sum += 1 / (value * value + dark);
+    sum += 1 / (value * value + relative_epsilon);
   }
   return sum / std::size(normal_quantiles);
 }
@@ -109,18 +107,18 @@ Belief belief_of(const Excess& e, const Agreement& agreement) {
   return belief;
 }
 
-// The mean of 1 / (expectation^2 + dark) of one channel of a pixel, by its mean, its neighbours', and what is known of
-// the excess.
+// The mean of 1 / (expectation^2 + relative_epsilon) of one channel of a pixel, by its mean, its neighbours', and what
+// is known of the excess.
 double reciprocal_of(double own, double neighbours, const Excess& e, const Belief& belief) {
   if (e.value() < 0) {
     // Darker than its neighbours: shrinks toward them unless it is surely darker (James and Stein 1961).
     constexpr double shrinkage = 1;
     const double share = e.significance() / (e.significance() + shrinkage);
     const double expected = neighbours + share * (own - neighbours);
-    return 1 / (expected * expected + dark);
+    return 1 / (expected * expected + relative_epsilon);
   }
   return belief.own * mean_reciprocal(neighbours, belief.share * (own - neighbours), e.significance()) +
-         (1 - belief.own) / (neighbours * neighbours + dark);
+         (1 - belief.own) / (neighbours * neighbours + relative_epsilon);
 }
 
 // Sums over pixels.
@@ -175,8 +173,7 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   error.effective_pixels =
       sums.relative_squares > 0 ? sums.relative * sums.relative / sums.relative_squares : double(error.pixels);
   if (sums.relative > 0) error.share_of_few_samples = sums.of_few_samples / sums.relative;
-  constexpr double divisor = 0.223;
-  const double factor = std::exp(std::hypot(1.96 * std::sqrt(2 / error.effective_pixels), divisor));
+  const double factor = std::exp(1.96 * std::hypot(std::sqrt(2 / error.effective_pixels), divisor_deviation));
   error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
   error.tail_index = hill_index(sums.largest.sorted());
   return error;

@@ -8,10 +8,16 @@
 
 namespace montelux {
 
+// Added to the squared expectation by which a squared error is divided (Rousselle, Knaus and Zwicker 2011).
+inline constexpr double relative_epsilon = 0.01;
+// The standard deviation of the logarithm of a relative mean squared error because its divisors are estimates: images
+// of many scenes state 0.8 to 1.25 of the true error in their mean, which is taken as an interval of 95 %.
+inline constexpr double divisor_deviation = 0.223 / 1.96;
+
 // Estimated mean squared errors: means over channels and over the pixels that have two passes.
 struct ErrorEstimate {
   double mse = 0;  // variance of the mean
-  // Variance of the mean over (expectation^2 + 0.01) (Rousselle, Knaus and Zwicker 2011, with their epsilon).
+  // Variance of the mean over (expectation^2 + relative_epsilon).
   double relative_mse = 0;
   double relative_low = 0, relative_high = 0;  // its interval: for about 95 % of such images it is between these
   // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite if there is no

@@ -1,5 +1,7 @@
 // The names of a family, each of which states a struct S: "gaussian" of the filters.
 #pragma once
+#include <stdexcept>
+
 #include "parameter/fields.h"
 
 namespace montelux {
@@ -24,7 +26,8 @@ class Models {
   }
 
   std::span<const EntitySpec> specs() const { return specs_; }
-  // What the entity states. Its name is one of the table, its parameters have been checked.
+  // What the entity states; its parameters have been checked. Here and below, throws std::logic_error if the table does
+  // not have the name.
   Result<S> read(const Entity& stated) const {
     const Model<S>& model = named(stated.type);
     S s = model.initial;
@@ -41,7 +44,7 @@ class Models {
   const Model<S>& named(std::string_view name) const {
     for (const Model<S>& m : all_)
       if (m.name == name) return m;
-    return all_.front();
+    throw std::logic_error("no model has this name");
   }
 
   std::vector<Model<S>> all_;

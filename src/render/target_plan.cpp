@@ -28,24 +28,24 @@ class PilotObserver final : public RenderObserver {
   RenderObserver& other_;
 };
 
-// How many of the plan's passes every tile has, and the most that any has.
+// How many of the plan's passes every tile has, and the number that any has.
 struct PassesDone {
-  int all = std::numeric_limits<int>::max(), most = 0;
+  int all = std::numeric_limits<int>::max(), any = 0;
 };
 PassesDone passes_of(const Film& film, const PassPlan& plan) {
   PassesDone done;
   for (const auto& [index, tile] : film.tiles()) {
     const auto is_of_plan = [&](const FilmPass& p) { return plan.contains(p.pass); };
     const int own = int(std::ranges::count_if(tile.passes, is_of_plan));
-    done.all = std::min(done.all, own), done.most = std::max(done.most, own);
+    done.all = std::min(done.all, own), done.any = std::max(done.any, own);
   }
   if (film.tiles().empty()) done.all = 0;
   return done;
 }
 
-int predicted_samples(double samples, double work, int most) {
+int predicted_samples(double samples, double work, int max_samples) {
   const double all = samples * work;
-  return std::isfinite(all) ? int(std::clamp(all, 1.0, double(most))) : most;
+  return std::isfinite(all) ? int(std::clamp(all, 1.0, double(max_samples))) : max_samples;
 }
 
 void clear_for_pilot(RenderSettings& settings) {
@@ -72,10 +72,10 @@ double Looks::spent(int passes) const {
 WorkRound TargetPlan::next_round(const Film& film, const PassPlan& passes) const {
   const PassesDone done = passes_of(film, passes);
   if (done.all >= passes.passes) return {};
-  const bool is_whole = done.all == done.most;
+  const bool is_whole = done.all == done.any;
   if (is_whole && looks_.is_look(done.all) && judge(target_, film, false).reaches(target_)) return {};
   // A round that was interrupted is completed first.
-  const int end = std::min(looks_.after(is_whole ? done.all : done.most - 1), passes.passes);
+  const int end = std::min(looks_.after(is_whole ? done.all : done.any - 1), passes.passes);
   const std::size_t tiles = film.tiles().size();
   const int first = passes.first_pass + done.all;
   const auto unit = [tiles, first](std::size_t i) { return WorkUnit{i % tiles, first + int(i / tiles)}; };
@@ -91,9 +91,9 @@ TargetState judge(const ErrorTarget& target, const Film& film, bool single_look)
   if (image.passes < 2 || film.grid().stride > 1) return {};
   FilmPlanes planes(film.bounds());
   planes.copy(film, film.bounds());
-  std::size_t most = 0;
-  for (const auto& [index, tile] : film.tiles()) most = std::max(most, tile.passes.size());
-  const double spent = single_look ? 1 : Looks(target).spent(int(most));
+  std::size_t max_passes = 0;
+  for (const auto& [index, tile] : film.tiles()) max_passes = std::max(max_passes, tile.passes.size());
+  const double spent = single_look ? 1 : Looks(target).spent(int(max_passes));
   return judge(target, planes, estimate_error(planes), image, spent);
 }
 
@@ -107,7 +107,7 @@ Pilot pilot_of(const AnyIntegrator& integrator, RenderSettings settings, int sam
 }
 
 PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                            int most, RenderObserver& observer) {
+                            int max_samples, RenderObserver& observer) {
   constexpr int share = 16;  // at least so many times the samples of a pilot are predicted when it is replaced
   constexpr int growth = 4;
   clear_for_pilot(settings);
@@ -115,12 +115,12 @@ PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings sett
   const PointSetKind sampler = settings.image.sampler;
   const int longest = integrator.coupled() ? integrator.coupled()->frames() : 1024;
   settings.plan = {1, 2, first_pilot_pass};
-  int predicted = most;
+  int predicted = max_samples;
   RenderResult pilot{Film({}), {}, 0, false};
   for (;;) {
     pilot = render(integrator, settings, silent);
     const double samples = settings.plan.samples();
-    predicted = predicted_samples(samples, judge(target, pilot.film, true).work, most);
+    predicted = predicted_samples(samples, judge(target, pilot.film, true).work, max_samples);
     settings.plan.first_pass += settings.plan.passes;
     const int k = settings.plan.samples_per_pass * growth;
     if (pilot.interrupted || 2.0 * k * share > predicted || k > longest) break;
@@ -132,16 +132,16 @@ PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings sett
   while (target.measure == TargetMeasure::mean && plan.samples_per_pass > 1 &&
          predicted / plan.samples_per_pass < passes_for_mean)
     plan.samples_per_pass /= 2;
-  plan.passes = std::max((most + plan.samples_per_pass - 1) / plan.samples_per_pass, 1);
+  plan.passes = std::max((max_samples + plan.samples_per_pass - 1) / plan.samples_per_pass, 1);
   return {plan, {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }
 
 PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                               int most, RenderObserver& observer) {
+                               int max_samples, RenderObserver& observer) {
   // Twice the error takes a quarter of the samples.
   ErrorTarget of_pilot = target;
   of_pilot.error *= 2;
-  settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(most / 4, 1), observer).plan;
+  settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(max_samples / 4, 1), observer).plan;
   clear_for_pilot(settings);
   // After the passes of the first pilots.
   settings.plan.first_pass = first_pilot_pass + (1 << 8);
@@ -150,7 +150,7 @@ PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings s
   RenderResult pilot = render(integrator, settings, silent);
   const double samples = double(settings.plan.samples_per_pass) * std::max(pilot.film.image().passes, 1);
   // A little more than expected, so that most images reach it.
-  return {plan_passes(integrator, predicted_samples(samples, 1.1 * judge(target, pilot.film, true).work, most),
+  return {plan_passes(integrator, predicted_samples(samples, 1.1 * judge(target, pilot.film, true).work, max_samples),
                       settings.image.sampler),
           {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }

@@ -54,16 +54,16 @@ struct PlanOfPilot {
   Pilot pilot;
 };
 
-// The plan for a render to a target, of at most `most` samples per pixel. Passes should be as long as possible while
-// there are enough of them, so the number of samples is predicted from a few passes of numbers that the render itself
-// never takes. Each such pilot has two passes over all pixels, and takes less than a tenth of the predicted samples; it
-// is replaced by a longer one as long as that is so. Ends early if the observer requests a stop.
+// The plan for a render to a target, of at most `max_samples` samples per pixel. Passes should be as long as possible
+// while there are enough of them, so the number of samples is predicted from a few passes of numbers that the render
+// itself never takes. Each such pilot has two passes over all pixels, and takes less than a tenth of the predicted
+// samples; it is replaced by a longer one as long as that is so. Ends early if the observer requests a stop.
 PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                            int most, RenderObserver& observer);
+                            int max_samples, RenderObserver& observer);
 
 // The same in two stages: a pilot of about a quarter of the samples decides their number, which the picture of other
 // samples then has. Its mean is unbiased whatever the pilot's is.
 PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
-                               int most, RenderObserver& observer);
+                               int max_samples, RenderObserver& observer);
 
 }  // namespace montelux
