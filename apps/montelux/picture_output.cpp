@@ -148,6 +148,16 @@ Json target_json(const TargetResult& target) {
           {"seconds_needed_range", range(&TargetResult::more_seconds)}};
 }
 
+Json choice_json(const AutomaticChoice& choice) {
+  Json ratios = Json::array();
+  for (const auto& r : choice.ratios)
+    ratios.push_back({{"integrator", r.integrator},
+                      {"efficiency", number_or_null(r.ratio)},
+                      {"interval", {number_or_null(r.low), number_or_null(r.high)}}});
+  return {
+      {"integrator", choice.integrator}, {"reason", choice.reason}, {"pilots", choice.share}, {"candidates", ratios}};
+}
+
 // The error of a pixel; never that of a part of the picture.
 std::string error_line(const Rendering& rendering) {
   const ErrorEstimate& error = rendering.error;
@@ -195,6 +205,7 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
       known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
   json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
   json["unsure_error"] = known && outcome.error.is_unsure();
+  if (rendering.choice) json["choice"] = choice_json(*rendering.choice);
   if (rendering.target) json["target"] = target_json(*rendering.target);
   if (rendering.denoised) json["denoised"] = denoising_json<Json>(rendering.denoised->estimate);
   json["sampled_pixels"] = sampled_share(rendering);
@@ -231,6 +242,7 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   print_mean(rendering);
   if (rendering.measured_bias) print_bias(*rendering.measured_bias);
   fmt::print("error    {}\n", error_line(rendering));
+  if (rendering.choice) fmt::print("chosen   {}\n", to_text(*rendering.choice));
   if (rendering.target) fmt::print("target   {}\n", target_line(*rendering.target));
   if (rendering.denoised) fmt::print("denoised {}\n", denoising_text(rendering.denoised->estimate));
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);

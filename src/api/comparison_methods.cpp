@@ -61,6 +61,8 @@ Result<MethodText> read_method(const std::string& typed, const std::vector<Setti
     method.sampler = *kind;
   }
   if (Status known = check_integrator(method.integrator); !known) return known.failure();
+  if (method.integrator.name == "auto")
+    return Failure{"it chooses an integrator by the length of a render: compare those that it chooses from"};
   return method;
 }
 

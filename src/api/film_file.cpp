@@ -104,6 +104,17 @@ LayerPlan layers_from(const Json& j) {
   return plan;
 }
 
+Json choice_json(const AutomaticChoice& choice) {
+  Json ratios = Json::array();
+  for (const auto& r : choice.ratios) ratios.push_back({r.integrator, r.ratio, r.low, r.high});
+  return {{"integrator", choice.integrator}, {"reason", choice.reason}, {"share", choice.share}, {"ratios", ratios}};
+}
+AutomaticChoice choice_from(const Json& j) {
+  AutomaticChoice choice{j.at("integrator"), j.at("reason"), j.at("share"), {}};
+  for (const Json& r : j.at("ratios")) choice.ratios.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+  return choice;
+}
+
 Json facts_json(const PictureFacts& f) {
   Json replaced = Json::array();
   for (const Replacement& r : f.replaced) replaced.push_back({r.family, r.name, r.by});
@@ -117,7 +128,8 @@ Json facts_json(const PictureFacts& f) {
           {"replaced", replaced},
           {"content", content_names[std::size_t(f.content)]},
           {"states_exposure", f.states_exposure},
-          {"layers", f.layers ? layers_json(*f.layers) : Json()}};
+          {"layers", f.layers ? layers_json(*f.layers) : Json()},
+          {"choice", f.choice ? choice_json(*f.choice) : Json()}};
 }
 PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   PictureFacts f;
@@ -131,6 +143,8 @@ PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   f.content = Content(content - std::begin(content_names));
   f.states_exposure = j.at("states_exposure");
   if (const Json& layers = j.at("layers"); !layers.is_null()) f.layers = layers_from(layers);
+  // Films of older versions have none.
+  if (const auto choice = j.find("choice"); choice != j.end() && !choice->is_null()) f.choice = choice_from(*choice);
   return f;
 }
 

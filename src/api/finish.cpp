@@ -47,6 +47,7 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
   add("version", version());
   add("scene", facts.scene);
   add("integrator", facts.integrator);
+  if (facts.choice) add("chosenBy", "auto: " + to_text(*facts.choice));
   add("sampler", facts.sampler);
   add("seed", std::int32_t(facts.seed));
   add("samplesPerPass", std::int32_t(rendering.plan.samples_per_pass));
@@ -116,6 +117,7 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
                                     samples_per_pixel(film), rendering.result.seconds};
   }
   rendering.header = header_of(facts, rendering);
+  rendering.choice = std::move(facts.choice);
   rendering.missing = std::move(facts.missing), rendering.replaced = std::move(facts.replaced);
   rendering.left_out = std::move(facts.left_out);
   rendering.content = facts.content, rendering.has_own_exposure = facts.states_exposure;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "api/automatic.h"
 #include "api/comparison.h"
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
@@ -72,6 +73,7 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   const LoadedScene::Parts& parts = scene.parts();
   Result<RenderPlan> plan = plan_render(parts, options);
   if (!plan) return plan.failure();
+  if (Status good = choose_automatically(parts, *plan, observer); !good) return good.failure();
   if (!options.checkpoint && !options.resume) return render_picture(parts, *plan, plan->settings, observer);
 
   if (options.budget) return Failure{"a picture within a time budget is not saved, and continues no saved film"};

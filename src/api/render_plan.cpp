@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "api/automatic.h"
 #include "api/shortcomings.h"
 #include "integrator/direct/settings.h"
 #include "render/target_plan.h"
@@ -25,14 +26,6 @@ Result<const DirectPreset*> find_preset(const std::optional<std::string>& name) 
     if (preset.name == *name) return &preset;
   const auto names = preset_names();
   return unknown_name("preset", *name, views_of(names));
-}
-
-// "direct:candidates=4,strategy=ris", in whatever order the settings were given.
-std::string canonical_text(const ChoiceText& choice) {
-  std::vector<std::string> settings;
-  for (const auto& [key, value] : choice.settings) settings.push_back(fmt::format("{}={}", key, value));
-  std::ranges::stable_sort(settings);
-  return choice.name + (settings.empty() ? "" : ":") + fmt::format("{}", fmt::join(settings, ","));
 }
 
 // The same integrator without a limit of depth and without a clamp, whose samples show what these change.
@@ -72,11 +65,15 @@ Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& opt
       parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
-  plan.integrator_text = canonical_text(*choice);
   const Stopwatch since_choice;
-  auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
-  if (!chosen) return chosen.failure();
-  plan.chosen = *std::move(chosen);
+  if (choice->name == "auto") {
+    if (Status good = plan_automatic(*choice, parts, options, plan); !good) return good;
+  } else {
+    plan.integrator_text = canonical_text(*choice);
+    auto chosen = choose_integrator(*choice, integrator_defaults(picture), parts.scene, *parts.accel);
+    if (!chosen) return chosen.failure();
+    plan.chosen = *std::move(chosen);
+  }
   if (options.measure_bias)
     if (Status good = plan_unbiased(*choice, parts, options, plan); !good) return good;
   note_light(plan.chosen, parts);
@@ -200,7 +197,15 @@ Status check_adaptive(const RenderOptions& options, const ChosenIntegrator& chos
   return Done{};
 }
 
-// `default_samples`: if the options state none.
+}  // namespace
+
+std::string canonical_text(const ChoiceText& choice) {
+  std::vector<std::string> settings;
+  for (const auto& [key, value] : choice.settings) settings.push_back(fmt::format("{}={}", key, value));
+  std::ranges::stable_sort(settings);
+  return choice.name + (settings.empty() ? "" : ":") + fmt::format("{}", fmt::join(settings, ","));
+}
+
 Status plan_samples(const RenderOptions& options, int default_samples, RenderPlan& plan) {
   if (options.samples && (*options.samples < 1 || *options.samples > (1 << 24)))
     return Failure{fmt::format("the number of samples must be from 1 to {}; found {}", 1 << 24, *options.samples)};
@@ -219,8 +224,6 @@ Status plan_samples(const RenderOptions& options, int default_samples, RenderPla
                                max_fixed_samples, passes.samples_per_pass)};
   return Done{};
 }
-
-}  // namespace
 
 std::optional<LayerRequest> RenderOptions::all_layers() const {
   if (!denoise) return layers;
@@ -278,7 +281,8 @@ PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, c
           plan.chosen.content,
           parts.info.states_exposure,
           settings.image.layers,
-          plan.target};
+          plan.target,
+          plan.choice};
 }
 
 }  // namespace montelux

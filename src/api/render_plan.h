@@ -7,6 +7,12 @@
 
 namespace montelux {
 
+// A choice that is to be made once the length of the render is known.
+struct AutomaticPlan {
+  ChoiceText choice;  // "auto" with its settings
+  RenderOptions options;
+};
+
 // Everything that determines a render, checked.
 struct RenderPlan {
   RenderSettings settings;  // without stopping rule
@@ -14,10 +20,12 @@ struct RenderPlan {
   std::unique_ptr<PixelIntegrator> unbiased;  // the same without limits, if the bias is to be measured
   std::vector<Replacement> replaced;
   FilesToWrite files;
-  std::string integrator_text;          // the integrator, with its settings in a canonical order
-  std::optional<double> seconds;        // the time, including preparation and writing; or
-  std::optional<double> budget;         // the time of each image, without writing
-  std::optional<TargetRequest> target;  // the error that ends it, with at most these samples per pixel
+  std::string integrator_text;             // the integrator, with its settings in a canonical order
+  std::optional<AutomaticPlan> automatic;  // until the choice is made
+  std::optional<AutomaticChoice> choice;   // then
+  std::optional<double> seconds;           // the time, including preparation and writing; or
+  std::optional<double> budget;            // the time of each image, without writing
+  std::optional<TargetRequest> target;     // the error that ends it, with at most these samples per pixel
   int max_samples = max_film_samples;
   bool adaptive = false;
   std::optional<int> samples_per_pass;  // as requested
@@ -28,6 +36,12 @@ struct RenderPlan {
                            // image has counted them
   double ending = 0;       // seconds from the last frame of the image before to its end
 };
+
+// "direct:candidates=4,strategy=ris", in whatever order the settings were given.
+std::string canonical_text(const ChoiceText& choice);
+
+// The passes of the plan's integrator. `default_samples`: if the options state none.
+Status plan_samples(const RenderOptions& options, int default_samples, RenderPlan& plan);
 
 Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOptions& options);
 

@@ -20,6 +20,7 @@ struct PictureFacts {
   bool states_exposure = false;
   std::optional<LayerPlan> layers;
   std::optional<TargetRequest> target{};
+  std::optional<AutomaticChoice> choice{};
 };
 
 // What decides the passes of a film, besides its scene. Films can only be continued or merged where all of it agrees.

@@ -1,7 +1,7 @@
 // Images of a sequence.
 #include <utility>
 
-#include "api/render_plan.h"
+#include "api/automatic.h"
 #include "render/motion.h"
 
 namespace montelux {
@@ -24,6 +24,8 @@ Result<PictureSequence> PictureSequence::prepare(const LoadedScene& scene, const
 
 Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver& observer) {
   const LoadedScene::Parts& parts = state_->parts;
+  // By the first image, for all: the options have been checked.
+  (void)choose_automatically(parts, state_->plan, observer);
   RenderSettings settings = state_->plan.settings;
   settings.image.seed = picture.seed, settings.image.shutter = shutter_for(picture.shutter, parts.picture);
   settings.sequence.memories = &state_->memories;

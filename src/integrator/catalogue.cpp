@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "integrator/automatic/settings.h"
 #include "integrator/bidirectional/bdpt.h"
 #include "integrator/bidirectional/vcm.h"
 #include "integrator/clamped.h"
@@ -280,6 +281,23 @@ Made make_metropolis(const Request& r) {
   return chosen;
 }
 
+// Path, since nothing is known of the render: the choice is made where its length is known.
+Made make_automatic(const Request& r) {
+  auto settings = automatic_settings(r.list);
+  if (!settings) return settings.failure();
+  for (const std::string& text : settings->among) {
+    auto choice = parse_choice(text);
+    if (!choice) return Failure{"among: " + choice.error()};
+    if (choice->name == "auto") return Failure{"among: auto cannot be one of its own candidates"};
+    if (Status known = check_integrator(*choice); !known) return Failure{"among: " + known.error()};
+  }
+  PathSettings path;
+  path.max_depth = r.max_depth;
+  ChosenIntegrator chosen = made("auto", std::make_unique<PathTracer>(r.scene, r.accel, path));
+  note_depth(chosen, r.max_depth);
+  return chosen;
+}
+
 template <const char* name>
 Made make_look(const Request& r) {
   ChosenIntegrator chosen = made(name, std::make_unique<LookIntegrator>(r.scene, r.accel, look_settings(name, r.list)));
@@ -320,7 +338,8 @@ const std::vector<Row>& rows() {
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
         {vcm_spec(), make_vcm, LightSearch::photons, Content::light, shared_samples},
         {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
-         shared_samples | std::uint32_t(Ability::media)}};
+         shared_samples | std::uint32_t(Ability::media)},
+        {automatic_spec(), make_automatic, LightSearch::any_length, Content::light, all_abilities}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
     const std::vector<EntitySpec> specs = look_specs();

@@ -1,0 +1,75 @@
+#include "integrator/automatic/settings.h"
+
+#include "integrator/path/settings.h"
+#include "parameter/fields.h"
+
+namespace montelux {
+
+namespace {
+
+// 32 pixels of each of 256 blocks, 8 samples each, of paths that no roulette ends.
+constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (char c : text)
+    if (c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+Fields<AutomaticSettings> automatic_fields() {
+  using S = AutomaticSettings;
+  Fields<S> fields;
+  std::string defaults;
+  for (const AutomaticCandidate& candidate : automatic_candidates())
+    defaults += (defaults.empty() ? "" : "/") + candidate.text;
+  fields
+      .text("among",
+            "the candidates beside path, separated by /, each perhaps with a setting: restir-pt:rounds=2/restir-di; "
+            "default " +
+                defaults,
+            [](const std::string& text, S& s) -> Status {
+              s.among = split(text);
+              return Done{};
+            })
+      .number("share", &S::share, "the share of the work that pilots may take", 0.001, 0.05)
+      .other(max_depth_spec());
+  return fields;
+}
+
+}  // namespace
+
+const std::vector<AutomaticCandidate>& automatic_candidates() {
+  static const std::vector<AutomaticCandidate> all{
+      {"restir-pt", 1.1, 8, 0}, {"path:roulette=efficiency", 1, 1, survival_pilot_samples}, {"restir-di", 0.9, 3, 0}};
+  return all;
+}
+
+AutomaticCandidate automatic_candidate(const std::string& text) {
+  const auto name = [](const std::string& t) { return t.substr(0, t.find(':')); };
+  for (const AutomaticCandidate& candidate : automatic_candidates())
+    if (candidate.text == text) return candidate;
+  AutomaticCandidate found{text, 1.7, 6, 0};
+  for (const AutomaticCandidate& candidate : automatic_candidates())
+    if (name(candidate.text) == name(text)) found = {text, candidate.ray_cost, candidate.sample_cost, 0};
+  if (text.find("roulette=efficiency") != std::string::npos) found.making = survival_pilot_samples;
+  return found;
+}
+
+EntitySpec automatic_spec() {
+  return {"auto",
+          "chooses between path and others that estimate the same image, by short pilots: the one with the least error "
+          "for its time; path unless another one is better with confidence",
+          automatic_fields().specs({})};
+}
+
+Result<AutomaticSettings> automatic_settings(const ParameterList& list) {
+  AutomaticSettings s;
+  if (Status read = automatic_fields().read(list, s); !read) return read.failure();
+  return s;
+}
+
+}  // namespace montelux

@@ -1,0 +1,35 @@
+// Settings of the choice between integrators.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "math/result.h"
+#include "parameter/choice.h"
+
+namespace montelux {
+
+struct AutomaticSettings {
+  std::vector<std::string> among{};  // candidates beside path, "restir-pt:rounds=2"; empty: automatic_candidates()
+  float share = 0.04f;               // of the work, that pilots take
+};
+
+// An integrator that may be chosen.
+struct AutomaticCandidate {
+  std::string text;  // as for --integrator
+  // The processor time of a ray over that of one by path, and about that of a sample. Measured by `montelux compare
+  // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
+  // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette (bench/auto_gain.py --rays).
+  double ray_cost, sample_cost;
+  double making;  // samples of path that take as long as making it
+};
+
+// Those by default, and the costs of others by their name.
+const std::vector<AutomaticCandidate>& automatic_candidates();
+// The costs of an integrator that is not among them are taken as high.
+AutomaticCandidate automatic_candidate(const std::string& text);
+
+EntitySpec automatic_spec();
+// Does not check whether the candidates are integrators.
+Result<AutomaticSettings> automatic_settings(const ParameterList& list);
+
+}  // namespace montelux

@@ -1,0 +1,202 @@
+#include "render/pilot_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "film/picture_error.h"
+#include "math/special.h"
+#include "mc/moments.h"
+#include "mc/random.h"
+
+namespace montelux {
+
+namespace {
+
+// The expectation of each pixel of a window, by the pilots that are weighted, as the mean over the pixels around it:
+// its noise should be small beside the errors that are divided by it, or they would seem too small.
+std::vector<PixelMean> expectation_of(std::span<const CandidatePilot> pilots, std::span<const double> weights,
+                                      std::size_t window, const PixelBounds& bounds) {
+  constexpr double enough_samples = 64;
+  double samples = 0;
+  for (const CandidatePilot& pilot : pilots) samples += pilot.samples();
+  int radius = 1;
+  while ((2 * radius + 1) * (2 * radius + 1) * samples < enough_samples) ++radius;
+  const int width = bounds.width(), height = bounds.height();
+  std::vector<PixelMean> pooled(std::size_t(bounds.area()), PixelMean{}), smooth = pooled;
+  for (std::size_t k = 0; k < pilots.size(); ++k)
+    for (const std::vector<PixelMean>& pass : pilots[k].windows[window].passes)
+      for (std::size_t i = 0; i < pooled.size(); ++i)
+        for (std::size_t c = 0; c < rgb_size; ++c) pooled[i][c] += weights[k] * pass[i][c] / passes_of_pilot;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      PixelMean& out = smooth[std::size_t(y * width + x)];
+      double count = 0;
+      for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u, ++count)
+          for (std::size_t c = 0; c < rgb_size; ++c) out[c] += pooled[std::size_t(v * width + u)][c];
+      for (double& value : out) value /= count;
+    }
+  return smooth;
+}
+
+// The mean of a pixel over the passes, and the squared error of one sample, by the spread of the passes.
+struct PixelFigures {
+  double mean = 0, error = 0;
+};
+PixelFigures figures_of(const CandidatePilot& pilot, const WindowPilot& window, std::size_t i, std::size_t c) {
+  const double a = window.passes[0][i][c], b = window.passes[1][i][c];
+  return {(a + b) / 2, (a - b) * (a - b) / 2 * pilot.samples_per_pass};
+}
+
+// Weights of the pilots' means, inversely proportional to their squared errors.
+std::vector<double> weights_of(std::span<const CandidatePilot> pilots) {
+  std::vector<double> weights;
+  for (const CandidatePilot& pilot : pilots) {
+    double error = 0;
+    for (const WindowPilot& window : pilot.windows)
+      for (std::size_t i = 0; i < window.passes[0].size(); ++i)
+        for (std::size_t c = 0; c < rgb_size; ++c) error += figures_of(pilot, window, i, c).error;
+    weights.push_back(1 / std::max(error / pilot.samples(), 1e-30));
+  }
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights) weight /= all;
+  return weights;
+}
+
+// What `pilot` lacks of the light that `other` shows.
+MissingLightOfPilot missing_light(const CandidatePilot& pilot, const CandidatePilot& other, std::size_t window,
+                                  const std::vector<PixelMean>& expectation) {
+  MissingLightOfPilot missing;
+  for (std::size_t i = 0; i < expectation.size(); ++i)
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const double divisor = expectation[i][c] * expectation[i][c] + relative_epsilon;
+      const PixelFigures a = figures_of(pilot, pilot.windows[window], i, c),
+                         b = figures_of(other, other.windows[window], i, c);
+      const double difference = b.mean - a.mean;
+      missing.light += difference / std::sqrt(divisor);
+      missing.error +=
+          (pilot.samples() * (difference * difference - b.error / other.samples()) - a.error) / divisor / rgb_size;
+    }
+  return missing;
+}
+
+// The mean over windows, in standard errors.
+double significance(const std::vector<MissingLightOfPilot>& missing, double MissingLightOfPilot::*value) {
+  Moments moments;
+  for (const MissingLightOfPilot& m : missing) moments.add(m.*value);
+  return moments.mean / std::max(moments.standard_error(), 1e-30);
+}
+
+// Whether light is missing from a pilot with significance. Then its errors are those against the mean of the other one.
+bool adds_missing_light(const std::vector<MissingLightOfPilot>& missing, std::vector<WindowError>& errors) {
+  constexpr double significant = 3;
+  if (significance(missing, &MissingLightOfPilot::light) < significant ||
+      significance(missing, &MissingLightOfPilot::error) < significant)
+    return false;
+  for (std::size_t w = 0; w < errors.size(); ++w)
+    errors[w].relative = std::max(errors[w].relative + missing[w].error, 0.0);
+  return true;
+}
+
+}  // namespace
+
+Shown shown_by(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows) {
+  const std::vector<double> weights = weights_of(pilots);
+  Shown shown;
+  shown.errors.assign(pilots.size(), std::vector<WindowError>(windows.size()));
+  shown.first_misses.assign(pilots.size(), std::vector<MissingLightOfPilot>(windows.size()));
+  shown.first_shows = shown.first_misses;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const std::vector<PixelMean> expectation = expectation_of(pilots, weights, w, windows[w]);
+    double sum = 0;
+    for (const PixelMean& pixel : expectation) sum = std::accumulate(pixel.begin(), pixel.end(), sum);
+    for (std::size_t k = 0; k < pilots.size(); ++k) {
+      const WindowPilot& pilot = pilots[k].windows[w];
+      WindowError& error = shown.errors[k][w];
+      error.pixels = windows[w].area(), error.cost = pilot.cost / pilots[k].samples(), error.sum = sum;
+      double difference = 0;
+      for (std::size_t i = 0; i < expectation.size(); ++i)
+        for (std::size_t c = 0; c < rgb_size; ++c) {
+          const double divisor = expectation[i][c] * expectation[i][c] + relative_epsilon;
+          error.relative += figures_of(pilots[k], pilot, i, c).error / divisor / rgb_size;
+          difference += pilot.passes[0][i][c] - pilot.passes[1][i][c];
+        }
+      error.of_sum = difference * difference / 2 * pilots[k].samples_per_pass;
+    }
+    for (std::size_t k = 1; k < pilots.size(); ++k) {
+      shown.first_misses[k][w] = missing_light(pilots[0], pilots[k], w, expectation);
+      shown.first_shows[k][w] = missing_light(pilots[k], pilots[0], w, expectation);
+    }
+  }
+  return shown;
+}
+
+double samples_for_unit_error(const std::vector<WindowError>& errors, const Sample& windows, const ErrorTarget& target,
+                              std::size_t all_windows) {
+  WindowError sum;
+  for (std::size_t w : windows)
+    sum.pixels += errors[w].pixels, sum.relative += errors[w].relative, sum.of_sum += errors[w].of_sum,
+        sum.sum += errors[w].sum;
+  switch (target.measure) {
+    case TargetMeasure::relative:
+      return sum.relative / sum.pixels;
+    case TargetMeasure::mean:
+      // The windows' errors are independent: of the sum over all windows it is that of these times a number, and the
+      // square of the sum is that of these times its square.
+      return sum.of_sum / (sum.sum * sum.sum) * double(windows.size()) / double(all_windows);
+    case TargetMeasure::pixels:
+      break;
+  }
+  // Pixels of a window have normal errors of equal variance: the number at which the stated share of all is within 1.
+  double low = 0, high = 1;
+  const auto within = [&](double samples) {
+    double pixels = 0;
+    for (std::size_t w : windows) {
+      const double deviation = std::sqrt(errors[w].relative / errors[w].pixels / samples);
+      pixels += errors[w].pixels * (deviation > 0 ? 2 * special::normal_cdf(1 / deviation) - 1 : 1.0);
+    }
+    return pixels / sum.pixels;
+  };
+  while (within(high) < target.share && high < 1e12) low = high, high *= 4;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (low + high) / 2;
+    (within(middle) < target.share ? low : high) = middle;
+  }
+  return high;
+}
+
+CandidateRatio ratio_of(const std::string& name, Shown shown, std::size_t k, const ErrorTarget& target,
+                        std::size_t all_windows) {
+  CandidateRatio result{name};
+  std::vector<WindowError>&first = shown.errors[0], &other = shown.errors[k];
+  result.finds_more_light = adds_missing_light(shown.first_misses[k], first);
+  adds_missing_light(shown.first_shows[k], other);
+  const auto ratio = [&](const Sample& windows) {
+    double cost = 0, of_other = 0;
+    for (std::size_t w : windows) cost += first[w].cost, of_other += other[w].cost;
+    const double of_first = samples_for_unit_error(first, windows, target, all_windows) * cost;
+    return of_first / (samples_for_unit_error(other, windows, target, all_windows) * of_other);
+  };
+  const std::size_t count = first.size();
+  Sample windows(count);
+  std::iota(windows.begin(), windows.end(), std::size_t(0));
+  result.ratio = ratio(windows);
+  // Without noise there is nothing to gain.
+  if (!std::isfinite(result.ratio) || !(result.ratio > 0)) return {result.name, 1, 0, 1, false};
+  constexpr int resamples = 400;
+  constexpr double tail = 0.025;
+  RandomStream<float> random(std::uint32_t(count), 0x5eedu);
+  std::vector<double> ratios;
+  for (int i = 0; i < resamples; ++i) {
+    for (std::size_t& w : windows) w = std::min(std::size_t(random.next() * float(count)), count - 1);
+    if (const double one = ratio(windows); std::isfinite(one)) ratios.push_back(one);
+  }
+  if (ratios.size() < resamples / 2) return {result.name, 1, 0, 1, false};
+  std::ranges::sort(ratios);
+  result.low = ratios[std::size_t(tail * double(ratios.size()))];
+  result.high = ratios[std::size_t((1 - tail) * double(ratios.size() - 1))];
+  return result;
+}
+
+}  // namespace montelux

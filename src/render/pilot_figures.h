@@ -1,0 +1,56 @@
+// What pilots show of the efficiencies of integrators.
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/error_target.h"
+#include "render/pilot_windows.h"
+
+namespace montelux {
+
+// What a candidate showed of a window; errors are those of one sample.
+struct WindowError {
+  double pixels = 0, cost = 0;
+  double relative = 0;  // sum over pixels of relative squared errors
+  double of_sum = 0;    // squared error of the sum over pixels and channels
+  double sum = 0;       // its expectation, by all pilots
+};
+
+// Sums over a window of what one pilot shows and another one does not. Both have the mean zero.
+struct MissingLightOfPilot {
+  double light = 0;  // relative to the expectation of each pixel
+  double error = 0;  // by how much the squared errors against the other pilot's mean exceed those of its own spread
+};
+
+// What pilots show of windows.
+struct Shown {
+  std::vector<std::vector<WindowError>> errors;                             // by pilot and window
+  std::vector<std::vector<MissingLightOfPilot>> first_misses, first_shows;  // likewise: beside the pilot 0
+};
+
+Shown shown_by(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows);
+
+// Windows by their numbers; the same one may be there more than once.
+using Sample = std::vector<std::size_t>;
+
+// The number of samples of a pixel at which the error is 1: inversely proportional to the squared error that is
+// requested. Infinite where the windows do not show it.
+double samples_for_unit_error(const std::vector<WindowError>& errors, const Sample& windows, const ErrorTarget& target,
+                              std::size_t all_windows);
+
+// The efficiency of a candidate, 1 / (squared error x cost), over that of the first one, with an interval for about
+// 95 %, by its last pilot.
+struct CandidateRatio {
+  std::string name;
+  double ratio = 1, low = 0, high = std::numeric_limits<double>::infinity();
+  bool finds_more_light = false;  // than the first candidate's pilot, with significance
+};
+
+// The ratio of efficiencies of the pilots k and 0.
+CandidateRatio ratio_of(const std::string& name, Shown shown, std::size_t k, const ErrorTarget& target,
+                        std::size_t all_windows);
+
+}  // namespace montelux

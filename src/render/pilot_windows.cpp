@@ -1,0 +1,65 @@
+#include "render/pilot_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "film/film.h"
+#include "mc/random.h"
+#include "render/float_mode.h"
+
+namespace montelux {
+
+namespace {
+
+PixelMean mean_of(const PixelPass& pass) {
+  PixelMean mean{};
+  for (std::size_t c = 0; c < rgb_size; ++c) mean[c] = pass.finite > 0 ? pass.sum[c] / pass.finite : 0;
+  return mean;
+}
+
+}  // namespace
+
+std::vector<PixelBounds> windows_of(const PixelBounds& bounds, std::uint32_t seed) {
+  // Large windows show pixels that share samples with their neighbours as the whole image does; small ones are more
+  // numerous.
+  constexpr int large = 32, small = 16;
+  constexpr std::size_t enough = 64;
+  std::vector<PixelBounds> tiles = tiles_of(bounds, large);
+  if (tiles.size() < enough) tiles = tiles_of(bounds, small);
+  const std::size_t count = tiles.size();
+  std::size_t step = std::max<std::size_t>(std::size_t(std::lround(double(count) * 0.6180339887)), 1);
+  while (std::gcd(step, count) != 1) ++step;
+  std::vector<PixelBounds> windows;
+  for (std::size_t i = 0, at = mix_bits(seed) % count; i < count; ++i, at = (at + step) % count)
+    windows.push_back(tiles[at]);
+  return windows;
+}
+
+RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& image, const PixelBounds& window, int pass,
+                       int samples, std::vector<PixelMean>& means) {
+  const FlushDenormals flush;
+  std::vector<PixelPass> sums(std::size_t(window.area()));
+  RayCounts rays;
+  if (const PixelIntegrator* pixels = integrator.pixel()) {
+    std::vector<PixelSample> out(sums.size() * std::size_t(samples));
+    rays = pixels->trace({window, image.points(pass, samples), image.shutter}, out);
+    for (std::size_t i = 0; i < out.size(); ++i) sums[i / std::size_t(samples)].add(out[i]);
+  } else {
+    const CoupledIntegrator& coupled = *integrator.coupled();
+    const int frames = coupled.warm_up() + samples;
+    const std::unique_ptr<Chain> chain = coupled.begin({window, image.points(pass, frames), image.shutter});
+    std::vector<PixelSample> out(sums.size());
+    for (int frame = 0; frame < frames; ++frame) {
+      out.assign(out.size(), {});
+      for (int stage = 0; stage < coupled.stages(); ++stage) rays += chain->run({frame, stage}, window, out);
+      if (frame < coupled.warm_up()) continue;
+      for (std::size_t i = 0; i < out.size(); ++i) sums[i].add(out[i]);
+    }
+  }
+  means.reserve(sums.size());
+  for (const PixelPass& sum : sums) means.push_back(mean_of(sum));
+  return rays;
+}
+
+}  // namespace montelux

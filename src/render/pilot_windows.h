@@ -1,0 +1,37 @@
+// Pilots of integrators on windows of an image.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "integrator/integrator.h"
+#include "render/image_settings.h"
+
+namespace montelux {
+
+inline constexpr int passes_of_pilot = 2;
+
+using PixelMean = std::array<double, rgb_size>;
+
+// One candidate's pilot on one window.
+struct WindowPilot {
+  std::array<std::vector<PixelMean>, passes_of_pilot> passes;  // means of the samples, by pixel
+  double cost = 0;                                             // of all its rays
+};
+
+// A candidate's pilot on some windows.
+struct CandidatePilot {
+  std::size_t candidate = 0;
+  int samples_per_pass = 1;
+  std::vector<WindowPilot> windows;
+  double samples() const { return double(passes_of_pilot * samples_per_pass); }
+};
+
+// Squares of the image, in an order whose first ones are spread over it.
+std::vector<PixelBounds> windows_of(const PixelBounds& bounds, std::uint32_t seed);
+
+// The means of the pixels of a window in one pass, as those of an image of its own. Returns the rays.
+RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& image, const PixelBounds& window, int pass,
+                       int samples, std::vector<PixelMean>& means);
+
+}  // namespace montelux
