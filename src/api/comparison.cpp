@@ -210,9 +210,12 @@ Status check_methods(const ComparisonOptions& options) {
   return Done{};
 }
 
-Result<Comparison> compare_methods(const LoadedScene& scene, const ComparisonOptions& options,
+Result<Comparison> compare_methods(const LoadedScene& scene, const ComparisonOptions& typed,
                                    const ComparisonObserver& observer) {
   ComparisonMeter meter(observer);
+  const auto chosen = choose_methods(scene.parts(), typed, observer);
+  if (!chosen) return chosen.failure();
+  const ComparisonOptions& options = chosen->options;
   auto field = make_field(scene.parts(), options);
   if (!field) return field.failure();
   if (Status warm = check_warm_up(field->compared_methods, options); !warm) return warm.failure();
@@ -221,7 +224,7 @@ Result<Comparison> compare_methods(const LoadedScene& scene, const ComparisonOpt
   auto source = find_reference(options, field->compared_methods, settings->render.image.bounds);
   if (!source) return source.failure();
   Comparison comparison;
-  comparison.saved.options = options;
+  comparison.saved.options = options, comparison.saved.notes = chosen->notes;
   const Work work{scene.parts(), *field, *settings, observer, meter};
   if (!prepare(work, *std::move(source), comparison))
     return Failure{"interrupted before there was a reference to compare with"};

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "api/automatic.h"
 #include "api/layers.h"
 #include "api/render.h"
 #include "api/shortcomings.h"
@@ -61,8 +62,6 @@ Result<MethodText> read_method(const std::string& typed, const std::vector<Setti
     method.sampler = *kind;
   }
   if (Status known = check_integrator(method.integrator); !known) return known.failure();
-  if (method.integrator.name == "auto")
-    return Failure{"it chooses an integrator by the length of a render: compare those that it chooses from"};
   return method;
 }
 
@@ -141,6 +140,52 @@ Result<std::vector<MethodText>> read_methods(const ComparisonOptions& options) {
   for (const MethodText& m : methods)
     if (!names.insert(m.name).second) return Failure{fmt::format("two methods are called \"{}\"", m.name)};
   return methods;
+}
+
+namespace {
+
+class StopOfComparison final : public RenderObserver {
+ public:
+  explicit StopOfComparison(const ComparisonObserver& observer) : observer_(observer) {}
+  bool stop_requested() override { return observer_.stop && observer_.stop(); }
+
+ private:
+  const ComparisonObserver& observer_;
+};
+
+}  // namespace
+
+Result<ChosenMethods> choose_methods(const LoadedScene::Parts& parts, const ComparisonOptions& options,
+                                     const ComparisonObserver& observer) {
+  ChosenMethods chosen{options, {}};
+  const auto methods = read_methods(options);
+  if (!methods) return methods.failure();
+  for (std::size_t i = 0; i < methods->size(); ++i) {
+    const MethodText& method = (*methods)[i];
+    if (method.integrator.name != "auto") continue;
+    RenderOptions render;
+    render.integrator = canonical_text(method.integrator);
+    if (method.sampler) render.sampler = std::string(name_of(*method.sampler));
+    if (options.seconds)
+      render.seconds = *options.seconds / options.repeats;
+    else
+      render.samples = options.samples.value_or(lab::ComparisonSettings{}.samples);
+    render.seed = options.seed, render.threads = options.threads, render.crop = options.crop;
+    StopOfComparison stop(observer);
+    Result<RenderPlan> plan = plan_render(parts, render);
+    if (!plan) return Failure{method.text + ": " + plan.error()};
+    if (Status good = choose_automatically(parts, *plan, stop); !good) return good.failure();
+    const std::string sampler = method.sampler ? fmt::format("sampler={}", name_of(*method.sampler)) : "";
+    const std::string separator = sampler.empty()                                        ? ""
+                                  : plan->integrator_text.find(':') == std::string::npos ? ":"
+                                                                                         : ",";
+    // A name of settings cannot be typed.
+    const bool is_typed = method.name.find_first_of(":(") == std::string::npos;
+    const std::string name = is_typed ? method.name : fmt::format("auto {}", method.label);
+    chosen.options.methods[i] = fmt::format("{}={}{}{}", name, plan->integrator_text, separator, sampler);
+    chosen.notes.push_back(fmt::format("{} is {}, which its time does not include", name, to_text(*plan->choice)));
+  }
+  return chosen;
 }
 
 Result<Field> make_field(const LoadedScene::Parts& parts, const ComparisonOptions& options) {

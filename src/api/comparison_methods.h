@@ -22,6 +22,14 @@ struct MethodText {
 // two methods with the same name.
 Result<std::vector<MethodText>> read_methods(const ComparisonOptions& options);
 
+// The options with "auto=restir-pt" for a method "auto" that chooses restir-pt for a repeat, and a note of each choice.
+struct ChosenMethods {
+  ComparisonOptions options;
+  std::vector<std::string> notes;
+};
+Result<ChosenMethods> choose_methods(const LoadedScene::Parts& parts, const ComparisonOptions& options,
+                                     const ComparisonObserver& observer);
+
 // The methods of one comparison with everything that they need.
 struct Field {
   std::vector<ChosenIntegrator> integrators;

@@ -153,6 +153,9 @@ class Pilots {
       if (all_making > share * budget() || all_making + shortest > budget()) continue;
       plan = with, making = all_making;
     }
+    // With time for one comparison alone, it is with the first of them.
+    const bool has_first = plan.size() > 1 && plan[1].first == 1;
+    if (!has_first && candidates_[1].making + compared_work(1, min_windows) <= budget()) return 1;
     if (plan.size() < 2) return std::nullopt;
     const double affordable = std::max(share * budget() - making, 0.0) / work_of(plan);
     const std::size_t count = std::min(std::max(std::size_t(affordable), min_windows), windows_.size());
@@ -192,6 +195,7 @@ class Pilots {
     const std::vector<PixelBounds> windows = part_of_windows(next_window_, count);
     const std::vector<CandidatePilot> pilots = measure(compared(other, samples), windows);
     if (pilots.empty()) return;
+    choice_.reason = ChoiceReason::none_better;
     const CandidateRatio ratio =
         ratio_of(candidates_[other].name, shown_by(pilots, windows), 1, target(), windows_.size());
     std::erase_if(choice_.ratios, [&](const CandidateRatio& r) { return r.name == ratio.name; });

@@ -190,7 +190,7 @@ TEST(IntegratorChoice, takes_a_small_share_of_the_work_or_none) {
     const IntegratorChoice choice = choose(first, other, settings_for(samples));
     EXPECT_LE(choice.share, max_pilot_share) << samples;
     EXPECT_EQ(choice.reason == ChoiceReason::too_short, choice.samples == 0) << samples;
-    EXPECT_EQ(choice.reason == ChoiceReason::too_short, samples < 150) << samples;
+    EXPECT_EQ(choice.reason == ChoiceReason::too_short, samples < 70) << samples;
   }
   // An error that few samples reach leaves no time for pilots either, whatever the most of them.
   ChoiceSettings to_error = settings_for(20000);
