@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -33,8 +34,8 @@ class Pilots {
     if (candidates_.size() < 2) return choice_;
     choice_.reason = ChoiceReason::too_short;
     if (settings_.target && !predict_samples()) return choice_;
-    const std::optional<std::size_t> best = choose_other();
-    if (best) compare(*best);
+    if (const std::vector<std::size_t> others = survivors(); !others.empty()) compare_longer(others);
+    decide();
     if (observer_.stop_requested()) choice_ = {0, ChoiceReason::interrupted, {}, 0, 0};
     choice_.samples = spent_ / pixels();
     choice_.share = choice_.samples / (choice_.samples + settings_.samples);
@@ -42,6 +43,9 @@ class Pilots {
   }
 
  private:
+  // Candidates with their samples in each pass.
+  using Plan = std::vector<std::pair<std::size_t, int>>;
+
   double pixels() const { return settings_.image.bounds.area(); }
   ErrorTarget target() const { return settings_.target.value_or(ErrorTarget{}); }
   // In samples of the first candidate.
@@ -70,8 +74,7 @@ class Pilots {
   }
 
   // The pilots of these candidates, the first of which is the first candidate, on these windows.
-  std::vector<CandidatePilot> measure(const std::vector<std::pair<std::size_t, int>>& plan,
-                                      std::span<const PixelBounds> windows) {
+  std::vector<CandidatePilot> measure(const Plan& plan, std::span<const PixelBounds> windows) {
     std::vector<CandidatePilot> pilots;
     for (const auto& [candidate, samples] : plan) {
       (void)integrator(candidate);
@@ -109,7 +112,7 @@ class Pilots {
   }
 
   // The work of a pilot on one window.
-  double work_of(const std::vector<std::pair<std::size_t, int>>& plan) const {
+  double work_of(const Plan& plan) const {
     double sum = 0;
     for (const auto& [candidate, samples] : plan) sum += samples * sample_costs_[candidate];
     return sum * passes_of_pilot * window_pixels();
@@ -129,82 +132,106 @@ class Pilots {
       const std::vector<CandidatePilot> pilots = measure({{0, samples}}, windows);
       if (pilots.empty()) return false;
       const double predicted =
-          samples_for_unit_error(shown_by(pilots, windows).errors[0], all, *settings_.target, windows_.size()) /
+          samples_for_unit_error(pairs_of(pilots, windows)[0].other, all, *settings_.target, windows_.size()) /
           (error * error);
       settings_.samples = std::isfinite(predicted) ? std::clamp(predicted, 1.0, most) : most;
       if (growth * pilots[0].samples() * pixels_of(windows) > part * settings_.samples * pixels()) return true;
     }
   }
 
-  using Plan = std::vector<std::pair<std::size_t, int>>;
+  // Passes of the first candidate are longer: they cost less, and it gains most by the even spread of their points.
+  static Plan plan_of(const std::vector<std::size_t>& others, int of_first, int of_others) {
+    Plan plan{{0, of_first}};
+    for (std::size_t k : others) plan.emplace_back(k, of_others);
+    return plan;
+  }
+  static Plan short_plan(const std::vector<std::size_t>& others) { return plan_of(others, 2, 1); }
+  static Plan long_plan(const std::vector<std::size_t>& others, int samples = 1) {
+    return plan_of(others, 4 * samples, samples);
+  }
 
-  // Of the other candidates, the most efficient one on a few windows; none if the first one is better, or if there is
-  // no time for pilots.
-  std::optional<std::size_t> choose_other() {
+  // Those of the other candidates that may be more efficient, by pilots on a few windows; all that there is time for if
+  // that is only enough for one.
+  std::vector<std::size_t> survivors() {
     constexpr double share = 0.35;  // of the budget
-    // As many as there is time for, in their order.
-    Plan plan{{0, 2}};
+    std::vector<std::size_t> others;
     double making = 0;
     for (std::size_t k = 1; k < candidates_.size(); ++k) {
-      Plan with = plan;
-      with.emplace_back(k, 1);
+      std::vector<std::size_t> with = others;
+      with.push_back(k);
       const double all_making = making + candidates_[k].making;
-      const double shortest = work_of(with) * min_windows + compared_work(k, min_windows);
-      if (all_making > share * budget() || all_making + shortest > budget()) continue;
-      plan = with, making = all_making;
+      const double windows = double(min_windows);
+      const double least = (work_of(short_plan(with)) + work_of(long_plan({k}))) * windows;
+      if (all_making > share * budget() || all_making + least > budget()) continue;
+      others = with, making = all_making;
     }
-    // With time for one comparison alone, it is with the first of them.
-    const bool has_first = plan.size() > 1 && plan[1].first == 1;
-    if (!has_first && candidates_[1].making + compared_work(1, min_windows) <= budget()) return 1;
-    if (plan.size() < 2) return std::nullopt;
-    const double affordable = std::max(share * budget() - making, 0.0) / work_of(plan);
-    const std::size_t count = std::min(std::max(std::size_t(affordable), min_windows), windows_.size());
-    const std::vector<PixelBounds> windows = part_of_windows(0, count);
-    const std::vector<CandidatePilot> pilots = measure(plan, windows);
-    next_window_ = count;
-    if (pilots.empty()) return std::nullopt;
-    choice_.reason = ChoiceReason::none_better;
-    const Shown shown = shown_by(pilots, windows);
-    std::optional<std::size_t> best;
-    double most = 0;
-    for (std::size_t k = 1; k < pilots.size(); ++k) {
-      const CandidateRatio ratio = ratio_of(candidates_[pilots[k].candidate].name, shown, k, target(), windows_.size());
-      choice_.ratios.push_back(ratio);
-      if (ratio.high > 1 && ratio.ratio > most) most = ratio.ratio, best = pilots[k].candidate;
-    }
+    const bool has_first = !others.empty() && others.front() == 1;
+    if (!has_first && candidates_[1].making + work_of(long_plan({1})) * double(min_windows) <= budget()) return {1};
+    if (others.empty()) return {};
+    const double affordable = std::max(share * budget() - making, 0.0) / work_of(short_plan(others));
+    compare(short_plan(others), std::max(std::size_t(affordable), min_windows));
+    // The best ones first.
+    std::vector<std::pair<double, std::size_t>> ranked;
+    for (std::size_t k : others)
+      if (const CandidateRatio r = ratio(k); r.high > 1) ranked.emplace_back(-r.ratio, k);
+    std::ranges::sort(ranked);
+    std::vector<std::size_t> best;
+    for (const auto& [order, k] : ranked) best.push_back(k);
     return best;
   }
 
-  // Passes of the first candidate are longer: they cost less, and it gains most by the even spread of their points.
-  static constexpr int first_samples = 4;
-  Plan compared(std::size_t other, int samples) const { return {{0, first_samples * samples}, {other, samples}}; }
-  double compared_work(std::size_t other, std::size_t windows) const {
-    return work_of(compared(other, 1)) * double(windows);
-  }
-
-  // Another candidate against the first one, with the rest of the budget.
-  void compare(std::size_t other) {
+  // Compares them with the first candidate with the rest of the budget. Of those that there is no time for, the last
+  // ones are left out.
+  void compare_longer(std::vector<std::size_t> others) {
     const auto windows_for = [&](int samples) {
-      return std::size_t(std::max(budget(), 0.0) / work_of(compared(other, samples)));
+      return std::size_t(std::max(budget(), 0.0) / work_of(long_plan(others, samples)));
     };
-    if (windows_for(1) < std::min(min_windows, windows_.size())) return;
+    const std::size_t least = std::min(min_windows, windows_.size());
+    while (!others.empty() && windows_for(1) < least) others.pop_back();
+    if (others.empty()) return;
     constexpr int most = 16;
     int samples = 1;
     while (samples < most && windows_for(2 * samples) >= windows_.size()) samples *= 2;
-    const std::size_t count = std::min(windows_for(samples), windows_.size());
+    compare(long_plan(others, samples), windows_for(samples));
+  }
+
+  // Adds pilots on so many windows, at most all, to those before.
+  void compare(const Plan& plan, std::size_t most_windows) {
+    const std::size_t count = std::min(most_windows, windows_.size());
     const std::vector<PixelBounds> windows = part_of_windows(next_window_, count);
-    const std::vector<CandidatePilot> pilots = measure(compared(other, samples), windows);
+    next_window_ += count;
+    const std::vector<CandidatePilot> pilots = measure(plan, windows);
     if (pilots.empty()) return;
-    choice_.reason = ChoiceReason::none_better;
-    const CandidateRatio ratio =
-        ratio_of(candidates_[other].name, shown_by(pilots, windows), 1, target(), windows_.size());
-    std::erase_if(choice_.ratios, [&](const CandidateRatio& r) { return r.name == ratio.name; });
-    choice_.ratios.insert(choice_.ratios.begin(), ratio);
+    const std::vector<PilotPair> pairs = pairs_of(pilots, windows);
+    for (std::size_t k = 1; k < pilots.size(); ++k) pairs_[pilots[k].candidate].append(pairs[k]);
+  }
+
+  CandidateRatio ratio(std::size_t candidate) const {
+    const auto pair = pairs_.find(candidate);
+    if (pair == pairs_.end()) return {candidates_[candidate].name, 1, 0, 1, false};
+    return ratio_of(candidates_[candidate].name, pair->second, target(), windows_.size());
+  }
+
+  // The best of those that are better than the first candidate with confidence, if there is one.
+  void decide() {
     // A change gains little where the ratio is hardly above 1.
     constexpr double min_gain = 1.05;
-    if (ratio.low <= 1 || ratio.ratio < min_gain) return;
-    choice_.chosen = other;
-    choice_.reason = ratio.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;
+    if (pairs_.empty()) return;
+    choice_.reason = ChoiceReason::none_better;
+    double most = min_gain;
+    for (const auto& [candidate, pair] : pairs_) {
+      const CandidateRatio r = ratio(candidate);
+      choice_.ratios.push_back(r);
+      if (r.low <= 1 || r.ratio < most) continue;
+      most = r.ratio, choice_.chosen = candidate;
+      choice_.reason = r.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;
+    }
+    // The chosen one first, or the best one.
+    const std::string& name = candidates_[choice_.chosen].name;
+    std::ranges::sort(choice_.ratios, [&](const CandidateRatio& a, const CandidateRatio& b) {
+      if ((a.name == name) != (b.name == name)) return a.name == name;
+      return a.ratio > b.ratio;
+    });
   }
 
   const std::vector<Candidate>& candidates_;
@@ -216,6 +243,7 @@ class Pilots {
   double spent_ = 0;                  // samples of one pixel with the first candidate
   int next_pass_ = first_choice_pass;
   std::size_t next_window_ = 0;
+  std::map<std::size_t, PilotPair> pairs_;  // of the candidates that were measured, by their numbers
   IntegratorChoice choice_;
 };
 

@@ -50,12 +50,12 @@ struct IntegratorChoice {
   double share = 0;                    // that is of the work of the pilots and of the render with the first candidate
 };
 
-// The choice by successive halving. Pilots of all candidates on a few windows of the image show which of the others is
-// most efficient. Longer ones, of other samples, compare it with the first candidate, which is kept unless the other
-// one is better with confidence: by the bootstrap over windows (Efron 1979), whose errors are independent. Work is
-// counted in rays, each with the cost of its candidate, so the choice is the same for any number of threads and on
-// every run. No pass of a pilot is one of an image: the choice is independent of the image's samples, and the image
-// stays unbiased.
+// The choice by successive elimination. Pilots of all candidates on a few windows of the image show which of the others
+// may be more efficient than the first candidate. Longer ones compare these with it on more windows. It is kept unless
+// another one is better with confidence, by all pilots: by the bootstrap over windows (Efron 1979), whose errors are
+// independent. Work is counted in rays, each with the cost of its candidate, so the choice is the same for any number
+// of threads and on every run. No pass of a pilot is one of an image: the choice is independent of the image's samples,
+// and the image stays unbiased.
 //
 // A pilot of few samples underestimates the error of a candidate that rarely finds bright light. So the squared errors
 // of all candidates are divided by the same expectation, the mean of all pilots; and where one shows more light than

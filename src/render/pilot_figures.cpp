@@ -64,6 +64,21 @@ std::vector<double> weights_of(std::span<const CandidatePilot> pilots) {
   return weights;
 }
 
+// The errors of a pilot in one window.
+WindowError error_of(const CandidatePilot& pilot, std::size_t number, const std::vector<PixelMean>& expectation) {
+  const WindowPilot& window = pilot.windows[number];
+  WindowError error{double(expectation.size()), window.cost / pilot.samples()};
+  double difference = 0;
+  for (std::size_t i = 0; i < expectation.size(); ++i)
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const double divisor = expectation[i][c] * expectation[i][c] + relative_epsilon;
+      error.relative += figures_of(pilot, window, i, c).error / divisor / rgb_size;
+      difference += window.passes[0][i][c] - window.passes[1][i][c], error.sum += expectation[i][c];
+    }
+  error.of_sum = difference * difference / 2 * pilot.samples_per_pass;
+  return error;
+}
+
 // What `pilot` lacks of the light that `other` shows.
 MissingLightOfPilot missing_light(const CandidatePilot& pilot, const CandidatePilot& other, std::size_t window,
                                   const std::vector<PixelMean>& expectation) {
@@ -101,35 +116,27 @@ bool adds_missing_light(const std::vector<MissingLightOfPilot>& missing, std::ve
 
 }  // namespace
 
-Shown shown_by(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows) {
+void PilotPair::append(const PilotPair& more) {
+  first.insert(first.end(), more.first.begin(), more.first.end());
+  other.insert(other.end(), more.other.begin(), more.other.end());
+  first_misses.insert(first_misses.end(), more.first_misses.begin(), more.first_misses.end());
+  first_shows.insert(first_shows.end(), more.first_shows.begin(), more.first_shows.end());
+}
+
+std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows) {
   const std::vector<double> weights = weights_of(pilots);
-  Shown shown;
-  shown.errors.assign(pilots.size(), std::vector<WindowError>(windows.size()));
-  shown.first_misses.assign(pilots.size(), std::vector<MissingLightOfPilot>(windows.size()));
-  shown.first_shows = shown.first_misses;
+  std::vector<PilotPair> pairs(pilots.size());
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const std::vector<PixelMean> expectation = expectation_of(pilots, weights, w, windows[w]);
-    double sum = 0;
-    for (const PixelMean& pixel : expectation) sum = std::accumulate(pixel.begin(), pixel.end(), sum);
     for (std::size_t k = 0; k < pilots.size(); ++k) {
-      const WindowPilot& pilot = pilots[k].windows[w];
-      WindowError& error = shown.errors[k][w];
-      error.pixels = windows[w].area(), error.cost = pilot.cost / pilots[k].samples(), error.sum = sum;
-      double difference = 0;
-      for (std::size_t i = 0; i < expectation.size(); ++i)
-        for (std::size_t c = 0; c < rgb_size; ++c) {
-          const double divisor = expectation[i][c] * expectation[i][c] + relative_epsilon;
-          error.relative += figures_of(pilots[k], pilot, i, c).error / divisor / rgb_size;
-          difference += pilot.passes[0][i][c] - pilot.passes[1][i][c];
-        }
-      error.of_sum = difference * difference / 2 * pilots[k].samples_per_pass;
-    }
-    for (std::size_t k = 1; k < pilots.size(); ++k) {
-      shown.first_misses[k][w] = missing_light(pilots[0], pilots[k], w, expectation);
-      shown.first_shows[k][w] = missing_light(pilots[k], pilots[0], w, expectation);
+      PilotPair& pair = pairs[k];
+      pair.other.push_back(error_of(pilots[k], w, expectation));
+      pair.first.push_back(pairs[0].other[w]);
+      pair.first_misses.push_back(missing_light(pilots[0], pilots[k], w, expectation));
+      pair.first_shows.push_back(missing_light(pilots[k], pilots[0], w, expectation));
     }
   }
-  return shown;
+  return pairs;
 }
 
 double samples_for_unit_error(const std::vector<WindowError>& errors, const Sample& windows, const ErrorTarget& target,
@@ -166,12 +173,11 @@ double samples_for_unit_error(const std::vector<WindowError>& errors, const Samp
   return high;
 }
 
-CandidateRatio ratio_of(const std::string& name, Shown shown, std::size_t k, const ErrorTarget& target,
-                        std::size_t all_windows) {
+CandidateRatio ratio_of(const std::string& name, PilotPair pair, const ErrorTarget& target, std::size_t all_windows) {
   CandidateRatio result{name};
-  std::vector<WindowError>&first = shown.errors[0], &other = shown.errors[k];
-  result.finds_more_light = adds_missing_light(shown.first_misses[k], first);
-  adds_missing_light(shown.first_shows[k], other);
+  std::vector<WindowError>&first = pair.first, &other = pair.other;
+  result.finds_more_light = adds_missing_light(pair.first_misses, first);
+  adds_missing_light(pair.first_shows, other);
   const auto ratio = [&](const Sample& windows) {
     double cost = 0, of_other = 0;
     for (std::size_t w : windows) cost += first[w].cost, of_other += other[w].cost;

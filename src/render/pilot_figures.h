@@ -25,13 +25,16 @@ struct MissingLightOfPilot {
   double error = 0;  // by how much the squared errors against the other pilot's mean exceed those of its own spread
 };
 
-// What pilots show of windows.
-struct Shown {
-  std::vector<std::vector<WindowError>> errors;                             // by pilot and window
-  std::vector<std::vector<MissingLightOfPilot>> first_misses, first_shows;  // likewise: beside the pilot 0
+// What two pilots, the first one and another one, show of the same windows.
+struct PilotPair {
+  std::vector<WindowError> first, other;
+  std::vector<MissingLightOfPilot> first_misses, first_shows;
+  // Adds what pilots of the same candidates show of more windows.
+  void append(const PilotPair& more);
 };
 
-Shown shown_by(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows);
+// Pilot 0 beside each of the pilots, beginning with itself.
+std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows);
 
 // Windows by their numbers; the same one may be there more than once.
 using Sample = std::vector<std::size_t>;
@@ -49,8 +52,7 @@ struct CandidateRatio {
   bool finds_more_light = false;  // than the first candidate's pilot, with significance
 };
 
-// The ratio of efficiencies of the pilots k and 0.
-CandidateRatio ratio_of(const std::string& name, Shown shown, std::size_t k, const ErrorTarget& target,
-                        std::size_t all_windows);
+// The ratio of efficiencies of the other candidate, of this name, and the first one.
+CandidateRatio ratio_of(const std::string& name, PilotPair pair, const ErrorTarget& target, std::size_t all_windows);
 
 }  // namespace montelux

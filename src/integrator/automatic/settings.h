@@ -18,7 +18,7 @@ struct AutomaticCandidate {
   std::string text;  // as for --integrator
   // The processor time of a ray over that of one by path, and about that of a sample. Measured by `montelux compare
   // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
-  // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette (bench/auto_gain.py --rays).
+  // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette.
   double ray_cost, sample_cost;
   double making;  // samples of path that take as long as making it
 };
