@@ -73,8 +73,8 @@ std::string reason_text(const std::string& name, const IntegratorChoice& choice)
     case ChoiceReason::too_short:
       return "the render is too short for pilots";
     case ChoiceReason::none_better:
-      return fmt::format("no other integrator is surely more efficient; {} is {} times as efficient", best.name,
-                         interval_text(best));
+      return fmt::format("no other integrator is surely more efficient; {} is {} times as efficient{}", best.name,
+                         interval_text(best), best.is_unsure ? ", but few bright samples determine its error" : "");
     case ChoiceReason::better:
     case ChoiceReason::more_light:
       return fmt::format("{} times as efficient as path{}", interval_text(best),

@@ -214,15 +214,16 @@ class Pilots {
 
   // The best of those that are better than the first candidate with confidence, if there is one.
   void decide() {
-    // A change gains little where the ratio is hardly above 1.
-    constexpr double min_gain = 1.05;
+    // Passes of an image are longer than those of pilots, whose errors are therefore too large: by about a tenth more
+    // for the first candidate than for others.
+    constexpr double min_ratio = 1.1;
     if (pairs_.empty()) return;
     choice_.reason = ChoiceReason::none_better;
-    double most = min_gain;
+    double most = min_ratio;
     for (const auto& [candidate, pair] : pairs_) {
       const CandidateRatio r = ratio(candidate);
       choice_.ratios.push_back(r);
-      if (r.low <= 1 || r.ratio < most) continue;
+      if (r.low <= min_ratio || r.is_unsure || r.ratio < most) continue;
       most = r.ratio, choice_.chosen = candidate;
       choice_.reason = r.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;
     }

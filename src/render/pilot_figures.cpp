@@ -65,16 +65,21 @@ std::vector<double> weights_of(std::span<const CandidatePilot> pilots) {
 }
 
 // The errors of a pilot in one window.
-WindowError error_of(const CandidatePilot& pilot, std::size_t number, const std::vector<PixelMean>& expectation) {
+WindowError error_of(const CandidatePilot& pilot, std::size_t number, const std::vector<PixelMean>& expectation,
+                     LargestTerms& largest) {
   const WindowPilot& window = pilot.windows[number];
   WindowError error{double(expectation.size()), window.cost / pilot.samples()};
   double difference = 0;
-  for (std::size_t i = 0; i < expectation.size(); ++i)
+  for (std::size_t i = 0; i < expectation.size(); ++i) {
+    double relative = 0;
     for (std::size_t c = 0; c < rgb_size; ++c) {
       const double divisor = expectation[i][c] * expectation[i][c] + relative_epsilon;
-      error.relative += figures_of(pilot, window, i, c).error / divisor / rgb_size;
+      relative += figures_of(pilot, window, i, c).error / divisor / rgb_size;
       difference += window.passes[0][i][c] - window.passes[1][i][c], error.sum += expectation[i][c];
     }
+    error.relative += relative;
+    largest.add(relative);
+  }
   error.of_sum = difference * difference / 2 * pilot.samples_per_pass;
   return error;
 }
@@ -121,6 +126,7 @@ void PilotPair::append(const PilotPair& more) {
   other.insert(other.end(), more.other.begin(), more.other.end());
   first_misses.insert(first_misses.end(), more.first_misses.begin(), more.first_misses.end());
   first_shows.insert(first_shows.end(), more.first_shows.begin(), more.first_shows.end());
+  largest.merge(more.largest);
 }
 
 std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows) {
@@ -130,7 +136,7 @@ std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::spa
     const std::vector<PixelMean> expectation = expectation_of(pilots, weights, w, windows[w]);
     for (std::size_t k = 0; k < pilots.size(); ++k) {
       PilotPair& pair = pairs[k];
-      pair.other.push_back(error_of(pilots[k], w, expectation));
+      pair.other.push_back(error_of(pilots[k], w, expectation, pair.largest));
       pair.first.push_back(pairs[0].other[w]);
       pair.first_misses.push_back(missing_light(pilots[0], pilots[k], w, expectation));
       pair.first_shows.push_back(missing_light(pilots[k], pilots[0], w, expectation));
@@ -178,6 +184,7 @@ CandidateRatio ratio_of(const std::string& name, PilotPair pair, const ErrorTarg
   std::vector<WindowError>&first = pair.first, &other = pair.other;
   result.finds_more_light = adds_missing_light(pair.first_misses, first);
   adds_missing_light(pair.first_shows, other);
+  result.is_unsure = hill_index(pair.largest.sorted()) < 1;
   const auto ratio = [&](const Sample& windows) {
     double cost = 0, of_other = 0;
     for (std::size_t w : windows) cost += first[w].cost, of_other += other[w].cost;

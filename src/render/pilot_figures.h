@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "film/error_target.h"
+#include "mc/tail.h"
 #include "render/pilot_windows.h"
 
 namespace montelux {
@@ -29,6 +30,7 @@ struct MissingLightOfPilot {
 struct PilotPair {
   std::vector<WindowError> first, other;
   std::vector<MissingLightOfPilot> first_misses, first_shows;
+  LargestTerms largest{};  // of the relative squared errors of the other one's pixels
   // Adds what pilots of the same candidates show of more windows.
   void append(const PilotPair& more);
 };
@@ -50,6 +52,9 @@ struct CandidateRatio {
   std::string name;
   double ratio = 1, low = 0, high = std::numeric_limits<double>::infinity();
   bool finds_more_light = false;  // than the first candidate's pilot, with significance
+  // Few bright samples determine its error, which may be far larger: the tail of its squared errors is so heavy that
+  // they have no mean (ErrorEstimate::tail_index).
+  bool is_unsure = false;
 };
 
 // The ratio of efficiencies of the other candidate, of this name, and the first one.
