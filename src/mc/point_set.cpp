@@ -1,5 +1,6 @@
 #include "mc/point_set.h"
 
+#include "math/small_table.h"
 #include "mc/digital.h"
 #include "mc/halton.h"
 #include "mc/lattice.h"
@@ -132,13 +133,15 @@ U spread_bits(U x) {
   return (x ^ (x << 1)) & U(0x55555555u);
 }
 
-// The 24 permutations of four digits, two bits to a digit.
-constexpr std::array<std::uint32_t, 24> digit_permutations = [] {
-  std::array<std::uint32_t, 24> table{};
+// The 24 permutations of four digits, two bits to a digit and four permutations to a word.
+constexpr SmallTable digit_permutations = [] {
+  SmallTable table{};
   std::array<std::uint32_t, 4> p{0, 1, 2, 3};
   std::size_t i = 0;
-  do table[i++] = p[0] | p[1] << 2 | p[2] << 4 | p[3] << 6;
-  while (std::next_permutation(p.begin(), p.end()));
+  do {
+    table[i / 4] |= (p[0] | p[1] << 2 | p[2] << 4 | p[3] << 6) << (i % 4 * 8);
+    ++i;
+  } while (std::next_permutation(p.begin(), p.end()));
   return table;
 }();
 
@@ -152,9 +155,10 @@ Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
   for (int shift = lowest + 2 * ((bits - lowest) / 2 - 1); shift >= lowest; shift -= 2) {
     U above = shift + 2 < 32 ? U(order >> (shift + 2)) : U(0u);
     U hash = mix_bits(U(key + above + U(std::uint32_t(shift) * 0x9e3779b9u)));
-    U permutation = gather(digit_permutations.data(), U(((hash >> 16) * U(24u)) >> 16));
+    U number = ((hash >> 16) * U(24u)) >> 16;  // of the permutation
     U digit = (order >> shift) & U(3u);
-    result = result | (((permutation >> (digit << 1)) & U(3u)) << shift);
+    U in_word = ((number & U(3u)) << 3) | (digit << 1);
+    result = result | (((look_up(digit_permutations, U(number >> 2)) >> in_word) & U(3u)) << shift);
   }
   if (lowest == 1) result = result | ((order ^ mix_bits(U(key + (order >> 1) + U(0x632be5abu)))) & U(1u));
   return result;
