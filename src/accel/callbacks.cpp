@@ -1,7 +1,8 @@
 #include "accel/callbacks.h"
 
 #include <array>
-#include <cmath>
+
+#include "accel/packet.h"
 
 namespace montelux {
 
@@ -70,50 +71,80 @@ void shape_bounds(const RTCBoundsFunctionArguments* a) {
   a->bounds_o->upper_x = b.high.x, a->bounds_o->upper_y = b.high.y, a->bounds_o->upper_z = b.high.z;
 }
 
+constexpr unsigned max_rays = 16;  // of a packet, in any kernel
+
 // Which of the kernel's rays enter the ball around a shape before they end: far fewer than enter its box, in particular
-// of those that end on it. Rounding can only add rays.
+// of those that end on it. Rounding can only add rays. F has as many lanes as there are rays.
+template <class F>
+std::uint32_t rays_into(const Ball& ball, RTCRayN* rays) {
+  constexpr unsigned n = lanes_of<F>;
+  const Vec3<F> o = Vec3<F>{load_lanes<F>(&RTCRayN_org_x(rays, n, 0)), load_lanes<F>(&RTCRayN_org_y(rays, n, 0)),
+                            load_lanes<F>(&RTCRayN_org_z(rays, n, 0))} -
+                    splat<F>(ball.centre);
+  const Vec3<F> d{load_lanes<F>(&RTCRayN_dir_x(rays, n, 0)), load_lanes<F>(&RTCRayN_dir_y(rays, n, 0)),
+                  load_lanes<F>(&RTCRayN_dir_z(rays, n, 0))};
+  const F squared = dot(d, d), nearest = -dot(o, d) / squared, end = load_lanes<F>(&RTCRayN_tfar(rays, n, 0));
+  const F t = select(nearest < F(0.0f), F(0.0f), select(nearest < end, nearest, end));
+  const Vec3<F> p = o + d * t;
+  const F reach = F(ball.radius) + F(0x1p-19f) * (abs(o.x) + abs(o.y) + abs(o.z));
+  return ~bits((squared > F(1e-30f)) & (dot(p, p) > reach * reach));
+}
 std::uint32_t rays_into(const Ball& ball, RTCRayN* rays, unsigned n) {
-  constexpr unsigned most = 16;  // rays per packet, in any kernel
-  std::array<std::int32_t, most> into{};
-  for (unsigned i = 0; i < n; ++i) {
-    const Vec3f o =
-        Vec3f{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)} - ball.centre;
-    const Vec3f d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    const float squared = dot(d, d), nearest = -dot(o, d) / squared, end = RTCRayN_tfar(rays, n, i);
-    const float t = nearest < 0.0f ? 0.0f : nearest < end ? nearest : end;
-    const Vec3f p = o + d * t;
-    const float reach = ball.radius + 0x1p-19f * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z));
-    into[i] = !(squared > 1e-30f && dot(p, p) > reach * reach);
+  switch (n) {
+    case 16:
+      return rays_into<Floats<16>>(ball, rays);
+    case 8:
+      return rays_into<Floats<8>>(ball, rays);
+    case 4:
+      return rays_into<Floats<4>>(ball, rays);
+    default:
+      return rays_into<float>(ball, rays);
   }
-  std::uint32_t bits = 0;
-  for (unsigned i = 0; i < n; ++i) bits |= std::uint32_t(into[i]) << i;
-  return bits;
 }
 
-// The nearest surface of the shape that exists for the ray: through one side of a ball it may hit the other. For the
+// The kernel's rays that may meet a shape, and where each meets it.
+struct ShapeQuery {
+  std::array<Ray<float>, max_rays> rays;
+  std::array<unsigned, max_rays> number;  // of the ray in the kernel's packet
+  std::array<std::optional<ShapeHit>, max_rays> hits;
+  std::size_t count = 0;
+};
+
+// The nearest surface of the shape that exists for each ray: through one side of a ball it may hit the other. For the
 // test, `primitive` is the number of surfaces passed, so that each is decided independently.
-std::optional<ShapeHit> first_that_is_there(const GeometryContext& context, const Ray<float>& ray, RayUse use,
-                                            std::uint32_t instance, bool asks) {
-  const Shape& shape = context.store->shapes[context.store->rows[context.row].first];
-  std::optional<ShapeHit> found = intersect(shape, ray, 0.0f);
-  for (std::uint32_t passed = 0; asks && found; ++passed) {
-    if ((*context.is_opaque)({found->t, found->uv.x, found->uv.y, context.row, passed, instance}, ray, use)) break;
-    found = intersect(shape, ray, found->t);
+void meet_shape(const GeometryContext& context, RTCRayN* rays, const int* valid, unsigned n, RayUse use,
+                std::uint32_t instance, ShapeQuery& query) {
+  const GeometryRow& row = context.store->rows[context.row];
+  const Shape& shape = context.store->shapes[row.first];
+  const std::uint32_t near = rays_into(context.ball, rays, n);
+  for (unsigned i = 0; i < n; ++i) {
+    if (valid[i] == 0 || (near >> i & 1u) == 0) continue;
+    query.rays[query.count] = ray_of(rays, n, i);
+    query.number[query.count++] = i;
   }
-  return found;
+  if (query.count == 0) return;
+  intersect(shape, std::span(query.rays).first(query.count), std::span(query.hits).first(query.count));
+  if (!is_asked_of(row, use)) return;
+  for (std::size_t k = 0; k < query.count; ++k) {
+    std::optional<ShapeHit>& found = query.hits[k];
+    for (std::uint32_t passed = 0; found; ++passed) {
+      const Hit<float> hit{found->t, found->uv.x, found->uv.y, context.row, passed, instance};
+      if ((*context.is_opaque)(hit, query.rays[k], use)) break;
+      found = intersect(shape, query.rays[k], found->t);
+    }
+  }
 }
 
 void intersect_shape(const RTCIntersectFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
-  const GeometryRow& row = context.store->rows[context.row];
   RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
   RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
-  const std::uint32_t near = rays_into(context.ball, rays, a->N),
-                      instance = instance_number(context, a->context->instID[0]);
-  for (unsigned i = 0; i < a->N; ++i) {
-    if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
-    const auto found = first_that_is_there(context, ray_of(rays, a->N, i), RayUse::path, instance, row.alpha != 0);
+  ShapeQuery query;
+  meet_shape(context, rays, a->valid, a->N, RayUse::path, instance_number(context, a->context->instID[0]), query);
+  for (std::size_t k = 0; k < query.count; ++k) {
+    const std::optional<ShapeHit>& found = query.hits[k];
     if (!found) continue;
+    const unsigned i = query.number[k];
     RTCRayN_tfar(rays, a->N, i) = found->t;
     RTCHitN_u(hits, a->N, i) = found->uv.x;
     RTCHitN_v(hits, a->N, i) = found->uv.y;
@@ -125,16 +156,11 @@ void intersect_shape(const RTCIntersectFunctionNArguments* a) {
 
 void occlude_by_shape(const RTCOccludedFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
-  const GeometryRow& row = context.store->rows[context.row];
-  if (row.flags & GeometryRow::invisible_to_shadow_rays) return;
-  const std::uint32_t near = rays_into(context.ball, a->ray, a->N),
-                      instance = instance_number(context, a->context->instID[0]);
-  for (unsigned i = 0; i < a->N; ++i) {
-    if (a->valid[i] == 0 || !(near >> i & 1u)) continue;
-    if (first_that_is_there(context, ray_of(a->ray, a->N, i), RayUse::shadow, instance,
-                            may_be_open_to_shadow_rays(row)))
-      RTCRayN_tfar(a->ray, a->N, i) = -std::numeric_limits<float>::infinity();
-  }
+  if (context.store->rows[context.row].flags & GeometryRow::invisible_to_shadow_rays) return;
+  ShapeQuery query;
+  meet_shape(context, a->ray, a->valid, a->N, RayUse::shadow, instance_number(context, a->context->instID[0]), query);
+  for (std::size_t k = 0; k < query.count; ++k)
+    if (query.hits[k]) RTCRayN_tfar(a->ray, a->N, query.number[k]) = -std::numeric_limits<float>::infinity();
 }
 
 RTCGeometry make_triangles(RTCDevice device, const GeometryStore& store, const GeometryRow& row) {

@@ -4,6 +4,7 @@
 
 #include "geometry/double3.h"
 #include "geometry/quadrature.h"
+#include "math/double_lanes.h"
 
 namespace montelux {
 
@@ -68,24 +69,6 @@ Vec3d texture_tangent(const BilinearPatch& s, const Patch& q, double u, double v
   return along;
 }
 
-struct PatchHit {
-  double t, u, v;
-};
-
-// The hit on the line of constant u, if its v is on the patch. `o` is the ray's origin, `d` its direction.
-std::optional<PatchHit> hit_on_line(const Patch& q, Vec3d o, Vec3d d, double u, double slack) {
-  if (!(u >= -slack && u <= 1 + slack)) return std::nullopt;
-  u = std::clamp(u, 0.0, 1.0);
-  Vec3d a = mix(u, q.p00, q.p10) - o, along = q.dv(u);
-  Vec3d n = cross(d, along);
-  double squared = dot(n, n);
-  if (!(squared > 0)) return std::nullopt;
-  Vec3d m = cross(n, a);
-  double t = dot(m, along) / squared, v = dot(m, d) / squared;
-  if (!(v >= -slack && v <= 1 + slack)) return std::nullopt;
-  return PatchHit{t, u, std::clamp(v, 0.0, 1.0)};
-}
-
 }  // namespace
 
 BilinearPatch patch_of(const Mesh& mesh, std::size_t quad, bool flip_normal) {
@@ -109,40 +92,112 @@ Bounds3 bounds(const BilinearPatch& s) {
 
 namespace {
 
-// The largest magnitude of a coordinate in an intersection.
-double magnitude(const Patch& q, const Vec3d& o) {
-  auto largest = [](const Vec3d& p) { return std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))); };
-  return std::max(std::max(largest(q.p00), largest(q.p10)),
-                  std::max(std::max(largest(q.p01), largest(q.p11)), largest(o)));
+// The corners, in every lane.
+template <class D>
+struct Corners {
+  Vec3<D> p00, p10, p01, p11;
+  explicit Corners(const Patch& q) : p00(in(q.p00)), p10(in(q.p10)), p01(in(q.p01)), p11(in(q.p11)) {}
+  static Vec3<D> in(const Vec3d& p) { return {D(p.x), D(p.y), D(p.z)}; }
+};
+
+// A ray with the interval of its parameter, whose ends are of single precision.
+template <class D>
+struct PatchRay {
+  Vec3<D> o, d;
+  D t_min, t_max;
+};
+
+template <class D>
+struct PatchHits {
+  MaskOfDouble<D> found;
+  D t, u, v;
+};
+
+template <class D>
+Vec3<D> mix(D t, const Vec3<D>& a, const Vec3<D>& b) {
+  return a * (D(1.0) - t) + b * t;
+}
+
+template <class D>
+D largest_component(const Vec3<D>& p) {
+  const auto magnitude = [](D x) { return copysign(x, D(1.0)); };
+  return max(magnitude(p.x), max(magnitude(p.y), magnitude(p.z)));
+}
+
+// The hits on the lines of constant u, if their v is on the patch.
+template <class D>
+PatchHits<D> hits_on_lines(const Corners<D>& q, const PatchRay<D>& ray, D u) {
+  const D slack = 1e-10;
+  MaskOfDouble<D> found = (u >= -slack) & (u <= D(1.0) + slack);
+  u = min(max(u, D(0.0)), D(1.0));
+  const Vec3<D> a = mix(u, q.p00, q.p10) - ray.o, along = mix(u, q.p01 - q.p00, q.p11 - q.p10);
+  const Vec3<D> n = cross(ray.d, along);
+  const D squared = dot(n, n);
+  const Vec3<D> m = cross(n, a);
+  const D t = dot(m, along) / squared, v = dot(m, ray.d) / squared;
+  found = found & (squared > D(0.0)) & (v >= -slack) & (v <= D(1.0) + slack);
+  // Hits closer than the rounding of their own distance belong to a ray that leaves the patch: an origin exactly
+  // in the plane of a flat patch requires this, because no offset moves it out of that plane.
+  const D magnitude = max(max(largest_component(q.p00), largest_component(q.p10)),
+                          max(max(largest_component(q.p01), largest_component(q.p11)), largest_component(ray.o)));
+  const D rounded = rounded_to_float(t);
+  found = found & (t > ray.t_min) & (rounded > ray.t_min) & (rounded < ray.t_max);
+  found = found & (t * sqrt(dot(ray.d, ray.d)) > D(1e-12) * magnitude);
+  return {found, t, u, min(max(v, D(0.0)), D(1.0))};
+}
+
+// The lines of constant u that a ray meets solve a + b u + c u^2 = 0 (Reshetov 2019).
+template <class D>
+PatchHits<D> nearest_hits(const Corners<D>& q, const PatchRay<D>& ray) {
+  const Vec3<D> e00 = q.p01 - q.p00, e11 = q.p11 - q.p10;
+  const D a = dot(cross(q.p00 - ray.o, ray.d), e00), c = dot(cross(q.p10 - q.p00, q.p01 - q.p11), ray.d);
+  const D b = dot(cross(q.p10 - ray.o, ray.d), e11) - a - c;
+  const D discriminant = b * b - D(4.0) * a * c;
+  const D h = (-b - copysign(sqrt(max(discriminant, D(0.0))), b)) / D(2.0);
+  // A patch that is flat along u has c = 0 up to rounding; then h / c is far outside, and a / h is the hit.
+  const PatchHits<D> first = hits_on_lines(q, ray, select(c != D(0.0), h / c, D(-1.0)));
+  const PatchHits<D> second = hits_on_lines(q, ray, select(h != D(0.0), a / h, D(-1.0)));
+  const MaskOfDouble<D> takes_second = second.found & ((!first.found) | (second.t < first.t));
+  const MaskOfDouble<D> found = (discriminant >= D(0.0)) & (first.found | second.found);
+  return {found, select(takes_second, second.t, first.t), select(takes_second, second.u, first.u),
+          select(takes_second, second.v, first.v)};
 }
 
 }  // namespace
 
 std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray, float t_min) {
-  Patch q = in_double(s);
-  Vec3d o = to_double(ray.o), d = to_double(ray.d);
-  // The lines of constant u that the ray meets solve a + b u + c u^2 = 0.
-  Vec3d e00 = q.p01 - q.p00, e11 = q.p11 - q.p10;
-  double a = dot(cross(q.p00 - o, d), e00), c = dot(cross(q.p10 - q.p00, q.p01 - q.p11), d);
-  double b = dot(cross(q.p10 - o, d), e11) - a - c;
-  double discriminant = b * b - 4 * a * c;
-  if (!(discriminant >= 0)) return std::nullopt;
-  double h = (-b - std::copysign(std::sqrt(discriminant), b)) / 2;
-  // A patch that is flat along u has c = 0 up to rounding; then h / c is far outside, and a / h is the hit.
-  double u1 = c != 0 ? h / c : -1, u2 = h != 0 ? a / h : -1;
-  const double slack = 1e-10;
-  // Hits closer than the rounding of their own distance belong to a ray that leaves the patch: an origin exactly
-  // in the plane of a flat patch requires this, because no offset moves it out of that plane.
-  auto leaves = [&](double t) { return t * std::sqrt(dot(d, d)) <= 1e-12 * magnitude(q, o); };
-  std::optional<PatchHit> best;
-  for (double u : {u1, u2}) {
-    auto hit = hit_on_line(q, o, d, u, slack);
-    if (!hit || !(hit->t > t_min) || !(float(hit->t) > t_min) || !(float(hit->t) < ray.t_max) || leaves(hit->t))
-      continue;
-    if (!best || hit->t < best->t) best = hit;
+  const PatchHits<double> hit =
+      nearest_hits<double>(Corners<double>(in_double(s)), {to_double(ray.o), to_double(ray.d), t_min, ray.t_max});
+  if (!hit.found) return std::nullopt;
+  return ShapeHit{float(hit.t), {float(hit.u), float(hit.v)}};
+}
+
+void intersect(const BilinearPatch& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits) {
+  if (rays.size() == 1) {
+    hits[0] = intersect(s, rays[0], 0.0f);
+    return;
   }
-  if (!best) return std::nullopt;
-  return ShapeHit{float(best->t), {float(best->u), float(best->v)}};
+  const Corners<Doubles> q(in_double(s));
+  for (std::size_t first = 0; first < rays.size(); first += double_lanes) {
+    const std::size_t n = std::min(rays.size() - first, std::size_t(double_lanes));
+    std::array<std::array<double, double_lanes>, 7> rows{};  // of each lane: o, d, t_max
+    for (std::size_t k = 0; k < n; ++k) {
+      const Ray<float>& ray = rays[first + k];
+      rows[0][k] = ray.o.x, rows[1][k] = ray.o.y, rows[2][k] = ray.o.z;
+      rows[3][k] = ray.d.x, rows[4][k] = ray.d.y, rows[5][k] = ray.d.z, rows[6][k] = ray.t_max;
+    }
+    const auto row = [&](std::size_t i) { return std::bit_cast<Doubles>(rows[i]); };
+    const PatchHits<Doubles> hit =
+        nearest_hits<Doubles>(q, {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, Doubles(0.0), row(6)});
+    const auto t = std::bit_cast<std::array<double, double_lanes>>(hit.t);
+    const auto u = std::bit_cast<std::array<double, double_lanes>>(hit.u);
+    const auto v = std::bit_cast<std::array<double, double_lanes>>(hit.v);
+    for (std::size_t k = 0; k < n; ++k) {
+      std::optional<ShapeHit>& to = hits[first + k];
+      to.reset();
+      if (lane(hit.found, int(k))) to = ShapeHit{float(t[k]), {float(u[k]), float(v[k])}};
+    }
+  }
 }
 
 SurfacePoint<float> surface_point(const BilinearPatch& s, Vec2f uv) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <span>
 
 #include "geometry/bounds.h"
 #include "geometry/mesh.h"
@@ -24,6 +25,8 @@ Bounds3 bounds(const BilinearPatch& s);
 // The nearest hit with t_min < t < ray.t_max; hit.uv are the patch's own parameters (Reshetov 2019, "Cool Patches",
 // in double precision).
 std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray, float t_min);
+// The same for several rays from t = 0, bit for bit, eight at a time; as many hits as rays.
+void intersect(const BilinearPatch& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits);
 // The point at the patch's own parameters; its field uv holds the texture coordinates and dpdu follows them.
 SurfacePoint<float> surface_point(const BilinearPatch& s, Vec2f uv);
 SurfacePoint<float> surface_point(const BilinearPatch& s, const Ray<float>& ray, const ShapeHit& hit);

@@ -230,6 +230,45 @@ TEST(BilinearPatch, rays_that_leave_do_not_meet_the_patch_again) {
   }
 }
 
+// Rays toward the shape, beside it, away from it, along it, and some that end before it.
+TEST(Shape, several_rays_hit_what_each_of_them_hits_alone) {
+  Stream r(31, 17);
+  for (const NamedShape& k : shapes_at(2)) {
+    for (std::size_t count : {1, 2, 7, 8, 9, 16}) {
+      std::size_t met = 0;
+      for (int round = 0; round < 200; ++round) {
+        std::vector<Ray<float>> rays;
+        for (std::size_t i = 0; i < count; ++i) {
+          const SurfacePoint<float> s = surface_point(k.shape, r.next2());
+          Ray<float> ray = ray_toward(s.p, k.size, r);
+          if (const float kind = r.next(); kind < 0.2f)
+            ray.d = random_direction(r);
+          else if (kind < 0.4f)
+            ray.o = offset_origin(s.p, s.p_error, s.ng, ray.d);
+          else if (kind < 0.5f)
+            ray.t_max = uniform(r, 0, 2) * length(s.p - ray.o) / length(ray.d);
+          else if (kind < 0.6f)
+            ray.o = s.p - s.dpdu * 2.0f, ray.d = s.dpdu;
+          rays.push_back(ray);
+        }
+        std::vector<std::optional<ShapeHit>> hits(count, ShapeHit{-1, {-1, -1}});
+        intersect(k.shape, rays, hits);
+        for (std::size_t i = 0; i < count; ++i) {
+          const std::optional<ShapeHit> alone = intersect(k.shape, rays[i], 0);
+          ASSERT_EQ(hits[i].has_value(), alone.has_value()) << k.name;
+          if (!alone) continue;
+          ++met;
+          ASSERT_EQ(hits[i]->t, alone->t) << k.name;
+          ASSERT_EQ(hits[i]->uv.x, alone->uv.x) << k.name;
+          ASSERT_EQ(hits[i]->uv.y, alone->uv.y) << k.name;
+        }
+      }
+      EXPECT_GT(met, 40 * count) << k.name;
+      EXPECT_LT(met, 190 * count) << k.name;
+    }
+  }
+}
+
 TEST(Shape, rays_that_leave_a_far_point_of_a_huge_sphere_keep_off_it) {
   Stream r(13, 14);
   Sphere ground{translate(0, -1e6, 0) * rotate(90, 1, 0, 0), false, 1e6f, -1e6f, 1e6f, 360};

@@ -1,0 +1,93 @@
+// Packs of eight reals in double precision, for the few computations over rays that single precision cannot carry: a
+// template over D, double or Doubles, states each of them once.
+#pragma once
+#include <limits>
+
+#include "math/lanes.h"
+
+namespace montelux {
+
+inline constexpr int double_lanes = 8;
+
+// Truth values; every lane is all ones (yes) or all zeros (no).
+struct DoubleMask {
+  typedef std::int64_t Vector __attribute__((vector_size(8 * double_lanes)));
+  Vector v;
+};
+
+struct Doubles {
+  typedef double Vector __attribute__((vector_size(8 * double_lanes)));
+  Vector v;
+  Doubles() = default;
+  MONTELUX_INLINE Doubles(Vector a) : v(a) {}
+  MONTELUX_INLINE Doubles(double a) : v(a - Vector{}) {}
+};
+
+template <class D>
+struct DoubleTraits;
+template <>
+struct DoubleTraits<double> {
+  using Mask = bool;
+};
+template <>
+struct DoubleTraits<Doubles> {
+  using Mask = DoubleMask;
+};
+template <class D>
+using MaskOfDouble = typename DoubleTraits<D>::Mask;
+
+// clang-format off
+MONTELUX_INLINE Doubles operator+(Doubles a, Doubles b) { return a.v + b.v; }
+MONTELUX_INLINE Doubles operator-(Doubles a, Doubles b) { return a.v - b.v; }
+MONTELUX_INLINE Doubles operator*(Doubles a, Doubles b) { return a.v * b.v; }
+MONTELUX_INLINE Doubles operator/(Doubles a, Doubles b) { return a.v / b.v; }
+MONTELUX_INLINE Doubles operator-(Doubles a) { return -a.v; }
+MONTELUX_INLINE DoubleMask operator<(Doubles a, Doubles b) { return {a.v < b.v}; }
+MONTELUX_INLINE DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
+MONTELUX_INLINE DoubleMask operator<=(Doubles a, Doubles b) { return {a.v <= b.v}; }
+MONTELUX_INLINE DoubleMask operator>=(Doubles a, Doubles b) { return {a.v >= b.v}; }
+MONTELUX_INLINE DoubleMask operator!=(Doubles a, Doubles b) { return {a.v != b.v}; }
+MONTELUX_INLINE DoubleMask operator&(DoubleMask a, DoubleMask b) { return {a.v & b.v}; }
+MONTELUX_INLINE DoubleMask operator|(DoubleMask a, DoubleMask b) { return {a.v | b.v}; }
+MONTELUX_INLINE DoubleMask operator!(DoubleMask a) { return {~a.v}; }
+// clang-format on
+
+MONTELUX_INLINE Doubles select(DoubleMask m, Doubles a, Doubles b) { return m.v ? a.v : b.v; }
+MONTELUX_INLINE double select(bool m, double a, double b) { return m ? a : b; }
+
+MONTELUX_INLINE Doubles sqrt(Doubles a) {
+#if defined(__AVX512F__)
+  return (Doubles::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v);
+#else
+  Doubles r;
+  for (int k = 0; k < double_lanes; ++k) r.v[k] = std::sqrt(a.v[k]);
+  return r;
+#endif
+}
+MONTELUX_INLINE double sqrt(double a) { return std::sqrt(a); }
+
+// The magnitude of a with the sign of s.
+MONTELUX_INLINE Doubles copysign(Doubles a, Doubles s) {
+  const DoubleMask::Vector sign = DoubleMask::Vector{} + std::numeric_limits<std::int64_t>::min();
+  return (Doubles::Vector)(((DoubleMask::Vector)a.v & ~sign) | ((DoubleMask::Vector)s.v & sign));
+}
+MONTELUX_INLINE double copysign(double a, double s) { return std::copysign(a, s); }
+
+// min(a, b) is b where either is not a number.
+MONTELUX_INLINE Doubles min(Doubles a, Doubles b) { return a.v < b.v ? a.v : b.v; }
+MONTELUX_INLINE Doubles max(Doubles a, Doubles b) { return a.v > b.v ? a.v : b.v; }
+MONTELUX_INLINE double min(double a, double b) { return a < b ? a : b; }
+MONTELUX_INLINE double max(double a, double b) { return a > b ? a : b; }
+
+// The nearest value of single precision.
+MONTELUX_INLINE Doubles rounded_to_float(Doubles a) {
+  typedef float Singles __attribute__((vector_size(4 * double_lanes)));
+  return __builtin_convertvector(__builtin_convertvector(a.v, Singles), Doubles::Vector);
+}
+MONTELUX_INLINE double rounded_to_float(double a) { return double(float(a)); }
+
+MONTELUX_INLINE double lane(const Doubles& a, int k) { return a.v[k]; }
+MONTELUX_INLINE bool lane(const DoubleMask& a, int k) { return a.v[k] != 0; }
+MONTELUX_INLINE void set_lane(Doubles& a, int k, double x) { a.v[k] = x; }
+
+}  // namespace montelux
