@@ -21,6 +21,21 @@ double checked_total(std::span<const double> weights) {
 
 }  // namespace
 
+IntervalIndex::IntervalIndex(std::span<const float> sums, std::uint32_t n) : n_(n), parts_(std::bit_floor(n)) {
+  if (parts_ > 4) parts_ /= 4;
+  const std::size_t rows = sums.size() / (std::size_t(n) + 1);
+  first_.reserve(rows * (std::size_t(parts_) + 1));
+  for (std::size_t row = 0; row < rows; ++row) {
+    const float* ascending = sums.data() + row * (std::size_t(n) + 1);
+    std::uint32_t i = 0;
+    for (std::uint32_t part = 0; part <= parts_; ++part) {
+      const float start = float(part) / float(parts_);
+      while (i + 1 < n && ascending[i + 1] <= start) ++i;
+      first_.push_back(i);
+    }
+  }
+}
+
 std::vector<float> cumulative_sums(std::span<const double> weights) {
   const double total = checked_total(weights);
   std::vector<float> sums{0.0f};

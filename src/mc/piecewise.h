@@ -53,7 +53,8 @@ class PiecewiseConstant1 {
 // given the row. Every row and the marginal are tables of sums; at most 2^24 cells along a side.
 class PiecewiseConstant2 {
  public:
-  PiecewiseConstant2(std::span<const float> weights, std::uint32_t width, std::uint32_t height);
+  PiecewiseConstant2(std::span<const float> weights, std::uint32_t width, std::uint32_t height)
+      : PiecewiseConstant2(sums_of(weights, width, height), width, height) {}
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -62,10 +63,10 @@ class PiecewiseConstant2 {
 
   template <class F>
   PointSample2<F> sample(Vec2<F> u) const {
-    Uint<F> row = find_interval<F>(rows_.data(), Uint<F>(0u), height_, u.y);
+    Uint<F> row = row_index_.find(rows_.data(), Uint<F>(0u), u.y);
     Interval1<F> y = interval(rows_.data(), row);
     Uint<F> base = row * Uint<F>(width_ + 1u);
-    Uint<F> column = find_interval<F>(columns_.data(), base, width_, u.x);
+    Uint<F> column = column_index_.find(columns_.data(), row, u.x);
     Interval1<F> x = interval(columns_.data(), Uint<F>(base + column));
     F px = place(column, (u.x - x.low) / x.width, width_);
     F py = place(row, (u.y - y.low) / y.width, height_);
@@ -91,6 +92,20 @@ class PiecewiseConstant2 {
   }
 
  private:
+  struct Sums {
+    std::vector<float> rows, columns;
+    double mean;
+  };
+  static Sums sums_of(std::span<const float> weights, std::uint32_t width, std::uint32_t height);
+  PiecewiseConstant2(Sums sums, std::uint32_t width, std::uint32_t height)
+      : width_(width),
+        height_(height),
+        mean_(sums.mean),
+        rows_(std::move(sums.rows)),
+        columns_(std::move(sums.columns)),
+        row_index_(rows_, height),
+        column_index_(columns_, width) {}
+
   template <class F>
   struct Interval1 {
     F low, width;
@@ -114,6 +129,7 @@ class PiecewiseConstant2 {
   double mean_;
   std::vector<float> rows_;     // sums over rows, height + 1
   std::vector<float> columns_;  // sums over the columns of each row, (width + 1) * height
+  IntervalIndex row_index_, column_index_;
 };
 
 }  // namespace montelux
