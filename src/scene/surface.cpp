@@ -1,6 +1,7 @@
 #include "scene/surface.h"
 
 #include "math/affine.h"
+#include "math/prefetch.h"
 
 namespace montelux {
 
@@ -109,25 +110,29 @@ SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F
   const auto [i0, i1, i2] = corner_numbers<F>(store, triangle);
   const U flag = gather(words + RowWord::flags, row);
   auto has = [&](std::uint32_t bit) -> Mask<F> { return on & ((flag & U(bit)) != U(0u)); };
+  // Nothing of a triangle is in the cache as a rule: all of it is loaded at the same time.
+  const Mask<F> with_uvs = has(GeometryRow::has_uvs), with_normals = has(GeometryRow::has_normals);
+  const U uv_shift = gather(words + RowWord::uv_shift, row), normal_shift = gather(words + RowWord::normal_shift, row);
+  for (U i : {i0, i1, i2}) prefetch(store.positions.data(), i, on);
+  for (U i : {i0, i1, i2}) prefetch(store.normals.data(), U(i + normal_shift), with_normals);
+  for (U i : {i0, i1, i2}) prefetch(store.uvs.data(), U(i + uv_shift), with_uvs);
   TriangleCorners<F> corners{gather_vec3<F>(store.positions, i0), gather_vec3<F>(store.positions, i1),
                              gather_vec3<F>(store.positions, i2)};
-  if (Mask<F> uvs = has(GeometryRow::has_uvs); any(uvs)) {
-    U shift = gather(words + RowWord::uv_shift, row);
+  if (any(with_uvs)) {
     auto uv = [&](U i, Vec2<F> otherwise) {
-      return select<F>(uvs, gather_vec2<F>(store.uvs, select(uvs, i + shift, U(0u))), otherwise);
+      return select<F>(with_uvs, gather_vec2<F>(store.uvs, select(with_uvs, i + uv_shift, U(0u))), otherwise);
     };
     corners.uv0 = uv(i0, corners.uv0), corners.uv1 = uv(i1, corners.uv1), corners.uv2 = uv(i2, corners.uv2);
   }
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-  TriangleNormals<F> normals{zero, zero, zero, has(GeometryRow::has_normals)};
-  if (any(normals.present)) {
-    U shift = gather(words + RowWord::normal_shift, row);
-    auto normal = [&](U i) { return gather_vec3<F>(store.normals, select(normals.present, i + shift, U(0u))); };
+  TriangleNormals<F> normals{zero, zero, zero, with_normals};
+  if (any(with_normals)) {
+    auto normal = [&](U i) { return gather_vec3<F>(store.normals, select(with_normals, i + normal_shift, U(0u))); };
     normals.n0 = normal(i0), normals.n1 = normal(i1), normals.n2 = normal(i2);
   }
   if (!store.deforms) return triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
-  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(words, select(on, row, U(0u)), time),
-                    gather(words + RowWord::normal_shift, row), corners, normals);
+  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(words, select(on, row, U(0u)), time), normal_shift, corners,
+                    normals);
   SurfacePoint<F> s = triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
   // The interpolated corners are rounded, too.
   s.p_error = s.p_error * 2.0f;

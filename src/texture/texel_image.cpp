@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/byte_gather.h"
+#include "math/prefetch.h"
 
 namespace montelux {
 
@@ -258,6 +259,12 @@ RgbOf<NativeFloats> TexelImage::bilinear(const Vec2<NativeFloats>& st, Wrap wrap
   const F x = in_texels(st.x, width_, wrap) - 0.5f, y = in_texels(st.y, height_, wrap) - 0.5f;
   const F x0 = floor(x), y0 = floor(y), tx = x - x0, ty = y - y0;
   const Neighbours column = neighbours(x0, width_, wrap), row = neighbours(y0, height_, wrap);
+  // The second row lies far from the first in memory: both are loaded at the same time.
+  const auto load_row = [&](Uint<F> j) {
+    const Uint<F> at = (j * std::uint32_t(width_) + column.first) * std::uint32_t(channels());
+    std::visit([&](const auto& texels) { prefetch(texels.data(), at, on); }, texels_);
+  };
+  load_row(row.first), load_row(row.second);
   const auto corner = [&](Uint<F> i, Mask<F> i_inside, Uint<F> j, Mask<F> j_inside) {
     const RgbOf<F> t = texels(j * std::uint32_t(width_) + i);
     return wrap == Wrap::black ? select(i_inside & j_inside, t, black) : t;
