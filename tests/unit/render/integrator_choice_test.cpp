@@ -165,12 +165,12 @@ TEST(IntegratorChoice, sees_that_the_pilot_of_the_first_candidate_lacks_light) {
 TEST(IntegratorChoice, keeps_the_first_candidate_where_few_bright_samples_determine_the_error_of_the_other_one) {
   const Noise first(uniform(0.5));
   const auto with_tail = [](float index) {
-    return Law{[index](float u, int, int) { return 0.9f + 0.02f * std::pow(1 - u, -1 / index); }};
+    return Law{[index](float u, int, int) { return 0.99f + 0.002f * std::pow(1 - u, -1 / index); }};
   };
   int chosen = 0, unsure = 0, bounded = 0;
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     // Squared errors have half of the index.
-    const Noise heavy(with_tail(1.2f), seed), light(with_tail(6), seed);
+    const Noise heavy(with_tail(1.4f), seed), light(with_tail(6), seed);
     const IntegratorChoice choice = choose(first, heavy, settings_for(1000, seed));
     chosen += choice.chosen == 1, unsure += choice.ratios.at(0).is_unsure;
     bounded += choose(first, light, settings_for(1000, seed)).chosen == 1;
