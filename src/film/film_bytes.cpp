@@ -96,7 +96,7 @@ void ByteReader::words(std::span<std::uint64_t> words) {
     if (end > units || rest_.size() < (end - first) * unit) damaged();
     std::memcpy(&bytes[first * unit], rest_.data(), (end - first) * unit);
     rest_.remove_prefix((end - first) * unit);
-    if (bytes[end * unit - 1] < 0) std::memset(&bytes[end * unit], -1, size - end * unit);
+    if (bytes[end * unit - 1] < 0) std::memset(bytes.data() + end * unit, -1, size - end * unit);
   }
   std::memcpy(words.data(), bytes.data(), size);
 }
