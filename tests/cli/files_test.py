@@ -25,15 +25,25 @@ def limit_of_size(size):
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
+def limit_of_memory(size):
+    """Options of subprocess.run() that end a process which takes more than that many bytes."""
+    if not os.environ.get("MONTELUX_SANITIZE"):
+        return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size))}
+    # Sanitizers reserve terabytes of address space, but limit memory themselves.
+    limits = f"hard_rss_limit_mb={size >> 20}:max_allocation_size_mb={size >> 20}"
+    names = "ASAN_OPTIONS", "TSAN_OPTIONS"
+    return {"env": {**program.ENVIRONMENT, **{name: f"{os.environ.get(name, '')}:{limits}" for name in names}}}
+
+
 class FilesTest(ProgramTest):
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
 
     def run_with(self, *arguments, status, **options):
         """Runs the program with options of subprocess.run(); returns what it said."""
-        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "env": program.ENVIRONMENT, **options}
         result = subprocess.run([program.PROGRAM, *map(os.fsencode, map(str, arguments))], cwd=self.folder,
-                                env=program.ENVIRONMENT, timeout=120, check=False, **options)
+                                timeout=120, check=False, **options)
         self.assertEqual(result.returncode, status, f"{arguments}\n{result}")
         return result
 
@@ -257,9 +267,8 @@ class Bounds(FilesTest):
             usage = resource.getrusage(resource.RUSAGE_CHILDREN)
             return usage.ru_utime + usage.ru_stime
         begin = processor_time()
-        limit = 3 << 30  # bytes of address space: more means that the input is not limited
-        result = self.run_with(*arguments, status=status,
-                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        # A program that needs more does not limit its input.
+        result = self.run_with(*arguments, status=status, **limit_of_memory(3 << 30))
         self.assertLess(processor_time() - begin, seconds)
         said = result.stderr.decode()
         self.assertIn(word, said)
