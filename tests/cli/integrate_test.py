@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import math
+import os
 import re
 import signal
 import time
@@ -135,16 +136,17 @@ class Files(IntegrateTest):
 
     def test_an_interrupted_run_tells_what_it_has_and_goes_on_to_the_same_bits(self):
         integral = ("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform:passes=4096", "--samples", "33554432")
-        process = self.start("integrate", *integral, "--save", "part.json", "--json")
-        self.wait_for_handler(process)
-        time.sleep(0.1)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        for delay in 0.1, 0.4, 1.6:  # until there is a result, on a slow machine
+            process = self.start("integrate", *integral, "--save", "part.json", "--json")
+            self.wait_for_handler(process)
+            time.sleep(delay)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+            if "interrupted before" not in err:
+                break
         if process.returncode == 0:
             self.skipTest("the machine was too fast for the signal")
         self.assertEqual(process.returncode, 130, err)
-        if "before anything" in err:
-            self.skipTest("the machine was too slow for the signal")
         part = json.loads(out)
         self.assertEqual(part["stopped_because"], "stopped")
         self.assertLess(part["passes"], 4096)
@@ -333,7 +335,8 @@ class Doubts(IntegrateTest):
                 process.send_signal(signal.SIGINT)
                 _, err = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, 130, err)
-                self.assertLess(int(re.search(r"VmHWM:\s*(\d+)", status)[1]), 200_000)
+                if not os.environ.get("MONTELUX_SANITIZE"):  # sanitizers keep more than that for themselves
+                    self.assertLess(int(re.search(r"VmHWM:\s*(\d+)", status)[1]), 200_000)
 
 
 if __name__ == "__main__":
