@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
+#include "colour_means.h"
 #include "integrator/missing_light.h"
 #include "render_scenes.h"
 #include "statistics.h"
@@ -14,7 +16,7 @@ namespace montelux::test {
 namespace {
 
 const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/path-classes";
-constexpr int passes = 32, samples_per_pass = 48;
+constexpr int samples_per_pass = 48;
 constexpr double rounding = 1e-5;
 const std::vector<std::string> ways{"path",
                                     "naive",
@@ -187,6 +189,49 @@ TEST(PathClassesOfPoints, have_the_light_that_a_small_lamp_in_their_place_brings
       EXPECT_FALSE(agrees(m, 0));
       EXPECT_FALSE(agrees(m, 1.5 * c.value));
     }
+}
+
+// The caustic of lsde-point with a coloured light on a coloured floor, in either half of a window: the radiance at (x,
+// 0, z) is that of a point light at (1.75, 1, 0), the image of the light in the mirror.
+TEST(PathClassesOfPoints, have_the_colours_of_the_closed_form_in_each_half_of_the_caustic) {
+  constexpr double reflectance[] = {0.6, 0.3, 0.15}, intensity[] = {3, 1, 5};
+  struct Half {
+    const char* window;
+    double middle;
+  };
+  const Half halves[] = {{"[ -0.1 0 -0.1 0.1 ]", -0.05}, {"[ 0 0.1 -0.1 0.1 ]", 0.05}};
+  const auto radiance = [&](std::size_t channel, double middle) {
+    constexpr int n = 40;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double x = middle + 0.1 * ((i + 0.5) / n - 0.5), z = 0.2 * ((j + 0.5) / n - 0.5);
+        sum += std::pow((1.75 - x) * (1.75 - x) + 1 + z * z, -1.5);
+      }
+    return reflectance[channel] / std::numbers::pi * intensity[channel] * sum / (n * n);
+  };
+  const std::string photons = ":alpha=1,radius=0.02,photons=50000";
+  const std::pair<std::string, int> searches[] = {
+      {"light", 8192}, {"bdpt", 8192}, {"sppm" + photons, 8}, {"vcm" + photons, 8}};
+  const double own = sidak_level(family_level, 3.0 * std::size(halves) * std::size(searches));
+  std::string text = replaced(read_text(folder / "lsde-point.pbrt"), "[ 3 3 3 ]", "[ 3 1 5 ]");
+  text = replaced(text, "[ 0.6 0.6 0.6 ]", "[ 0.6 0.3 0.15 ]");
+  text = replaced(text, "[ -0.02 0 -0.02   -0.02 0 0.02   0.02 0 0.02   0.02 0 -0.02 ]",
+                  "[ -0.15 0 -0.15   -0.15 0 0.15   0.15 0 0.15   0.15 0 -0.15 ]");
+  for (const Half& half : halves) {
+    const TestScene scene(replaced(text, "[ -1e-3 1e-3 -1e-3 1e-3 ]", half.window), folder.string());
+    for (const auto& [way, samples] : searches) {
+      const Mean m = test::measure(scene, way, samples, 5);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto p = [&](double truth) { return p_value(m.mean[c], m.standard_error[c], truth); };
+        const double truth = radiance(c, half.middle);
+        EXPECT_GE(p(truth), own) << way << ", channel " << c << " about x = " << half.middle << ": " << m.mean[c]
+                                 << " +- " << m.standard_error[c] << " where " << truth << " is right";
+        EXPECT_LT(p(1.15 * truth), own) << way << ": " << m.standard_error[c] / m.mean[c];
+        EXPECT_LT(p(radiance(c, -half.middle)), own) << way << ": " << m.standard_error[c] / m.mean[c];
+      }
+    }
+  }
 }
 
 // Light of lamps that a ray can meet is found by chance: the same scene with such a lamp has no warning.
