@@ -196,8 +196,8 @@ class Pilots {
   }
 
   // Adds pilots on so many windows, at most all, to those before.
-  void compare(const Plan& plan, std::size_t most_windows) {
-    const std::size_t count = std::min(most_windows, windows_.size());
+  void compare(const Plan& plan, std::size_t max_windows) {
+    const std::size_t count = std::min(max_windows, windows_.size());
     const std::vector<PixelBounds> windows = part_of_windows(next_window_, count);
     next_window_ += count;
     const std::vector<CandidatePilot> pilots = measure(plan, windows);
