@@ -123,7 +123,7 @@ int run_integrate(IntegrateArguments& arguments) {
     if (arguments.integral.statement.over.empty())
       return complain("a domain is missing: --over x=0:1, --over disk, ...");
     arguments.integral.seed = arguments.seed.value_or(0);
-    arguments.integral.budget.confidence = arguments.confidence.value_or(0.95);
+    arguments.integral.budget.confidence = arguments.confidence.value_or(default_confidence);
   }
   const IntegralPreparation prepared = prepare_integral(saved ? saved->options : arguments.integral);
   if (!prepared.integral) return complain_of_all(prepared.mistakes);

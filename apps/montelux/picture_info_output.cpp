@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double confidence = 0.95;
+constexpr double confidence = default_confidence;
 
 void print_line(std::string_view word, const std::string& text) { fmt::print("{:10}{}\n", word, text); }
 

@@ -31,7 +31,7 @@ Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : 
 
 Json nulls() { return Json::array({nullptr, nullptr, nullptr}); }
 
-constexpr double confidence = 0.95;
+constexpr double confidence = default_confidence;
 
 // The interval of each channel of the picture's mean, with its confidence; null where there is no error bar.
 Json interval_to_json(const Rendering& rendering) {

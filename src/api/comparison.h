@@ -3,6 +3,7 @@
 #include "api/scene.h"
 #include "lab/compare/comparison.h"
 #include "math/result.h"
+#include "mc/confidence.h"
 
 namespace montelux {
 
@@ -21,7 +22,7 @@ struct ComparisonOptions {
   int repeats = 8;
   std::optional<std::filesystem::path> reference;  // none: rendered by the most efficient unbiased method
   bool cache = true;                               // store the rendered reference, and use stored ones
-  double confidence = 0.95;
+  double confidence = default_confidence;
   std::uint32_t seed = 0;
   int threads = 0;
   std::optional<PixelBounds> crop;

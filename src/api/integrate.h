@@ -8,6 +8,7 @@
 #include "lab/statement/statement.h"
 #include "lab/statement/value_text.h"
 #include "math/result.h"
+#include "mc/confidence.h"
 
 namespace montelux {
 

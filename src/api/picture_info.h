@@ -66,6 +66,6 @@ struct PictureInfo {
 bool is_picture_name(const std::filesystem::path& file);
 
 // Fails if it cannot be read. `confidence`: of the interval of the mean.
-Result<PictureInfo> picture_info(const std::filesystem::path& file, double confidence = 0.95);
+Result<PictureInfo> picture_info(const std::filesystem::path& file, double confidence = default_confidence);
 
 }  // namespace montelux

@@ -123,7 +123,7 @@ struct Rendering {
   bool has_pixel_error() const { return error.whole() && !found_no_light; }
   // The interval that holds the true mean of a channel of the picture with this probability, by Student's t over the
   // passes; none where there is no error bar.
-  std::optional<Interval> interval_of_mean(int channel, double confidence = 0.95) const;
+  std::optional<Interval> interval_of_mean(int channel, double confidence = default_confidence) const;
 };
 
 // What changes from one picture of a sequence to the next.

@@ -4,6 +4,7 @@
 
 #include "film/film_planes.h"
 #include "film/picture_error.h"
+#include "mc/confidence.h"
 
 namespace montelux {
 
@@ -20,8 +21,8 @@ enum class TargetMeasure {
 struct ErrorTarget {
   TargetMeasure measure = TargetMeasure::relative;
   double error = 0.01;
-  double share = 0.95;       // of the pixels; for TargetMeasure::pixels
-  double confidence = 0.95;  // the probability that the true error is within the requested one
+  double share = 0.95;                     // of the pixels; for TargetMeasure::pixels
+  double confidence = default_confidence;  // the probability that the true error is within the requested one
   bool operator==(const ErrorTarget&) const = default;
 };
 

@@ -1,12 +1,11 @@
 // Intervals that contain the expectations of pixels, from few passes.
 #pragma once
 #include "film/film_planes.h"
+#include "mc/confidence.h"
 
 namespace montelux {
 
 class Film;
-
-inline constexpr double default_confidence = 0.95;
 
 // By channel, for the rows of the bounds from the top. Without an end where a pixel has fewer than two passes.
 struct PixelIntervals {

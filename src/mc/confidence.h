@@ -15,8 +15,11 @@ struct Interval {
   double low, high;
 };
 
+// Of intervals and promises, where nothing else is requested.
+inline constexpr double default_confidence = 0.95;
+
 // The interval around the mean of `count` (>= 2) independent realisations that contains the true mean with probability
 // `level`, if the realisations are nearly normal (Student 1908).
-Interval confidence_interval(double mean, double standard_error, double count, double level = 0.95);
+Interval confidence_interval(double mean, double standard_error, double count, double level = default_confidence);
 
 }  // namespace montelux

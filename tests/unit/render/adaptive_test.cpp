@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "mc/moments.h"
-#include "mc/random.h"
 #include "render/adaptive_plan.h"
+#include "tile_numbers.h"
 
 namespace montelux {
 namespace {
@@ -18,8 +18,7 @@ class RareLight final : public PixelIntegrator {
  public:
   explicit RareLight(std::uint32_t seed) : seed_(seed) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
-    const std::uint32_t tile = std::uint32_t(1000 * pass.tile.y0 + pass.tile.x0);
-    RandomStream<float> random(mix_bits(pass.points.pass + 1) ^ mix_bits(seed_ + 77), tile);
+    RandomStream<float> random = test::tile_numbers(pass, seed_);
     for (PixelSample& s : out) {
       const float u = random.next();
       s.radiance = gray_rgb(pass.tile.x0 < 24 ? 0.9f + 0.2f * u : (u < 0.05f ? 20.0f : 0.0f));

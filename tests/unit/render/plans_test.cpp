@@ -5,8 +5,8 @@
 #include <limits>
 #include <thread>
 
-#include "mc/random.h"
 #include "render/render.h"
+#include "tile_numbers.h"
 
 namespace montelux {
 namespace {
@@ -18,8 +18,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 class Noise final : public PixelIntegrator {
  public:
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
-    const std::uint32_t tile = std::uint32_t(1000 * pass.tile.y0 + pass.tile.x0);
-    RandomStream<float> random(mix_bits(pass.points.pass + 1), tile);
+    RandomStream<float> random = test::tile_numbers(pass, 0);
     for (PixelSample& s : out) s.radiance = gray_rgb((pass.tile.x0 < 40 ? 1.0f : 10.0f) * random.next());
     return {out.size(), 0, 0};
   }

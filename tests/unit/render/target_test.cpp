@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
-#include "mc/random.h"
 #include "render/target_plan.h"
+#include "tile_numbers.h"
 
 namespace montelux {
 namespace {
@@ -21,8 +21,7 @@ class Noise final : public PixelIntegrator {
  public:
   explicit Noise(std::uint32_t seed) : seed_(seed) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
-    const std::uint32_t tile = std::uint32_t(1000 * pass.tile.y0 + pass.tile.x0);
-    RandomStream<float> random(mix_bits(pass.points.pass + 1) ^ mix_bits(seed_ + 77), tile);
+    RandomStream<float> random = test::tile_numbers(pass, seed_);
     std::size_t i = 0;
     for (int y = pass.tile.y0; y < pass.tile.y1; ++y)
       for (int x = pass.tile.x0; x < pass.tile.x1; ++x)
