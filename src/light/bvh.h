@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/light.h"
+#include "math/row_gather.h"
 
 namespace montelux {
 
@@ -51,9 +52,8 @@ class LightBvh {
   Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
  private:
-  static constexpr int node_size = 16;
   struct alignas(64) Node {
-    float v[node_size] = {};
+    float v[words_of_row] = {};
   };
   // Slots of a node. The intensity is negative if the lights emit both ways. The link (bits) is the first of two
   // consecutive children, or the light of a leaf, which the top bit marks.
@@ -75,30 +75,19 @@ class LightBvh {
   };
   struct Builder;
 
+  // A node in every lane, by its slots.
   template <class F>
-  MONTELUX_INLINE F number(Uint<F> node, int slot) const {
-    return gather(nodes_.data()->v + slot, Uint<F>(node * std::uint32_t(node_size)));
-  }
+  using NodeOf = std::array<F, words_of_row>;
   template <class F>
-  MONTELUX_INLINE Uint<F> link_of(Uint<F> node) const {
-    return float_bits(number<F>(node, link));
+  MONTELUX_INLINE NodeOf<F> node_of(Uint<F> node) const {
+    return gather_rows<F>(nodes_.data()->v, node);
   }
   template <class F>
   static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
     return (link_bits & Uint<F>(leaf_bit)) == Uint<F>(0u);
   }
-  // The number of one node, the same for all lanes, without a gather.
   template <class F>
-  MONTELUX_INLINE F number_of(std::uint32_t node, int slot) const {
-    return F(nodes_[node].v[slot]);
-  }
-  template <class F>
-  MONTELUX_INLINE F number_of(const Uint<F>& node, int slot) const requires(lanes_of<F> > 1) {
-    return number<F>(node, slot);
-  }
-  // At is Uint<F>, or std::uint32_t for one node in all lanes.
-  template <class F, class At>
-  F importance(At node, Vec3<F> p, Vec3<F> n) const;
+  static F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n);
   // Sets of few lights are scanned instead of descended: the choice is then exactly proportional to each light's
   // importance.
   static constexpr std::size_t max_scanned = 16;
@@ -114,28 +103,30 @@ class LightBvh {
     Scan<F> s;
     s.sum = F(0.0f);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
-      s.importance[i] = importance<F>(leaves_[i], p, n);
+      s.importance[i] = importance<F>(row_in_all_lanes<F>(nodes_.data()->v, leaves_[i]), p, n);
       s.sum = s.sum + s.importance[i];
     }
     return s;
   }
   template <class F>
   LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
-  // The probability of the first of two children, and whether either can emit light to p.
+  // The probability of the first of two children, whether either can emit light to p, and the links of both.
   template <class F>
   struct Fork {
     F first;
     Mask<F> any_light;
+    Uint<F> link_of_first, link_of_second;
   };
   template <class F>
   MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n) const {
-    F a = importance<F>(first_child, p, n);
-    F b = importance<F>(Uint<F>(first_child + Uint<F>(1u)), p, n);
+    const NodeOf<F> one = node_of<F>(first_child), other = node_of<F>(Uint<F>(first_child + Uint<F>(1u)));
+    F a = importance<F>(one, p, n);
+    F b = importance<F>(other, p, n);
     F sum = a + b, first = a / max(sum, F(1e-37f));
     // A child that can send light keeps a share that u can hit, however large the other's importance is.
     first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::min_share)), first);
     first = select(a > F(0.0f), max(first, F(light_bvh::min_share)), first);
-    return {first, sum > F(0.0f)};
+    return {first, sum > F(0.0f), float_bits(one[link]), float_bits(other[link])};
   }
 
   std::vector<Node> nodes_;
@@ -144,27 +135,26 @@ class LightBvh {
   std::vector<std::uint32_t> places_;  // by light: its index among the leaves
 };
 
-template <class F, class At>
-F LightBvh::importance(At node, Vec3<F> p, Vec3<F> n) const {
+template <class F>
+F LightBvh::importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n) {
   using namespace light_bvh;
   const F one(1.0f);
-  const Vec3<F> from =
-      p - Vec3<F>{number_of<F>(node, centre), number_of<F>(node, centre + 1), number_of<F>(node, centre + 2)};
+  const Vec3<F> from = p - Vec3<F>{node[centre], node[centre + 1], node[centre + 2]};
   const F inverse_d = one / sqrt(max(length_squared(from), F(1e-30f)));
   const Vec3<F> w = from * inverse_d;
 
   // The angular radius of the bounding ball; from inside, all directions.
-  const F sin_b = number_of<F>(node, radius) * inverse_d;
+  const F sin_b = node[radius] * inverse_d;
   const Mask<F> inside = sin_b >= one;
 
   // The smallest angle between a normal of the cluster and a direction to p.
-  const Vec3<F> a{number_of<F>(node, axis), number_of<F>(node, axis + 1), number_of<F>(node, axis + 2)};
-  const F strength = number_of<F>(node, intensity), along = dot(a, w);
+  const Vec3<F> a{node[axis], node[axis + 1], node[axis + 2]};
+  const F strength = node[intensity], along = dot(a, w);
   const F cos_w = select(strength < F(0.0f), abs(along), along);
-  const F cos_p = select(inside, one, min(cos_w + number_of<F>(node, spread) + sin_b, one));
-  const F near = min(inverse_d * inverse_d, number_of<F>(node, inverse_radius_squared));
+  const F cos_p = select(inside, one, min(cos_w + node[spread] + sin_b, one));
+  const F near = min(inverse_d * inverse_d, node[inverse_radius_squared]);
   F result = abs(strength) * max(cos_p, F(slack)) * near;
-  result = select(cos_p > number_of<F>(node, cos_emission) - slack, result, F(0.0f));
+  result = select(cos_p > node[cos_emission] - slack, result, F(0.0f));
 
   // The smallest angle between n and a direction to the cluster.
   const F cos_q = select(inside, one, min(sin_b - dot(n, w), one));
@@ -194,14 +184,12 @@ LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) c
 template <class F>
 LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   if (is_scanned()) return choose_by_scan<F>(p, n, u, on);
-  Uint<F> node(0u);
   F mass(1.0f);
   Mask<F> valid = on & Mask<F>(!nodes_.empty());
-  Mask<F> inner = valid;
+  if (!any(valid)) return {Uint<F>(0u), {F(0.0f)}, valid};
+  Uint<F> below(float_bits(nodes_.front().v[link]));
+  Mask<F> inner = valid & is_inner<F>(below);
   while (any(inner)) {
-    Uint<F> below = link_of<F>(node);
-    inner = inner & is_inner<F>(below);
-    if (!any(inner)) break;
     Uint<F> child = select(inner, below, Uint<F>(0u));
     Fork<F> f = fork<F>(child, p, n);
     // The rescaled remainder of u decides further down.
@@ -210,12 +198,11 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     F rest = min(select(first, u, u - f.first) / max(share, F(1e-37f)), F(one_minus_epsilon));
     u = select(inner, rest, u);
     mass = select(inner, mass * share, mass);
-    node = select(inner, select(first, child, Uint<F>(child + Uint<F>(1u))), node);
+    below = select(inner, select(first, f.link_of_first, f.link_of_second), below);
     valid = valid & (f.any_light | !inner);
-    inner = inner & f.any_light;
+    inner = inner & f.any_light & is_inner<F>(below);
   }
-  Uint<F> light(0u);
-  if (any(valid)) light = select(valid, Uint<F>(link_of<F>(node) & Uint<F>(~leaf_bit)), Uint<F>(0u));
+  const Uint<F> light = select(valid, Uint<F>(below & Uint<F>(~leaf_bit)), Uint<F>(0u));
   return {light, {select(valid, mass, F(0.0f))}, valid};
 }
 
@@ -230,21 +217,19 @@ Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
       own = select(place == Uint<F>(std::uint32_t(i)), all.importance[i], own);
     return {select(on & (all.sum > F(0.0f)), own / max(all.sum, F(1e-37f)), F(0.0f))};
   }
-  Uint<F> node(0u), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
+  Uint<F> below(float_bits(nodes_.front().v[link])), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
   F mass(1.0f);
-  Mask<F> inner = on;
+  Mask<F> inner = on & is_inner<F>(below);
   while (any(inner)) {
-    Uint<F> below = link_of<F>(node);
-    inner = inner & is_inner<F>(below);
-    if (!any(inner)) break;
     Uint<F> child = select(inner, below, Uint<F>(0u));
     Fork<F> f = fork<F>(child, p, n);
-    Uint<F> turn = turns & Uint<F>(1u);
-    F share = select(turn == Uint<F>(0u), f.first, F(1.0f) - f.first);
+    const Mask<F> first = (turns & Uint<F>(1u)) == Uint<F>(0u);
+    F share = select(first, f.first, F(1.0f) - f.first);
     share = select(f.any_light, share, F(0.0f));
     mass = select(inner, mass * share, mass);
-    node = select(inner, Uint<F>(child + turn), node);
+    below = select(inner, select(first, f.link_of_first, f.link_of_second), below);
     turns = select(inner, Uint<F>(turns >> 1), turns);
+    inner = inner & is_inner<F>(below);
   }
   return {select(on, mass, F(0.0f))};
 }
