@@ -2,12 +2,13 @@
 
 #include "math/affine.h"
 #include "math/prefetch.h"
+#include "math/row_gather.h"
 
 namespace montelux {
 
 namespace {
 
-constexpr std::uint32_t row_words = sizeof(GeometryRow) / 4;
+static_assert(sizeof(GeometryRow) == 4 * words_of_row);
 
 // Positions of the members of GeometryRow, in words.
 enum RowWord : std::uint32_t {
@@ -31,9 +32,14 @@ static_assert(offsetof(GeometryRow, object) == 4 * RowWord::object &&
               offsetof(GeometryRow, outside) == 4 * RowWord::outside &&
               offsetof(GeometryRow, flags) == 4 * RowWord::flags);
 
-const std::uint32_t* words_of(const GeometryStore& store) {
-  return reinterpret_cast<const std::uint32_t*>(store.rows.data());
-}
+// The row of each lane, by its words.
+template <class F>
+struct RowOf {
+  std::array<F, words_of_row> words;
+  RowOf(const GeometryStore& store, Uint<F> number)
+      : words(gather_rows<F>(reinterpret_cast<const float*>(store.rows.data()), number)) {}
+  MONTELUX_INLINE Uint<F> operator[](RowWord i) const { return float_bits(words[i]); }
+};
 
 template <class F>
 Vec3<F> gather_vec3(const std::vector<Vec3f>& from, Uint<F> i) {
@@ -74,9 +80,9 @@ struct PosePair {
   F fraction;
 };
 template <class F>
-PosePair<F> pose_pair(const std::uint32_t* words, Uint<F> row, F time) {
+PosePair<F> pose_pair(const RowOf<F>& row, F time) {
   using U = Uint<F>;
-  const U poses = gather(words + RowWord::poses, row), stride = gather(words + RowWord::pose_vertices, row);
+  const U poses = row[RowWord::poses], stride = row[RowWord::pose_vertices];
   const TimeStep<F> step = time_step<F>(time, select(poses > U(1u), poses, U(2u)));
   const U before = step.first * stride;
   return {before, before + stride, step.fraction};
@@ -103,16 +109,16 @@ void pose_triangles(const GeometryStore& store, const std::array<Uint<F>, 3>& co
 }
 
 template <class F>
-SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F time, Uint<F> row, Mask<F> on) {
+SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F time, const RowOf<F>& row,
+                                Mask<F> on) {
   using U = Uint<F>;
-  const std::uint32_t* words = words_of(store);
-  const U triangle = select(on, gather(words + RowWord::first, row) + hit.primitive, U(0u));
+  const U triangle = select(on, row[RowWord::first] + hit.primitive, U(0u));
   const auto [i0, i1, i2] = corner_numbers<F>(store, triangle);
-  const U flag = gather(words + RowWord::flags, row);
+  const U flag = row[RowWord::flags];
   auto has = [&](std::uint32_t bit) -> Mask<F> { return on & ((flag & U(bit)) != U(0u)); };
   // Nothing of a triangle is in the cache as a rule: all of it is loaded at the same time.
   const Mask<F> with_uvs = has(GeometryRow::has_uvs), with_normals = has(GeometryRow::has_normals);
-  const U uv_shift = gather(words + RowWord::uv_shift, row), normal_shift = gather(words + RowWord::normal_shift, row);
+  const U uv_shift = row[RowWord::uv_shift], normal_shift = row[RowWord::normal_shift];
   for (U i : {i0, i1, i2}) prefetch(store.positions.data(), i, on);
   for (U i : {i0, i1, i2}) prefetch(store.normals.data(), U(i + normal_shift), with_normals);
   for (U i : {i0, i1, i2}) prefetch(store.uvs.data(), U(i + uv_shift), with_uvs);
@@ -131,8 +137,7 @@ SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F
     normals.n0 = normal(i0), normals.n1 = normal(i1), normals.n2 = normal(i2);
   }
   if (!store.deforms) return triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
-  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(words, select(on, row, U(0u)), time), normal_shift, corners,
-                    normals);
+  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(row, time), normal_shift, corners, normals);
   SurfacePoint<F> s = triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
   // The interpolated corners are rounded, too.
   s.p_error = s.p_error * 2.0f;
@@ -249,9 +254,8 @@ SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F
 template <class F>
 SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, F time, Mask<F> on) {
   using U = Uint<F>;
-  const std::uint32_t* words = words_of(store);
-  const U row = select(on, hit.geometry, U(0u)) * U(row_words);
-  const Mask<F> triangles = on & (gather(words + RowWord::kind, row) == U(std::uint32_t(GeometryKind::triangles)));
+  const RowOf<F> row(store, select(on, hit.geometry, U(0u)));
+  const Mask<F> triangles = on & (row[RowWord::kind] == U(std::uint32_t(GeometryKind::triangles)));
   SurfaceHit<F> s;
   if (any(triangles))
     s.point = triangles_point<F>(store, hit, time, row, triangles);
@@ -265,25 +269,25 @@ SurfaceHit<F> surface_at(const GeometryStore& store, const Ray<F>& ray, const Hi
   });
   place_instances<F>(store, hit, time, s.point, on);
   s.distance = hit.t;
-  s.material = gather(words + RowWord::material, row);
-  U first_light = gather(words + RowWord::first_light, row);
+  s.material = row[RowWord::material];
+  U first_light = row[RowWord::first_light];
   s.light = select(on & (first_light != U(0u)), first_light + hit.primitive, U(0u));
-  s.object = gather(words + RowWord::object, row);
+  s.object = row[RowWord::object];
   s.ray_facing = Mask<F>(false);
-  if (!store.curves.empty())
-    s.ray_facing = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::ray_facing)) != U(0u));
+  if (!store.curves.empty()) s.ray_facing = on & ((row[RowWord::flags] & U(GeometryRow::ray_facing)) != U(0u));
   s.bounds_media = Mask<F>(false), s.inside = s.outside = U(0u);
   if (store.bounds_media) {
-    s.bounds_media = on & ((gather(words + RowWord::flags, row) & U(GeometryRow::bounds_media)) != U(0u));
-    s.inside = gather(words + RowWord::inside, row), s.outside = gather(words + RowWord::outside, row);
+    s.bounds_media = on & ((row[RowWord::flags] & U(GeometryRow::bounds_media)) != U(0u));
+    s.inside = row[RowWord::inside], s.outside = row[RowWord::outside];
   }
   return s;
 }
 
 SurfacePoint<float> point_of_local_ray(const GeometryStore& store, const Ray<float>& local, const Hit<float>& hit) {
   const bool is_mesh = store.rows[hit.geometry].kind == GeometryKind::triangles;
-  SurfacePoint<float> s = is_mesh ? triangles_point<float>(store, hit, local.time, hit.geometry * row_words, true)
-                                  : other_point(store, hit, local);
+  SurfacePoint<float> s = is_mesh
+                              ? triangles_point<float>(store, hit, local.time, RowOf<float>(store, hit.geometry), true)
+                              : other_point(store, hit, local);
   place_instances<float>(store, hit, local.time, s, true);
   return s;
 }
