@@ -130,7 +130,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
 
   std::vector<std::string> among = settings->among;
   if (among.empty())
-    for (const AutomaticCandidate& candidate : automatic_candidates()) among.push_back(candidate.text);
+    for (const AutomaticCandidate& candidate : automatic_candidates()) among.emplace_back(candidate.text);
   std::vector<Made> made;
   std::vector<Candidate> candidates{{"path", [&] { return plan.chosen.any(); }}};
   made.reserve(among.size());  // candidates refer to its elements

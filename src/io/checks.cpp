@@ -158,7 +158,10 @@ class RangeCheck {
     return std::all_of(values.begin(), values.end(), check);
   }
   bool in_range(double value) {
-    if (value >= spec_.low && value <= spec_.high) return true;
+    // Numbers have single precision, in which an end may lie just beyond itself.
+    const double low = std::min(spec_.low, double(float(spec_.low)));
+    const double high = std::max(spec_.high, double(float(spec_.high)));
+    if (value >= low && value <= high) return true;
     // A float is shown with its own digits, an integer with all of its digits.
     const auto as_float = static_cast<float>(value);
     const bool is_float = static_cast<double>(as_float) == value;

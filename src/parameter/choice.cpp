@@ -60,8 +60,10 @@ std::string expected(const ParameterSpec& spec) {
   return fmt::format("{}", fmt::join(ways, ", or "));
 }
 
-bool in_range(const ParameterSpec& spec, double value) {
-  return std::isfinite(value) && value >= spec.low && value <= spec.high;
+bool in_range(const ParameterSpec& spec, int value) { return value >= spec.low && value <= spec.high; }
+// The ends as numbers of the same precision, so that they are within.
+bool in_range(const ParameterSpec& spec, float value) {
+  return std::isfinite(value) && value >= float(spec.low) && value <= float(spec.high);
 }
 
 using TypedValues = std::pair<ParameterType, Values>;
@@ -73,7 +75,7 @@ std::optional<TypedValues> read_value(const ParameterSpec& spec, const std::stri
       if (auto value = read_whole<int>(text); value && in_range(spec, *value))
         return TypedValues{type, std::vector<int>{*value}};
     } else if (type == ParameterType::number) {
-      if (auto value = read_whole<float>(text); value && in_range(spec, double(*value)))
+      if (auto value = read_whole<float>(text); value && in_range(spec, *value))
         return TypedValues{type, std::vector<float>{*value}};
     } else if (type == ParameterType::boolean) {
       if (text == "true" || text == "on") return TypedValues{type, std::vector<std::uint8_t>{1}};

@@ -127,14 +127,14 @@ class Pilots {
     const std::vector<PixelBounds> windows = part_of_windows(0, count);
     Sample all(count);
     std::iota(all.begin(), all.end(), std::size_t(0));
-    const double most = settings_.samples, error = settings_.target->error;
+    const double max_samples = settings_.samples, error = settings_.target->error;
     for (int samples = 1;; samples *= growth) {
       const std::vector<CandidatePilot> pilots = measure({{0, samples}}, windows);
       if (pilots.empty()) return false;
       const double predicted =
           samples_for_unit_error(pairs_of(pilots, windows)[0].other, all, *settings_.target, windows_.size()) /
           (error * error);
-      settings_.samples = std::isfinite(predicted) ? std::clamp(predicted, 1.0, most) : most;
+      settings_.samples = std::isfinite(predicted) ? std::clamp(predicted, 1.0, max_samples) : max_samples;
       if (growth * pilots[0].samples() * pixels_of(windows) > part * settings_.samples * pixels()) return true;
     }
   }
@@ -161,8 +161,8 @@ class Pilots {
       with.push_back(k);
       const double all_making = making + candidates_[k].making;
       const double windows = double(min_windows);
-      const double least = (work_of(short_plan(with)) + work_of(long_plan({k}))) * windows;
-      if (all_making > share * budget() || all_making + least > budget()) continue;
+      const double min_work = (work_of(short_plan(with)) + work_of(long_plan({k}))) * windows;
+      if (all_making > share * budget() || all_making + min_work > budget()) continue;
       others = with, making = all_making;
     }
     const bool has_first = !others.empty() && others.front() == 1;
@@ -186,12 +186,12 @@ class Pilots {
     const auto windows_for = [&](int samples) {
       return std::size_t(std::max(budget(), 0.0) / work_of(long_plan(others, samples)));
     };
-    const std::size_t least = std::min(min_windows, windows_.size());
-    while (!others.empty() && windows_for(1) < least) others.pop_back();
+    const std::size_t min_count = std::min(min_windows, windows_.size());
+    while (!others.empty() && windows_for(1) < min_count) others.pop_back();
     if (others.empty()) return;
-    constexpr int most = 16;
+    constexpr int max_samples = 16;
     int samples = 1;
-    while (samples < most && windows_for(2 * samples) >= windows_.size()) samples *= 2;
+    while (samples < max_samples && windows_for(2 * samples) >= windows_.size()) samples *= 2;
     compare(long_plan(others, samples), windows_for(samples));
   }
 
@@ -219,12 +219,12 @@ class Pilots {
     constexpr double min_ratio = 2;
     if (pairs_.empty()) return;
     choice_.reason = ChoiceReason::none_better;
-    double most = min_ratio;
+    double best = min_ratio;
     for (const auto& [candidate, pair] : pairs_) {
       const CandidateRatio r = ratio(candidate);
       choice_.ratios.push_back(r);
-      if (r.low <= min_ratio || r.is_unsure || r.ratio < most) continue;
-      most = r.ratio, choice_.chosen = candidate;
+      if (r.low <= min_ratio || r.is_unsure || r.ratio < best) continue;
+      best = r.ratio, choice_.chosen = candidate;
       choice_.reason = r.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;
     }
     // The chosen one first, or the best one.

@@ -56,9 +56,9 @@ class FilesTest(ProgramTest):
 
     def begin(self, *arguments, **options):
         process = self.start(*arguments, **options)
-        self.addCleanup(process.stdout.close)
-        if process.stderr:
-            self.addCleanup(process.stderr.close)
+        for stream in process.stdout, process.stderr:
+            if stream:
+                self.addCleanup(stream.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
@@ -369,8 +369,11 @@ class Signals(FilesTest):
             self.assertEqual((self.folder / name).read_bytes()[-8:-4], b"IEND")
 
     def test_results_that_nobody_reads_end_quietly(self):
-        process = self.begin("completion", "bash")
-        process.stdout.close()
+        # Nobody reads from the start: else a fast program has written all of it before.
+        end, stdout = os.pipe()
+        os.close(end)
+        process = self.begin("completion", "bash", stdout=stdout)
+        os.close(stdout)
         self.assertEqual(process.wait(60), 141)
         self.assertEqual(process.stderr.read(), "")
 

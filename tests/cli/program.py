@@ -24,8 +24,8 @@ class ProgramTest(unittest.TestCase):
         self.folder = Path(holder.name)
 
     def start(self, *arguments, **options):
-        return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True, stdout=subprocess.PIPE,
-                                **{"env": ENVIRONMENT, "stderr": subprocess.PIPE, **options})
+        return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
+                                **{"env": ENVIRONMENT, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
     def run_program(self, *arguments, status=0):
         """Runs the program to its end and checks its exit status; returns what it said."""

@@ -10,6 +10,9 @@ namespace {
 // 32 pixels of each of 256 blocks, 8 samples each, of paths that no roulette ends.
 constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
 
+constexpr AutomaticCandidate candidates[] = {
+    {"restir-pt", 1.1, 8, 0}, {"path:roulette=efficiency", 1, 1, survival_pilot_samples}, {"restir-di", 0.9, 3, 0}};
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts{""};
   for (char c : text)
@@ -25,7 +28,7 @@ Fields<AutomaticSettings> automatic_fields() {
   Fields<S> fields;
   std::string defaults;
   for (const AutomaticCandidate& candidate : automatic_candidates())
-    defaults += (defaults.empty() ? "" : "/") + candidate.text;
+    defaults.append(defaults.empty() ? "" : "/").append(candidate.text);
   fields
       .text("among",
             "the candidates beside path, separated by /, each perhaps with a setting: restir-pt:rounds=2/restir-di; "
@@ -42,20 +45,16 @@ Fields<AutomaticSettings> automatic_fields() {
 
 }  // namespace
 
-const std::vector<AutomaticCandidate>& automatic_candidates() {
-  static const std::vector<AutomaticCandidate> all{
-      {"restir-pt", 1.1, 8, 0}, {"path:roulette=efficiency", 1, 1, survival_pilot_samples}, {"restir-di", 0.9, 3, 0}};
-  return all;
-}
+std::span<const AutomaticCandidate> automatic_candidates() { return candidates; }
 
-AutomaticCandidate automatic_candidate(const std::string& text) {
-  const auto name = [](const std::string& t) { return t.substr(0, t.find(':')); };
+AutomaticCandidate automatic_candidate(std::string_view text) {
+  const auto name = [](std::string_view t) { return t.substr(0, t.find(':')); };
   for (const AutomaticCandidate& candidate : automatic_candidates())
     if (candidate.text == text) return candidate;
   AutomaticCandidate found{text, 1.7, 6, 0};
   for (const AutomaticCandidate& candidate : automatic_candidates())
     if (name(candidate.text) == name(text)) found = {text, candidate.ray_cost, candidate.sample_cost, 0};
-  if (text.find("roulette=efficiency") != std::string::npos) found.making = survival_pilot_samples;
+  if (text.find("roulette=efficiency") != std::string_view::npos) found.making = survival_pilot_samples;
   return found;
 }
 

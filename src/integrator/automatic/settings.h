@@ -1,6 +1,8 @@
 // Settings of the choice between integrators.
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "math/result.h"
@@ -15,7 +17,7 @@ struct AutomaticSettings {
 
 // An integrator that may be chosen.
 struct AutomaticCandidate {
-  std::string text;  // as for --integrator
+  std::string_view text;  // as for --integrator
   // The processor time of a ray over that of one by path, and about that of a sample. Measured by `montelux compare
   // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
   // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette.
@@ -24,9 +26,9 @@ struct AutomaticCandidate {
 };
 
 // Those by default, and the costs of others by their name.
-const std::vector<AutomaticCandidate>& automatic_candidates();
+std::span<const AutomaticCandidate> automatic_candidates();
 // The costs of an integrator that is not among them are taken as high.
-AutomaticCandidate automatic_candidate(const std::string& text);
+AutomaticCandidate automatic_candidate(std::string_view text);
 
 EntitySpec automatic_spec();
 // Does not check whether the candidates are integrators.

@@ -51,6 +51,7 @@ std::string value_of(const ParameterSpec& row) {
   if (name == "branching" || (name == "shadow-rays" && row.types.front() == ParameterType::string)) return "2/1";
   if (name == "roulette") return "proportional";
   if (name == "light-selection") return "power";
+  if (name == "among") return "restir-di";
   if (row.types.front() == ParameterType::boolean) return row.meaning.ends_with("default off") ? "on" : "off";
   if (row.types.front() == ParameterType::string) return std::string(row.choices.front());
   return fmt::format("{}", std::clamp(row.types.front() == ParameterType::integer ? 3.0 : 0.75, row.low, row.high));
