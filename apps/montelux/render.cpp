@@ -306,6 +306,8 @@ int run_render(RenderArguments& arguments) {
         FilmCheckpoint{*arguments.checkpoint, arguments.every.value_or(FilmCheckpoint{}.every)};
 
   arguments.load.threads = arguments.render.threads;
+  // To move 100 MB takes a quarter of a second, and saves up to 4 % of what follows.
+  arguments.load.huge_pages = arguments.render.seconds.value_or(0) >= 20;
   arguments.load.frames = arguments.frames;
   LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);

@@ -226,7 +226,8 @@ LoadResult load_description(ReadResult read, const LoadOptions& options, double 
         scene.geometry,
         [&scene](const Hit<float>& hit, const Ray<float>& ray, RayUse use) { return scene.is_opaque(hit, ray, use); },
         options.threads);
-    if (constexpr std::size_t large = std::size_t(8) << 20; parts->accel->memory() > large) use_huge_pages();
+    constexpr std::size_t large = std::size_t(8) << 20;
+    if (options.huge_pages && parts->accel->memory() > large) use_huge_pages();
     const double build_seconds = watch.lap();
     parts->info = info_of(desc, *parts);
     parts->info.replaced = replacements(desc);

@@ -34,6 +34,9 @@ struct LoadOptions {
   std::optional<ShutterTimes> shutter{};
   std::optional<EnvironmentOptions> environment{};
   std::optional<FrameRange> frames{};  // of a sequence: the part of an animation that is needed
+  // A large scene is moved to huge pages, and so is all other memory that the process has filled: for a program of its
+  // own that renders for long.
+  bool huge_pages = false;
 };
 
 // Something of ours that serves for what the file names.

@@ -7,12 +7,17 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <string_view>
 #endif
 
 namespace montelux {
 
 void use_huge_pages() {
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
+#if defined(__linux__)
+  // "always madvise [never]": collapsing would override the last one.
+  std::string mode;
+  std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), mode);
+  if (mode.empty() || mode.find("[never]") != std::string::npos) return;
 #if defined(MADV_COLLAPSE)
   constexpr int collapse = MADV_COLLAPSE;
 #else
@@ -33,7 +38,7 @@ void use_huge_pages() {
     begin = (begin + page - 1) / page * page, end = end / page * page;
     if (!is_memory || begin >= end) continue;
     void* const first = reinterpret_cast<void*>(begin);
-    if (madvise(first, end - begin, MADV_HUGEPAGE) == 0) madvise(first, end - begin, collapse);
+    madvise(first, end - begin, collapse);  // fails for the parts that are not filled, such as the rest of a stack
   }
 #endif
 }

@@ -104,6 +104,8 @@ TEST(IntegratorChoice, takes_the_candidate_that_is_more_efficient) {
   EXPECT_NEAR(choice.ratios[0].ratio, 3, 0.4);
   EXPECT_LT(choice.ratios[0].low, 3);
   EXPECT_GT(choice.ratios[0].high, 3);
+  EXPECT_LT(choice.ratios[0].low, 3);
+  EXPECT_GT(choice.ratios[0].high, 3);
 }
 
 TEST(IntegratorChoice, states_intervals_that_hold_the_ratio) {
