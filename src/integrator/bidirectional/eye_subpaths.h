@@ -2,7 +2,7 @@
 #pragma once
 #include "integrator/bidirectional/light_subpaths.h"
 #include "integrator/first_vertex.h"
-#include "integrator/photons/gathering.h"
+#include "integrator/photons/lookup.h"
 #include "mc/roulette.h"
 #include "transport/visibility.h"
 

@@ -24,8 +24,7 @@ Fields<VcmSettings> merging_fields() {
       .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
       .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
               1)
-      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance",
-                            {{"constant", PhotonKernel::constant}, {"epanechnikov", PhotonKernel::epanechnikov}})
+      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance", photon_kernel_names())
       .integer("frames", &S::frames, "maximum number of frames over which the radius shrinks, which form one pass", 1,
                1 << 16);
   return fields;

@@ -1,90 +1,12 @@
 // Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
 #pragma once
-#include <array>
-
 #include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
-#include "integrator/photons/photon_map.h"
-#include "integrator/photons/settings.h"
+#include "integrator/photons/lookup.h"
 #include "transport/visibility.h"
 
 namespace montelux {
-
-// Photons on surfaces whose normals have a smaller cosine with that of the gathering point are those of another
-// surface.
-inline constexpr float similar_normals = 0.7f;
-
-// The density of a photon's place around the gathering point, per area: it integrates to one over the disk.
-template <class F>
-MONTELUX_INLINE F kernel_weight(PhotonKernel kernel, F distance_squared, float radius) {
-  const float inverse = 1 / (radius * radius);
-  if (kernel == PhotonKernel::constant) return F(inv_pi * inverse);
-  return max(F(1.0f) - distance_squared * inverse, F(0.0f)) * (2 * inv_pi * inverse);
-}
-
-// A photon near a gathering point, in every lane.
-template <class F>
-struct FoundPhoton {
-  Uint<F> number;                  // in the map
-  Uint<F> events;                  // that have scattered it
-  Vec3<F> wi;                      // local, to where it came from
-  Density<SolidAngle, F> density;  // with which the BSDF samples that
-};
-
-// The photons of one frame as the paths from the eye look them up.
-class PhotonLookup {
- public:
-  PhotonLookup(const PhotonMap& map, PhotonKernel kernel) : map_(map), kernel_(kernel) {}
-
-  // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
-  template <class F, class Share>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share) {
-    using U = Uint<F>;
-    std::size_t most = 0;
-    for_each_lane(on, [&](int k) {
-      near_[std::size_t(k)].clear();
-      map_.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), near_[std::size_t(k)]);
-      most = std::max(most, near_[std::size_t(k)].size());
-    });
-    Spectrum<F> sum = gray(F(0.0f));
-    const auto* words = reinterpret_cast<const float*>(map_.photons());
-    for (std::size_t i = 0; i < most; ++i) {
-      U photon(0u);
-      F distance_squared(0.0f);
-      std::uint32_t there = 0;
-      for_each_lane(on, [&](int k) {
-        const std::vector<NearPhoton>& own = near_[std::size_t(k)];
-        if (i >= own.size()) return;
-        set_lane(photon, k, own[i].photon), set_lane(distance_squared, k, own[i].distance_squared);
-        there |= 1u << k;
-      });
-      const U word = photon * U(photon_words);
-      const Vec3<F> wi = gather3<F>(words, word), ng = gather3<F>(words + 3, word);
-      const U events = float_bits(gather(words + 6 + spectrum_size, word));
-      const Mask<F> similar = mask_of_bits<F>(there) & (abs(dot(ng, at.x.point.ng)) > F(similar_normals));
-      if (!any(similar)) continue;
-      BsdfContext<F> own = context;
-      own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
-      const Vec3<F> local = at.bsdf.frame.to_local(wi);
-      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, local, own);
-      const F counted = select(similar, share(FoundPhoton<F>{photon, events, local, value.density}, similar), F(0.0f));
-      const Mask<F> counts = counted > F(0.0f);
-      // Flux per area is irradiance on the surface itself, f |cos| scatters it by the shading normal.
-      const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
-      const F weight = kernel_weight<F>(kernel_, distance_squared, map_.radius()) / cos * counted;
-      Spectrum<F> flux;
-      for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 6 + c, word);
-      sum += select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
-    }
-    return sum;
-  }
-
- private:
-  const PhotonMap& map_;
-  PhotonKernel kernel_;
-  std::array<std::vector<NearPhoton>, native_lanes> near_;
-};
 
 // Every pixel's path, by mirrors, glass and glossy directions to the surfaces where it gathers photons.
 //
@@ -97,12 +19,9 @@ class PhotonGathering {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  PhotonGathering(const Scene& scene, const Rays& rays, const SppmSettings& settings, const PhotonMap& map)
-      : scene_(scene),
-        rays_(rays),
-        settings_(settings),
-        mis_{settings.nee, PathMis::power},
-        photons_(map, settings.kernel) {}
+  // What is referred to must outlive this.
+  PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookup& photons)
+      : scene_(scene), rays_(rays), rules_(rules), mis_{rules.nee, PathMis::power}, photons_(photons) {}
 
   RayCounts run(const TilePass& pass, std::span<PixelSample> out) {
     FirstHits<F> first_hits(scene_, rays_, pass, out);
@@ -132,13 +51,13 @@ class PhotonGathering {
     path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     M scatters = on & at.found & !ends;
-    if (settings_.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*settings_.max_depth)));
+    if (rules_.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*rules_.max_depth)));
     const M rough = scatters & !at.bsdf.is_delta;
     BsdfContext<F> context = at.context;
     context.densities = Densities::exact;
 
     // A point of a light, and a direction.
-    const M wants_light = rough & M(settings_.nee);
+    const M wants_light = rough & M(rules_.nee);
     const ReferencePoint<F> from = at.reference();
     const LightSample<F> light =
         scene_.lights.template sample<F>(from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)),
@@ -154,10 +73,10 @@ class PhotonGathering {
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
     if (any(queries)) add_direct(path, at, light, scattered.toward_light, queries);
     if (any(rough)) {
-      const U room = U(settings_.max_depth ? std::uint32_t(*settings_.max_depth) - 1u : 0x7fffffffu) - path.depth;
+      const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
       const Spectrum<F> gathered =
           photons_.template radiance<F>(at, context, rough, [&](const FoundPhoton<F>& photon, M) {
-            return select((photon.density.value <= F(settings_.glossy)) & (photon.events <= room), F(1.0f), F(0.0f));
+            return select((photon.density.value <= F(rules_.glossy)) & (photon.events <= room), F(1.0f), F(0.0f));
           });
       path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
     }
@@ -167,12 +86,12 @@ class PhotonGathering {
     const M broken = moves & !is_finite(max_component(next.weight));
     if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
     moves = moves & !broken;
-    const M follows = next.delta | (next.density.value > F(settings_.glossy));
-    if (!settings_.nee) moves = moves & follows;
+    const M follows = next.delta | (next.density.value > F(rules_.glossy));
+    if (!rules_.nee) moves = moves & follows;
     path.throughput = select(moves, path.throughput * next.weight, path.throughput);
     path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
     path.depth = path.depth + select(moves, U(1u), U(0u));
-    const M plays = moves & (path.depth > U(std::uint32_t(settings_.roulette_depth)));
+    const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
     const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
                                           sampler.get1(dimension + U(path_dimension::roulette)));
     moves = moves & survival.survives;
@@ -211,7 +130,7 @@ class PhotonGathering {
 
   const Scene& scene_;
   const Rays& rays_;
-  const SppmSettings& settings_;
+  const GatheringRules rules_;
   const LightWeights mis_;
   PhotonLookup photons_;
   RayCounts counts_;

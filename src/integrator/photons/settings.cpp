@@ -11,8 +11,7 @@ Fields<SppmSettings> sppm_fields() {
       .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
       .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
               1)
-      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance",
-                            {{"constant", PhotonKernel::constant}, {"epanechnikov", PhotonKernel::epanechnikov}})
+      .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance", photon_kernel_names())
       .boolean("nee", &S::nee, "direct light by next-event estimation and BSDF sampling; off: by photons")
       .number("glossy", &S::glossy,
               "directions whose sampling density per steradian is above this are followed by paths, others gather "
@@ -27,6 +26,11 @@ Fields<SppmSettings> sppm_fields() {
 }
 
 }  // namespace
+
+NamedValues<PhotonKernel> photon_kernel_names() {
+  return {
+      {"constant", PhotonKernel::constant}, {"epanechnikov", PhotonKernel::epanechnikov}, {"cone", PhotonKernel::cone}};
+}
 
 EntitySpec sppm_spec() {
   return {

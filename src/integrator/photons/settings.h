@@ -8,7 +8,16 @@
 namespace montelux {
 
 // The weight of a photon by its distance from the point that gathers.
-enum class PhotonKernel { constant, epanechnikov };
+enum class PhotonKernel { constant, epanechnikov, cone };
+NamedValues<PhotonKernel> photon_kernel_names();
+
+// What paths from the eye do with photons.
+struct GatheringRules {
+  bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
+  float glossy = 4;              // density per steradian above which a direction is followed instead
+  std::optional<int> max_depth;  // scattering events between the light and the camera
+  int roulette_depth = 2;        // scattering events of a path before roulette
+};
 
 struct SppmSettings {
   int photons = 0;         // light paths in each frame; 0: one for each pixel, and at least min_photons
@@ -21,6 +30,8 @@ struct SppmSettings {
   std::optional<int> max_depth;  // scattering events between the light and the camera
   int roulette_depth = 2;        // scattering events of a path before roulette
   Lanes lanes = Lanes::native;
+
+  GatheringRules gathering() const { return {nee, glossy, max_depth, roulette_depth}; }
 };
 
 // Of small pictures.

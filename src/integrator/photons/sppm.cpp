@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/photons/filling.h"
 #include "integrator/photons/gathering.h"
-#include "integrator/photons/tracing.h"
 
 namespace montelux {
 
@@ -19,80 +19,30 @@ class SppmChain final : public Chain {
       : scene_(scene),
         accel_(accel),
         settings_(settings),
-        by_power_(by_power),
         pass_(pass),
-        paths_(std::uint32_t(settings.photons > 0 ? settings.photons : std::max(pass.bounds.area(), min_photons))),
-        map_(2 * std::size_t(paths_), std::size_t(pass.bounds.area())) {}
+        photons_(scene, accel, by_power, pass,
+                 {light_paths(settings.photons, pass.bounds.area()), settings.nee ? 1u : 0u, settings.max_depth,
+                  settings.roulette_depth}) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    const std::size_t number = pixel_number(tile.x0, tile.y0);
-    switch (step.stage) {
-      case 0:
-        return follow_light(step.frame, tile);
-      case 1:
-        if (number == 0) map_.lay_out(radius(step.frame));
-        return {};
-      case 2:
-        map_.deal(number);
-        return {};
-      case 3:
-        for (int y = tile.y0; y < tile.y1; ++y)
-          map_.put_in_order(pixel_number(tile.x0, y), pixel_number(tile.x1, y), std::size_t(pass_.bounds.area()));
-        return {};
-      default:
-        break;
-    }
+    const PhotonSet set{step.frame, float(sppm_radius(settings_.radius, settings_.alpha, step.frame)),
+                        shared_moment(scene_, pass_, step.frame)};
+    if (step.stage < Photons::stages) return photons_.run(set, step.stage, tile);
     const RayCounts counts =
-        PhotonGathering<F, Accel>(scene_, accel_, settings_, map_)
-            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), moment(step.frame), pass_.grid}, out);
-    // A flux that is not a number has no place in the picture: it shows in the first pixel.
-    if (number == 0 && broken_.take() > 0) out[0].radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+        PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(), PhotonLookup(photons_.map(), settings_.kernel))
+            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.moment, pass_.grid}, out);
+    const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
+    if (is_first && photons_.take_broken()) show_broken(out);
     return counts;
   }
 
  private:
-  std::size_t pixel_number(int x, int y) const {
-    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
-  }
-  float radius(int frame) const { return float(sppm_radius(settings_.radius, settings_.alpha, frame)); }
-  // Photons are of one moment: where surfaces move, a frame has one, spread over the exposure as the samples of a
-  // pixel.
-  std::optional<float> moment(int frame) const {
-    if (!scene_.moves()) return std::nullopt;
-    return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
-  }
-
-  RayCounts follow_light(int frame, const PixelBounds& tile) {
-    RayCounts counts;
-    std::vector<Photon>& box = map_.box(pixel_number(tile.x0, tile.y0));
-    box.clear();
-    if (!by_power_) return counts;
-    const LightPathShare share(pass_.bounds, tile, paths_);
-    const LightWalkScene<Accel> walk{scene_,
-                                     accel_,
-                                     *by_power_,
-                                     photon_points(pass_.points, frame, paths_),
-                                     pass_.shutter.value_or(scene_.shutter),
-                                     moment(frame),
-                                     settings_.max_depth,
-                                     settings_.roulette_depth};
-    PhotonSink<F> sink(box, settings_.nee ? 1 : 0, 1 / float(paths_));
-    LightWalk<F, Accel, PhotonSink<F>>(walk, sink, counts).run(share.count(), [&](std::uint32_t i) {
-      return PathSite<float>{0, 0, share[i]};
-    });
-    map_.count(box, radius(frame));
-    if (sink.broken() > 0) broken_.next();
-    return counts;
-  }
-
+  using Photons = PhotonFilling<F, Accel>;
   const Scene& scene_;
   const Accel& accel_;
   const SppmSettings& settings_;
-  const std::optional<AliasTable>& by_power_;
   const ChainPass pass_;
-  const std::uint32_t paths_;
-  SharedCount broken_;  // tiles with a flux that is not a number
-  PhotonMap map_;
+  Photons photons_;
 };
 
 }  // namespace

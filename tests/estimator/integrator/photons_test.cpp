@@ -57,7 +57,8 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
     map.put_in_order(0, 1, 1);
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
-    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings, map).run({s.image.bounds, points}, samples);
+    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(), PhotonLookup(map, settings.kernel))
+        .run({s.image.bounds, points}, samples);
     std::vector<PixelPass> pixels(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) pixels[i].add(samples[i]);
     film.add_pass(s.image.bounds, 0, pixels);

@@ -112,12 +112,13 @@ TEST(PhotonMap, finds_photons_wherever_the_scene_lies) {
 
 TEST(PhotonKernels, integrate_to_one_over_the_disk) {
   constexpr int rings = 4096;
-  for (const PhotonKernel kernel : {PhotonKernel::constant, PhotonKernel::epanechnikov})
+  for (const PhotonKernel kernel : {PhotonKernel::constant, PhotonKernel::epanechnikov, PhotonKernel::cone})
     for (const float radius : {0.01f, 3.0f}) {
       double sum = 0;
       for (int i = 0; i < rings; ++i) {
         const double rho = (i + 0.5) / rings * radius;
-        sum += 2 * double(pi) * rho * (radius / rings) * kernel_weight<float>(kernel, float(rho * rho), radius);
+        sum +=
+            2 * double(pi) * rho * (radius / rings) * kernel_weight<float>(kernel, float(rho * rho), radius * radius);
       }
       EXPECT_NEAR(sum, 1, 1e-5);
     }

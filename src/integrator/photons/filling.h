@@ -1,0 +1,115 @@
+// A photon map that fills: in stages, each by many threads, with a barrier between two.
+#pragma once
+#include <algorithm>
+#include <optional>
+
+#include "integrator/photons/tracing.h"
+
+namespace montelux {
+
+// The light paths of one map.
+struct PhotonPaths {
+  std::uint32_t count;
+  std::uint32_t first_event;     // photons that fewer events have scattered are not stored
+  std::optional<int> max_depth;  // scattering events between the light and the camera
+  int roulette_depth;
+};
+
+// As many light paths as a setting states; 0: one for each pixel, and at least min_photons.
+inline std::uint32_t light_paths(int setting, int pixels) {
+  return std::uint32_t(setting > 0 ? setting : std::max(pixels, min_photons));
+}
+
+// The photons of one set of light paths.
+struct PhotonSet {
+  int number = 0;                 // sets of different numbers have different paths
+  float radius = 0;               // within which photons are looked up
+  std::optional<float> moment{};  // in [0, 1), of the exposure; none: each path has its own
+};
+
+// Photons are of one moment: where surfaces move, a frame has one, spread over the exposure as the samples of a pixel.
+inline std::optional<float> shared_moment(const Scene& scene, const ChainPass& pass, int frame) {
+  if (!scene.moves()) return std::nullopt;
+  return Sampler<float>(pass.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
+}
+
+// A flux that is not a number has no place in the picture: it shows in the first pixel.
+inline void show_broken(std::span<PixelSample> out) {
+  out[0].radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+}
+
+template <class F, class Rays>
+class PhotonFilling {
+ public:
+  static constexpr int stages = 4;
+
+  // What is referred to must outlive this.
+  PhotonFilling(const Scene& scene, const Rays& rays, const std::optional<AliasTable>& by_power, const ChainPass& pass,
+                const PhotonPaths& paths)
+      : scene_(scene),
+        rays_(rays),
+        by_power_(by_power),
+        pass_(pass),
+        paths_(paths),
+        map_(2 * std::size_t(paths.count), std::size_t(pass.bounds.area())) {}
+
+  // A stage, over one tile.
+  RayCounts run(const PhotonSet& set, int stage, const PixelBounds& tile) {
+    const std::size_t number = number_of(tile.x0, tile.y0);
+    switch (stage) {
+      case 0:
+        return follow_light(set, tile);
+      case 1:
+        if (number == 0) map_.lay_out(set.radius);
+        return {};
+      case 2:
+        map_.deal(number);
+        return {};
+      default:
+        for (int y = tile.y0; y < tile.y1; ++y)
+          map_.put_in_order(number_of(tile.x0, y), number_of(tile.x1, y), std::size_t(pass_.bounds.area()));
+        return {};
+    }
+  }
+  const PhotonMap& map() const { return map_; }
+  // Whether the flux of a path was not a number since the last time.
+  bool take_broken() { return broken_.take() > 0; }
+
+ private:
+  std::size_t number_of(int x, int y) const {
+    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
+  }
+
+  RayCounts follow_light(const PhotonSet& set, const PixelBounds& tile) {
+    RayCounts counts;
+    std::vector<Photon>& box = map_.box(number_of(tile.x0, tile.y0));
+    box.clear();
+    if (!by_power_) return counts;
+    const LightPathShare share(pass_.bounds, tile, paths_.count);
+    const LightWalkScene<Rays> walk{scene_,
+                                    rays_,
+                                    *by_power_,
+                                    photon_points(pass_.points, set.number, paths_.count),
+                                    pass_.shutter.value_or(scene_.shutter),
+                                    set.moment,
+                                    paths_.max_depth,
+                                    paths_.roulette_depth};
+    PhotonSink<F> sink(box, paths_.first_event, 1 / float(paths_.count));
+    LightWalk<F, Rays, PhotonSink<F>>(walk, sink, counts).run(share.count(), [&](std::uint32_t i) {
+      return PathSite<float>{0, 0, share[i]};
+    });
+    if (sink.broken() > 0) broken_.next();
+    map_.count(box, set.radius);
+    return counts;
+  }
+
+  const Scene& scene_;
+  const Rays& rays_;
+  const std::optional<AliasTable>& by_power_;
+  const ChainPass pass_;
+  const PhotonPaths paths_;
+  SharedCount broken_;  // tiles with a flux that is not a number
+  PhotonMap map_;
+};
+
+}  // namespace montelux
