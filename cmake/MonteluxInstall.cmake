@@ -35,7 +35,9 @@ target_link_libraries(montelux_library PRIVATE embree OpenEXR::OpenEXR fmt::fmt 
 # The module of image formats is found as any library of the program that uses it.
 target_link_options(montelux_library INTERFACE $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${module_folder}>)
 if(MONTELUX_SANITIZE)
-  target_link_options(montelux_library INTERFACE -fsanitize=${MONTELUX_SANITIZE})
+  # A sanitizer calls dlopen in our place, and a RUNPATH holds only for what calls it; an RPATH holds for all libraries.
+  target_link_options(montelux_library INTERFACE -fsanitize=${MONTELUX_SANITIZE}
+                      $<INSTALL_INTERFACE:LINKER:--disable-new-dtags>)
 endif()
 
 file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/montelux/*.h)
