@@ -140,12 +140,12 @@ if __name__ == "__main__":
             entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
         if entries[-1]["found_by"]:  # by either of the two, and so by both together
             entries[-1]["found_by"].append("bdpt")
-        entries[-1]["found_by"] += ["sppm", "vcm"]
+        entries[-1]["found_by"] += ["sppm", "photonmap", "vcm"]
         if name in PHOTONS:
             half, radius, photons, replacements = PHOTONS[name]
             seen = WIDE_FORMULAS_IN_MIRROR.get(name)
             formula = "%s * %s" % (REFLECT, WIDE_FORMULAS[seen]) if seen else WIDE_FORMULAS[name]
-            entries[-1]["photons"] = {"window": half, "floor": WIDE, "settings": "radius=%g,photons=%d" % (radius, photons),
+            entries[-1]["photons"] = {"window": half, "floor": WIDE, "radius": radius, "photons": photons,
                                       "replaced": replacements, "value": float("%.9g" % mean_over_window(formula, half))}
     with open(os.path.join(here, "expected.json"), "w") as file:
         json.dump(entries, file, indent=1)

@@ -16,6 +16,7 @@
 #include "integrator/metropolis/integrator.h"
 #include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
+#include "integrator/photons/photonmap.h"
 #include "integrator/photons/sppm.h"
 #include "integrator/radiosity/integrator.h"
 #include "integrator/restir/integrator.h"
@@ -201,6 +202,16 @@ void note_radius(ChosenIntegrator& chosen, float radius) {
       radius));
 }
 
+void note_photons(ChosenIntegrator& chosen, const Scene& scene) {
+  if (scene.lights.has_masked()) {
+    chosen.biases.push_back("no photons of masked emitters");
+    chosen.missing.push_back("indirect light of emitters with an alpha mask");
+    chosen.notes.push_back(
+        "no photon starts at emitters with an alpha mask: the picture is biased by their indirect light");
+  }
+  note_facing_curves(chosen, scene);
+}
+
 Made make_sppm(const Request& r) {
   auto settings = sppm_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
@@ -210,13 +221,37 @@ Made make_sppm(const Request& r) {
   ChosenIntegrator chosen{"sppm", {}, {}, {}, std::make_unique<SppmIntegrator>(r.scene, r.accel, *settings)};
   note_radius(chosen, settings->radius);
   note_depth(chosen, r.max_depth);
-  if (r.scene.lights.has_masked()) {
-    chosen.biases.push_back("no photons of masked emitters");
-    chosen.missing.push_back("indirect light of emitters with an alpha mask");
+  note_photons(chosen, r.scene);
+  return chosen;
+}
+
+Made make_photonmap(const Request& r) {
+  auto settings = photonmap_settings(r.list, r.max_depth);
+  if (!settings) return settings.failure();
+  const int width = std::max(r.defaults.width, 1), height = std::max(r.defaults.height, 1);
+  if (settings->radius == 0) settings->radius = radius_by_photons(r.scene, r.accel, *settings, width * height);
+  if (settings->caustic_radius == 0) settings->caustic_radius = radius_by_footprint(r.scene, r.accel, width, height);
+  ChosenIntegrator chosen{"photonmap", {}, {}, {}, std::make_unique<PhotonMapIntegrator>(r.scene, r.accel, *settings)};
+  const std::string nearest =
+      settings->nearest > 0 ? fmt::format("the {} nearest photons", settings->nearest) : "the photons";
+  chosen.biases.push_back(fmt::format("radius={:.4g}", settings->radius));
+  if (settings->gather_rays > 0) {
+    chosen.biases.push_back(fmt::format("caustic-radius={:.4g}", settings->caustic_radius));
+    chosen.notes.push_back(fmt::format(
+        "light is estimated by {} within {:.4g} at the ends of gather rays, and within {:.4g} for caustics: the "
+        "picture "
+        "is biased where light changes over that distance (more photons bias it less, see radius, caustic-radius and "
+        "nearest)",
+        nearest, settings->radius, settings->caustic_radius));
+  } else {
     chosen.notes.push_back(
-        "no photon starts at emitters with an alpha mask: the picture is biased by their indirect light");
+        fmt::format("light is estimated by {} within {:.4g} of the surfaces in view: the picture is biased where light "
+                    "changes over "
+                    "that distance (more photons bias it less, see radius and nearest)",
+                    nearest, settings->radius));
   }
-  note_facing_curves(chosen, r.scene);
+  note_depth(chosen, r.max_depth);
+  note_photons(chosen, r.scene);
   return chosen;
 }
 
@@ -334,6 +369,7 @@ const std::vector<Row>& rows() {
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_samples},
         {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
+        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, shared_samples},
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, shared_samples},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
         {vcm_spec(), make_vcm, LightSearch::photons, Content::light, shared_samples},

@@ -104,12 +104,12 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
       list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
   const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
   return {fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
-          fmt::format(
-              "light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
-              "no ray meets such a light, and no light sample passes such a surface; sppm and vcm find it, and light "
-              "and bdpt what the camera sees of it directly (and a small sphere that shines, in the light's "
-              "place, is found)",
-              lights, surfaces)};
+          fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
+                      "no ray meets such a light, and no light sample passes such a surface; sppm, photonmap and vcm "
+                      "find it, and light "
+                      "and bdpt what the camera sees of it directly (and a small sphere that shines, in the light's "
+                      "place, is found)",
+                      lights, surfaces)};
 }
 
 // Follows a camera ray by smooth surfaces alone. The model of the first of them, where the ray comes to light or to a
@@ -146,7 +146,7 @@ std::optional<MissingLight> missing_reflected_caustics(const DeltaCaustics& caus
       fmt::format("light of {} lights through smooth surfaces, seen by way of others ({})", lights, surfaces),
       fmt::format("light of {} lights that smooth glass or mirrors focus on a surface may be missing where the camera "
                   "sees that in a mirror or through smooth glass ({}): no two vertices of its paths can be connected "
-                  "(sppm and vcm find it)",
+                  "(sppm, photonmap and vcm find it)",
                   lights, surfaces)};
 }
 

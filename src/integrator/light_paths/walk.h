@@ -82,6 +82,7 @@ struct LightPathVertex {
 //   Query query(LightPathVertex, on)            .toward: a local direction, .on: where its BSDF value is needed
 //   void visit(LightPathVertex, Query, BsdfValue, on)
 //   void scatter(LightPathVertex, BsdfSample, on)   optional: the path continues
+//   Mask<F> follows(LightPathVertex, BsdfSample, on)   optional: the lanes whose paths may continue
 //   F moment(PathSite)                          optional, where surfaces move: of each path, in the exposure
 //   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
 // `Correction` is AdjointCorrection, but in tests that plant a fault.
@@ -177,6 +178,8 @@ class LightWalk {
     const U events = path.depth + U(1u);
     M continues = on & next.valid;
     if (shared_.max_depth) continues = continues & (events < U(std::uint32_t(*shared_.max_depth)));
+    if constexpr (requires { sink_.follows(vertex, next, continues); })
+      continues = continues & sink_.follows(vertex, next, continues);
     const F correction = Correction()(at.wo, ng_in, next.wi, dot(at.x.point.ng, wi));
     const Spectrum<F> flux = path.flux * next.weight * correction;
     continues = continues & !is_broken(flux, path.site, continues);

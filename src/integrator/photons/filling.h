@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "integrator/photons/settings.h"
 #include "integrator/photons/tracing.h"
 
 namespace montelux {
@@ -13,6 +14,9 @@ struct PhotonPaths {
   std::uint32_t first_event;     // photons that fewer events have scattered are not stored
   std::optional<int> max_depth;  // scattering events between the light and the camera
   int roulette_depth;
+  // Paths end at events in directions which paths from the eye would not follow backwards, those whose density is below
+  // this: their photons are those of caustics. None: all paths continue.
+  std::optional<float> caustics{};
 };
 
 // As many light paths as a setting states; 0: one for each pixel, and at least min_photons.
@@ -94,11 +98,17 @@ class PhotonFilling {
                                     set.moment,
                                     paths_.max_depth,
                                     paths_.roulette_depth};
-    PhotonSink<F> sink(box, paths_.first_event, 1 / float(paths_.count));
-    LightWalk<F, Rays, PhotonSink<F>>(walk, sink, counts).run(share.count(), [&](std::uint32_t i) {
-      return PathSite<float>{0, 0, share[i]};
-    });
-    if (sink.broken() > 0) broken_.next();
+    const auto follow = [&](auto sink) {
+      LightWalk<F, Rays, decltype(sink)>(walk, sink, counts).run(share.count(), [&](std::uint32_t i) {
+        return PathSite<float>{0, 0, share[i]};
+      });
+      if (sink.broken() > 0) broken_.next();
+    };
+    PhotonSink<F> all(box, paths_.first_event, 1 / float(paths_.count));
+    if (paths_.caustics)
+      follow(CausticSink<F>(all, *paths_.caustics));
+    else
+      follow(all);
     map_.count(box, set.radius);
     return counts;
   }

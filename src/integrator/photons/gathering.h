@@ -1,5 +1,7 @@
 // Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
 #pragma once
+#include <optional>
+
 #include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
@@ -8,53 +10,156 @@
 
 namespace montelux {
 
+// A gather ray on its way, one a lane: words alone, as set_lane_words takes them.
+template <class F>
+struct GatherRay {
+  PathState<F> path;
+  Uint<F> followed;  // events since it left the surface in view
+  Uint<F> number;    // of its result
+};
+
 // Every pixel's path, by mirrors, glass and glossy directions to the surfaces where it gathers photons.
 //
-// At a rough surface the path itself continues in directions that its BSDF samples with a density above `glossy`;
-// photons represent the others. A path that leaves in one of the others ends at the next surface: it only looks for
-// emission there, which next-event estimation shares with it. So every light path counts once: its last vertices before
-// the eye are those of the path, the others a photon's.
+// At a rough surface the path itself continues in directions that its BSDF samples with a density above `glossy`, those
+// that are followed; photons represent the others. So every light path counts once: its last vertices before the eye
+// are those of the path, the others a photon's.
+//
+// Without gather rays a path that leaves in one of the other directions ends at the next surface: it only looks for
+// emission there, which next-event estimation shares with it.
+//
+// With gather rays the photons of the surface in view are those of caustics alone, whose events before were all in
+// directions that are followed. Gather rays leave in the other directions, with the same part in the direct light, and
+// continue in directions that are followed. At their rough surfaces the photons of a second map, which holds all of
+// them, represent the light in all other directions. Light that they meet after an event of their own is that of a
+// caustic, and not theirs.
 template <class F, class Rays>
 class PhotonGathering {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  // What is referred to must outlive this.
-  PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookup& photons)
-      : scene_(scene), rays_(rays), rules_(rules), mis_{rules.nee, PathMis::power}, photons_(photons) {}
+  // What is referred to must outlive this. `beyond`: the photons that gather rays look up.
+  PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookup& in_view,
+                  const std::optional<PhotonLookup>& beyond = {})
+      : scene_(scene),
+        rays_(rays),
+        rules_(rules),
+        mis_{rules.nee, PathMis::power},
+        in_view_(in_view),
+        beyond_(beyond) {}
 
   RayCounts run(const TilePass& pass, std::span<PixelSample> out) {
     FirstHits<F> first_hits(scene_, rays_, pass, out);
     counts_.camera += first_hits.rays();
+    gathered_.assign(beyond_ ? out.size() : 0, gray(0.0f));
     PathState<F> path{};
     M ends(false);
     for (M on(false);;) {
       const M before = on;
       on = first_hits.refill(path, on);
-      if (!any(on)) return counts_;
+      if (!any(on)) break;
       ends = ends & before;
       on = step(pass, path, on, ends, out);
+      if (waiting_.size() >= max_waiting) gather(pass);
     }
+    gather(pass);
+    for (std::size_t i = 0; i < gathered_.size(); ++i) out[i].radiance += to_rgb(gathered_[i]);
+    return counts_;
   }
 
  private:
+  // Gather rays that wait for each other, to be followed as full packs.
+  static constexpr std::size_t max_waiting = 4096;
+  struct Gathered {
+    std::uint32_t slot;
+    Spectrum<float> radiance;
+  };
+
+  // Their points: as many for each pixel of the pass as it has gather rays.
+  static PointSet gather_points(const TilePass& pass, int rays) {
+    PointSet points = pass.points;
+    points.samples_per_pass *= std::uint32_t(rays);
+    points.seed = mix_bits(points.seed ^ 0xa54ff53au);
+    return points;
+  }
+  Sampler<F> gather_numbers(const TilePass& pass, const PathState<F>& path, const U& ray) const {
+    return Sampler<F>(gather_points(pass, rules_.gather_rays), path.x, path.y,
+                      path.index * U(std::uint32_t(rules_.gather_rays)) + ray);
+  }
+  static U dimension_of(const PathState<F>& path) {
+    return U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
+  }
+  // The surface that a path has met, with the light met on the way.
+  template <class Weight>
+  NextVertex<F> arrive(PathState<F>& path, M on, const Sampler<F>& numbers, Weight weight) {
+    const NextVertex<F> at = follow_ray<F>(
+        scene_, rays_, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
+        numbers.stream(dimension_of(path) + U(path_dimension::own)), counts_.scattered, weight);
+    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
+    path.throughput = select(on, path.throughput * at.left, path.throughput);
+    return at;
+  }
+  M may_scatter(const PathState<F>& path) const {
+    return rules_.max_depth ? path.depth < U(std::uint32_t(*rules_.max_depth)) : M(true);
+  }
+  static BsdfContext<F> exact(const NextVertex<F>& at) {
+    BsdfContext<F> context = at.context;
+    context.densities = Densities::exact;
+    return context;
+  }
+  // Whether a sampled direction is followed by the path from the eye.
+  M follows(const BsdfSample<F>& next) const { return next.delta | (next.density.value > F(rules_.glossy)); }
+  auto weight_for(const PathState<F>& path) const {
+    return [this, &path](const Density<SolidAngle, F>& by_light) {
+      return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
+    };
+  }
+  // The radiance that photons bring toward the path.
+  Spectrum<F> photons(PhotonLookup& map, const PathState<F>& path, const NextVertex<F>& at,
+                      const BsdfContext<F>& context, M rough) const {
+    const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
+    return map.template radiance<F>(at, context, rough, PhotonRules<F>{rules_.glossy, room});
+  }
+  // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface.
+  // A weight that is not a number ends the path and shows in the count of such samples.
+  template <class Weight>
+  M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves, const Sampler<F>& numbers,
+          Weight weight) {
+    const U dimension = dimension_of(path);
+    const M broken = moves & !is_finite(max_component(next.weight));
+    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
+    moves = moves & !broken;
+    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
+    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
+    path.depth = path.depth + select(moves, U(1u), U(0u));
+    const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
+    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
+                                          numbers.get1(dimension + U(path_dimension::roulette)));
+    moves = moves & survival.survives;
+    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
+    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
+    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
+    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
+    path.density.value = select(moves, next.density.value, path.density.value);
+    path.by_delta = select(moves, select(next.delta, U(1u), U(0u)), path.by_delta);
+    path.o = at.origin_toward(wi), path.d = wi;
+
+    counts_.scattered += std::uint64_t(count(moves));
+    const auto [found, hit] = rays_.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
+    path.hit = hit;
+    if (const M escapes = moves & !found; any(escapes))
+      path.radiance += path.throughput *
+                       sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+    return moves & found;
+  }
+
   // One vertex of every path; gives the lanes that continue. `ends`: those that only look for emission.
   M step(const TilePass& pass, PathState<F>& path, M on, M& ends, std::span<PixelSample> out) {
     const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
-    const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
-    const auto weight = [&](const Density<SolidAngle, F>& by_light) {
-      return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
-    };
-    const NextVertex<F> at =
-        follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time},
-                      path.hit, on, sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight);
-    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
-    path.throughput = select(on, path.throughput * at.left, path.throughput);
-    M scatters = on & at.found & !ends;
-    if (rules_.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*rules_.max_depth)));
+    const U dimension = dimension_of(path);
+    const NextVertex<F> at = arrive(path, on, sampler, weight_for(path));
+    const M scatters = on & at.found & !ends & may_scatter(path);
     const M rough = scatters & !at.bsdf.is_delta;
-    BsdfContext<F> context = at.context;
-    context.densities = Densities::exact;
+    const BsdfContext<F> context = exact(at);
 
     // A point of a light, and a direction.
     const M wants_light = rough & M(rules_.nee);
@@ -73,48 +178,20 @@ class PhotonGathering {
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
     if (any(queries)) add_direct(path, at, light, scattered.toward_light, queries);
     if (any(rough)) {
-      const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
-      const Spectrum<F> gathered =
-          photons_.template radiance<F>(at, context, rough, [&](const FoundPhoton<F>& photon, M) {
-            return select((photon.density.value <= F(rules_.glossy)) & (photon.events <= room), F(1.0f), F(0.0f));
-          });
+      const Spectrum<F> gathered = photons(in_view_, path, at, context, rough);
       path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
+      if (beyond_) send_gather_rays(pass, path, at, context, rough);
     }
 
-    // Scatter; roulette.
     M moves = scatters & next.valid;
-    const M broken = moves & !is_finite(max_component(next.weight));
-    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
-    moves = moves & !broken;
-    const M follows = next.delta | (next.density.value > F(rules_.glossy));
-    if (!rules_.nee) moves = moves & follows;
-    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(moves, U(1u), U(0u));
-    const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
-                                          sampler.get1(dimension + U(path_dimension::roulette)));
-    moves = moves & survival.survives;
-    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
-    ends = (moves & !follows) | (ends & !moves);
-    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
-    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
-    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
-    path.density.value = select(moves, next.density.value, path.density.value);
-    path.by_delta = select(moves, select(next.delta, U(1u), U(0u)), path.by_delta);
-    path.o = at.origin_toward(wi), path.d = wi;
-
-    // The next vertex, or the sky.
-    counts_.scattered += std::uint64_t(count(moves));
-    const auto [found, hit] = rays_.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
-    path.hit = hit;
-    if (const M escapes = moves & !found; any(escapes))
-      path.radiance += path.throughput *
-                       sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
-    const M ended = on & !(moves & found);
+    const M followed = follows(next);
+    if (!rules_.nee || beyond_) moves = moves & followed;
+    const M left = leave(path, at, next, moves, sampler, weight_for(path));
+    ends = left & !followed;
+    const M ended = on & !left;
     const Spectrum<F> radiance = path.radiance * path.weight;
     for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
-    return on & !ended;
+    return left;
   }
 
   void add_direct(PathState<F>& path, const NextVertex<F>& at, const LightSample<F>& light, const BsdfValue<F>& value,
@@ -128,11 +205,89 @@ class PhotonGathering {
     path.radiance += select(lit, direct, gray(F(0.0f)));
   }
 
+  // Light that a gather ray meets counts before its first event alone, as direct light of the surface in view.
+  auto weight_of_gather_ray(const GatherRay<F>& ray) const {
+    return [this, weight = weight_for(ray.path), &ray](const Density<SolidAngle, F>& by_light) {
+      return select((ray.followed == U(0u)) & M(rules_.nee), weight(by_light), F(0.0f));
+    };
+  }
+  // The gather rays of surfaces in view, up to the surfaces that they meet, where they wait. Results of one pixel are
+  // in the order of its path, so that their sum has the same bits whatever the lanes.
+  void send_gather_rays(const TilePass& pass, const PathState<F>& path, const NextVertex<F>& at,
+                        const BsdfContext<F>& context, M rough) {
+    const U dimension = dimension_of(path);
+    for (int i = 0; i < rules_.gather_rays; ++i) {
+      const Sampler<F> numbers = gather_numbers(pass, path, U(std::uint32_t(i)));
+      BsdfContext<F> own = context;
+      own.random = context.random.fork(U(0x9b05688cu + std::uint32_t(i)));
+      const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
+      const BsdfSample<F> next =
+          sample<F>(at.bsdf.lanes(rough), at.wo, {numbers.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, own);
+      const M sent = rough & next.valid & !follows(next);
+      if (!any(sent)) continue;
+      GatherRay<F> ray{path, U(0u), U(0u)};
+      ray.path.radiance = gray(F(0.0f));
+      const M met = leave(ray.path, at, next, sent, numbers, weight_of_gather_ray(ray));
+      for_each_lane(sent, [&](int k) {
+        set_lane(ray.number, k, std::uint32_t(results_.size()));
+        results_.push_back({lane(path.slot, k), lane(ray.path.radiance, k) * lane(path.weight, k)});
+      });
+      // The number of the ray stands where the loop over packs finds it with the pixel's point.
+      ray.path.slot = U(std::uint32_t(i));
+      for_each_lane(met, [&](int k) { get_lane_words(ray, k, waiting_.emplace_back()); });
+    }
+  }
+  // Follows the gather rays that wait, and adds what they find to their pixels.
+  void gather(const TilePass& pass) {
+    GatherRay<F> ray{};
+    std::size_t next = 0;
+    for (M on(false);;) {
+      std::uint32_t running = bits(on);
+      for (int k = 0; k < lanes_of<F> && next < waiting_.size(); ++k) {
+        if ((running >> k) & 1u) continue;
+        set_lane_words(ray, k, waiting_[next++]);
+        running |= 1u << k;
+      }
+      on = mask_of_bits<F>(running);
+      if (!any(on)) break;
+      const M left = gather_step(pass, ray, on);
+      const Spectrum<F> radiance = ray.path.radiance * ray.path.weight;
+      for_each_lane(on & !left, [&](int k) { results_[lane(ray.number, k)].radiance = lane(radiance, k); });
+      on = left;
+    }
+    const float share = 1 / float(std::max(rules_.gather_rays, 1));
+    for (const Gathered& one : results_) gathered_[one.slot] += one.radiance * share;
+    waiting_.clear(), results_.clear();
+  }
+  // One vertex of every gather ray; gives the lanes that continue.
+  M gather_step(const TilePass& pass, GatherRay<F>& ray, M on) {
+    PathState<F>& path = ray.path;
+    const Sampler<F> numbers = gather_numbers(pass, path, path.slot);
+    const U dimension = dimension_of(path);
+    const NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray));
+    const M scatters = on & at.found & may_scatter(path);
+    const BsdfContext<F> context = exact(at);
+    const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
+    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(scatters), at.wo,
+                                         {numbers.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, context);
+    if (const M rough = scatters & !at.bsdf.is_delta; any(rough)) {
+      const Spectrum<F> gathered = photons(*beyond_, path, at, context, rough);
+      path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
+    }
+    const M moves = scatters & next.valid & follows(next);
+    ray.followed = ray.followed + select(moves, U(1u), U(0u));
+    return leave(path, at, next, moves, numbers, weight_of_gather_ray(ray));
+  }
+
   const Scene& scene_;
   const Rays& rays_;
   const GatheringRules rules_;
   const LightWeights mis_;
-  PhotonLookup photons_;
+  PhotonLookup in_view_;
+  std::optional<PhotonLookup> beyond_;
+  std::vector<GatherRay<float>> waiting_;
+  std::vector<Gathered> results_;
+  std::vector<Spectrum<float>> gathered_;  // by slot
   RayCounts counts_;
 };
 

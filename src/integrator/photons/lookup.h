@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <cstring>
 #include <vector>
 
 #include "integrator/photons/photon_map.h"
@@ -10,10 +10,6 @@
 #include "transport/next_vertex.h"
 
 namespace montelux {
-
-// Photons on surfaces whose normals have a smaller cosine with that of the gathering point are those of another
-// surface.
-inline constexpr float similar_normals = 0.7f;
 
 // The density of a photon's place around the gathering point, per area: it integrates to one over the disk.
 template <class F>
@@ -39,23 +35,132 @@ struct FoundPhoton {
   Density<SolidAngle, F> density;  // with which the BSDF samples that
 };
 
+// Which photons a path leaves to its own directions and to next-event estimation.
+template <class F>
+struct PhotonRules {
+  float glossy;  // photons count from directions that the BSDF samples with a density of at most this per steradian,
+  Uint<F> room;  // if they were scattered by so many events at most
+};
+
 // The photons of one frame as the paths from the eye look them up.
 class PhotonLookup {
  public:
-  PhotonLookup(const PhotonMap& map, PhotonKernel kernel) : map_(map), kernel_(kernel) {}
+  // `nearest`: so many photons at most, within the distance of the next one; 0: all within the map's radius.
+  PhotonLookup(const PhotonMap& map, PhotonKernel kernel, int nearest = 0)
+      : map_(map), kernel_(kernel), nearest_(std::size_t(nearest)) {}
 
   // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
   template <class F, class Share>
   Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share) {
+    return any(on) ? scattered<F>(at, context, on, find<F>(at, on), share) : gray(F(0.0f));
+  }
+  // The same with the weight 1 or 0. Diffuse surfaces scatter the sum of their photons at once.
+  template <class F>
+  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on,
+                       const PhotonRules<F>& rules) {
+    if (!any(on)) return gray(F(0.0f));
+    const F radius_squared = find<F>(at, on);
+    const Mask<F> diffuse = on & (at.bsdf.kind == Uint<F>(std::uint32_t(BsdfKind::diffuse)));
+    Spectrum<F> sum = gray(F(0.0f));
+    if (any(diffuse)) {
+      const F side = copysign(F(1.0f), at.wo.z);
+      const Vec3<F> n = at.bsdf.frame.n * side;
+      Spectrum<F> irradiance = gray(F(0.0f));
+      for_each_lane(diffuse, [&](int k) {
+        const Receiver receiver{lane(n, k), lane(at.x.point.ng, k), lane(radius_squared, k)};
+        const Spectrum<float> one = received(near_[std::size_t(k)], receiver, rules.glossy, lane(rules.room, k));
+        for (int c = 0; c < spectrum_size; ++c) set_lane(irradiance.c[c], k, one.c[c]);
+      });
+      // Toward the normal the cosine is 1.
+      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(diffuse), at.wo, Vec3<F>{F(0.0f), F(0.0f), side}, context);
+      sum = select(diffuse, value.f_cos * irradiance, sum);
+    }
+    if (const Mask<F> others = on & !diffuse; any(others))
+      sum += scattered<F>(at, context, others, radius_squared, [&](const FoundPhoton<F>& photon, Mask<F>) {
+        return select((photon.density.value <= F(rules.glossy)) & (photon.events <= rules.room), F(1.0f), F(0.0f));
+      });
+    return sum;
+  }
+
+ private:
+  // A diffuse surface, and what is looked up there.
+  struct Receiver {
+    Vec3f n, ng;  // the shading normal on the side that is looked at
+    float radius_squared;
+  };
+
+  // Finds the photons of every lane; gives the squares of the radii within which they lie.
+  template <class F>
+  F find(const NextVertex<F>& at, Mask<F> on) {
+    F radius_squared(map_.radius() * map_.radius());
+    for_each_lane(on, [&](int k) {
+      NearPhotons& own = near_[std::size_t(k)];
+      map_.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), own);
+      if (nearest_ > 0 && own.count > nearest_) set_lane(radius_squared, k, keep_nearest(own));
+    });
+    return radius_squared;
+  }
+  // Keeps the nearest photons; gives the squared distance of the next one, which does not count: where photons are
+  // uniform, the mean of (photons that are kept) / (area) is then their density.
+  float keep_nearest(NearPhotons& found) {
+    // Buckets of equal area leave few to sort.
+    constexpr std::size_t buckets = 64;
+    const float whole = map_.radius() * map_.radius(), per_bucket = float(buckets) / whole;
+    const auto bucket_of = [&](float squared) { return std::min(std::size_t(squared * per_bucket), buckets - 1); };
+    std::array<std::uint32_t, buckets> counts{};
+    for (std::size_t i = 0; i < found.count; ++i) ++counts[bucket_of(found.distance_squared[i])];
+    std::size_t before = 0, bucket = 0;
+    while (before + counts[bucket] <= nearest_) before += counts[bucket++];
+    within_.clear();
+    for (std::size_t i = 0; i < found.count; ++i)
+      if (const float squared = found.distance_squared[i]; bucket_of(squared) == bucket) within_.push_back(squared);
+    const auto next = within_.begin() + std::ptrdiff_t(nearest_ - before);
+    std::nth_element(within_.begin(), next, within_.end());
+    const float radius_squared = *next;
+
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.count; ++i) {
+      if (found.distance_squared[i] >= radius_squared) continue;
+      found.photon[kept] = found.photon[i], found.distance_squared[kept++] = found.distance_squared[i];
+    }
+    found.count = kept;
+    return std::max(radius_squared, 1e-12f * whole);  // photons may lie in one point
+  }
+
+  // What photons bring to a diffuse surface, over photons in lanes.
+  Spectrum<float> received(const NearPhotons& found, const Receiver& at, float glossy, std::uint32_t room) const {
+    using F = NativeFloats;
+    using U = Uint<F>;
+    const auto* words = reinterpret_cast<const float*>(map_.photons());
+    Spectrum<F> sum = gray(F(0.0f));
+    for (std::size_t i = 0; i < found.count; i += native_lanes) {
+      U photon;
+      F distance_squared;
+      std::memcpy(&photon, found.photon.data() + i, sizeof photon);
+      std::memcpy(&distance_squared, found.distance_squared.data() + i, sizeof distance_squared);
+      const Mask<F> there = lane_index<F>() < U(std::uint32_t(found.count - i));
+      const U word = select(there, photon, U(0u)) * U(photon_words);
+      const Vec3<F> wi = gather3<F>(words, word);
+      const U events = float_bits(gather(words + 6 + spectrum_size, word));
+      const F cos = dot(wi, splat<F>(at.n));
+      const Mask<F> counts = there & (cos > F(0.0f)) & (cos * inv_pi <= F(glossy)) & (events <= U(room));
+      const F cos_g = max(abs(dot(wi, splat<F>(at.ng))), F(1e-6f));
+      const F weight = kernel_weight<F>(kernel_, distance_squared, F(at.radius_squared)) * (cos / cos_g);
+      for (int c = 0; c < spectrum_size; ++c) sum.c[c] += select(counts, gather(words + 6 + c, word) * weight, F(0.0f));
+    }
+    Spectrum<float> all = gray(0.0f);
+    for (int c = 0; c < spectrum_size; ++c)
+      for (int k = 0; k < native_lanes; ++k) all.c[c] += lane(sum.c[c], k);
+    return all;
+  }
+
+  // What photons send along wo, one photon of each lane at a time.
+  template <class F, class Share>
+  Spectrum<F> scattered(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const F& radius_squared,
+                        Share share) const {
     using U = Uint<F>;
     std::size_t most = 0;
-    const F radius_squared(map_.radius() * map_.radius());
-    for_each_lane(on, [&](int k) {
-      std::vector<NearPhoton>& own = near_[std::size_t(k)];
-      own.clear();
-      map_.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), own);
-      most = std::max(most, own.size());
-    });
+    for_each_lane(on, [&](int k) { most = std::max(most, near_[std::size_t(k)].count); });
     Spectrum<F> sum = gray(F(0.0f));
     const auto* words = reinterpret_cast<const float*>(map_.photons());
     for (std::size_t i = 0; i < most; ++i) {
@@ -63,16 +168,15 @@ class PhotonLookup {
       F distance_squared(0.0f);
       std::uint32_t there = 0;
       for_each_lane(on, [&](int k) {
-        const std::vector<NearPhoton>& own = near_[std::size_t(k)];
-        if (i >= own.size()) return;
-        set_lane(photon, k, own[i].photon), set_lane(distance_squared, k, own[i].distance_squared);
+        const NearPhotons& own = near_[std::size_t(k)];
+        if (i >= own.count) return;
+        set_lane(photon, k, own.photon[i]), set_lane(distance_squared, k, own.distance_squared[i]);
         there |= 1u << k;
       });
+      const Mask<F> similar = mask_of_bits<F>(there);
       const U word = photon * U(photon_words);
-      const Vec3<F> wi = gather3<F>(words, word), ng = gather3<F>(words + 3, word);
+      const Vec3<F> wi = gather3<F>(words, word);
       const U events = float_bits(gather(words + 6 + spectrum_size, word));
-      const Mask<F> similar = mask_of_bits<F>(there) & (abs(dot(ng, at.x.point.ng)) > F(similar_normals));
-      if (!any(similar)) continue;
       BsdfContext<F> own = context;
       own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
       const Vec3<F> local = at.bsdf.frame.to_local(wi);
@@ -89,10 +193,11 @@ class PhotonLookup {
     return sum;
   }
 
- private:
   const PhotonMap& map_;
   PhotonKernel kernel_;
-  std::array<std::vector<NearPhoton>, native_lanes> near_;
+  std::size_t nearest_;
+  std::array<NearPhotons, native_lanes> near_;
+  std::vector<float> within_;
 };
 
 }  // namespace montelux

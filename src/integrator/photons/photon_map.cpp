@@ -85,8 +85,15 @@ void PhotonMap::put_in_order(std::size_t begin, std::size_t end, std::size_t who
   }
 }
 
-void PhotonMap::near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& found) const {
+void NearPhotons::reserve_more(std::size_t more) {
+  const std::size_t needed = count + more + padding;
+  if (photon.size() >= needed) return;
+  photon.resize(2 * needed), distance_squared.resize(2 * needed);
+}
+
+void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
   using F = NativeFloats;
+  found.count = 0;
   const auto cells_along = [&](float x) {
     const double low = (double(x) - double(radius_)) * per_cell_, high = (double(x) + double(radius_)) * per_cell_;
     return std::pair{std::int64_t(std::floor(low)), std::int64_t(std::floor(high))};
@@ -105,12 +112,17 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& fo
         if (std::find(seen.begin(), seen.begin() + count, cell) != seen.begin() + count) continue;
         seen[count++] = cell;
         const std::uint32_t end = starts_[cell + 1];
+        found.reserve_more(end - starts_[cell]);
         for (std::uint32_t i = starts_[cell]; i < end; i += native_lanes) {
           const F dx = load(x_, i) - p.x, dy = load(y_, i) - p.y, dz = load(z_, i) - p.z;
           const F d2 = dx * dx + dy * dy + dz * dz;
           const Mask<F> near = (d2 < F(most)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
                                (lane_index<F>() < Uint<F>(end - i));
-          for_each_lane(near, [&](int k) { found.push_back({i + std::uint32_t(k), lane(d2, k)}); });
+          for_each_lane(near, [&](int k) {
+            const std::uint32_t photon = i + std::uint32_t(k);
+            if (std::abs(dot(photons_[photon].ng, n)) <= similar_normals) return;
+            found.photon[found.count] = photon, found.distance_squared[found.count++] = lane(d2, k);
+          });
         }
       }
 }

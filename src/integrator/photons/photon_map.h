@@ -39,10 +39,17 @@ static_assert(sizeof(GatheredPhoton) % 4 == 0);
 // are those of another surface.
 inline constexpr float similar_height = 0.3f;
 
-// A photon within the radius.
-struct NearPhoton {
-  std::uint32_t photon;
-  float distance_squared;
+// Photons on surfaces whose normals have a smaller cosine with that of the gathering point are those of another
+// surface.
+inline constexpr float similar_normals = 0.7f;
+
+// Photons around a point: the first `count` of the vectors, beyond which lanes may read.
+struct NearPhotons {
+  std::size_t count = 0;
+  std::vector<std::uint32_t> photon;  // number in the map
+  std::vector<float> distance_squared;
+  // Room for so many more, and for a pack beyond them.
+  void reserve_more(std::size_t more);
 };
 
 // Filled in steps, each by many threads, with a barrier between two: tiles trace photons into their boxes (box, count);
@@ -66,8 +73,9 @@ class PhotonMap {
   float radius() const { return radius_; }
   const GatheredPhoton* photons() const { return photons_.data(); }
   const PhotonWeights* weights() const { return weights_.data(); }
-  // Appends the photons within the radius of p that lie near the plane across n, in a fixed order.
-  void near(const Vec3f& p, const Vec3f& n, std::vector<NearPhoton>& found) const;
+  // Finds the photons within the radius of p that lie near the plane across n, on surfaces with similar normals, in a
+  // fixed order.
+  void near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const;
 
  private:
   struct Dealt {

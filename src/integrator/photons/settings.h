@@ -17,6 +17,7 @@ struct GatheringRules {
   float glossy = 4;              // density per steradian above which a direction is followed instead
   std::optional<int> max_depth;  // scattering events between the light and the camera
   int roulette_depth = 2;        // scattering events of a path before roulette
+  int gather_rays = 0;           // of each surface in view; 0: its photons are all the indirect light
 };
 
 struct SppmSettings {
@@ -34,9 +35,29 @@ struct SppmSettings {
   GatheringRules gathering() const { return {nee, glossy, max_depth, roulette_depth}; }
 };
 
+struct PhotonMapSettings {
+  int photons = 0;           // light paths of the global map; 0: one for each pixel, and at least min_photons
+  int caustic_photons = 0;   // of the map of caustics, likewise
+  int nearest = 0;           // photons of an estimate, at most; 0: all within the radius
+  float radius = 0;          // of the global map, at most; 0: by a pilot
+  float caustic_radius = 0;  // of the map of caustics, at most; 0: by the pixels' footprints
+  PhotonKernel kernel = PhotonKernel::epanechnikov;
+  int gather_rays = 4;           // of each surface in view; 0: the global map is looked up there
+  bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
+  float glossy = 4;              // density per steradian above which a direction is followed instead
+  int frames = 16;               // of a chain, with the same maps, at most
+  std::optional<int> max_depth;  // scattering events between the light and the camera
+  int roulette_depth = 2;        // scattering events of a path before roulette
+  Lanes lanes = Lanes::native;
+
+  GatheringRules gathering() const { return {nee, glossy, max_depth, roulette_depth, gather_rays}; }
+};
+
 // Of small pictures.
 inline constexpr int min_photons = 16384;
 
+EntitySpec photonmap_spec();
+Result<PhotonMapSettings> photonmap_settings(const ParameterList& list, std::optional<int> max_depth);
 EntitySpec sppm_spec();
 Result<SppmSettings> sppm_settings(const ParameterList& list, std::optional<int> max_depth);
 

@@ -42,6 +42,27 @@ class PhotonSink {
   std::uint64_t broken_ = 0;
 };
 
+// Stores the photons of caustics: those that came to their surface by events alone in directions which a path from the
+// eye would follow, at mirrors, smooth glass and glossy surfaces. Other events end the path.
+template <class F>
+class CausticSink : public PhotonSink<F> {
+ public:
+  // `glossy`: density per steradian above which paths from the eye follow a direction.
+  CausticSink(const PhotonSink<F>& all, float glossy) : PhotonSink<F>(all), glossy_(glossy) {}
+
+  Mask<F> follows(const LightPathVertex<F>& v, const BsdfSample<F>& next, Mask<F> on) const {
+    // A path from the eye arrives along `next` and samples the direction toward the light.
+    BsdfContext<F> context = v.context;
+    context.mode = TransportMode::radiance, context.densities = Densities::exact;
+    const Density<SolidAngle, F> reverse =
+        evaluate<F>(v.at.bsdf.lanes(on & !next.delta), next.wi, v.at.wo, context).density;
+    return next.delta | (reverse.value > F(glossy_));
+  }
+
+ private:
+  const float glossy_;
+};
+
 // The light paths of a tile, which are a part of those of the frame: the paths are dealt out to the pixels, so that any
 // tiles share them.
 class LightPathShare {

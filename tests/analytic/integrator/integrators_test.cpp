@@ -163,7 +163,8 @@ TEST(LightTracing, finds_the_closed_form_of_every_scene_that_it_sees_whole) {
 
 // Likewise photons, in scenes where enough of them arrive; with a radius so small that its bias is below the noise.
 TEST(Photons, find_the_closed_form_of_every_scene_where_enough_of_them_arrive) {
-  for (const std::string way : {"sppm:radius=0.02,alpha=1", "vcm:radius=0.02,alpha=1"}) {
+  for (const std::string way :
+       {"sppm:radius=0.02,alpha=1", "vcm:radius=0.02,alpha=1", "photonmap:radius=0.02,caustic-radius=0.02"}) {
     const std::vector<Expected> scenes = expected_means();
     const double level = sidak_level(family_level, double(scenes.size()));
     int tested = 0, caught = 0;

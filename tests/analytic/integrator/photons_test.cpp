@@ -120,11 +120,92 @@ TEST(PhotonBias, is_that_of_the_horizon_within_a_sphere_of_uniform_light) {
     }
 }
 
+// Within the same sphere the surfaces at the ends of gather rays show the horizon's bias, and so the light that they
+// send, which is scattered once more, in full. Direct light is without bias.
+TEST(PhotonBias, is_seen_by_way_of_gather_rays_within_a_sphere_of_uniform_light) {
+  const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/analytic";
+  const TestScene scene(read_text(folder / "closed-furnace-sphere.pbrt"), folder.string());
+  constexpr double glow = 0.5, albedo = 0.6, radius = 1, r = 0.5;
+  for (const Kernel& kernel : {epanechnikov, constant, cone})
+    for (const int rays : {1, 3}) {
+      const std::string way =
+          "photonmap:radius=0.5,photons=16384,caustic-radius=0.5,gather-rays=" + std::to_string(rays) + setting(kernel);
+      const Mean m = measure(scene, way, 2, 3);
+      const double share = 1 - kernel.squared * r * r / (4 * radius * radius);
+      const auto light = [&](double of_photons) {
+        return glow + albedo * (glow + of_photons * glow * albedo / (1 - albedo));
+      };
+      EXPECT_GE(p_value(m.mean[0], m.standard_error[0], light(share)), level(6))
+          << way << ": " << m.mean[0] << " +- " << m.standard_error[0] << ", " << light(share);
+      EXPECT_LT(p_value(m.mean[0], m.standard_error[0], light(1)), level(6)) << way;
+      // Photons that are looked up at the surface in view have the bias without the albedo.
+      EXPECT_LT(p_value(m.mean[0], m.standard_error[0], glow / (1 - albedo) * share), level(6)) << way;
+    }
+}
+
+// The global map at the surface in view is what sppm gathers in its first frame.
+TEST(PhotonBias, of_the_global_map_in_view_is_that_of_the_kernel_at_the_edges_of_a_wall) {
+  const TestScene scene(wall);
+  for (const bool nee : {true, false}) {
+    const std::string way = std::string("photonmap:gather-rays=0,radius=0.4,nee=") + (nee ? "on" : "off");
+    const Mean m = measure(scene, way, 4, 5);
+    const double share = share_within(0.4, epanechnikov);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_GE(p_value(m.mean[i], m.standard_error[i], radiance(i, share, nee)), level(4)) << way << ", " << i;
+      EXPECT_LT(p_value(m.mean[i], m.standard_error[i], radiance(i, 1, nee)), level(4)) << way << ", " << i;
+    }
+  }
+}
+
+// Where photons are uniform the estimate by the nearest ones has the right mean, however few they are: the distance of
+// the next one is that of a disk whose area is right for those within. Only the horizon biases it, in proportion to the
+// area that holds so many photons, and so to one over the number of light paths.
+TEST(PhotonBias, by_the_nearest_photons_is_that_of_the_area_that_holds_them) {
+  const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/analytic";
+  const TestScene scene(read_text(folder / "closed-furnace-sphere.pbrt"), folder.string());
+  constexpr double glow = 0.5, albedo = 0.6, light = glow / (1 - albedo);
+  const auto by_nearest = [&](int nearest, int photons, const char* kernel) {
+    const std::string way = "photonmap:gather-rays=0,nee=off,radius=2,nearest=" + std::to_string(nearest) +
+                            ",photons=" + std::to_string(photons) + ",kernel=" + kernel;
+    return measure(scene, way, 4, 3);
+  };
+  for (const char* kernel : {"constant", "epanechnikov"}) {
+    const Mean few = by_nearest(2, 16384, kernel);
+    EXPECT_GE(p_value(few.mean[0], few.standard_error[0], light), level(6)) << few.mean[0];
+    // A disk of the second photon itself, which counts it, too.
+    EXPECT_LT(p_value(few.mean[0], few.standard_error[0], glow + 2 * (light - glow)), level(6))
+        << few.standard_error[0];
+  }
+  const Mean coarse = by_nearest(2048, 16384, "constant"), fine = by_nearest(2048, 4 * 16384, "constant");
+  const double bias = light - coarse.mean[0], of_fine = light - fine.mean[0];
+  const double error = std::hypot(coarse.standard_error[0], 4 * fine.standard_error[0]);
+  EXPECT_GT(bias, 10 * coarse.standard_error[0]);
+  EXPECT_GE(2 * student_t_cdf(-std::abs(bias - 4 * of_fine) / error, passes - 1), level(6)) << bias << ", " << of_fine;
+  EXPECT_LT(2 * student_t_cdf(-std::abs(bias - of_fine) / error, passes - 1), level(6)) << bias << ", " << of_fine;
+}
+
+TEST(PhotonBias, falls_with_the_number_of_photons) {
+  const TestScene scene(wall);
+  double before = 1;
+  for (const int photons : {2000, 32000}) {
+    const std::string number = std::to_string(photons);
+    const Mean m = measure(scene, "photonmap:gather-rays=1,photons=" + number + ",caustic-photons=1000", 4, 5);
+    const double bias = 1 - m.mean[1] / radiance(1, 1, true), error = m.standard_error[1] / m.mean[1];
+    EXPECT_GT(bias, 3 * error);
+    // The radius is a quarter, and the share of the light that is lost at edges with it.
+    EXPECT_TRUE(photons == 2000 || bias + 3 * error < before / 2) << bias << " after " << before << " +- " << error;
+    before = bias;
+  }
+}
+
 TEST(PhotonBias, is_named_with_its_radius) {
   const TestScene scene(wall);
   EXPECT_EQ(scene.integrator("sppm:radius=0.25").biases, std::vector<std::string>{"radius=0.25"});
   EXPECT_EQ(scene.integrator("sppm:radius=0.25,maxdepth=3").biases,
             (std::vector<std::string>{"radius=0.25", "maxdepth=3"}));
+  EXPECT_EQ(scene.integrator("photonmap:radius=0.25,caustic-radius=0.1").biases,
+            (std::vector<std::string>{"radius=0.25", "caustic-radius=0.1"}));
+  EXPECT_EQ(scene.integrator("photonmap:radius=0.25,gather-rays=0").biases, std::vector<std::string>{"radius=0.25"});
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 // found.
 #include <gtest/gtest.h>
 
+#include "integrator/photons/filling.h"
 #include "integrator/photons/gathering.h"
+#include "integrator/photons/photonmap.h"
 #include "integrator/photons/sppm.h"
-#include "integrator/photons/tracing.h"
 #include "light_room.h"
 
 namespace montelux::test {
@@ -19,6 +20,8 @@ struct NoCorrection {
     return F(1.0f);
   }
 };
+const std::string gathering = "photonmap:radius=0.02,caustic-radius=0.02,photons=16384,caustic-photons=16384";
+
 // What is planted in the photons of a frame.
 struct Fault {
   bool twice = false;         // every second photon is stored twice
@@ -67,6 +70,93 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
   return means;
 }
 
+// What is planted in a final gathering.
+struct GatheringFault {
+  bool all_in_view = false;       // photons of all paths at the surfaces in view, not those of caustics alone
+  bool direct_twice = false;      // caustics with the photons straight from the light
+  bool no_direct_beyond = false;  // the global map without those
+  float glossy_of_caustics = 4;   // other directions than those that paths from the eye follow
+};
+// Passes of one frame each, as photonmap makes them, with a fault.
+PassMeans gathered_by_hand(const TestScene& scene, int passes, std::uint32_t seed, const GatheringFault& fault = {}) {
+  using F = NativeFloats;
+  using Filling = PhotonFilling<F, Accel>;
+  constexpr std::uint32_t paths = 16384;
+  constexpr float radius = 0.02f;
+  const PhotonMapSettings settings;
+  const std::optional<AliasTable> by_power = scene.scene().lights.by_power();
+  const RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
+  const std::optional<float> glossy = fault.all_in_view ? std::nullopt : std::optional(fault.glossy_of_caustics);
+  PassMeans means;
+  for (int number = 0; number < passes; ++number) {
+    const ChainPass pass{s.image.bounds, s.image.points(number, 1)};
+    Filling global(scene.scene(), scene.accel(), by_power, pass, {paths, fault.no_direct_beyond ? 1u : 0u, {}, 2, {}});
+    Filling caustics(scene.scene(), scene.accel(), by_power, pass,
+                     {paths, fault.direct_twice ? 0u : 1u, {}, 2, glossy});
+    for (int stage = 0; stage < Filling::stages; ++stage) {
+      global.run({0, radius, {}}, stage, pass.bounds);
+      caustics.run({1, radius, {}}, stage, pass.bounds);
+    }
+    Film film(s.image.bounds);
+    std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
+    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(),
+                              PhotonLookup(caustics.map(), settings.kernel),
+                              PhotonLookup(global.map(), settings.kernel))
+        .run({s.image.bounds, pass.points}, samples);
+    std::vector<PixelPass> pixels(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) pixels[i].add(samples[i]);
+    film.add_pass(s.image.bounds, 0, pixels);
+    add_pass(film, {}, means);
+  }
+  return means;
+}
+
+TEST(PhotonGathering, agrees_with_path_in_a_coloured_room_and_planted_faults_are_found) {
+  const TestScene scene(room(lens, gaussian));
+  const PassMeans path = measured(scene, "path", 16, 60, 1);
+  for (const char* more : {"", ",nee=off", ",gather-rays=1,kernel=cone", ",gather-rays=0", ",glossy=0.5"}) {
+    const Comparison c = compared(measured(scene, gathering + more, 8, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << more << ": " << c.smallest << " of " << c.tests;
+  }
+  const auto caught = [&](const GatheringFault& fault) {
+    return compared(gathered_by_hand(scene, 200, 3, fault), path).differ();
+  };
+  EXPECT_FALSE(caught({}));
+  EXPECT_TRUE(caught({.all_in_view = true}));
+  EXPECT_TRUE(caught({.direct_twice = true}));
+  EXPECT_TRUE(caught({.no_direct_beyond = true}));
+  EXPECT_TRUE(caught({.glossy_of_caustics = 0.2f}));
+}
+
+// Caustics of a glossy metal are those of the directions that paths from the eye follow, and of no others.
+TEST(PhotonGathering, agrees_with_path_where_a_glossy_metal_reflects_light) {
+  const TestScene scene(R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+LookAt 0 1.5 -0.5   0 0 0.3   0 1 0
+Camera "perspective" "float fov" 50
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 9 6 3 ]
+  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+  Translate -0.5 0.8 -0.6
+  Shape "sphere" "float radius" 0.2
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.8 0.8 0.6 ]
+Shape "bilinearmesh" "point3 P" [ -1 0 -1  1 0 -1  -1 0 1  1 0 1 ]
+Material "conductor" "float roughness" 0.08 "bool remaproughness" false
+Shape "bilinearmesh" "point3 P" [ -1 0 0.8  1 0 0.8  -1 1 1  1 1 1 ]
+Material "diffuse" "rgb reflectance" [ 0.3 0.5 0.8 ]
+Shape "bilinearmesh" "point3 P" [ 0.9 0 -1  0.9 0 1  0.9 1 -1  0.9 1 1 ]
+)");
+  const PassMeans path = measured(scene, "path", 32, 60, 1);
+  for (const char* glossy : {"1e30", "4", "0.5"}) {
+    const Comparison c = compared(measured(scene, gathering + ",glossy=" + glossy, 8, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << glossy << ": " << c.smallest << " of " << c.tests;
+  }
+  EXPECT_FALSE(compared(gathered_by_hand(scene, 200, 3), path).differ());
+  EXPECT_TRUE(compared(gathered_by_hand(scene, 200, 3, {.glossy_of_caustics = 0.5f}), path).differ());
+  EXPECT_TRUE(compared(gathered_by_hand(scene, 200, 3, {.glossy_of_caustics = 40}), path).differ());
+}
+
 TEST(Photons, agree_with_path_in_a_coloured_room_and_planted_faults_are_found) {
   const TestScene scene(room(lens, gaussian));
   const PassMeans path = measured(scene, "path", 16, 60, 1);
@@ -111,18 +201,21 @@ TEST(Photons, agree_with_path_where_things_move) {
       "Translate 0.4 0.2 -0.4\nShape \"sphere\" \"float radius\" 0.2\nAttributeEnd\n";
   const TestScene scene(text);
   ASSERT_TRUE(scene.scene().moves());
-  const Comparison c = compared(measured(scene, small, 8, 40, 2), measured(scene, "path", 16, 60, 1));
-  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+  const PassMeans path = measured(scene, "path", 16, 60, 1);
+  for (const std::string& way : {small, gathering}) {
+    const Comparison c = compared(measured(scene, way, 8, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
 }
 
 TEST(Photons, end_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
     const std::string most = "maxdepth=" + std::to_string(depth);
-    for (const char* nee : {",nee=on,", ",nee=off,"}) {
-      const Comparison c =
-          compared(measured(scene, small + nee + most, 8, 40, 2), measured(scene, "path:" + most, 16, 60, 1));
-      EXPECT_FALSE(c.differ()) << nee << depth << ": " << c.smallest << " of " << c.tests;
+    const PassMeans path = measured(scene, "path:" + most, 16, 60, 1);
+    for (const std::string& way : {small, small + ",nee=off", gathering, gathering + ",nee=off"}) {
+      const Comparison c = compared(measured(scene, way + "," + most, 8, 40, 2), path);
+      EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
     }
   }
   EXPECT_TRUE(compared(measured(scene, small + ",maxdepth=2", 8, 40, 2), measured(scene, "path:maxdepth=3", 16, 60, 1))
@@ -131,18 +224,21 @@ TEST(Photons, end_where_maxdepth_says) {
 
 TEST(Photons, have_the_same_bits_for_any_number_of_threads_and_lanes) {
   const TestScene scene(room(lens, gaussian));
-  const auto film = [&](const char* way, int threads) {
+  const auto film = [&](const std::string& way, int threads) {
     RenderObserver silent;
     const ChosenIntegrator chosen = scene.integrator(way);
     return render(chosen.any(), scene.settings(PointSetKind::blue_noise, {3, 2}, 5, threads), silent).film;
   };
-  const Film one = film("sppm:radius=0.1", 1);
-  for (const auto& [way, threads] :
-       {std::pair("sppm:radius=0.1", 2), std::pair("sppm:radius=0.1", 5), std::pair("sppm:radius=0.1,lanes=one", 1)}) {
-    const Film other = film(way, threads);
-    for (int y = 0; y < one.bounds().y1; ++y)
-      for (int x = 0; x < one.bounds().x1; ++x)
-        for (int c = 0; c < rgb_size; ++c) ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way;
+  for (const std::string way :
+       {"sppm:radius=0.1", "photonmap:radius=0.1,caustic-radius=0.1,gather-rays=3", "photonmap:radius=0.1,nearest=9"}) {
+    const Film one = film(way, 1);
+    for (const auto& [more, threads] : {std::pair("", 2), std::pair("", 5), std::pair(",lanes=one", 1)}) {
+      const Film other = film(way + more, threads);
+      for (int y = 0; y < one.bounds().y1; ++y)
+        for (int x = 0; x < one.bounds().x1; ++x)
+          for (int c = 0; c < rgb_size; ++c)
+            ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way << more << ", " << threads;
+    }
   }
 }
 

@@ -54,6 +54,28 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ErrorBarsOf, testing::ValuesIn(error_bar_scenes
 
 }  // namespace
 
+// All pixels of a pass share its maps of photons: passes do not. The truth is the integrator's own mean.
+TEST(ErrorBarsOfPhotonMaps, cover_their_own_mean) {
+  const TestScene scene(error_bar_scenes().front().text);
+  const char* const way = "photonmap:photons=2000,caustic-photons=500,radius=0.2,caustic-radius=0.1,gather-rays=1";
+  constexpr PassPlan plan{2, 16};
+  const ChosenIntegrator chosen = scene.integrator(way);
+  RenderObserver silent;
+  const Truth truth =
+      truth_of(render(chosen.any(), scene.settings(PointSetKind::padded_sobol, {2, 2048}, 0x7257u, 0), silent).film);
+  const auto held = [&](double fault) {
+    const Coverage c = measure_coverage(scene, truth, way, plan, 2 * seeds, fault);
+    const double level = sidak_level(family_level, 3);
+    return Decision{c.pixels_p_value(low, high) >= level, binomial_p_value(c.images, c.seeds, low, high) >= level,
+                    c.ratio_p_value(1, 1) >= level};
+  };
+  const Decision d = held(1);
+  EXPECT_TRUE(d.pixels);
+  EXPECT_TRUE(d.image);
+  EXPECT_TRUE(d.error);
+  for (const double fault : {0.7, 1.5}) EXPECT_FALSE(held(fault).all()) << "errors times " << fault << " pass";
+}
+
 TEST(BinomialTest, agrees_with_exact_tails) {
   // 9 or more of 10 with p = 0.5: 11 / 1024; 1 or fewer the same.
   EXPECT_NEAR(binomial_p_value(9, 10, 0.5, 0.5), 22.0 / 1024, 1e-12);

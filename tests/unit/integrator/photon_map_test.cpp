@@ -47,10 +47,10 @@ void fill(PhotonMap& map, const std::vector<Photon>& photons, float radius, std:
   each_tile([&](std::size_t tile) { map.put_in_order(tile, tile + 1, tiles); });
 }
 std::vector<float> found_near(const PhotonMap& map, const Vec3f& p, const Vec3f& n) {
-  std::vector<NearPhoton> near;
+  NearPhotons near;
   map.near(p, n, near);
   std::vector<float> names;
-  for (const NearPhoton& photon : near) names.push_back(map.photons()[photon.photon].flux.c[0]);
+  for (std::size_t i = 0; i < near.count; ++i) names.push_back(map.photons()[near.photon[i]].flux.c[0]);
   return names;
 }
 

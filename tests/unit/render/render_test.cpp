@@ -267,7 +267,7 @@ Shape "bilinearmesh" "point3 P" [ 0 -2 0  4 -2 0  0 2 0  4 2 0 ]
 )");
   RenderObserver silent;
   for (const char* way : {"path", "naive", "direct", "distribution", "tracepath", "restir-di", "restir-pt", "radiosity",
-                          "bdpt", "vcm", "sppm", "irradiance-cache"}) {
+                          "bdpt", "vcm", "sppm", "photonmap", "irradiance-cache"}) {
     const ChosenIntegrator chosen = panels.integrator(way);
     RenderSettings s = panels.settings(PointSetKind::blue_noise, {1, 2}, 1, 1);
     for (const float time : {0.0f, 1.0f}) {

@@ -141,7 +141,8 @@ TEST(SparseChains, have_the_same_bits_for_any_number_of_threads) {
   };
   for (const char* way :
        {"restir-di:candidates=2,radius=4", "restir-gi:radius=4", "restir-pt:radius=4,groups=off", "light", "bdpt",
-        "vcm:radius=0.1", "sppm:radius=0.1", "irradiance-cache:samples=20", "radiosity:elementsize=0.3,warm-up=2"}) {
+        "vcm:radius=0.1", "sppm:radius=0.1", "photonmap:radius=0.1,caustic-radius=0.1,photons=2000",
+        "irradiance-cache:samples=20", "radiosity:elementsize=0.3,warm-up=2"}) {
     SCOPED_TRACE(way);
     // 20 x 16 cells: two tiles.
     const Film one = film_of(diffuse_scene(), way, {2, 2}, 2, 1);

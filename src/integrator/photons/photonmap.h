@@ -1,0 +1,34 @@
+// Photon mapping in two passes (Jensen 1996, "Global Illumination Using Photon Maps"): photons are stored in a global
+// map and in a map of caustics, and the picture is made by paths from the eye with a final gathering.
+#pragma once
+#include "accel/accel.h"
+#include "integrator/integrator.h"
+#include "integrator/photons/settings.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// The radius that holds about 64 photons of the global map, or settings.nearest, where light is neither bright nor dim;
+// by a pilot of light paths.
+float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings, int pixels);
+
+// A chain traces maps of its own in its first frame, and gathers in all of them; where surfaces move each frame has its
+// own maps.
+class PhotonMapIntegrator final : public CoupledIntegrator {
+ public:
+  // Scene and accel must outlive the integrator, and the integrator its chains. Its radii are set.
+  PhotonMapIntegrator(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings);
+
+  int frames() const override { return settings_.frames; }
+  int warm_up() const override { return 0; }
+  int stages() const override;
+  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+
+ private:
+  const Scene& scene_;
+  const Accel& accel_;
+  const PhotonMapSettings settings_;
+  std::optional<AliasTable> by_power_;  // none: there is no light
+};
+
+}  // namespace montelux
