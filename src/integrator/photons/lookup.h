@@ -141,12 +141,12 @@ class PhotonLookup {
       const Mask<F> there = lane_index<F>() < U(std::uint32_t(found.count - i));
       const U word = select(there, photon, U(0u)) * U(photon_words);
       const Vec3<F> wi = gather3<F>(words, word);
-      const U events = float_bits(gather(words + 6 + spectrum_size, word));
+      const U events = float_bits(gather(words + 3 + spectrum_size, word));
       const F cos = dot(wi, splat<F>(at.n));
       const Mask<F> counts = there & (cos > F(0.0f)) & (cos * inv_pi <= F(glossy)) & (events <= U(room));
       const F cos_g = max(abs(dot(wi, splat<F>(at.ng))), F(1e-6f));
       const F weight = kernel_weight<F>(kernel_, distance_squared, F(at.radius_squared)) * (cos / cos_g);
-      for (int c = 0; c < spectrum_size; ++c) sum.c[c] += select(counts, gather(words + 6 + c, word) * weight, F(0.0f));
+      for (int c = 0; c < spectrum_size; ++c) sum.c[c] += select(counts, gather(words + 3 + c, word) * weight, F(0.0f));
     }
     Spectrum<float> all = gray(0.0f);
     for (int c = 0; c < spectrum_size; ++c)
@@ -176,7 +176,7 @@ class PhotonLookup {
       const Mask<F> similar = mask_of_bits<F>(there);
       const U word = photon * U(photon_words);
       const Vec3<F> wi = gather3<F>(words, word);
-      const U events = float_bits(gather(words + 6 + spectrum_size, word));
+      const U events = float_bits(gather(words + 3 + spectrum_size, word));
       BsdfContext<F> own = context;
       own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
       const Vec3<F> local = at.bsdf.frame.to_local(wi);
@@ -187,7 +187,7 @@ class PhotonLookup {
       const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
       const F weight = kernel_weight<F>(kernel_, distance_squared, radius_squared) / cos * counted;
       Spectrum<F> flux;
-      for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 6 + c, word);
+      for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 3 + c, word);
       sum += select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
     }
     return sum;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/write_lanes.h"
 #include "mc/random.h"
 
 namespace montelux {
@@ -56,7 +57,7 @@ void PhotonMap::lay_out(float radius) {
   for (std::size_t i = 0; i < counts_.size(); ++i) starts_[i] = sum, sum += counts_[i].take();
   starts_.back() = sum;
   dealt_.resize(sum);
-  x_.resize(sum + padding), y_.resize(sum + padding), z_.resize(sum + padding);
+  for (std::vector<float>* all : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) all->resize(sum + padding);
   photons_.resize(sum + 1);
   if (weighted_) weights_.resize(sum + 1);
 }
@@ -79,7 +80,8 @@ void PhotonMap::put_in_order(std::size_t begin, std::size_t end, std::size_t who
     for (std::uint32_t i = from; i < to; ++i) {
       const Photon& photon = *dealt_[i].photon;
       x_[i] = photon.p.x, y_[i] = photon.p.y, z_[i] = photon.p.z;
-      photons_[i] = {photon.wi, photon.ng, photon.flux, photon.events};
+      nx_[i] = photon.ng.x, ny_[i] = photon.ng.y, nz_[i] = photon.ng.z;
+      photons_[i] = {photon.wi, photon.flux, photon.events};
       if (weighted_) weights_[i] = photon.weights;
     }
   }
@@ -103,26 +105,25 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
   const auto [z0, z1] = cells_along(p.z);
   // Cells that share an entry of the table are looked through once.
   std::array<std::uint32_t, 8> seen;
-  std::size_t count = 0;
+  std::size_t cells = 0;
   const float most = radius_ * radius_, height = similar_height * radius_;
   for (std::int64_t z = z0; z <= z1; ++z)
     for (std::int64_t y = y0; y <= y1; ++y)
       for (std::int64_t x = x0; x <= x1; ++x) {
         const std::uint32_t cell = hash(x, y, z);
-        if (std::find(seen.begin(), seen.begin() + count, cell) != seen.begin() + count) continue;
-        seen[count++] = cell;
+        if (std::find(seen.begin(), seen.begin() + cells, cell) != seen.begin() + cells) continue;
+        seen[cells++] = cell;
         const std::uint32_t end = starts_[cell + 1];
         found.reserve_more(end - starts_[cell]);
         for (std::uint32_t i = starts_[cell]; i < end; i += native_lanes) {
           const F dx = load(x_, i) - p.x, dy = load(y_, i) - p.y, dz = load(z_, i) - p.z;
           const F d2 = dx * dx + dy * dy + dz * dz;
+          const F cosine = load(nx_, i) * n.x + load(ny_, i) * n.y + load(nz_, i) * n.z;
           const Mask<F> near = (d2 < F(most)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
-                               (lane_index<F>() < Uint<F>(end - i));
-          for_each_lane(near, [&](int k) {
-            const std::uint32_t photon = i + std::uint32_t(k);
-            if (std::abs(dot(photons_[photon].ng, n)) <= similar_normals) return;
-            found.photon[found.count] = photon, found.distance_squared[found.count++] = lane(d2, k);
-          });
+                               (abs(cosine) > F(similar_normals)) & (lane_index<F>() < Uint<F>(end - i));
+          write_lanes(near, Uint<F>(lane_index<F>() + Uint<F>(i)), found.photon.data() + found.count);
+          write_lanes(near, d2, found.distance_squared.data() + found.count);
+          found.count += std::size_t(montelux::count(near));
         }
       }
 }

@@ -28,7 +28,7 @@ struct Photon {
 
 // The part of a photon that a gathering point needs, as lanes gather it.
 struct GatheredPhoton {
-  Vec3f wi, ng;
+  Vec3f wi;
   Spectrum<float> flux;
   std::uint32_t events;
 };
@@ -92,7 +92,7 @@ class PhotonMap {
   std::vector<std::uint32_t> starts_;  // by cell, and the end
   std::vector<std::vector<Photon>> boxes_;
   std::vector<Dealt> dealt_;
-  std::vector<float> x_, y_, z_;
+  std::vector<float> x_, y_, z_, nx_, ny_, nz_;  // places and normals, for lanes
   std::vector<GatheredPhoton> photons_;
   bool weighted_;
   std::vector<PhotonWeights> weights_;  // of the same photons

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "math/functions.h"
 #include "math/transform.h"
+#include "math/write_lanes.h"
 
 namespace montelux {
 namespace {
@@ -66,6 +68,23 @@ TEST(Lanes, masks_round_trip_through_bits) {
     EXPECT_EQ(bits(mask_of_bits<F>(b)), b & ((1u << native_lanes) - 1u));
   EXPECT_TRUE(all(Mask<F>(true)));
   EXPECT_FALSE(any(Mask<F>(false)));
+}
+
+TEST(Lanes, that_are_on_are_written_one_after_the_other) {
+  using U = Uint<NativeFloats>;
+  for (const std::uint32_t b : {0u, 1u, 5u, 0b1010u, (1u << (native_lanes - 1)) | 2u, (1u << native_lanes) - 1u}) {
+    std::array<std::uint32_t, std::size_t(native_lanes)> to;
+    to.fill(99);
+    write_lanes(mask_of_bits<NativeFloats>(b), lane_index<NativeFloats>(), to.data());
+    std::size_t n = 0;
+    for (std::uint32_t k = 0; k < native_lanes; ++k)
+      if ((b >> k) & 1u) {
+        EXPECT_EQ(to[n++], k) << b;
+      }
+    std::array<float, std::size_t(native_lanes)> reals;
+    write_lanes(mask_of_bits<NativeFloats>(b), to_float(U(lane_index<NativeFloats>())), reals.data());
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(reals[i], float(to[i]));
+  }
 }
 
 TEST(Lanes, min_and_max_treat_not_a_number_alike_in_lanes_and_floats) {
