@@ -108,7 +108,6 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
 std::vector<Replacement> replacements(const SceneDesc& desc) {
   std::vector<Replacement> all;
   for (const ReplacedName& name : desc.replaced) all.push_back({name.family, name.stated, name.instead});
-  if (desc.integrator.name == "bdpt" && !desc.media.empty()) all.push_back({"integrator", "bdpt", "path"});
   return all;
 }
 

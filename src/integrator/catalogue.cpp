@@ -190,6 +190,11 @@ Made make_light(const Request& r) {
         "an orthographic camera sees the sky in a few directions, which no path from the sky takes: the picture is "
         "black where no surface is");
   }
+  if (r.scene.media.emits()) {
+    chosen.biases.push_back("no emission of media");
+    chosen.missing.push_back("light that media emit");
+    chosen.notes.push_back("no path starts in a medium that emits: the picture is biased by its light");
+  }
   note_facing_curves(chosen, r.scene);
   return chosen;
 }
@@ -290,6 +295,10 @@ Made make_bdpt(const Request& r) {
 
 Made make_vcm(const Request& r) {
   VcmSettings settings = vcm_settings(r.list, r.max_depth);
+  if (!settings.paths.connect && !r.scene.media.empty())
+    return Failure{
+        "the scene has participating media, where vcm does not merge vertices: there it needs connections "
+        "(--set connect=on)"};
   if (settings.radius == 0)
     settings.radius =
         radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1));
@@ -352,7 +361,8 @@ struct Row {
 
 constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
                         all_abilities = only_layers | std::uint32_t(Ability::media) | std::uint32_t(Ability::paths),
-                        shared_samples = std::uint32_t(Ability::shared_samples);
+                        shared_samples = std::uint32_t(Ability::shared_samples),
+                        shared_in_media = shared_samples | std::uint32_t(Ability::media);
 
 // The one table of integrators.
 const std::vector<Row>& rows() {
@@ -367,14 +377,13 @@ const std::vector<Row>& rows() {
         {restir_gi_spec(), make_restir<restir_gi>, LightSearch::any_length, Content::light, shared_samples},
         {restir_pt_spec(), make_restir<restir_pt>, LightSearch::any_length, Content::light, shared_samples},
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
-        {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_samples},
+        {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, shared_in_media},
         {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
         {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, shared_samples},
-        {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, shared_samples},
+        {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, shared_in_media},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
-        {vcm_spec(), make_vcm, LightSearch::photons, Content::light, shared_samples},
-        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light,
-         shared_samples | std::uint32_t(Ability::media)},
+        {vcm_spec(), make_vcm, LightSearch::photons, Content::light, shared_in_media},
+        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media},
         {automatic_spec(), make_automatic, LightSearch::any_length, Content::light, all_abilities}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};

@@ -19,6 +19,7 @@ struct LightEmission {
   Density<SolidAngle, F> direction;  // of d; 1 where delta_direction
   Mask<F> valid, delta_position, delta_direction;
   Mask<F> on_surface, both_sides;  // p is on a surface, which sends the same from its other side
+  Mask<F> behind;                  // of a surface: n is opposed to its orientation
 };
 
 // The densities with which a ray is drawn; 1 where there is no choice, as above.

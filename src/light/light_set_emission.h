@@ -33,6 +33,7 @@ LightEmission<F> LightSet::emit_surface(LightKind kind, const LightRows<F>& rows
   });
   r.delta_position = r.delta_direction = Mask<F>(false);
   r.on_surface = Mask<F>(true), r.both_sides = rows.flag(light_two_sided);
+  r.behind = r.both_sides & (u_direction.x >= F(0.5f));
   return r;
 }
 
@@ -124,7 +125,7 @@ LightEmission<F> LightSet::emit_point(LightKind kind, const LightRows<F>& rows, 
   r.position = {F(1.0f)};
   r.flux = r.radiance * (F(1.0f) / r.direction.value);
   r.valid = on & (r.direction.value > F(0.0f)) & is_finite(r.direction.value);
-  r.delta_position = Mask<F>(true), r.delta_direction = r.on_surface = r.both_sides = Mask<F>(false);
+  r.delta_position = Mask<F>(true), r.delta_direction = r.on_surface = r.both_sides = r.behind = Mask<F>(false);
   return r;
 }
 
@@ -139,7 +140,7 @@ template <class F>
 LightEmission<F> LightSet::emit_beyond(LightKind kind, const LightRows<F>& rows, Vec2<F> u_point, Vec2<F> u_direction,
                                        Mask<F> on) const {
   LightEmission<F> r{};
-  r.delta_position = r.on_surface = r.both_sides = Mask<F>(false);
+  r.delta_position = r.on_surface = r.both_sides = r.behind = Mask<F>(false);
   r.delta_direction = Mask<F>(kind == LightKind::distant);
   r.valid = on;
   if (kind == LightKind::distant) {
@@ -167,7 +168,7 @@ LightEmission<F> LightSet::emit(Uint<F> light, Vec2<F> u_point, Vec2<F> u_direct
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)}, up{F(0.0f), F(0.0f), F(1.0f)};
   const Spectrum<F> black = gray(F(0.0f));
   const Mask<F> none(false);
-  LightEmission<F> r{zero, zero, up, up, black, black, {F(1.0f)}, {F(1.0f)}, none, none, none, none, none};
+  LightEmission<F> r{zero, zero, up, up, black, black, {F(1.0f)}, {F(1.0f)}, none, none, none, none, none, none};
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
     const LightRows<F> row = rows<F>(light, m);
     const LightEmission<F> e = is_surface(kind)     ? emit_surface(kind, row, u_point, u_direction, m)
@@ -183,6 +184,7 @@ LightEmission<F> LightSet::emit(Uint<F> light, Vec2<F> u_point, Vec2<F> u_direct
     r.delta_position = r.delta_position | (good & e.delta_position);
     r.delta_direction = r.delta_direction | (good & e.delta_direction);
     r.on_surface = r.on_surface | (good & e.on_surface), r.both_sides = r.both_sides | (good & e.both_sides);
+    r.behind = r.behind | (good & e.behind);
   });
   return r;
 }

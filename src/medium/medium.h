@@ -65,6 +65,17 @@ class MediumSet {
     return HenyeyGreenstein<F>(gather(&rows_.data()->mean_cosine, at<F>(medium)));
   }
 
+  // The probability, averaged over the components, that a path goes this far without an event; 1 where the medium does
+  // not scatter, since paths pass there.
+  template <class F>
+  MONTELUX_INLINE F mean_passing(Uint<F> medium, F length) const {
+    const Spectrum<F> extinct = extinction<F>(medium);
+    F sum = F(0.0f);
+    for (int c = 0; c < spectrum_size; ++c)
+      sum = sum + select(extinct.c[c] > F(0.0f), attenuation(extinct.c[c] * length), F(1.0f));
+    return select(max_component(scattering<F>(medium)) > F(0.0f), sum * (1.0f / float(spectrum_size)), F(1.0f));
+  }
+
   // Radiance that the medium emits toward the start of a ray of this length: the closed form of its integral.
   template <class F>
   MONTELUX_INLINE Spectrum<F> emitted(Uint<F> medium, F length) const {

@@ -29,7 +29,8 @@ struct Scene::Content {
   Model film{"rgb"};
   PlacedModel camera{{"perspective"}, {}};
   std::optional<Model> filter, sampler, integrator;
-  std::vector<Model> materials;
+  std::vector<Model> materials, media;
+  std::optional<MediumId> camera_medium;
   std::vector<Texture> textures;
   std::vector<PlacedModel> lights;
   std::vector<Shape> shapes;

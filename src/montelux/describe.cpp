@@ -33,6 +33,7 @@ class Description {
   void take(Family family, const std::optional<Model>& model, Entity& target);
   std::optional<montelux::Transform> transform(const Transform& t, const SourceLocation& where);
   void add_shape(const Shape& shape, const SourceLocation& where);
+  std::optional<MediumDescId> medium(std::optional<MediumId> id, const SourceLocation& where);
   bool set_shape(const Entity& stated, ShapeDesc& desc);
   bool set_form(const Model& model, ShapeDesc& desc, const SourceLocation& where);
   bool set_form(const Mesh& mesh, ShapeDesc& desc, const SourceLocation& where);
@@ -163,6 +164,15 @@ bool Description::set_form(const Model& model, ShapeDesc& desc, const SourceLoca
   return has_faces;
 }
 
+std::optional<MediumDescId> Description::medium(std::optional<MediumId> id, const SourceLocation& where) {
+  if (!id) return std::nullopt;
+  if (std::size_t(*id) >= content_.media.size()) {
+    report_.error(where, "the medium is none of this scene");
+    return std::nullopt;
+  }
+  return MediumDescId(std::uint32_t(*id));
+}
+
 void Description::add_shape(const Shape& shape, const SourceLocation& where) {
   const Surface& surface = shape.surface;
   ShapeDesc desc{};
@@ -175,6 +185,7 @@ void Description::add_shape(const Shape& shape, const SourceLocation& where) {
   // Number 0 of a description is the default material.
   if (surface.material) desc.material = MaterialDescId(std::uint32_t(*surface.material) + 1);
   if (surface.area_light) desc.area_light = entity(Family::area_light, *surface.area_light, where);
+  desc.media = {medium(surface.media.inside, where), medium(surface.media.outside, where)};
   if (!surface.object) {
     if (good && place) desc_.shapes.push_back(std::move(desc));
     return;
@@ -211,6 +222,12 @@ ReadResult Description::make() {
     auto stated = entity(Family::material, content_.materials[i], part(name_of_material(i)));
     desc_.materials.push_back({name_of_material(i), stated.value_or(Entity{"diffuse", {}, {}})});
   }
+  for (std::size_t i = 0; i < content_.media.size(); ++i) {
+    const std::string name = "medium " + std::to_string(i);
+    auto stated = entity(Family::medium, content_.media[i], part(name));
+    desc_.media.push_back({name, stated.value_or(Entity{})});
+  }
+  desc_.camera_medium = medium(content_.camera_medium, part("camera"));
   for (std::size_t i = 0; i < content_.lights.size(); ++i) {
     const SourceLocation where = part("light " + std::to_string(i));
     auto stated = entity(Family::light, content_.lights[i].model, where);

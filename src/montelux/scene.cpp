@@ -33,6 +33,12 @@ MaterialId Scene::add_material(Model material) {
   return MaterialId(content_->materials.size() - 1);
 }
 
+MediumId Scene::add_medium(Model medium) {
+  content_->media.push_back(std::move(medium));
+  return MediumId(content_->media.size() - 1);
+}
+void Scene::set_camera_medium(std::optional<MediumId> medium) { content_->camera_medium = medium; }
+
 TextureId Scene::add_texture(TextureKind kind, Model texture, const Transform& texture_to_world) {
   content_->textures.push_back({kind, {std::move(texture), texture_to_world}});
   return TextureId(content_->textures.size() - 1);

@@ -20,6 +20,11 @@ struct Mesh {
   Parameters parameters{};                 // further ones of the shape "trianglemesh", as "alpha"
 };
 
+// The participating media on the two sides of a shape; none: empty space.
+struct MediumSides {
+  std::optional<MediumId> inside{}, outside{};  // outside is where the surface normal points
+};
+
 // How a shape looks, and where it is.
 struct Surface {
   std::optional<MaterialId> material{};  // default: diffuse of reflectance 0.5
@@ -27,6 +32,7 @@ struct Surface {
   Transform object_to_world{};           // of a part of an object: to that object's space
   bool reverse_orientation = false;      // the normal points to the other side
   std::optional<ObjectId> object{};      // the shape is a part of that object, and is seen where the object is placed
+  MediumSides media{};                   // a shape of material "interface" bounds media and does not scatter
 };
 
 enum class TextureKind { number, color };
@@ -52,6 +58,10 @@ class Scene {
   void set_integrator(Model integrator);  // default: "path"
 
   MaterialId add_material(Model material);
+  // A participating medium ("homogeneous"); its coefficients are per unit of length of the world.
+  MediumId add_medium(Model medium);
+  // The medium in which the camera stands; default: empty space.
+  void set_camera_medium(std::optional<MediumId> medium);
   // Of numbers or of colours, by what its values are.
   TextureId add_texture(TextureKind kind, Model texture, const Transform& texture_to_world = {});
   void add_light(Model light, const Transform& light_to_world = {});

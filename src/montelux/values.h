@@ -43,6 +43,7 @@ struct Blackbody {
 
 // Parts of one Scene, as its functions return them.
 enum class MaterialId : std::uint32_t {};
+enum class MediumId : std::uint32_t {};
 enum class TextureId : std::uint32_t {};
 enum class ObjectId : std::uint32_t {};
 

@@ -70,10 +70,6 @@ PictureSettings picture_settings(const SceneDesc& scene, std::optional<std::pair
   s.pixel_centres = scene.sampling.pixel_centres;
   s.integrator = with_settings(scene.integrator);
   s.max_depth = scene.integrator.max_depth, s.light_selection = scene.integrator.light_selection;
-  if (s.integrator == "bdpt" && !scene.media.empty()) {
-    s.integrator = "path";
-    diagnostics.note(scene.integrator.where, "bdpt cannot cross participating media: replaced by 'path'");
-  }
   return s;
 }
 

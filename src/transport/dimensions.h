@@ -42,6 +42,9 @@ inline constexpr std::uint32_t lobe = 4;              // 1
 inline constexpr std::uint32_t roulette = 5;          // 1
 inline constexpr std::uint32_t own = 6;               // a stream, for mixtures and models that walk
 inline constexpr std::uint32_t per_vertex = 8;
+// 2: along the segment that leads to the vertex, in a medium; those of crossings follow as they do in paths from the
+// camera.
+inline constexpr std::uint32_t distance = path_dimension::per_crossing;
 
 }  // namespace light_dimension
 

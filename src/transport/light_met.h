@@ -11,6 +11,7 @@ struct MetLight {
   Uint<F> number;
   Vec3<F> p, n;  // n: unit, on the side of the surface's orientation
   Mask<F> on;
+  F passing = F(1.0f);  // probability of no event on the way, as MediumSet::mean_passing
 };
 // A weight of light that is met depends on the density with which light sampling would have found it; it may ask for
 // the light, too.
@@ -42,10 +43,10 @@ MONTELUX_INLINE void for_each_sky_light(const LightSet& lights, const ReferenceP
 // sampling at `from` would have drawn d. sink(on, light, number, technique) receives each.
 template <class F, class Weight, class Sink>
 Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, const Vec3<F>& d, Mask<F> on,
-                      Weight weight, Sink sink) {
+                      Weight weight, Sink sink, F passing = F(1.0f)) {
   Spectrum<F> sum = gray(F(0.0f));
   for_each_sky_light<F>(lights, from, d, on, [&](const LightHit<F>& sky, const Uint<F>& number) {
-    const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on});
+    const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on, passing});
     const Spectrum<F> light = select(on, from.media.left(F(ray_infinity)) * sky.radiance * share, gray(F(0.0f)));
     sum += light;
     sink(on, light, number, Technique::environment);

@@ -20,6 +20,8 @@ struct StoredSurface {
     return scattered_from_local(frame.to_local(wo), wi, on);
   }
   Boundary<F> boundary() const { return {kind, slots, ng, frame}; }
+  // A point of a medium has no normal.
+  Mask<F> in_medium() const { return length_squared(ng) == F(0.0f); }
 
  protected:
   BsdfValue<F> scattered_from_local(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {
@@ -55,6 +57,17 @@ struct StoredVertex : StoredSurface<F> {
     return shadow_ray(this->p, p_error, this->ng, wi, distance, time);
   }
 };
+
+// f |cos| for light from wi that is scattered along wo (local), and its density, with the numbers of a context.
+template <class F, bool in_media = false>
+BsdfValue<F> evaluate_at(const Scene& scene, const StoredVertex<F>& v, const Vec3<F>& wo, const Vec3<F>& wi,
+                         const BsdfContext<F>& context, Mask<F> on) {
+  if constexpr (!in_media) return evaluate<F>(BsdfLanes<F>{v.kind, &v.slots, on}, wo, wi, context);
+  const Mask<F> in_medium = v.in_medium();
+  BsdfValue<F> value = evaluate<F>(BsdfLanes<F>{v.kind, &v.slots, Mask<F>(on & !in_medium)}, wo, wi, context);
+  put_phase_value(on & in_medium, scene.media.phase<F>(v.media.medium), wo, wi, value);
+  return value;
+}
 
 template <class F>
 StoredVertex<F> stored(const Vertex<F>& v) {

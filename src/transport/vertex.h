@@ -118,13 +118,27 @@ MONTELUX_INLINE Scattering<F> scatter_at(const Scene& scene, const Vertex<F>& v,
   put_phase_scattering(on & v.in_medium, scene.media.phase<F>(v.media.along_wo().medium), query, s);
   return s;
 }
-// The value and the density for light from wi (local).
+// The value and the density for light from wi that is scattered along wo (local), with the numbers of a context.
+template <class F, bool in_media = false>
+MONTELUX_INLINE BsdfValue<F> evaluate_at(const Scene& scene, const Vertex<F>& v, const Vec3<F>& wo, const Vec3<F>& wi,
+                                         const BsdfContext<F>& context, Mask<F> on) {
+  if constexpr (!in_media) return evaluate<F>(v.bsdf.lanes(on), wo, wi, context);
+  BsdfValue<F> value = evaluate<F>(v.bsdf.lanes(on & !v.in_medium), wo, wi, context);
+  put_phase_value(on & v.in_medium, scene.media.phase<F>(v.media.along_wo().medium), wo, wi, value);
+  return value;
+}
+// Along the vertex's own wo.
 template <class F, bool in_media = false>
 MONTELUX_INLINE BsdfValue<F> evaluate_at(const Scene& scene, const Vertex<F>& v, const Vec3<F>& wi, Mask<F> on) {
-  if constexpr (!in_media) return evaluate<F>(v.bsdf.lanes(on), v.wo, wi, v.context);
-  BsdfValue<F> value = evaluate<F>(v.bsdf.lanes(on & !v.in_medium), v.wo, wi, v.context);
-  put_phase_value(on & v.in_medium, scene.media.phase<F>(v.media.along_wo().medium), v.wo, wi, value);
-  return value;
+  return evaluate_at<F, in_media>(scene, v, v.wo, wi, v.context, on);
+}
+// |cos| of a unit direction of the world with the geometric normal, as densities per area take it; 1 in a medium, where
+// they are per volume.
+template <class F, bool in_media = false>
+MONTELUX_INLINE F area_cosine(const Vertex<F>& v, const Vec3<F>& w) {
+  const F cosine = abs(dot(v.x.point.ng, w));
+  if constexpr (!in_media) return cosine;
+  return select(v.in_medium, F(1.0f), cosine);
 }
 
 }  // namespace montelux

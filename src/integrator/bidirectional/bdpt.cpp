@@ -8,16 +8,19 @@ namespace montelux {
 
 namespace {
 
-template <class F>
+// `in_media`: the scene has participating media.
+template <class F, bool in_media>
 class BdptChain final : public Chain {
  public:
   // What is referred to must outlive the chain.
   BdptChain(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths,
-            const std::optional<AliasTable>& by_power, const ChainPass& pass)
+            const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+            const ChainPass& pass)
       : scene_(scene),
         accel_(accel),
         paths_(paths),
         by_power_(by_power),
+        light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter),
@@ -50,11 +53,12 @@ class BdptChain final : public Chain {
                       StrategyWeights(paths_.mis == BidirectionalMis::power),
                       one_sided_,
                       plane_,
-                      std::uint32_t(pass_.bounds.area())};
+                      std::uint32_t(pass_.bounds.area()),
+                      light_media_ ? &*light_media_ : nullptr};
     RayCounts counts;
-    const LightVertices light = light_vertices<F>(frame, tile, Splatting::on, counts);
+    const LightVertices light = light_vertices<F, AdjointCorrection, in_media>(frame, tile, Splatting::on, counts);
     std::vector<PixelSample> samples(std::size_t(tile.area()));
-    counts += EyeSubpaths<F, Frame>(frame, light).run(tile, samples);
+    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light).run(tile, samples);
     for (int y = tile.y0; y < tile.y1; ++y)
       std::copy_n(samples.begin() + std::ptrdiff_t(y - tile.y0) * tile.width(), tile.width(),
                   samples_.begin() + std::ptrdiff_t(pixel_number(tile.x0, y)));
@@ -65,6 +69,7 @@ class BdptChain final : public Chain {
   const Accel& accel_;
   const BidirectionalPaths& paths_;
   const std::optional<AliasTable>& by_power_;
+  const std::optional<LightMedia>& light_media_;
   const ChainPass pass_;
   const bool one_sided_;
   SplatPlane plane_;
@@ -76,11 +81,17 @@ class BdptChain final : public Chain {
 BdptIntegrator::BdptIntegrator(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths)
     : scene_(scene), accel_(accel), paths_(paths) {
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  light_media_ = light_media(scene, accel);
 }
 
 std::unique_ptr<Chain> BdptIntegrator::begin(const ChainPass& pass) const {
-  if (paths_.lanes == Lanes::one) return std::make_unique<BdptChain<float>>(scene_, accel_, paths_, by_power_, pass);
-  return std::make_unique<BdptChain<NativeFloats>>(scene_, accel_, paths_, by_power_, pass);
+  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<Chain> {
+    return std::make_unique<BdptChain<F, in_media>>(scene_, accel_, paths_, by_power_, light_media_, pass);
+  };
+  const bool one = paths_.lanes == Lanes::one;
+  if (!scene_.media.empty())
+    return one ? make.template operator()<float, true>() : make.template operator()<NativeFloats, true>();
+  return one ? make.template operator()<float, false>() : make.template operator()<NativeFloats, false>();
 }
 
 }  // namespace montelux

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "integrator/bidirectional/settings.h"
 #include "integrator/integrator.h"
+#include "integrator/light_paths/light_media.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -25,7 +26,8 @@ class BdptIntegrator final : public CoupledIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   BidirectionalPaths paths_;
-  std::optional<AliasTable> by_power_;  // none: there is no light
+  std::optional<AliasTable> by_power_;     // none: there is no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
 };
 
 }  // namespace montelux

@@ -4,15 +4,19 @@
 #include "integrator/first_vertex.h"
 #include "integrator/photons/lookup.h"
 #include "mc/roulette.h"
+#include "transport/transmittance.h"
 #include "transport/visibility.h"
 
 namespace montelux {
 
+// Of the stream of a vertex of the eye's subpath: for the connections with a light, and with a vertex from the lights.
+inline constexpr std::uint32_t light_stream = 0x1b873593u, connection_stream = 0x3c6ef372u;
+
 // One subpath from each pixel of a tile, one a lane, by the same plan of numbers as `path`. Its strategies: it meets a
 // light; a vertex is connected with a point of a light; a vertex is connected with each vertex of the pixel's own
 // subpath from the lights, or merged with those of all such subpaths. `Correction` is AdjointCorrection, but in tests
-// that plant a fault.
-template <class F, class Frame, class Correction = AdjointCorrection>
+// that plant a fault. `in_media`: the scene has participating media, in which vertices are connected but not merged.
+template <class F, class Frame, class Correction = AdjointCorrection, bool in_media = false>
 class EyeSubpaths {
  public:
   using U = Uint<F>;
@@ -37,8 +41,13 @@ class EyeSubpaths {
   // A vertex of the eye's subpath that is not a delta, as strategies see it.
   struct Here {
     const NextVertex<F>& at;
-    const BsdfContext<F>& context;
     M rough;
+  };
+  // What reaches the vertex of the light from one point, and the probability of passing the media on the way.
+  struct Arriving {
+    Spectrum<F> left;
+    F passing;
+    M on;
   };
 
   F weight_of_hit(const PathState<F>& path, Density<SolidAngle, F> sampled, const MetLight<F>& met) const {
@@ -46,9 +55,9 @@ class EyeSubpaths {
     if (!frame_.paths.connect) return select(only_smooth_, F(1.0f), F(0.0f));
     const M shared = met.on & !seen;
     if (!any(shared)) return F(1.0f);
-    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {met.number, met.p, met.n, shared}, -path.d,
+    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {met.number, met.p, met.n, shared, met.passing}, -path.d,
                                          length_squared(met.p - path.p), sampled);
-    return select(shared, frame_.weights.met(weights_, end), F(1.0f));
+    return select(shared, frame_.weights.met(weights_, end, met.passing), F(1.0f));
   }
 
   // One vertex of every path; gives the lanes that continue.
@@ -60,18 +69,26 @@ class EyeSubpaths {
     const auto weight = [&](const Density<SolidAngle, F>& sampled, const MetLight<F>& met) {
       return weight_of_hit(path, sampled, met);
     };
-    const NextVertex<F> at =
-        follow_ray<F>(scene_, frame_.rays, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time},
-                      path.hit, on, sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight);
+    const auto follow = [&](const auto& distances) {
+      return follow_ray<F>(
+          scene_, frame_.rays, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
+          sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, NoSink{}, distances);
+    };
+    NextVertex<F> at = [&] {
+      if constexpr (in_media)
+        return follow(
+            MediumDistances<F, Sampler<F>>{sampler, dimension + U(path_dimension::distance), path.throughput});
+      else
+        return follow(NoDistances{});
+    }();
     path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     arrive(path, at, sampler, first);
 
     M scatters = on & at.found;
     if (frame_.paths.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*frame_.paths.max_depth)));
-    BsdfContext<F> context = at.context;
-    context.densities = Densities::exact;
-    const Here here{at, context, M(scatters & !at.bsdf.is_delta)};
+    at.context.densities = Densities::exact;
+    const Here here{at, M(scatters & !at.bsdf.is_delta)};
 
     // A point of a light, and a direction.
     const LightSet& lights = scene_.lights;
@@ -84,17 +101,17 @@ class EyeSubpaths {
         wants_light & choice.valid);
     const LightPointView<F> view =
         lights.template view<F>(draw.point, from.p, from.n, wants_light & choice.valid & draw.valid);
-    const Scattering<F> scattered = scatter<F>(
-        at.bsdf.lanes(scatters),
+    const Scattering<F> scattered = scatter_at<F, in_media>(
+        scene_, at,
         {at.wo, at.bsdf.frame.to_local(view.wi), view.valid, sampler.get1(dimension + U(path_dimension::lobe)),
          sampler.get2(dimension + U(path_dimension::direction))},
-        context);
+        scatters);
     const BsdfSample<F>& next = scattered.next;
     if (any(first & at.found))
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, M(first & at.found), out);
     if (any(view.valid)) connect_light(path, here, draw, choice.mass * draw.density, view, scattered.toward_light);
     if (frame_.paths.connect && frame_.by_power) connect_subpath(path, here);
-    if (photons_ && any(here.rough)) merge(path, here);
+    if (photons_) merge(path, at, here.rough & !at.in_medium);
 
     // Scatter; roulette.
     M moves = scatters & next.valid;
@@ -110,8 +127,9 @@ class EyeSubpaths {
     moves = moves & survival.survives;
     path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
     const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
-    const BothDensities<F> both{next.density, reverse_density(here, next.wi, M(moves & !next.delta))};
-    const PartialWeights<F> onward = frame_.weights.scatter(weights_, both, abs(dot(at.x.point.ng, wi)), next.delta);
+    const BothDensities<F> both = densities(at, next.wi, next.density, M(moves & !next.delta));
+    const PartialWeights<F> onward =
+        frame_.weights.scatter(weights_, both, area_cosine<F, in_media>(at, wi), next.delta);
     weights_ = select_weights(moves, onward, weights_);
     only_smooth_ = only_smooth_ & (next.delta | !moves);
     path.media = select_media<F>(moves, at.media_toward(wi), path.media);
@@ -122,42 +140,57 @@ class EyeSubpaths {
     counts_.scattered += std::uint64_t(count(moves));
     const auto [found, hit] = frame_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
-    if (const M escapes = moves & !found; any(escapes))
-      path.radiance +=
-          path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
-    const M ended = on & !(moves & found);
+    if constexpr (!in_media)
+      if (const M escapes = moves & !found; any(escapes))
+        path.radiance +=
+            path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+    // In media a ray that meets no surface may still scatter.
+    const M ended = on & !(in_media ? moves : moves & found);
     const Spectrum<F> radiance = path.radiance * path.weight;
     for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
     return on & !ended;
   }
 
   void arrive(const PathState<F>& path, const NextVertex<F>& at, const Sampler<F>& sampler, M first) {
-    const F cos = abs(dot(at.x.point.ng, at.d));
-    weights_ = frame_.weights.arrive(weights_, length_squared(at.x.point.p - path.p), cos);
+    const F cos = area_cosine<F, in_media>(at, at.d);
+    weights_ = frame_.weights.arrive(weights_, length_squared(at.x.point.p - path.p), cos, at.passing);
     if (!any(first)) return;
     const LensConnection<F> lens = scene_.camera.toward(at.x.point.p, sampler.get2(U(path_dimension::lens)), path.time);
-    weights_ = select_weights(first, frame_.weights.first_from_lens(lens.across, cos, frame_.splat_paths()), weights_);
+    weights_ = select_weights(first, frame_.weights.first_from_lens(lens.across, cos, frame_.splat_paths(), at.passing),
+                              weights_);
   }
-  // Of the direction in which the path came, drawn from the local wi.
-  Density<SolidAngle, F> reverse_density(const Here& here, const Vec3<F>& wi, M on) const {
-    if (!any(on)) return {F(0.0f)};
-    return evaluate<F>(here.at.bsdf.lanes(on), wi, here.at.wo, here.context).density;
+  // Of the local wi, drawn with that density, and of the direction in which the path came, drawn from wi.
+  BothDensities<F> densities(const NextVertex<F>& at, const Vec3<F>& wi, Density<SolidAngle, F> forward, M on) const {
+    if (!any(on)) return {forward, {F(0.0f)}, !at.in_medium};
+    return {forward, evaluate_at<F, in_media>(scene_, at, wi, at.wo, at.context, on).density, !at.in_medium};
+  }
+  // From a point at that distance along wi, where nothing is in between.
+  Arriving arriving(const NextVertex<F>& at, const Vec3<F>& wi, F distance, M on, std::uint32_t stream) {
+    const Ray<F> ray = at.shadow_ray_to(wi, distance);
+    if constexpr (in_media) {
+      const Transmitted<F> seen = transmitted(scene_, frame_.rays, ray, at.media_toward(wi), on,
+                                              at.context.random.fork(U(stream)), counts_.shadow);
+      return {seen.left, seen.passing, M(on & !is_black(seen.left))};
+    } else {
+      return {at.left_of_light(wi, distance), F(1.0f), unblocked<F>(frame_.rays, ray, on, counts_.shadow)};
+    }
   }
 
   // Next-event estimation.
   void connect_light(PathState<F>& path, const Here& here, const LightPointDraw<F>& draw,
                      const Density<SolidAngle, F>& density, const LightPointView<F>& view, const BsdfValue<F>& value) {
     const NextVertex<F>& at = here.at;
-    Spectrum<F> light = path.throughput * value.f_cos * view.radiance * at.left_of_light(view.wi, view.distance) *
-                        (F(1.0f) / density.value);
-    const M arrives = view.valid & (max_component(light) > F(0.0f));
-    if (!any(arrives)) return;
-    const BothDensities<F> both{value.density, reverse_density(here, at.bsdf.frame.to_local(view.wi), arrives)};
-    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, arrives},
+    const Spectrum<F> light = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
+    const M queries = view.valid & (max_component(light) > F(0.0f));
+    if (!any(queries)) return;
+    const Arriving seen = arriving(at, view.wi, view.distance, queries, light_stream);
+    if (!any(seen.on)) return;
+    const BothDensities<F> both = densities(at, at.bsdf.frame.to_local(view.wi), value.density, seen.on);
+    const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, seen.on},
                                          -view.wi, view.distance * view.distance, density);
-    light = light * frame_.weights.light_sample(weights_, end, both, abs(dot(at.x.point.ng, view.wi)));
-    const M lit = unblocked<F>(frame_.rays, at.shadow_ray_to(view.wi, view.distance), arrives, counts_.shadow);
-    path.radiance += select(lit, light, gray(F(0.0f)));
+    const F weight =
+        frame_.weights.light_sample(weights_, end, both, area_cosine<F, in_media>(at, view.wi), seen.passing);
+    path.radiance += select(seen.on, light * seen.left * weight, gray(F(0.0f)));
   }
 
   // Every vertex of the pixel's subpath from the lights.
@@ -178,42 +211,48 @@ class EyeSubpaths {
     const F squared = max(length_squared(way), F(1e-30f)), distance = sqrt(squared);
     const Vec3<F> wi = way * (F(1.0f) / distance);
     const Vec3<F> eye_wi = at.bsdf.frame.to_local(wi), light_wi = y.frame.to_local(-wi);
-    BsdfContext<F> eye_context = here.context;
-    eye_context.random = here.context.random.fork(U(0x3c6ef372u) + y.events);
-    const BsdfValue<F> eye = evaluate<F>(at.bsdf.lanes(on), at.wo, eye_wi, eye_context);
+    BsdfContext<F> eye_context = at.context;
+    eye_context.random = at.context.random.fork(U(connection_stream) + y.events);
+    const BsdfValue<F> eye = evaluate_at<F, in_media>(scene_, at, at.wo, eye_wi, eye_context, on);
     on = on & !is_black(eye.f_cos);
     if (!any(on)) return;
     const BsdfContext<F> light_context{TransportMode::importance, y.random, on, Densities::exact};
-    const BsdfLanes<F> light_lanes{y.kind, &y.slots, on};
-    const BsdfValue<F> light = evaluate<F>(light_lanes, y.wo, light_wi, light_context);
-    const F cos_eye = abs(dot(at.x.point.ng, wi)), ng_out = dot(y.ng, -wi);
-    const F ng_in = -dot(y.ng, y.frame.to_world(y.wo));
-    const F correction = Correction()(y.wo, ng_in, light_wi, ng_out);
-    Spectrum<F> value =
-        path.throughput * eye.f_cos * y.flux * light.f_cos * at.left_of_light(wi, distance) * (correction / squared);
+    const BsdfValue<F> light = evaluate_at<F, in_media>(scene_, y, y.wo, light_wi, light_context, on);
+    const F ng_out = dot(y.ng, -wi), ng_in = -dot(y.ng, y.frame.to_world(y.wo));
+    F correction = Correction()(y.wo, ng_in, light_wi, ng_out), cos_light = abs(ng_out);
+    M y_in_medium(false);
+    if constexpr (in_media) {
+      y_in_medium = y.in_medium();
+      correction = select(y_in_medium, F(1.0f), correction), cos_light = select(y_in_medium, F(1.0f), cos_light);
+    }
+    const Spectrum<F> value = path.throughput * eye.f_cos * y.flux * light.f_cos * (correction / squared);
     on = on & (max_component(value) > F(0.0f));
     if (!any(on)) return;
-    const BothDensities<F> at_eye{eye.density, reverse_density(here, eye_wi, on)};
-    const BothDensities<F> at_light{light.density, evaluate<F>(light_lanes, light_wi, y.wo, light_context).density};
-    value = value * frame_.weights.connection(weights_, at_eye, cos_eye, y.weights, at_light, abs(ng_out), squared);
-    on = on & (max_component(value) > F(0.0f));
-    const M lit = unblocked<F>(frame_.rays, at.shadow_ray_to(wi, distance), on, counts_.shadow);
-    path.radiance += select(lit, value, gray(F(0.0f)));
+    const Arriving seen = arriving(at, wi, distance, on, connection_stream);
+    on = seen.on;
+    if (!any(on)) return;
+    const BothDensities<F> at_eye = densities(at, eye_wi, eye.density, on);
+    const BothDensities<F> at_light{
+        light.density, evaluate_at<F, in_media>(scene_, y, light_wi, y.wo, light_context, on).density, !y_in_medium};
+    const F weight = frame_.weights.connection(weights_, at_eye, area_cosine<F, in_media>(at, wi), y.weights, at_light,
+                                               cos_light, squared, seen.passing);
+    path.radiance += select(on, value * seen.left * weight, gray(F(0.0f)));
   }
 
   // Vertices of all subpaths from the lights that lie within the radius.
-  void merge(PathState<F>& path, const Here& here) {
+  void merge(PathState<F>& path, const NextVertex<F>& at, M on) {
+    if (!any(on)) return;
     const U room = U(frame_.paths.max_depth ? std::uint32_t(*frame_.paths.max_depth) - 1u : 0x7fffffffu) - path.depth;
     const auto* words = reinterpret_cast<const float*>(frame_.photons->weights());
     const Spectrum<F> light =
-        photons_->template radiance<F>(here.at, here.context, here.rough, [&](const FoundPhoton<F>& photon, M on) {
-          on = on & (photon.events <= room);
+        photons_->template radiance<F>(at, at.context, on, [&](const FoundPhoton<F>& photon, M counted) {
+          counted = counted & (photon.events <= room);
           const U word = photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
           const PartialWeights<F> y{gather(words, word), F(0.0f), gather(words + 1, word)};
-          const BothDensities<F> both{photon.density, reverse_density(here, photon.wi, on)};
-          return select(on, frame_.weights.merging(weights_, y, both), F(0.0f));
+          const BothDensities<F> both = densities(at, photon.wi, photon.density, counted);
+          return select(counted, frame_.weights.merging(weights_, y, both), F(0.0f));
         });
-    path.radiance += select(here.rough, path.throughput * light, gray(F(0.0f)));
+    path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
   }
 
   const Frame& frame_;

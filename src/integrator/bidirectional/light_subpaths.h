@@ -25,6 +25,7 @@ struct BidirectionalFrame {
   bool one_sided;  // some surface is not there for camera rays that meet its back
   SplatPlane& plane;
   std::uint32_t light_path_count;      // at least one for each pixel, or cell: the first ones belong to these
+  const LightMedia* light_media;       // null: the scene has no participating media
   const PhotonMap* photons = nullptr;  // to be merged with the eye's vertices; null: none are
   PhotonKernel kernel = PhotonKernel::epanechnikov;
 
@@ -91,7 +92,7 @@ struct LightVertexView {
   const LightPathVertex<F>& vertex;
   const PartialWeights<F>& weights;
 };
-template <class F, class Frame, class Correction, class Store>
+template <class F, class Frame, class Correction, class Store, bool in_media>
 class LightSubpathSink {
  public:
   using U = Uint<F>;
@@ -141,23 +142,24 @@ class LightSubpathSink {
     const NextVertex<F>& at = v.at;
     const LensConnection<F>& lens = query.lens;
     const F ng_out = dot(at.x.point.ng, lens.d);
-    const F correction = Correction()(at.wo, v.ng_in, query.toward, ng_out);
-    Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
+    const F correction = adjoint_correction<F, Correction, in_media>(v, query.toward, ng_out);
+    const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
     const M lit = query.on & !is_black(light);
     if (!any(lit)) return;
-    const Density<SolidAngle, F> reverse = evaluate<F>(at.bsdf.lanes(lit), query.toward, at.wo, v.context).density;
-    light = light * frame_.weights.lens(weights_, reverse, lens.across, abs(ng_out), frame_.splat_paths());
+    const BothDensities<F> both{value.density, reverse_density(at, query.toward, lit), !at.in_medium};
+    const F cos = area_cosine<F, in_media>(at, lens.d);
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
                    v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-                  light, lit);
+                  light, lit, [&](const F& passing) {
+                    return frame_.weights.lens(weights_, both, lens.across, cos, frame_.splat_paths(), passing);
+                  });
   }
   void scatter(const LightPathVertex<F>& v, const BsdfSample<F>& next, M on) {
     const NextVertex<F>& at = v.at;
-    const Density<SolidAngle, F> reverse =
-        evaluate<F>(at.bsdf.lanes(on & !next.delta), next.wi, at.wo, v.context).density;
-    const F cos = abs(dot(at.x.point.ng, at.bsdf.frame.to_world(next.wi)));
-    weights_ = select_weights(on, frame_.weights.scatter(weights_, {next.density, reverse}, cos, next.delta), weights_);
+    const BothDensities<F> both{next.density, reverse_density(at, next.wi, on & !next.delta), !at.in_medium};
+    const F cos = area_cosine<F, in_media>(at, at.bsdf.frame.to_world(next.wi));
+    weights_ = select_weights(on, frame_.weights.scatter(weights_, both, cos, next.delta), weights_);
   }
   // It shows in the first pixel of the picture.
   void broken(F value, const PathSite<F>&, M on) {
@@ -166,25 +168,30 @@ class LightSubpathSink {
   }
 
  private:
+  // Of the direction in which the path came, drawn from the local wi.
+  Density<SolidAngle, F> reverse_density(const NextVertex<F>& at, const Vec3<F>& wi, M on) const {
+    return evaluate_at<F, in_media>(frame_.scene, at, wi, at.wo, at.context, on).density;
+  }
   void arrive(const LightPathVertex<F>& v, M on) {
     const NextVertex<F>& at = v.at;
-    const F cos = abs(v.ng_in);
+    const F cos = area_cosine<F, in_media>(at, at.d);
     const M first = on & (v.path.depth == U(0u));
-    weights_ = select_weights(on, frame_.weights.arrive(weights_, at.distance * at.distance, cos), weights_);
+    weights_ =
+        select_weights(on, frame_.weights.arrive(weights_, at.distance * at.distance, cos, at.passing), weights_);
     if (!any(first)) return;
     const LightSet& lights = frame_.scene.lights;
     const Density<SolidAngle, F> sampled =
         lights.template sampling_density<F>(light_, at.x.point.p, at.bsdf.light_normal, p_, -at.d, first);
     const LightEnd<F> end =
         light_end<F>(frame_.path_lights(), {light_, p_, n_, first}, at.d, at.distance * at.distance, sampled);
-    weights_ = select_weights(first, frame_.weights.first_from_light(end, cos), weights_);
+    weights_ = select_weights(first, frame_.weights.first_from_light(end, cos, at.passing), weights_);
   }
 
   const Frame& frame_;
   Store store_;
   const bool splats_;
   const float scale_;
-  LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>> lens_;
+  LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>, in_media> lens_;
   // Of the paths at hand: the light, where they left it, and the weights so far.
   U light_ = U(0u);
   Vec3<F> p_{}, n_{};
@@ -195,8 +202,10 @@ class LightSubpathSink {
 enum class Splatting { on, off };
 
 // Follows subpaths from the lights, by their numbers number_of(i) for i below `count`; store(LightVertexView, on)
-// receives their vertices. `Correction` is AdjointCorrection, but in tests that plant a fault.
-template <class F, class Correction = AdjointCorrection, class Rays, class Weights, class NumberOf, class Store>
+// receives their vertices. `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene
+// has participating media.
+template <class F, class Correction = AdjointCorrection, bool in_media = false, class Rays, class Weights,
+          class NumberOf, class Store>
 void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, std::uint32_t count, NumberOf number_of,
                            Splatting splatting, RayCounts& counts, Store store) {
   if (!frame.by_power) return;
@@ -208,16 +217,17 @@ void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, std::
                                   {},
                                   frame.paths.max_depth,
                                   frame.paths.roulette_depth,
-                                  Densities::exact};
-  using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store>;
+                                  Densities::exact,
+                                  frame.light_media};
+  using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store, in_media>;
   Sink sink(frame, store, splatting == Splatting::on && frame.splat_paths() > 0, counts);
-  LightWalk<F, Rays, Sink, Correction>(walk, sink, counts).run(count, [&](std::uint32_t i) {
+  LightWalk<F, Rays, Sink, Correction, in_media>(walk, sink, counts).run(count, [&](std::uint32_t i) {
     return PathSite<float>{0, 0, number_of(i)};
   });
 }
 
 // Keeps them, to be connected with the paths from the eye of the same tile.
-template <class F, class Correction = AdjointCorrection, class Rays, class Weights>
+template <class F, class Correction = AdjointCorrection, bool in_media = false, class Rays, class Weights>
 LightVertices light_vertices(const BidirectionalFrame<Rays, Weights>& frame, const PixelBounds& tile,
                              Splatting splatting, RayCounts& counts) {
   LightVertices all(tile.area());
@@ -238,7 +248,8 @@ LightVertices light_vertices(const BidirectionalFrame<Rays, Weights>& frame, con
       all.add(std::uint32_t(y * tile.width() + x), one);
     });
   };
-  follow_light_subpaths<F, Correction>(frame, std::uint32_t(tile.area()), number_of, splatting, counts, store);
+  follow_light_subpaths<F, Correction, in_media>(frame, std::uint32_t(tile.area()), number_of, splatting, counts,
+                                                 store);
   return all;
 }
 

@@ -40,9 +40,16 @@ template <class F>
 struct BothDensities {
   Density<SolidAngle, F> forward;  // of the direction that leads on
   Density<SolidAngle, F> reverse;  // of the direction in which the subpath came
+  Mask<F> merges = Mask<F>(true);  // the vertex may be merged with others: it is on a surface
 };
 
-// All cosines are those of geometric normals, absolute.
+// All cosines are those of geometric normals, absolute; 1 at vertices in media, whose densities are per volume.
+//
+// In media a subpath also draws the distance to its next vertex. The extinction there is a factor of both draws of a
+// vertex and cancels, and the transmittance of a segment is a factor of every strategy but the one that connects its
+// ends. So what is relative to a connection along one segment counts with the probability `passing` of no event along
+// it, and the connection itself, as seen from other strategies, with one over it. `passing` is averaged over colour
+// components: any function of the path gives weights that sum to one.
 class StrategyWeights {
  public:
   // `power`: mis(x) = x^2. `merges`: the number of light paths that merge with a vertex times the area over which they
@@ -57,16 +64,17 @@ class StrategyWeights {
   // The first vertex behind the lens, which sees so many pixels per area across the segment; each pixel has one path
   // from the eye, and `light_paths` are connected with the lens (0: none).
   template <class F>
-  PartialWeights<F> first_from_lens(Density<Area, F> pixels, F cos, float light_paths) const {
-    return {mis(F(light_paths) / (pixels.value * not_zero(cos))), F(0.0f), F(0.0f)};
+  PartialWeights<F> first_from_lens(Density<Area, F> pixels, F cos, float light_paths, F passing = F(1.0f)) const {
+    return {limited(mis(F(light_paths) / (pixels.value * not_zero(cos))) * unless_it_passes(passing)), F(0.0f),
+            F(0.0f)};
   }
   // The first vertex behind a light.
   template <class F>
-  PartialWeights<F> first_from_light(const LightEnd<F>& end, F cos) const {
+  PartialWeights<F> first_from_light(const LightEnd<F>& end, F cos, F passing = F(1.0f)) const {
     const F drawn = F(1.0f) / max(end.emitted.value * not_zero(cos), F(1e-30f));
     const F by_light_sampling = end.sampled.value * select(end.delta, F(1.0f), end.solid_angle);
     const F vc = select(end.delta, F(0.0f), mis(end.solid_angle * drawn));
-    return limited(PartialWeights<F>{mis(by_light_sampling * drawn), vc, vc * connecting_});
+    return limited(PartialWeights<F>{mis(by_light_sampling * drawn) * unless_it_passes(passing), vc, vc * connecting_});
   }
   // The subpath leaves a vertex in a direction whose cosine is `cos`; where the event is a delta, the densities do not
   // matter. What is returned is to be given to arrive().
@@ -74,48 +82,51 @@ class StrategyWeights {
   PartialWeights<F> scatter(const PartialWeights<F>& w, const BothDensities<F>& p, F cos, Mask<F> delta) const {
     const F drawn = F(1.0f) / max(p.forward.value, F(1e-30f));
     const F onward = mis(cos * drawn), straight = mis(cos);
-    const F merged = limited(w.vm * mis(p.reverse.value) + w.vcm * connecting_ + F(1.0f));
+    const F here = select(p.merges, F(1.0f), F(0.0f));
+    const F merged = limited(w.vm * mis(p.reverse.value) + w.vcm * connecting_ + here);
     return limited(PartialWeights<F>{select(delta, F(0.0f), mis(drawn)),
-                                     select(delta, w.vc * straight, onward * behind(w, p.reverse)),
+                                     select(delta, w.vc * straight, onward * behind(w, p)),
                                      select(delta, w.vm * straight, onward * merged)});
   }
   // The subpath arrives at the next vertex.
   template <class F>
-  PartialWeights<F> arrive(const PartialWeights<F>& w, F distance_squared, F cos) const {
+  PartialWeights<F> arrive(const PartialWeights<F>& w, F distance_squared, F cos, F passing = F(1.0f)) const {
     const F over_cos = mis(F(1.0f) / not_zero(cos));
-    return limited(PartialWeights<F>{w.vcm * mis(distance_squared) * over_cos, w.vc * over_cos, w.vm * over_cos});
+    return limited(PartialWeights<F>{w.vcm * mis(distance_squared) * over_cos * unless_it_passes(passing),
+                                     w.vc * over_cos, w.vm * over_cos});
   }
 
   // ---- weights of strategies
 
   // The eye's subpath meets a light; `w` is what scatter() gave.
   template <class F>
-  F met(const PartialWeights<F>& w, const LightEnd<F>& end) const {
+  F met(const PartialWeights<F>& w, const LightEnd<F>& end, F passing = F(1.0f)) const {
     const F emitted = end.emitted.value / max(end.solid_angle, F(1e-30f));
-    return share(mis(end.sampled.value) * w.vcm + mis(emitted) * w.vc);
+    return share(limited(mis(end.sampled.value) * w.vcm * unless_it_passes(passing)) + mis(emitted) * w.vc);
   }
   // A vertex of the eye's subpath is connected with a light drawn there.
   template <class F>
-  F light_sample(const PartialWeights<F>& eye, const LightEnd<F>& end, const BothDensities<F>& at_eye, F cos) const {
+  F light_sample(const PartialWeights<F>& eye, const LightEnd<F>& end, const BothDensities<F>& at_eye, F cos,
+                 F passing = F(1.0f)) const {
     const F drawn = F(1.0f) / max(end.sampled.value, F(1e-30f));
     const F own = drawn / max(select(end.delta, F(1.0f), end.solid_angle), F(1e-30f));
     const F fewer = select(end.delta, F(0.0f), mis(at_eye.forward.value * drawn));
-    return share(fewer + mis(end.emitted.value * cos * own) * behind(eye, at_eye.reverse));
+    return share(mis(passing) * (fewer + mis(end.emitted.value * cos * own) * behind(eye, at_eye)));
   }
   // A vertex of the light's subpath is connected with the lens, which sees so many pixels per area across the segment.
   template <class F>
-  F lens(const PartialWeights<F>& light, Density<SolidAngle, F> reverse, Density<Area, F> pixels, F cos,
-         float light_paths) const {
-    return share(mis(pixels.value * cos / light_paths) * behind(light, reverse));
+  F lens(const PartialWeights<F>& light, const BothDensities<F>& at_light, Density<Area, F> pixels, F cos,
+         float light_paths, F passing = F(1.0f)) const {
+    return share(mis(passing) * mis(pixels.value * cos / light_paths) * behind(light, at_light));
   }
   // Two vertices are connected; cosines with the segment between them.
   template <class F>
   F connection(const PartialWeights<F>& eye, const BothDensities<F>& at_eye, F cos_eye, const PartialWeights<F>& light,
-               const BothDensities<F>& at_light, F cos_light, F distance_squared) const {
+               const BothDensities<F>& at_light, F cos_light, F distance_squared, F passing = F(1.0f)) const {
     const Density<Area, F> by_eye = to_area(at_eye.forward, distance_squared, cos_light);
     const Density<Area, F> by_light = to_area(at_light.forward, distance_squared, cos_eye);
-    return share(mis(by_eye.value) * behind(light, at_light.reverse) +
-                 mis(by_light.value) * behind(eye, at_eye.reverse));
+    return share(mis(passing) *
+                 (mis(by_eye.value) * behind(light, at_light) + mis(by_light.value) * behind(eye, at_eye)));
   }
   // Two vertices are merged. `at_eye`: forward is the direction in which the light's subpath came.
   template <class F>
@@ -132,8 +143,13 @@ class StrategyWeights {
   }
   // All strategies that draw this vertex, or one further back, from the other side, over that density.
   template <class F>
-  MONTELUX_INLINE F behind(const PartialWeights<F>& w, Density<SolidAngle, F> reverse) const {
-    return limited(F(merging_) + w.vcm + w.vc * mis(reverse.value));
+  MONTELUX_INLINE F behind(const PartialWeights<F>& w, const BothDensities<F>& p) const {
+    return limited(select(p.merges, F(merging_), F(0.0f)) + w.vcm + w.vc * mis(p.reverse.value));
+  }
+  // Over the density with which a segment is passed, which a connection along it does not have.
+  template <class F>
+  MONTELUX_INLINE F unless_it_passes(F passing) const {
+    return mis(F(1.0f) / max(passing, F(1e-18f)));
   }
   template <class F>
   MONTELUX_INLINE static F share(F others) {

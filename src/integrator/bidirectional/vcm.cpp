@@ -19,16 +19,19 @@ std::uint32_t light_paths_of(const VcmSettings& settings, const ChainPass& pass)
   return std::uint32_t(std::max(settings.photons > 0 ? settings.photons : min_photons, pixels));
 }
 
-template <class F>
+// `in_media`: the scene has participating media.
+template <class F, bool in_media>
 class VcmChain final : public Chain {
  public:
   // What is referred to must outlive the chain.
   VcmChain(const Scene& scene, const Accel& accel, const VcmSettings& settings,
-           const std::optional<AliasTable>& by_power, const ChainPass& pass)
+           const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+           const ChainPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
         by_power_(by_power),
+        light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
         light_paths_(light_paths_of(settings, pass)),
@@ -81,6 +84,7 @@ class VcmChain final : public Chain {
             one_sided_,
             plane_,
             light_paths_,
+            light_media_ ? &*light_media_ : nullptr,
             &map_,
             settings_.kernel};
   }
@@ -94,7 +98,8 @@ class VcmChain final : public Chain {
     const auto store = [&](const LightVertexView<F>& view, Mask<F> on) {
       const LightPathVertex<F>& v = view.vertex;
       const Spectrum<F> flux = v.path.flux * scale;
-      for_each_lane(on, [&](int k) {
+      // Vertices in media are not merged.
+      for_each_lane(on & !v.at.in_medium, [&](int k) {
         box.push_back({lane(v.at.x.point.p, k),
                        lane(-v.at.d, k),
                        lane(v.at.x.point.ng, k),
@@ -104,7 +109,7 @@ class VcmChain final : public Chain {
                        {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
       });
     };
-    follow_light_subpaths<F>(
+    follow_light_subpaths<F, AdjointCorrection, in_media>(
         frame, share.count(), [&](std::uint32_t i) { return share[i]; }, Splatting::on, counts, store);
     map_.count(box, radius(int(frame.frame)));
     return counts;
@@ -113,9 +118,10 @@ class VcmChain final : public Chain {
   RayCounts follow_eye(const Frame& frame, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
     LightVertices light(tile.area());
-    if (settings_.paths.connect) light = light_vertices<F>(frame, tile, Splatting::off, counts);
+    if (settings_.paths.connect)
+      light = light_vertices<F, AdjointCorrection, in_media>(frame, tile, Splatting::off, counts);
     std::fill(out.begin(), out.end(), PixelSample{});
-    counts += EyeSubpaths<F, Frame>(frame, light).run(tile, out);
+    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light).run(tile, out);
     for (int y = tile.y0, i = 0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x, ++i) {
         const Rgb splats = plane_.take(x, y);
@@ -128,6 +134,7 @@ class VcmChain final : public Chain {
   const Accel& accel_;
   const VcmSettings& settings_;
   const std::optional<AliasTable>& by_power_;
+  const std::optional<LightMedia>& light_media_;
   const ChainPass pass_;
   const bool one_sided_;
   const std::uint32_t light_paths_;
@@ -140,12 +147,17 @@ class VcmChain final : public Chain {
 VcmIntegrator::VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings) {
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  light_media_ = light_media(scene, accel);
 }
 
 std::unique_ptr<Chain> VcmIntegrator::begin(const ChainPass& pass) const {
-  if (settings_.paths.lanes == Lanes::one)
-    return std::make_unique<VcmChain<float>>(scene_, accel_, settings_, by_power_, pass);
-  return std::make_unique<VcmChain<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
+  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<Chain> {
+    return std::make_unique<VcmChain<F, in_media>>(scene_, accel_, settings_, by_power_, light_media_, pass);
+  };
+  const bool one = settings_.paths.lanes == Lanes::one;
+  if (!scene_.media.empty())
+    return one ? make.template operator()<float, true>() : make.template operator()<NativeFloats, true>();
+  return one ? make.template operator()<float, false>() : make.template operator()<NativeFloats, false>();
 }
 
 }  // namespace montelux

@@ -4,6 +4,7 @@
 #include "integrator/splats.h"
 #include "scene/scene.h"
 #include "transport/next_vertex.h"
+#include "transport/transmittance.h"
 
 namespace montelux {
 
@@ -28,8 +29,9 @@ inline bool has_one_sided_surfaces(const Scene& scene) {
   return false;
 }
 
-// What the paths of a frame send to the lens; `rays` answers as Accel does.
-template <class F, class Rays>
+// What the paths of a frame send to the lens; `rays` answers as Accel does. `in_media`: the scene has participating
+// media.
+template <class F, class Rays, bool in_media = false>
 class LensSplats {
  public:
   using M = Mask<F>;
@@ -44,14 +46,27 @@ class LensSplats {
   }
   // Splats the light that a place sends to the lens, where nothing is in between.
   void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on) {
-    if (!any(on)) return;
-    splat(way.lens.raster, light * way.media.left(way.lens.distance), on & !is_hidden(from, way, on));
+    connect(from, way, light, on, [](const F&) { return F(1.0f); });
   }
-  // Whether the lens sees the sky along the ray.
-  M sees_sky(const Ray<F>& ray, const RandomStream<F>& random, M on) {
-    counts_.shadow += std::uint64_t(count(on));
-    if (!one_sided_) return on & !rays_.template occluded<F>(ray, on);
-    return on & !camera_ray(ray, random, on).found;
+  // weight(passing) is that of the light, as Transmitted has `passing`.
+  template <class Weight>
+  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on, Weight weight) {
+    if (!any(on)) return;
+    if constexpr (in_media) {
+      const Transmitted<F> seen = transmission(from, way, on);
+      splat(way.lens.raster, light * seen.left * weight(seen.passing), on & !is_black(seen.left));
+    } else {
+      splat(way.lens.raster, light * way.media.left(way.lens.distance) * weight(F(1.0f)),
+            on & !is_hidden(from, way, on));
+    }
+  }
+  // What the lens sees of the sky along the ray: a share of its light.
+  Spectrum<F> sky_seen(const Ray<F>& ray, const RandomStream<F>& random, M on) {
+    if constexpr (in_media)
+      return transmitted<F, false>(scene_, rays_, ray, media_of<F>(scene_.media, Uint<F>(scene_.camera_medium)), on,
+                                   random, counts_.shadow, RayUse::camera)
+          .left;
+    return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on) {
     for_each_lane(on, [&](int k) {
@@ -61,6 +76,21 @@ class LensSplats {
   }
 
  private:
+  M sees_sky(const Ray<F>& ray, const RandomStream<F>& random, M on) {
+    counts_.shadow += std::uint64_t(count(on));
+    if (!one_sided_) return on & !rays_.template occluded<F>(ray, on);
+    return on & !camera_ray(ray, random, on).found;
+  }
+  Transmitted<F> transmission(const LensPlace<F>& from, const LensWay<F>& way, M on) {
+    const LensConnection<F>& lens = way.lens;
+    if (!one_sided_)
+      return transmitted(scene_, rays_, shadow_ray(from.p, from.p_error, from.ng, -lens.d, lens.distance, way.time),
+                         way.media, on, way.random, counts_.shadow);
+    // As the camera sees it, which passes by the backs of one-sided surfaces.
+    return transmitted(scene_, rays_, {lens.p, lens.d, lens.distance * (1 - shadow_shortening), way.time},
+                       media_of<F>(scene_.media, Uint<F>(scene_.camera_medium)), on, way.random, counts_.shadow,
+                       RayUse::camera);
+  }
   M is_hidden(const LensPlace<F>& from, const LensWay<F>& way, M on) {
     counts_.shadow += std::uint64_t(count(on));
     const LensConnection<F>& lens = way.lens;

@@ -2,6 +2,7 @@
 // light. What happens at the vertices is the business of a sink.
 #pragma once
 #include "integrator/first_vertex.h"
+#include "integrator/light_paths/light_media.h"
 #include "mc/roulette.h"
 #include "transport/numbers.h"
 
@@ -19,6 +20,7 @@ struct LightWalkScene {
   std::optional<int> max_depth;  // scattering events, that of the last vertex included
   int roulette_depth;            // scattering events before roulette
   Densities densities = Densities::may_be_estimates;
+  const LightMedia* light_media = nullptr;  // of a walk in media
 };
 
 // A path on its way, one a lane.
@@ -66,16 +68,24 @@ struct LightPathStart {
   F time;
 };
 
-// A rough or smooth surface that a path has met. `flux` arrives there.
+// A rough or smooth surface that a path has met, or an event in a medium. `flux` arrives there.
 template <class F>
 struct LightPathVertex {
   const NextVertex<F>& at;
   const LightPathState<F>& path;
-  const BsdfContext<F>& context;
   F ng_in;  // cosine of the geometric normal with the direction in which the path came
   const Sampler<F>& numbers;
   Uint<F> dimension;  // the first of the numbers of this vertex
 };
+
+// The factor by which the vertex scatters importance and radiance differently, for light that leaves along the local
+// `out`; ng_out: the cosine of the geometric normal with it.
+template <class F, class Correction, bool in_media>
+MONTELUX_INLINE F adjoint_correction(const LightPathVertex<F>& v, const Vec3<F>& out, F ng_out) {
+  const F correction = Correction()(v.at.wo, v.ng_in, out, ng_out);
+  if constexpr (!in_media) return correction;
+  return select(v.at.in_medium, F(1.0f), correction);
+}
 
 // A sink has
 //   void leave(LightPathStart, on)              a ray leaves a light
@@ -85,8 +95,8 @@ struct LightPathVertex {
 //   Mask<F> follows(LightPathVertex, BsdfSample, on)   optional: the lanes whose paths may continue
 //   F moment(PathSite)                          optional, where surfaces move: of each path, in the exposure
 //   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
-// `Correction` is AdjointCorrection, but in tests that plant a fault.
-template <class F, class Rays, class Sink, class Correction = AdjointCorrection>
+// `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene has participating media.
+template <class F, class Rays, class Sink, class Correction = AdjointCorrection, bool in_media = false>
 class LightWalk {
  public:
   using U = Uint<F>;
@@ -147,30 +157,30 @@ class LightWalk {
     const M carries = on & e.valid & !is_broken(flux, site, on & e.valid) & (max_component(flux) > F(0.0f));
     const M leaves = shared_.max_depth && *shared_.max_depth == 0 ? M(false) : carries;
     const Vec3<F> o = select(e.on_surface, offset_origin(e.p, e.p_error, e.n, e.d), e.p);
-    return {{{o, e.d, F(ray_infinity), time}, free_point(e.p), flux, max_component(flux), U(0u), U(0u), site}, leaves};
+    ReferencePoint<F> from = free_point(e.p);
+    if constexpr (in_media)
+      from.media = shared_.light_media->template around<F>(scene_.media, choice.index, !e.behind, on);
+    return {{{o, e.d, F(ray_infinity), time}, from, flux, max_component(flux), U(0u), U(0u), site}, leaves};
   }
 
   // Goes to the next vertex, shows it to the sink, and scatters there.
   M step(LightPathState<F>& path, M on) {
     const Sampler<F> numbers = sampler(path.site);
     const U dimension = U(light_dimension::first_vertex) + path.depth * U(light_dimension::per_vertex);
-    const NextVertex<F> at =
-        next_vertex<F>(scene_, shared_.rays, path.from, path.ray, on,
-                       numbers.stream(dimension + U(light_dimension::own)), counts_.scattered, NoWeight{});
+    NextVertex<F> at = next(path, on, numbers, dimension);
     on = on & at.found;
     path.flux = select(on, path.flux * at.left, path.flux);
-    BsdfContext<F> context = at.context;
-    context.mode = TransportMode::importance, context.densities = shared_.densities;
+    at.context.mode = TransportMode::importance, at.context.densities = shared_.densities;
     const F ng_in = dot(at.x.point.ng, at.d);
 
     // The BSDF's value for the sink's direction, and a direction that it draws.
-    const LightPathVertex<F> vertex{at, path, context, ng_in, numbers, dimension};
+    const LightPathVertex<F> vertex{at, path, ng_in, numbers, dimension};
     const auto query = sink_.query(vertex, on);
     const Scattering<F> scattered =
-        scatter<F>(at.bsdf.lanes(on),
-                   {at.wo, query.toward, query.on, numbers.get1(dimension + U(light_dimension::lobe)),
-                    numbers.get2(dimension + U(light_dimension::vertex_direction))},
-                   context);
+        scatter_at<F, in_media>(scene_, at,
+                                {at.wo, query.toward, query.on, numbers.get1(dimension + U(light_dimension::lobe)),
+                                 numbers.get2(dimension + U(light_dimension::vertex_direction))},
+                                on);
     sink_.visit(vertex, query, scattered.toward_light, on);
 
     const BsdfSample<F>& next = scattered.next;
@@ -180,7 +190,7 @@ class LightWalk {
     if (shared_.max_depth) continues = continues & (events < U(std::uint32_t(*shared_.max_depth)));
     if constexpr (requires { sink_.follows(vertex, next, continues); })
       continues = continues & sink_.follows(vertex, next, continues);
-    const F correction = Correction()(at.wo, ng_in, next.wi, dot(at.x.point.ng, wi));
+    const F correction = adjoint_correction<F, Correction, in_media>(vertex, next.wi, dot(at.x.point.ng, wi));
     const Spectrum<F> flux = path.flux * next.weight * correction;
     continues = continues & !is_broken(flux, path.site, continues);
     // Survivors carry the same flux.
@@ -200,6 +210,17 @@ class LightWalk {
     return continues;
   }
 
+  NextVertex<F> next(const LightPathState<F>& path, M on, const Sampler<F>& numbers, const U& dimension) {
+    const auto meet = [&](const auto& distances) {
+      return next_vertex<F>(scene_, shared_.rays, path.from, path.ray, on,
+                            numbers.stream(dimension + U(light_dimension::own)), counts_.scattered, NoWeight{},
+                            NoSink{}, distances);
+    };
+    if constexpr (in_media)
+      return meet(MediumDistances<F, Sampler<F>>{numbers, dimension + U(light_dimension::distance), path.flux});
+    else
+      return meet(NoDistances{});
+  }
   M is_broken(const Spectrum<F>& flux, const PathSite<F>& site, M on) {
     F sum = flux.c[0];
     for (int i = 1; i < spectrum_size; ++i) sum += flux.c[i];

@@ -10,11 +10,13 @@ class LightTracingChain final : public Chain {
  public:
   // What `shared` refers to must outlive the chain.
   LightTracingChain(const Scene& scene, const Accel& accel, const LightTracingSettings& settings,
-                    const std::optional<AliasTable>& by_power, const ChainPass& pass)
+                    const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+                    const ChainPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
         by_power_(by_power),
+        light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
@@ -31,8 +33,10 @@ class LightTracingChain final : public Chain {
   template <class F>
   RayCounts follow(const ChainStep& step, const PixelBounds& tile) {
     if (!by_power_) return {};
-    const LightTracingScene<Accel> shared{scene_,     accel_, settings_, *by_power_, pass_, std::uint32_t(step.frame),
-                                          one_sided_, plane_};
+    const LightTracingScene<Accel> shared{scene_,     accel_, settings_,
+                                          *by_power_, pass_,  std::uint32_t(step.frame),
+                                          one_sided_, plane_, light_media_ ? &*light_media_ : nullptr};
+    if (light_media_) return LightTracingLoop<F, Accel, AdjointCorrection, true>(shared).run(tile);
     return LightTracingLoop<F, Accel>(shared).run(tile);
   }
 
@@ -40,6 +44,7 @@ class LightTracingChain final : public Chain {
   const Accel& accel_;
   const LightTracingSettings& settings_;
   const std::optional<AliasTable>& by_power_;
+  const std::optional<LightMedia>& light_media_;
   const ChainPass pass_;
   const bool one_sided_;
   SplatPlane plane_;
@@ -50,6 +55,7 @@ class LightTracingChain final : public Chain {
 LightTracer::LightTracer(const Scene& scene, const Accel& accel, const LightTracingSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings) {
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  light_media_ = light_media(scene, accel);
 }
 
 Result<std::unique_ptr<LightTracer>> LightTracer::make(const Scene& scene, const Accel& accel,
@@ -62,7 +68,7 @@ Result<std::unique_ptr<LightTracer>> LightTracer::make(const Scene& scene, const
 }
 
 std::unique_ptr<Chain> LightTracer::begin(const ChainPass& pass) const {
-  return std::make_unique<LightTracingChain>(scene_, accel_, settings_, by_power_, pass);
+  return std::make_unique<LightTracingChain>(scene_, accel_, settings_, by_power_, light_media_, pass);
 }
 
 }  // namespace montelux

@@ -4,6 +4,7 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/light_paths/light_media.h"
 #include "integrator/light_tracing/settings.h"
 #include "scene/scene.h"
 
@@ -30,7 +31,8 @@ class LightTracer final : public CoupledIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   LightTracingSettings settings_;
-  std::optional<AliasTable> by_power_;  // none: there is no light
+  std::optional<AliasTable> by_power_;     // none: there is no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
 };
 
 }  // namespace montelux

@@ -18,11 +18,12 @@ struct LightTracingScene {
   std::uint32_t frame;
   bool one_sided;  // some surface is not there for camera rays that meet its back
   SplatPlane& plane;
+  const LightMedia* light_media = nullptr;  // null: the scene has no participating media
 };
 
 // Splats what the vertices of light paths send to the lens, and the lights themselves. `Correction` is
-// AdjointCorrection, but in tests that plant a fault.
-template <class F, class Rays, class Correction = AdjointCorrection>
+// AdjointCorrection, but in tests that plant a fault. `in_media`: the scene has participating media.
+template <class F, class Rays, class Correction = AdjointCorrection, bool in_media = false>
 class LightTracingLoop {
  public:
   using U = Uint<F>;
@@ -42,9 +43,11 @@ class LightTracingLoop {
                                     shared_.pass.shutter.value_or(scene_.shutter),
                                     {},
                                     shared_.settings.max_depth,
-                                    shared_.settings.roulette_depth};
+                                    shared_.settings.roulette_depth,
+                                    Densities::may_be_estimates,
+                                    shared_.light_media};
     const auto width = std::uint32_t(tile.width());
-    LightWalk<F, Rays, LightTracingLoop, Correction>(walk, *this, counts_)
+    LightWalk<F, Rays, LightTracingLoop, Correction, in_media>(walk, *this, counts_)
         .run(std::uint32_t(tile.area()), [&](std::uint32_t number) {
           const PixelGrid& grid = shared_.plane.grid();
           return PathSite<float>{std::uint32_t(grid.pixel_x(tile.x0 + int(number % width))),
@@ -74,7 +77,7 @@ class LightTracingLoop {
     const NextVertex<F>& at = v.at;
     const LensConnection<F>& lens = query.lens;
     const F ng_out = dot(at.x.point.ng, lens.d);
-    const F correction = Correction()(at.wo, v.ng_in, query.toward, ng_out);
+    const F correction = adjoint_correction<F, Correction, in_media>(v, query.toward, ng_out);
     const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
@@ -97,7 +100,10 @@ class LightTracingLoop {
       const M lit = surfaces & lens.seen & ((cos > F(0.0f)) | e.both_sides);
       const Spectrum<F> light =
           e.radiance * (abs(cos) * lens.across.value / (choice.mass.value * e.position.value) * scale_);
-      lens_.connect({e.p, e.p_error, e.n}, {no_media<F>(), lens, time, random}, light, lit);
+      Media<F> media = no_media<F>();
+      if constexpr (in_media)
+        media = shared_.light_media->template around<F>(scene_.media, choice.index, (cos > F(0.0f)) ^ e.behind, lit);
+      lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, light, lit);
     }
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
@@ -105,14 +111,14 @@ class LightTracingLoop {
     const M queries = beyond & lens.seen & shared_.plane.reaches(lens.raster);
     if (!any(queries)) return;
     const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
-    lens_.splat(lens.raster, light, queries & lens_.sees_sky({lens.p, -e.d, F(ray_infinity), time}, random, queries));
+    lens_.splat(lens.raster, light * lens_.sky_seen({lens.p, -e.d, F(ray_infinity), time}, random, queries), queries);
   }
 
   const LightTracingScene<Rays>& shared_;
   const Scene& scene_;
   const float scale_;  // of one path's light: a frame has one path for each pixel or cell of the pass
   RayCounts counts_;
-  LensSplats<F, Rays> lens_;
+  LensSplats<F, Rays, in_media> lens_;
 };
 
 }  // namespace montelux

@@ -52,7 +52,7 @@ class CausticSink : public PhotonSink<F> {
 
   Mask<F> follows(const LightPathVertex<F>& v, const BsdfSample<F>& next, Mask<F> on) const {
     // A path from the eye arrives along `next` and samples the direction toward the light.
-    BsdfContext<F> context = v.context;
+    BsdfContext<F> context = v.at.context;
     context.mode = TransportMode::radiance, context.densities = Densities::exact;
     const Density<SolidAngle, F> reverse =
         evaluate<F>(v.at.bsdf.lanes(on & !next.delta), next.wi, v.at.wo, context).density;

@@ -64,9 +64,10 @@ TEST(MediumSlab, lets_light_through_as_beer_and_lambert_say) {
   const MediumText scatters{{0.2, 0.1, 0}, {0.3, 0.6, 1.2}, 0.5};
   for (const double cosine : {1.0, 0.5})
     for (const MediumText& m : {absorbs, scatters})
-      expect_means(
-          slab_scene(m, cosine, 0), "path", 64, [&](std::size_t c) { return std::exp(-m.extinction(c) / cosine); },
-          [&](std::size_t c) { return std::exp(-1.1 * m.extinction(c) / cosine); });
+      for (const char* way : {"path", "bdpt"})
+        expect_means(
+            slab_scene(m, cosine, 0), way, 64, [&](std::size_t c) { return std::exp(-m.extinction(c) / cosine); },
+            [&](std::size_t c) { return std::exp(-1.1 * m.extinction(c) / cosine); });
 }
 
 TEST(MediumSlab, emits_what_it_absorbs) {
@@ -76,9 +77,10 @@ TEST(MediumSlab, emits_what_it_absorbs) {
     return m.emission[c] * (1 - left) + left;
   };
   for (const double cosine : {1.0, 0.5})
-    expect_means(
-        slab_scene(m, cosine, 0), "path", 16, [&](std::size_t c) { return seen(cosine, c); },
-        [&](std::size_t c) { return 1.001 * seen(cosine, c); });
+    for (const char* way : {"path", "bdpt"})
+      expect_means(
+          slab_scene(m, cosine, 0), way, 16, [&](std::size_t c) { return seen(cosine, c); },
+          [&](std::size_t c) { return 1.001 * seen(cosine, c); });
 }
 
 // Everything at one temperature looks alike, whatever scatters.
@@ -88,9 +90,10 @@ TEST(UnboundedMedium, glows_with_its_own_radiance) {
 Camera "perspective" "float fov" 30
 WorldBegin
 )";
-  expect_means(
-      scene, "path", 64, [&](std::size_t c) { return m.emission[c]; },
-      [&](std::size_t c) { return 1.02 * m.emission[c]; });
+  for (const char* way : {"path", "bdpt"})
+    expect_means(
+        scene, way, 64, [&](std::size_t c) { return m.emission[c]; },
+        [&](std::size_t c) { return 1.02 * m.emission[c]; });
 }
 
 // What a fog scatters once, of a point light at (1, 0, 0), toward a camera at (0, 0, 5) that looks at the origin: an
@@ -129,6 +132,53 @@ LightSource "point" "rgb I" )" +
   }
 }
 
+// The same with a wide view of the fog: the mean of single_scattering() over the directions of a picture, whose rays
+// pass the light at many distances.
+double mean_single_scattering(const MediumText& m, std::size_t c, double intensity, double tangent) {
+  constexpr int across = 48, steps = 400;
+  const Coefficients light{1, 0, -5};  // from the camera, which looks along -z
+  double sum = 0;
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double x = tangent * (2 * (i + 0.5) / across - 1), y = tangent * (2 * (j + 0.5) / across - 1);
+      const double length = std::sqrt(x * x + y * y + 1);
+      const double along = (light[0] * x - light[2]) / length;  // to the point nearest the light
+      const double distance = std::sqrt(light[0] * light[0] + light[2] * light[2] - along * along);
+      const double from = std::atan(-along / distance), to = std::numbers::pi / 2;
+      double ray = 0;
+      for (int k = 0; k < steps; ++k) {
+        const double z = distance * std::tan(from + (to - from) * (k + 0.5) / steps), r = std::hypot(distance, z);
+        const double cosine = -z / r, g = m.g, d = 1 + g * g - 2 * g * cosine;
+        const double phase = (1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d));
+        ray += phase * std::exp(-m.extinction(c) * (along + z + r));
+      }
+      sum += ray * (to - from) / steps / distance;
+    }
+  return m.scattering[c] * intensity * sum / (across * across);
+}
+
+TEST(UnboundedMedium, scatters_the_light_of_a_point_once_for_every_way_to_find_it) {
+  const Coefficients intensity{1, 2, 3};
+  const double tangent = std::tan(10 * std::numbers::pi / 180);
+  const MediumText m{{0.1, 0.2, 0}, {0.2, 0.3, 0.5}, 0.4};
+  MediumText other = m;
+  other.g = 0.3;
+  const std::string scene = head(1) + m.text() + R"(MediumInterface "" "m"
+LookAt 0 0 5  0 0 0  0 1 0
+Camera "perspective" "float fov" 20
+WorldBegin
+LightSource "point" "rgb I" )" +
+                            rgb(intensity) + " \"point3 from\" [ 1 0 0 ]\n";
+  std::array<double, 3> truth{}, faulty{};
+  for (std::size_t c = 0; c < 3; ++c)
+    truth[c] = mean_single_scattering(m, c, intensity[c], tangent),
+    faulty[c] = mean_single_scattering(other, c, intensity[c], tangent);
+  for (const auto& [way, samples] : {std::pair("path", 8192), std::pair("light", 16384), std::pair("bdpt", 4096),
+                                     std::pair("vcm:radius=0.01,photons=1024", 128)})
+    expect_means(
+        scene, way, samples, [&](std::size_t c) { return truth[c]; }, [&](std::size_t c) { return faulty[c]; });
+}
+
 // A white medium in a uniform sky cannot be seen: what it scatters out of a ray it scatters into it.
 TEST(WhiteMedium, cannot_be_seen_in_a_furnace) {
   const Coefficients sky{1, 0.5, 2};
@@ -139,9 +189,10 @@ TEST(WhiteMedium, cannot_be_seen_in_a_furnace) {
            surface + "\nShape \"sphere\"\n";
   };
   for (const char* surface : {"\"interface\"", "\"dielectric\""}) {
-    expect_means(
-        ball({0, 0, 0}, surface), "path", 128, [&](std::size_t c) { return sky[c]; },
-        [&](std::size_t c) { return 1.05 * sky[c]; });
+    for (const auto& [way, fault] : {std::pair("path", 1.05), std::pair("bdpt", 1.25)})
+      expect_means(
+          ball({0, 0, 0}, surface), way, 128, [&](std::size_t c) { return sky[c]; },
+          [&, fault = fault](std::size_t c) { return fault * sky[c]; });
     const Mean gray = measure(TestScene(ball({0.1, 0.1, 0.1}, surface)), "path", 128, 1);
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_LT(p_value(gray.mean[c], gray.standard_error[c], sky[c]), family_level) << surface;

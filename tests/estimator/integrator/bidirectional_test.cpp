@@ -9,12 +9,13 @@ namespace montelux::test {
 namespace {
 
 // One pass as `bdpt` makes it, with other weights or another correction for the adjoint; splats count `splats` times.
-template <class Correction = AdjointCorrection, class Weights = StrategyWeights>
+template <class Correction = AdjointCorrection, class Weights = StrategyWeights, bool in_media = false>
 PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_t seed, float splats = 1) {
   using F = NativeFloats;
   using Frame = BidirectionalFrame<Accel, Weights>;
   PassMeans means;
   const AliasTable by_power = scene.scene().lights.by_power();
+  const auto media = light_media(scene.scene(), scene.accel());
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
   const PixelBounds& bounds = s.image.bounds;
   for (int number = 0; number < passes; ++number) {
@@ -33,11 +34,12 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
                         Weights(true),
                         false,
                         plane,
-                        std::uint32_t(bounds.area())};
+                        std::uint32_t(bounds.area()),
+                        media ? &*media : nullptr};
       RayCounts counts;
-      const LightVertices light = light_vertices<F, Correction>(frame, bounds, Splatting::on, counts);
+      const LightVertices light = light_vertices<F, Correction, in_media>(frame, bounds, Splatting::on, counts);
       std::vector<PixelSample> samples(std::size_t(bounds.area()));
-      EyeSubpaths<F, Frame, Correction>(frame, light).run(bounds, samples);
+      EyeSubpaths<F, Frame, Correction, in_media>(frame, light).run(bounds, samples);
       for (int y = 0, k = 0; y < s.image.height; ++y)
         for (int x = 0; x < s.image.width; ++x, ++k) {
           const Rgb splat = plane.take(x, y);
@@ -71,7 +73,7 @@ struct RefractionScalesFlux {
 struct WithoutLens : StrategyWeights {
   using StrategyWeights::StrategyWeights;
   template <class F>
-  PartialWeights<F> first_from_lens(Density<Area, F>, F, float) const {
+  PartialWeights<F> first_from_lens(Density<Area, F>, F, float, F) const {
     return {F(0.0f), F(0.0f), F(0.0f)};
   }
 };
@@ -80,7 +82,7 @@ struct WrongMeasure : StrategyWeights {
   using StrategyWeights::StrategyWeights;
   template <class F>
   F connection(const PartialWeights<F>& eye, const BothDensities<F>& at_eye, F, const PartialWeights<F>& light,
-               const BothDensities<F>& at_light, F, F) const {
+               const BothDensities<F>& at_light, F, F, F) const {
     return StrategyWeights::connection(eye, at_eye, F(1.0f), light, at_light, F(1.0f), F(1.0f));
   }
 };
@@ -88,7 +90,7 @@ struct WrongMeasure : StrategyWeights {
 struct WithoutMeeting : StrategyWeights {
   using StrategyWeights::StrategyWeights;
   template <class F>
-  F met(const PartialWeights<F>&, const LightEnd<F>&) const {
+  F met(const PartialWeights<F>&, const LightEnd<F>&, F) const {
     return F(1.0f);
   }
 };
@@ -222,6 +224,103 @@ TEST(Bidirectional, agrees_with_path_where_things_move) {
   EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
 }
 
+// ---- participating media
+
+// A room that is full of fog, with a lamp, a spot light and a mirror in it, and clearer air in a ball.
+const std::string& foggy_room() {
+  static const std::string text = [] {
+    std::string t = box(ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5));
+    t.insert(t.find("LookAt"), R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 0.1 0.05 0.3 ]
+  "rgb sigma_s" [ 0.3 0.5 0.9 ] "float g" 0.4
+MakeNamedMedium "air" "string type" "homogeneous" "rgb sigma_a" [ 0 0 0 ] "rgb sigma_s" [ 0.2 0 0.1 ] "float g" -0.3
+MediumInterface "" "fog"
+)");
+    t.insert(t.find("WorldBegin") + 10, "\nMediumInterface \"fog\" \"fog\"");
+    t += R"(LightSource "spot" "rgb I" [ 2 3 4 ] "point3 from" [ 0.8 1.8 -0.8 ] "point3 to" [ -0.3 0 0.3 ]
+AttributeBegin
+Material "interface"
+MediumInterface "air" "fog"
+Translate -0.4 0.9 0.2
+Shape "sphere" "float radius" 0.5
+AttributeEnd
+)";
+    return t;
+  }();
+  return text;
+}
+// In clear air: a liquid in a ball of rough glass, and a cloud that surrounds a lamp.
+const std::string& liquid_and_cloud() {
+  static const std::string text = [] {
+    std::string t = box("");
+    t.insert(t.find("LookAt"), R"(MakeNamedMedium "milk" "string type" "homogeneous" "rgb sigma_a" [ 0 0.2 0.5 ]
+  "rgb sigma_s" [ 4 2 1 ] "float g" 0.6
+MakeNamedMedium "cloud" "string type" "homogeneous" "rgb sigma_a" [ 0.1 0.1 0.1 ] "rgb sigma_s" [ 1 2 3 ]
+)");
+    t += R"(AttributeBegin
+Material "dielectric" "float roughness" 0.3
+MediumInterface "milk" ""
+Translate -0.45 0.45 0.2
+Shape "sphere" "float radius" 0.4
+AttributeEnd
+AttributeBegin
+Translate 0.45 0.9 0.3
+AttributeBegin
+Material "interface"
+MediumInterface "cloud" ""
+Shape "sphere" "float radius" 0.4
+AttributeEnd
+MediumInterface "cloud" "cloud"
+AreaLightSource "diffuse" "rgb L" [ 20 15 10 ]
+Material "diffuse" "rgb reflectance" [ 0.3 0.3 0.3 ]
+Shape "sphere" "float radius" 0.1
+AttributeEnd
+)";
+    return t;
+  }();
+  return text;
+}
+
+// The probability of passing a medium is that of the connection alone, but not of the others.
+struct PassesOnce : StrategyWeights {
+  using StrategyWeights::StrategyWeights;
+  template <class F>
+  PartialWeights<F> arrive(const PartialWeights<F>& w, F distance_squared, F cos, F) const {
+    return StrategyWeights::arrive(w, distance_squared, cos, F(1.0f));
+  }
+};
+
+TEST(BidirectionalInMedia, agrees_with_path_in_a_foggy_room_and_planted_faults_are_found) {
+  const TestScene scene(foggy_room());
+  const PassMeans path = measured(scene, "path", 32, 60, 1);
+  for (const char* way : {"bdpt", "bdpt:mis=balance", "vcm:radius=0.02,photons=1024"}) {
+    const Comparison c = compared(measured(scene, way, 16, 40, 2), path);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
+  const auto caught = [&](const PassMeans& other) { return compared(other, path).differ(); };
+  EXPECT_FALSE(caught(by_hand<AdjointCorrection, StrategyWeights, true>(scene, 16, 60, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, WithoutLens, true>(scene, 16, 60, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, PassesOnce, true>(scene, 16, 60, 3)));
+  EXPECT_TRUE(caught(by_hand<AdjointCorrection, StrategyWeights, true>(scene, 16, 60, 3, 2)));
+}
+
+TEST(BidirectionalInMedia, agrees_with_path_in_a_liquid_and_around_a_lamp_in_a_cloud) {
+  const TestScene scene(liquid_and_cloud());
+  const PassMeans path = measured(scene, "path", 32, 60, 1);
+  for (const char* way : {"bdpt", "vcm:radius=0.02,photons=1024"}) {
+    const Comparison c = compared(measured(scene, way, 8, 60, 2), path);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
+}
+
+TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
+  const TestScene scene(foggy_room());
+  for (const int depth : {0, 1, 2}) {
+    const std::string most = ":maxdepth=" + std::to_string(depth);
+    const Comparison c = compared(measured(scene, "bdpt" + most, 16, 40, 2), measured(scene, "path" + most, 32, 60, 1));
+    EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
+  }
+}
+
 TEST(Bidirectional, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
@@ -233,8 +332,8 @@ TEST(Bidirectional, ends_where_maxdepth_says) {
       compared(measured(scene, "bdpt:maxdepth=2", 16, 40, 2), measured(scene, "path:maxdepth=3", 16, 60, 1)).differ());
 }
 
-TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
-  const TestScene scene(room(lens, gaussian));
+// The films of a scene are the same for one thread, several, and single lanes.
+void expect_same_bits(const TestScene& scene) {
   const auto film = [&](const char* way, int threads) {
     RenderObserver silent;
     const ChosenIntegrator chosen = scene.integrator(way);
@@ -247,6 +346,11 @@ TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
       for (int x = 0; x < one.bounds().x1; ++x)
         for (int c = 0; c < rgb_size; ++c) ASSERT_EQ(one.pixel(x, y).mean[c], other.pixel(x, y).mean[c]) << way;
   }
+}
+
+TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
+  expect_same_bits(TestScene(room(lens, gaussian)));
+  expect_same_bits(TestScene(foggy_room()));
 }
 
 // ---- vertex connection and merging
@@ -280,6 +384,7 @@ PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed)
                       false,
                       plane,
                       paths,
+                      nullptr,
                       &map};
     RayCounts counts;
     std::vector<Photon>& photons = map.box(0);

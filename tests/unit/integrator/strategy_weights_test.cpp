@@ -20,6 +20,8 @@ struct Path {
   std::vector<Vec3f> x, n;
   std::vector<float> to_lens, to_light;  // at vertex i: of the direction to i + 1 from i - 1, and the other way
   std::vector<bool> delta;
+  std::vector<bool> in_medium;  // without a normal, and never merged
+  std::vector<double> passing;  // of the segment from i to i + 1: the probability of no event along it
   LightSort sort = LightSort::surface;
   double position = 1, direction = 1, sampled = 1;  // of the light, choices included
   double pixels = 1, light_paths = 1;               // at the lens
@@ -28,6 +30,7 @@ struct Path {
   double squared(int i) const { return length_squared(x[std::size_t(i)] - x[std::size_t(i + 1)]); }
   // At vertex i, with the segment between j and j + 1.
   double cos(int i, int j) const {
+    if (in_medium[std::size_t(i)]) return 1;
     return std::abs(dot(n[std::size_t(i)], normalize(x[std::size_t(j)] - x[std::size_t(j + 1)])));
   }
   bool is_beyond() const { return sort == LightSort::distant || sort == LightSort::sky; }
@@ -55,19 +58,22 @@ struct Path {
     double product = s == k ? light_paths : 1;
     for (int i = 0; i < s; ++i) product *= s == 1 ? sampled * (is_delta_light() ? 1 : measure()) : from_light(i);
     for (int i = s; i < k; ++i) product *= from_lens(i);
+    // Every segment is drawn and passed, but for that of the connection.
+    for (int i = 0; i < k; ++i) product *= s > 0 && i == s - 1 ? 1 : passing[std::size_t(i)];
     return product;
   }
   // n p of merging at vertex i.
   double merged(int i, double merges) const {
-    if (delta[std::size_t(i)]) return 0;
+    if (delta[std::size_t(i)] || in_medium[std::size_t(i)]) return 0;
     double product = merges;
+    for (const double segment : passing) product *= segment;
     for (int j = 0; j <= i; ++j) product *= from_light(j);
     for (int j = i; j < last(); ++j) product *= from_lens(j);
     return product;
   }
 };
 
-Path random_path(std::uint32_t number) {
+Path random_path(std::uint32_t number, bool in_media) {
   RandomStream<float> random = RandomStream<float>(17, 4).fork(number);
   const auto spread = [&random] { return std::exp2(6 * random.next() - 3); };
   const auto vector = [&random] { return Vec3f{2 * random.next() - 1, 2 * random.next() - 1, 2 * random.next() - 1}; };
@@ -80,6 +86,11 @@ Path random_path(std::uint32_t number) {
     p.to_lens.push_back(p.delta.back() ? 1.0f : spread());
     p.to_light.push_back(p.delta.back() ? 1.0f : spread());
   }
+  for (int i = 0; i < vertices; ++i) {
+    const bool inner = i > 0 && i < vertices - 1 && !p.delta[std::size_t(i)];
+    p.in_medium.push_back(in_media && inner && random.next() < 0.5f);
+    if (i > 0) p.passing.push_back(in_media ? 0.02 + 0.98 * double(random.next()) : 1);
+  }
   p.sort = LightSort(number / 6 % 4);
   p.position = spread(), p.direction = spread(), p.sampled = spread();
   if (p.sort == LightSort::distant) p.direction = 1;
@@ -88,7 +99,17 @@ Path random_path(std::uint32_t number) {
 }
 
 // What is planted in the recursion.
-enum class Fault { none, no_lens, no_cosine, no_distance, deltas_connect, turned_densities, no_merging_behind };
+enum class Fault {
+  none,
+  no_lens,
+  no_cosine,
+  no_distance,
+  deltas_connect,
+  turned_densities,
+  no_merging_behind,
+  media_merge,
+  nothing_passes
+};
 
 // The recursion along both subpaths of a path, and the weights of its strategies.
 class Recursion {
@@ -97,27 +118,27 @@ class Recursion {
       : p_(path), fault_(fault), w_(power, fault == Fault::no_merging_behind ? 0 : merges, connects) {
     const std::size_t k = std::size_t(p_.last());
     light_.resize(k), eye_.resize(k);
-    light_[1] = w_.first_from_light(end(), float(p_.cos(1, 0)));
+    light_[1] = w_.first_from_light(end(), float(p_.cos(1, 0)), passing(0));
     for (int i = 1; i < p_.last() - 1; ++i)
       light_[std::size_t(i + 1)] = w_.arrive(w_.scatter(light_[std::size_t(i)], both(i, false), cosine(i, i), delta(i)),
-                                             distance(i), cosine(i + 1, i));
+                                             distance(i), cosine(i + 1, i), passing(i));
     eye_[k - 1] = w_.first_from_lens(Density<Area, float>{float(p_.pixels)}, float(p_.cos(int(k) - 1, int(k) - 1)),
-                                     fault == Fault::no_lens ? 0.0f : float(p_.light_paths));
+                                     fault == Fault::no_lens ? 0.0f : float(p_.light_paths), passing(int(k) - 1));
     for (int i = p_.last() - 1; i > 1; --i)
       eye_[std::size_t(i - 1)] = w_.arrive(w_.scatter(eye_[std::size_t(i)], both(i, true), cosine(i, i - 1), delta(i)),
-                                           distance(i - 1), cosine(i - 1, i - 1));
+                                           distance(i - 1), cosine(i - 1, i - 1), passing(i - 1));
   }
 
   double connected(int s) const {
     const int k = p_.last();
     const auto z = std::size_t(s), y = std::size_t(s - 1);
-    if (s == 0) return w_.met(w_.scatter(eye_[1], both(1, true), cosine(1, 0), delta(1)), end());
-    if (s == 1) return w_.light_sample(eye_[1], end(), both(1, true), cosine(1, 0));
+    if (s == 0) return w_.met(w_.scatter(eye_[1], both(1, true), cosine(1, 0), delta(1)), end(), passing(0));
+    if (s == 1) return w_.light_sample(eye_[1], end(), both(1, true), cosine(1, 0), passing(0));
     if (s == k)
-      return w_.lens(light_[y], both(k - 1, false).reverse, Density<Area, float>{float(p_.pixels)},
-                     cosine(k - 1, k - 1), float(p_.light_paths));
+      return w_.lens(light_[y], both(k - 1, false), Density<Area, float>{float(p_.pixels)}, cosine(k - 1, k - 1),
+                     float(p_.light_paths), passing(k - 1));
     return w_.connection(eye_[z], both(s, true), cosine(s, s - 1), light_[y], both(s - 1, false), cosine(s - 1, s - 1),
-                         float(p_.squared(s - 1)));
+                         float(p_.squared(s - 1)), passing(s - 1));
   }
   double merged(int i) const { return w_.merging(eye_[std::size_t(i)], light_[std::size_t(i)], both(i, true)); }
 
@@ -130,10 +151,12 @@ class Recursion {
   BothDensities<float> both(int i, bool from_eye) const {
     const float on = p_.to_lens[std::size_t(i)], back = p_.to_light[std::size_t(i)];
     const bool turned = from_eye != (fault_ == Fault::turned_densities);
-    return turned ? BothDensities<float>{{back}, {on}} : BothDensities<float>{{on}, {back}};
+    const bool merges = fault_ == Fault::media_merge || !p_.in_medium[std::size_t(i)];
+    return turned ? BothDensities<float>{{back}, {on}, merges} : BothDensities<float>{{on}, {back}, merges};
   }
   float cosine(int i, int j) const { return fault_ == Fault::no_cosine ? 1.0f : float(p_.cos(i, j)); }
   float distance(int i) const { return fault_ == Fault::no_distance ? 1.0f : float(p_.squared(i)); }
+  float passing(int i) const { return fault_ == Fault::nothing_passes ? 1.0f : float(p_.passing[std::size_t(i)]); }
   bool delta(int i) const { return fault_ != Fault::deltas_connect && p_.delta[std::size_t(i)]; }
 
   const Path& p_;
@@ -143,10 +166,10 @@ class Recursion {
 };
 
 // The largest difference of any weight from that by the explicit sum, over many paths.
-double largest_difference(bool power, float merges, bool connects, Fault fault = Fault::none) {
+double largest_difference(bool power, float merges, bool connects, bool in_media, Fault fault = Fault::none) {
   double largest = 0;
   for (std::uint32_t number = 0; number < 480; ++number) {
-    const Path path = random_path(number);
+    const Path path = random_path(number, in_media);
     const Recursion recursion(path, power, merges, connects, fault);
     const auto mis = [power](double x) { return power ? x * x : x; };
     double sum = 0, sum_of_weights = 0;
@@ -169,24 +192,30 @@ double largest_difference(bool power, float merges, bool connects, Fault fault =
 constexpr double rounding = 1e-5;
 
 TEST(StrategyWeights, of_connections_are_those_of_the_sum_over_all_strategies) {
-  for (const bool power : {false, true}) EXPECT_LT(largest_difference(power, 0, true), rounding) << power;
+  for (const bool power : {false, true})
+    for (const bool in_media : {false, true})
+      EXPECT_LT(largest_difference(power, 0, true, in_media), rounding) << power << " " << in_media;
 }
 
 TEST(StrategyWeights, of_connections_and_mergings_are_those_of_the_sum_over_all_strategies) {
   for (const bool power : {false, true})
     for (const float merges : {0.01f, 1.0f, 30.0f})
-      EXPECT_LT(largest_difference(power, merges, true), rounding) << power << " " << merges;
+      for (const bool in_media : {false, true})
+        EXPECT_LT(largest_difference(power, merges, true, in_media), rounding)
+            << power << " " << merges << " " << in_media;
 }
 
 TEST(StrategyWeights, of_mergings_alone_are_those_of_the_sum_over_mergings) {
-  for (const bool power : {false, true}) EXPECT_LT(largest_difference(power, 1, false), rounding) << power;
+  for (const bool power : {false, true}) EXPECT_LT(largest_difference(power, 1, false, false), rounding) << power;
 }
 
 TEST(StrategyWeights, with_planted_faults_are_others) {
   using enum Fault;
   for (const Fault fault : {no_lens, no_cosine, no_distance, deltas_connect, turned_densities})
-    EXPECT_GT(largest_difference(true, 0, true, fault), 0.1) << int(fault);
-  EXPECT_GT(largest_difference(true, 1, true, no_merging_behind), 0.1);
+    EXPECT_GT(largest_difference(true, 0, true, false, fault), 0.1) << int(fault);
+  EXPECT_GT(largest_difference(true, 1, true, false, no_merging_behind), 0.1);
+  EXPECT_GT(largest_difference(true, 1, true, true, media_merge), 0.1);
+  EXPECT_GT(largest_difference(true, 0, true, true, nothing_passes), 0.1);
 }
 
 }  // namespace

@@ -114,6 +114,58 @@ TEST(SceneInCode, gives_the_bits_of_the_same_scene_in_a_file) {
   EXPECT_NE(mx::prepare(other).value().render().value().rgb(), b.rgb());
 }
 
+// A cloud in a lit fog.
+mx::Scene cloud() {
+  mx::Scene scene;
+  scene.set_film(8, 8);
+  scene.set_camera({"perspective", {{"fov", 40}}}, mx::look_at({0, 0, -5}, {0, 0, 0}, {0, 1, 0}));
+  scene.set_sampler({"independent", {{"pixelsamples", 8}}});
+  const mx::MediumId milk = scene.add_medium(
+      {"homogeneous", {{"sigma_a", mx::Rgb{0, 0.1f, 0.2f}}, {"sigma_s", mx::Rgb{0.5f, 2, 6}}, {"g", 0.6}}});
+  const mx::MediumId fog = scene.add_medium({"homogeneous", {{"sigma_s", mx::Rgb{0.05f, 0.05f, 0.1f}}}});
+  scene.set_camera_medium(fog);
+  const mx::MaterialId interface = scene.add_material({"interface", {}});
+  scene.add_shape({"sphere", {}}, {.material = interface, .media = {.inside = milk, .outside = fog}});
+  scene.add_light({"point", {{"from", mx::Vec3{0, 2, -2}}, {"I", mx::Rgb{9, 8, 7}}}});
+  return scene;
+}
+constexpr const char* cloud_text = R"(
+MakeNamedMedium "milk" "string type" "homogeneous" "rgb sigma_a" [ 0 .1 .2 ] "rgb sigma_s" [ .5 2 6 ] "float g" .6
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [ .05 .05 .1 ]
+MediumInterface "" "fog"
+LookAt 0 0 -5  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+Sampler "independent" "integer pixelsamples" 8
+WorldBegin
+Material "interface"
+MediumInterface "milk" "fog"
+Shape "sphere"
+LightSource "point" "point3 from" [ 0 2 -2 ] "rgb I" [ 9 8 7 ]
+)";
+
+TEST(SceneInCode, has_media_as_a_file_has_them) {
+  TemporaryFolder folder;
+  folder.write("cloud.pbrt", cloud_text);
+  const mx::Picture a = mx::prepare(cloud()).value().render().value();
+  const mx::Picture b = mx::load(folder.path() + "/cloud.pbrt").value().render().value();
+  EXPECT_EQ(a.rgb(), b.rgb());
+  EXPECT_GT(a.mean().mean[0], 0.001);
+  mx::Scene clear = cloud();
+  clear.set_camera_medium({});
+  EXPECT_NE(mx::prepare(clear).value().render().value().rgb(), b.rgb());
+  mx::Scene wrong = cloud();
+  wrong.set_camera_medium(mx::MediumId{9});
+  wrong.add_medium({"homogenous", {}});
+  wrong.add_shape({"sphere", {}}, {.media = {.inside = mx::MediumId{7}}});
+  const mx::Result<mx::PreparedScene> prepared = mx::prepare(wrong);
+  ASSERT_FALSE(prepared);
+  const std::string all = prepared.error().what();
+  for (const char* part : {"camera: error: the medium is none of this scene", "did you mean 'homogeneous'",
+                           "shape 1: error: the medium is none of this scene"})
+    EXPECT_TRUE(contains(all, part)) << part << "\n" << all;
+}
+
 TEST(SceneInCode, is_copied_with_all_that_it_holds) {
   const mx::Scene scene = corner();
   mx::Scene copy = scene;

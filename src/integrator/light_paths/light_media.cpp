@@ -1,0 +1,55 @@
+#include "integrator/light_paths/light_media.h"
+
+#include "transport/vertex.h"
+
+namespace montelux {
+
+namespace {
+
+// The medium at the end of a straight line from the camera, through everything.
+std::uint32_t medium_at(const Scene& scene, const Accel& accel, const Vec3f& end, const RandomStream<float>& random) {
+  const float time = scene.moves() ? scene.shutter.time(0.5f) : 0.0f;
+  const CameraRay<float> camera = scene.camera.generate({0.0f, 0.0f}, {0.5f, 0.5f}, time);
+  Media<float> media = media_of<float>(scene.media, scene.camera_medium);
+  const Vec3f way = end - camera.ray.o;
+  const float distance = length(way);
+  if (!(distance > 0)) return media.medium;
+  Ray<float> ray{camera.ray.o, way * (1 / distance), distance * (1 - shadow_shortening), time};
+  for (std::uint32_t crossings = 0; ray.t_max > 0; ++crossings) {
+    const auto [found, hit] = accel.trace<float>(ray, true);
+    if (!found) break;
+    const SurfaceHit<float> x = surface<float>(scene.geometry, {ray.o, ray.d, hit.t, time}, hit, true);
+    const SurfaceScattering<float> bsdf =
+        scene.materials.scattering<float>(x, ray.d, true, random.fork(Uint<float>(crossings)));
+    media = Boundary<float>(scene.media, x, bsdf).behind(media, ray.d, ray.d);
+    ray.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, ray.d);
+    ray.t_max -= hit.t;
+  }
+  return media.medium;
+}
+
+}  // namespace
+
+LightMedia::LightMedia(const Scene& scene, const Accel& accel) : sides_(2 * std::size_t(scene.lights.count())) {
+  std::vector<bool> is_stated(scene.lights.count());
+  for (const GeometryRow& row : scene.geometry.rows) {
+    if (row.first_light == 0 || (row.flags & GeometryRow::bounds_media) == 0) continue;
+    const std::uint32_t lights = row.kind == GeometryKind::triangles ? row.count : 1;
+    for (std::uint32_t i = row.first_light - 1; i < row.first_light - 1 + lights; ++i)
+      sides_[2 * std::size_t(i)] = row.inside, sides_[2 * std::size_t(i) + 1] = row.outside, is_stated[i] = true;
+  }
+  const RandomStream<float> random(0x27d4eb2fu, 0);
+  for (std::uint32_t i = 0; i < scene.lights.count(); ++i) {
+    if (is_stated[i]) continue;
+    const Vec3f p = scene.lights.emit<float>(i, {0.5f, 0.5f}, {0.5f, 0.5f}, true).p;
+    sides_[2 * std::size_t(i)] = sides_[2 * std::size_t(i) + 1] =
+        medium_at(scene, accel, p, random.fork(Uint<float>(i)));
+  }
+}
+
+std::optional<LightMedia> light_media(const Scene& scene, const Accel& accel) {
+  if (scene.media.empty() || scene.lights.count() == 0) return std::nullopt;
+  return LightMedia(scene, accel);
+}
+
+}  // namespace montelux
