@@ -58,7 +58,7 @@ struct Path {
     double product = s == k ? light_paths : 1;
     for (int i = 0; i < s; ++i) product *= s == 1 ? sampled * (is_delta_light() ? 1 : measure()) : from_light(i);
     for (int i = s; i < k; ++i) product *= from_lens(i);
-    // Every segment is drawn and passed, but for that of the connection.
+    // Every segment is drawn and passed, except that of the connection.
     for (int i = 0; i < k; ++i) product *= s > 0 && i == s - 1 ? 1 : passing[std::size_t(i)];
     return product;
   }
