@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrator/bidirectional/eye_subpaths.h"
+#include "integrator/photons/filling.h"
 #include "integrator/photons/sppm.h"
 
 namespace montelux {
@@ -66,11 +67,6 @@ class VcmChain final : public Chain {
     return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
   }
   float radius(int frame) const { return float(sppm_radius(settings_.radius, settings_.alpha, frame)); }
-  // Subpaths that are merged have one moment: where surfaces move, a frame has one, as for `sppm`.
-  std::optional<float> moment(int frame) const {
-    if (!scene_.moves()) return std::nullopt;
-    return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
-  }
   Frame frame_of(int frame) {
     const float r = radius(frame), merges = merging_share * pi * r * r * float(light_paths_);
     return {scene_,
@@ -78,7 +74,7 @@ class VcmChain final : public Chain {
             by_power_ ? &*by_power_ : nullptr,
             pass_,
             std::uint32_t(frame),
-            moment(frame),
+            shared_moment(scene_, pass_, frame),
             settings_.paths,
             StrategyWeights(settings_.paths.mis == BidirectionalMis::power, merges, settings_.paths.connect),
             one_sided_,

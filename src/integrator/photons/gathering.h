@@ -113,7 +113,7 @@ class PhotonGathering {
       return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
     };
   }
-  // The radiance that photons bring toward the path.
+  // The radiance that photons scatter toward the path.
   Spectrum<F> photons(PhotonLookup& map, const PathState<F>& path, const NextVertex<F>& at,
                       const BsdfContext<F>& context, M rough) const {
     const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;

@@ -127,7 +127,7 @@ class PhotonLookup {
     return std::max(radius_squared, 1e-12f * whole);  // photons may lie in one point
   }
 
-  // What photons bring to a diffuse surface, over photons in lanes.
+  // The irradiance of a diffuse surface by its photons, a pack of photons at a time.
   Spectrum<float> received(const NearPhotons& found, const Receiver& at, float glossy, std::uint32_t room) const {
     using F = NativeFloats;
     using U = Uint<F>;
