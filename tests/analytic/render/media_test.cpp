@@ -1,4 +1,6 @@
 // Participating media in closed form, each colour component by itself.
+#include <algorithm>
+
 #include "colour_means.h"
 
 namespace montelux::test {
@@ -230,13 +232,22 @@ Shape "disk" "float radius" 50
 TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
   const TestScene scene(slab_scene({{1, 1, 1}, {0, 0, 0}}, 1, 3));
   for (const char* way : {"direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "sppm",
-                          "photonmap", "irradiance-cache", "ao"})
+                          "photonmap", "vcm:connect=off", "irradiance-cache", "ao"})
     try {
       (void)scene.integrator(way);
       ADD_FAILURE() << way;
     } catch (const std::runtime_error& e) {
       EXPECT_NE(std::string(e.what()).find("participating media"), std::string::npos) << e.what();
     }
+}
+
+TEST(Media, that_emit_are_named_by_light_tracing_which_misses_them) {
+  const auto missing = [](const Coefficients& emission) {
+    return TestScene(slab_scene({{1, 1, 1}, {0, 0, 0}, 0, emission}, 1, 3)).integrator("light").missing;
+  };
+  const std::string name = "light that media emit";
+  EXPECT_EQ(std::ranges::count(missing({2, 3, 0.5}), name), 1);
+  EXPECT_EQ(std::ranges::count(missing({0, 0, 0}), name), 0);
 }
 
 }  // namespace
