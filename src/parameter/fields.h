@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/result.h"
+#include "parameter/input.h"
 #include "parameter/spec.h"
 
 namespace montelux {
@@ -19,6 +20,13 @@ namespace montelux {
 std::string setting_text(bool value);
 std::string setting_text(int value);
 std::string setting_text(float value);
+std::string setting_text(const TextureName& value);
+std::string setting_text(Vec3f value);                 // "0 0 1"
+std::string setting_text(const SpectrumValue& value);  // "0.5", "0.25 0.5 1", "metal-Cu-eta", "6500"
+template <class... T>
+std::string setting_text(const Input<T...>& input) {
+  return std::visit([](const auto& v) { return setting_text(v); }, input.value);
+}
 
 // The row with its default at the end of the meaning.
 ParameterSpec with_default(ParameterSpec row, const std::string& value);
@@ -28,6 +36,7 @@ Parameter parameter_of(std::string_view name, bool value);
 Parameter parameter_of(std::string_view name, int value);
 Parameter parameter_of(std::string_view name, float value);
 Parameter parameter_of(std::string_view name, std::string value);
+Parameter parameter_of(std::string_view name, SpectrumValue value);
 Parameter parameter_of(std::string_view name, std::vector<int> values);
 Parameter parameter_of(std::string_view name, std::vector<float> values);
 Parameter parameter_of(std::string_view name, std::vector<std::string> values);
@@ -95,6 +104,45 @@ class Fields {
                    double high) {
     return optional_value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place,
                                &ParameterList::integer);
+  }
+  // A spectrum.
+  Fields& spectrum(std::string_view name, Place<SpectrumValue> place, std::string meaning, double low, double high) {
+    return with_default_value<SpectrumValue>({name, {ParameterType::spectrum}, std::move(meaning), low, high}, place,
+                                             &first_of<SpectrumValue>,
+                                             [name](const SpectrumValue& v) { return parameter_of(name, v); });
+  }
+  Fields& optional(std::string_view name, Place<std::optional<SpectrumValue>> place, std::string meaning, double low,
+                   double high) {
+    return without_default_value<SpectrumValue>({name, {ParameterType::spectrum}, std::move(meaning), low, high}, place,
+                                                &first_of<SpectrumValue>,
+                                                [name](const SpectrumValue& v) { return parameter_of(name, v); });
+  }
+  // A point or a vector; `type` states which.
+  Fields& vector(std::string_view name, ParameterType type, Place<Vec3f> place, std::string meaning) {
+    return with_default_value<Vec3f>({name, {type}, std::move(meaning)}, place, &first_of<Vec3f>,
+                                     [name, type](const Vec3f& v) {
+                                       return Parameter{std::string(name), type, std::vector<Vec3f>{v}, {}};
+                                     });
+  }
+  // What may be stated in several ways (I: an Input).
+  template <class I>
+  Fields& input(std::string_view name, Place<I> place, std::string meaning, double low, double high) {
+    return with_default_value<I>({name, InputConversion<I>::types(), std::move(meaning), low, high}, place,
+                                 &InputConversion<I>::read,
+                                 [name](const I& v) { return InputConversion<I>::write(name, v); });
+  }
+  // The same without a default value; the meaning states what is used instead.
+  template <class I>
+  Fields& optional_input(std::string_view name, Place<std::optional<I>> place, std::string meaning, double low,
+                         double high) {
+    return without_default_value<I>({name, InputConversion<I>::types(), std::move(meaning), low, high}, place,
+                                    &InputConversion<I>::read,
+                                    [name](const I& v) { return InputConversion<I>::write(name, v); });
+  }
+  // The last row has an effect only where `has_effect` is true of what was read; otherwise it counts as unused.
+  Fields& only_if(std::function<bool(const S&)> has_effect) {
+    rows_.back().has_effect = std::move(has_effect);
+    return *this;
   }
   // As many values as the array has. A list of another length, which the checks report, is ignored.
   template <std::size_t N>
@@ -206,6 +254,8 @@ class Fields {
   Status read(const ParameterList& list, S& s) const {
     for (const Row& row : rows_)
       if (Status read = row.read(list, s); !read) return read;
+    for (const Row& row : rows_)
+      if (row.has_effect && !row.has_effect(s)) list.forget_use(row.spec.name);
     return Done{};
   }
 
@@ -223,6 +273,7 @@ class Fields {
     std::function<std::string(const S&)> shown;  // the default; empty: the meaning states it
     std::function<Status(const ParameterList&, S&)> read;
     std::function<void(S&, S& defaults, ParameterList&)> write;  // empty: other rows state it
+    std::function<bool(const S&)> has_effect{};                  // empty: always
   };
 
   template <class T>
@@ -241,6 +292,55 @@ class Fields {
                        return Done{};
                      },
                      write});
+    return *this;
+  }
+
+  template <class T>
+  static std::optional<T> first_of(const Parameter& stated) {
+    const auto* values = std::get_if<std::vector<T>>(&stated.values);
+    return values && !values->empty() ? std::optional<T>(values->front()) : std::nullopt;
+  }
+  template <class T>
+  static bool equal(const T& a, const T& b) {
+    if constexpr (std::is_same_v<T, Vec3f>)
+      return a.x == b.x && a.y == b.y && a.z == b.z;
+    else
+      return a == b;
+  }
+
+  // `taken` is the value of a parameter, if it has the right type; `stated` is the parameter that states a value.
+  template <class T>
+  Fields& with_default_value(ParameterSpec spec, Place<T> place, std::optional<T> (*taken)(const Parameter&),
+                             std::function<Parameter(const T&)> stated) {
+    const std::string_view name = spec.name;
+    const auto shown = [place](const S& s) {
+      S copy = s;
+      return setting_text(place(copy));
+    };
+    const auto read = [name, place, taken](const ParameterList& list, S& s) -> Status {
+      const Parameter* p = list.find(name);
+      if (std::optional<T> v = p ? taken(*p) : std::nullopt) place(s) = *std::move(v);
+      return Done{};
+    };
+    const auto write = [place, stated](S& s, S& defaults, ParameterList& list) {
+      if (!equal(place(s), place(defaults))) list.add(stated(place(s)));
+    };
+    rows_.push_back({std::move(spec), shown, read, write});
+    return *this;
+  }
+  template <class T>
+  Fields& without_default_value(ParameterSpec spec, Place<std::optional<T>> place,
+                                std::optional<T> (*taken)(const Parameter&),
+                                std::function<Parameter(const T&)> stated) {
+    const std::string_view name = spec.name;
+    const auto read = [name, place, taken](const ParameterList& list, S& s) -> Status {
+      if (const Parameter* p = list.find(name)) place(s) = taken(*p);
+      return Done{};
+    };
+    const auto write = [place, stated](S& s, S& defaults, ParameterList& list) {
+      if (place(s) && place(s) != place(defaults)) list.add(stated(*place(s)));
+    };
+    rows_.push_back({std::move(spec), {}, read, write});
     return *this;
   }
 

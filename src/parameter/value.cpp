@@ -20,6 +20,10 @@ std::vector<const Parameter*> ParameterList::unused() const {
 void ParameterList::forget_uses() const {
   for (const Parameter& p : list_) p.used = false;
 }
+void ParameterList::forget_use(std::string_view name) const {
+  for (const Parameter& p : list_)
+    if (p.name == name) p.used = false;
+}
 void ParameterList::use_all() const {
   for (const Parameter& p : list_) p.used = true;
 }

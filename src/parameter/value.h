@@ -19,20 +19,30 @@ struct RgbValue {
   Rgb rgb;                           // components in `color_space`
   std::string color_space = "srgb";  // srgb, dci-p3, rec2020, aces2065-1
 };
+inline bool operator==(const RgbValue& a, const RgbValue& b) {
+  return a.rgb[0] == b.rgb[0] && a.rgb[1] == b.rgb[1] && a.rgb[2] == b.rgb[2] && a.color_space == b.color_space;
+}
 struct NamedSpectrum {
   std::string name;  // for example "metal-Cu-eta"
+  bool operator==(const NamedSpectrum&) const = default;
 };
 struct SampledValue {
   std::vector<float> wavelengths;  // nm, increasing
   std::vector<float> values;       // one per wavelength
+  bool operator==(const SampledValue&) const = default;
 };
 struct Blackbody {
   float kelvin;
+  bool operator==(const Blackbody&) const = default;
 };
 using SpectrumValue = std::variant<RgbValue, NamedSpectrum, SampledValue, Blackbody>;
 
+// The same value of all components.
+inline SpectrumValue gray_value(float x) { return RgbValue{gray_rgb(x)}; }
+
 struct TextureName {
   std::string name;
+  bool operator==(const TextureName&) const = default;
 };
 
 enum class ParameterType {
@@ -74,6 +84,8 @@ class ParameterList {
   std::vector<const Parameter*> unused() const;
   // To be called after look-ups that only check.
   void forget_uses() const;
+  // The same for one parameter: its value was read, and has no effect.
+  void forget_use(std::string_view name) const;
   // Marks what is handled elsewhere: one parameter, or all of an entity that is omitted on purpose.
   void use(std::string_view name) const { find(name); }
   void use_all() const;
