@@ -30,9 +30,9 @@ std::span<const EntitySpec> table_of(Family family) {
     case Family::texture:
       return texture_table();
     case Family::light:
-      return light_table();
+      return light_models().specs();
     case Family::area_light:
-      return area_light_table();
+      return area_light_models().specs();
     case Family::shape:
       return shape_models().specs();
     case Family::camera:
@@ -48,7 +48,7 @@ std::span<const EntitySpec> table_of(Family family) {
     case Family::accelerator:
       return pbrt::accelerator_models().specs();
     case Family::medium:
-      return medium_table();
+      return medium_models().specs();
     case Family::option:
       return pbrt::option_models().specs();
   }

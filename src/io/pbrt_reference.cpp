@@ -3,7 +3,6 @@
 #include "io/checks.h"
 #include "io/numbers.h"
 #include "io/pbrt/parameters.h"
-#include "medium/table.h"
 
 namespace montelux {
 
@@ -64,7 +63,7 @@ std::string pbrt_reference() {
   text += family_text("Sampler", table_of(Family::sampler));
   text += family_text("Integrator", table_of(Family::integrator));
   text += family_text("Accelerator", table_of(Family::accelerator));
-  text += family_text("MakeNamedMedium", medium_table());
+  text += family_text("MakeNamedMedium", table_of(Family::medium));
   text += family_text("Option", table_of(Family::option));
   return text;
 }

@@ -36,6 +36,10 @@ void Reporter::tolerable(const SourceLocation& where, std::string message, std::
   add({lenient_ ? Severity::warning : Severity::error, where, std::move(message), std::move(hint)});
 }
 
+bool Reporter::is_first_at(const SourceLocation& where) {
+  return where.line <= 0 || places_.insert({where.file.get(), where.line, where.column}).second;
+}
+
 void Reporter::finish() {
   for (const auto& [key, count] : counts_) {
     if (count.left_out == 0) continue;

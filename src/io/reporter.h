@@ -1,6 +1,8 @@
 // The diagnostics of one reading, limited to a readable number.
 #pragma once
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "io/read_result.h"
 
@@ -21,6 +23,9 @@ class Reporter {
   void tolerable(const SourceLocation& where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
   void finish();
+  // Whether no call before was for this place of a file: defaults of attributes are copied to many entities. True
+  // without a place.
+  bool is_first_at(const SourceLocation& where);
 
   // What a lenient reading tolerated, with counts: complete even if there are too many warnings.
   const std::vector<Omission>& omissions() const { return omissions_; }
@@ -36,6 +41,7 @@ class Reporter {
   Diagnostics* out_;
   bool lenient_;
   std::map<std::pair<std::string, Severity>, Count> counts_;
+  std::set<std::tuple<const std::string*, int, int>> places_;
   std::vector<Omission> omissions_;
   std::map<std::string, std::size_t> omission_numbers_;  // by what was omitted
 };

@@ -6,6 +6,8 @@
 #include "io/numbers.h"
 #include "io/pbrt/parameters.h"
 #include "io/pbrt/picture.h"
+#include "light/table.h"
+#include "medium/table.h"
 #include "scene/shape_models.h"
 
 namespace montelux {
@@ -107,8 +109,9 @@ class Writer {
     for (const TextureDesc& texture : scene_.textures) write_texture(texture);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);
     for (const LightDesc& light : scene_.lights) {
-      state_color_space(light.entity);
-      write_block(light.light_to_world, "LightSource " + entity_text(light.entity));
+      const Entity entity = light_models().write(name_of(light.model), light);
+      state_color_space(entity);
+      write_block(light.light_to_world, "LightSource " + entity_text(entity));
     }
     for (const ObjectDesc& object : scene_.objects) {
       text_ += "ObjectBegin " + in_quotes(object.name) + "\n";
@@ -198,13 +201,14 @@ class Writer {
   }
 
   void write_medium(const MediumDesc& medium) {
-    if (medium.entity.type.empty()) return;  // left out by a lenient reading
-    state_color_space(medium.entity);
-    text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(medium.entity.type) +
-             " ]" + parameters_text(medium.entity.parameters) + "\n";
+    if (!medium.model) return;  // left out by a lenient reading
+    const Entity entity = medium_models().write(name_of(*medium.model), *medium.model);
+    state_color_space(entity);
+    text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(entity.type) + " ]" +
+             parameters_text(entity.parameters) + "\n";
   }
   std::string medium_name(std::optional<MediumDescId> id) const {
-    const bool is_there = id && !scene_.media[std::size_t(*id)].entity.type.empty();
+    const bool is_there = id && scene_.media[std::size_t(*id)].model;
     return in_quotes(is_there ? scene_.media[std::size_t(*id)].name : "");
   }
 
@@ -226,15 +230,18 @@ class Writer {
   }
 
   void write_shape(const ShapeDesc& shape) {
-    if (shape.area_light) state_color_space(*shape.area_light);
-    std::string text;
+    std::string text, emission;
+    if (shape.area_light) {
+      const Entity entity = area_light_models().write("diffuse", *shape.area_light);
+      state_color_space(entity);
+      emission = "AreaLightSource " + entity_text(entity) + "\n";
+    }
     const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];
     if (!material.empty()) text += "NamedMaterial " + in_quotes(material) + "\n";
     if (shape.reverse_orientation) text += "ReverseOrientation\n";
     const std::string inside = medium_name(shape.media.inside), outside = medium_name(shape.media.outside);
     if (inside != outside) text += "MediumInterface " + inside + " " + outside + "\n";
-    if (shape.area_light) text += "AreaLightSource " + entity_text(*shape.area_light) + "\n";
-    text += "Shape " + entity_text(shape_models().write(name_of(shape.form), shape));
+    text += emission + "Shape " + entity_text(shape_models().write(name_of(shape.form), shape));
     // The mesh of a file stays in that file.
     const auto* form = std::get_if<MeshForm>(&shape.form);
     const bool is_in_file = form && !form->file.empty();

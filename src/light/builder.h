@@ -2,9 +2,9 @@
 #pragma once
 #include <functional>
 
+#include "light/description.h"
 #include "light/light_set.h"
 #include "math/transform.h"
-#include "parameter/spec.h"
 
 namespace montelux {
 
@@ -58,9 +58,6 @@ struct CylinderShape {
   bool flip = false;
 };
 
-// The group that a light states. A name that no image file can store is an error.
-std::string light_group(const Entity& light, Diagnostics& diagnostics);
-
 // What the builder needs from the scene. A callback that fails reports that itself and returns a sensible value.
 struct LightInputs {
   std::function<Rgb(const SpectrumValue&)> emission;  // of L, I, ...: a spectrum that is not an RGB has luminance 1
@@ -68,8 +65,8 @@ struct LightInputs {
       image;  // or null
 };
 
-// The emission that an area light states ("diffuse").
-Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics);
+// The emission that an area light states.
+Emission emission_of(const AreaLightDesc& stated, const LightInputs& inputs, Diagnostics& diagnostics);
 
 // Half angles in degrees: where a spot ends, and where its falloff begins; and the form of the falloff.
 struct SpotCone {
@@ -88,10 +85,8 @@ class LightSetBuilder {
   LightId add(const SphereShape& shape, const Emission& emission);
   LightId add(const CylinderShape& shape, const Emission& emission);
 
-  // A light that is not a shape, by the names and parameters of light_table(). No value if something is wrong, which
-  // is then reported as an error.
-  std::optional<LightId> add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
-                             Diagnostics& diagnostics);
+  // A light that is not a shape. No value if something is wrong, which is then reported as an error.
+  std::optional<LightId> add(const LightDesc& light, const LightInputs& inputs, Diagnostics& diagnostics);
 
   // The same for single kinds. All scales are included.
   LightId add_point(Vec3f p, Rgb intensity);

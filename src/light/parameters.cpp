@@ -1,4 +1,4 @@
-// Lights as stated in a scene file.
+// Lights as stated by a scene.
 #include <algorithm>
 #include <cmath>
 
@@ -8,32 +8,29 @@ namespace montelux {
 
 namespace {
 
-// What the parameters of a light are read with.
-struct Reader {
-  const Entity& light;
-  const Transform& to_world;
+// The factor that scales an emission of `present` to the power (or illuminance) that is stated.
+float factor_for(const std::optional<float>& wanted, float present) {
+  return wanted && *wanted > 0 && present > 0 ? *wanted / present : 1.0f;
+}
+
+// Adds one light, by its kind.
+struct Adder {
+  LightSetBuilder& builder;
+  const LightDesc& light;
   const LightInputs& inputs;
   Diagnostics& diagnostics;
 
-  Rgb spectrum(std::string_view name) const {
-    auto value = light.parameters.spectrum(name);
-    return value ? inputs.emission(*value) : gray_rgb(1.0f);
-  }
-  float scale() const { return light.parameters.number("scale", 1); }
-  Vec3f from() const { return light.parameters.vec3("from", {0, 0, 0}); }
-  Vec3f to() const { return light.parameters.vec3("to", {0, 0, 1}); }
-  // The factor that scales an emission of `present` to the power (or illuminance) that the parameter states.
-  float factor_for(std::string_view parameter, float present) const {
-    float wanted = light.parameters.number(parameter, -1);
-    return wanted > 0 && present > 0 ? wanted / present : 1.0f;
+  const Transform& to_world() const { return light.light_to_world; }
+  Rgb emitted(const SpectrumValue& stated, float factor) const {
+    return inputs.emission(stated) * (light.scale * factor);
   }
   // Null: not stated, or invalid and reported.
-  std::shared_ptr<const LightImage> image(bool must_be_square) const {
-    std::string name = light.parameters.string("filename", "");
+  std::shared_ptr<const LightImage> image(const std::string& name, bool must_be_square) const {
     if (name.empty()) return nullptr;
     auto image = inputs.image(name, light.where);
     if (!image) {
-      diagnostics.error(light.where, "the image \"" + name + "\" of the " + light.type + " light cannot be read");
+      diagnostics.error(light.where, "the image \"" + name + "\" of the " + std::string(name_of(light.model)) +
+                                         " light cannot be read");
     } else if (image->width < 1 || image->height < 1 ||
                image->texels.size() != std::size_t(image->width) * std::size_t(image->height)) {
       diagnostics.error(light.where, "the image \"" + name + "\" is empty");
@@ -52,6 +49,13 @@ struct Reader {
     }
     return nullptr;
   }
+
+  std::optional<LightId> operator()(const PointLightDesc& stated) const;
+  std::optional<LightId> operator()(const SpotLightDesc& stated) const;
+  std::optional<LightId> operator()(const DistantLightDesc& stated) const;
+  std::optional<LightId> operator()(const GoniometricLightDesc& stated) const;
+  std::optional<LightId> operator()(const ProjectionLightDesc& stated) const;
+  std::optional<LightId> operator()(const InfiniteLightDesc& stated) const;
 };
 
 // The luminous part of what a projector emits: the sum over its pixels of luminance times solid angle.
@@ -103,103 +107,92 @@ LightImage equal_area_image(const LightImage& angles) {
   return square;
 }
 
-std::optional<LightId> add_infinite(LightSetBuilder& builder, const Reader& read) {
-  if (read.light.parameters.string("filename", "").empty())
-    return builder.add_uniform_infinite(read.spectrum("L") * (read.scale() * read.factor_for("illuminance", pi)));
-  const std::string mapping = read.light.parameters.string("mapping", "equalarea");
-  auto image = read.image(mapping == "equalarea");
-  if (!image) return std::nullopt;
-  const bool by_angles = mapping == "latlong" || (mapping == "auto" && image->width == 2 * image->height);
-  if (mapping == "auto" && !by_angles && image->width != image->height) {
-    read.diagnostics.error(
-        read.light.where,
-        "an environment must be square (equal-area) or twice as wide as high (longitude by latitude); "
-        "the image has " +
-            std::to_string(image->width) + " x " + std::to_string(image->height) + " pixels");
+std::optional<LightId> Adder::operator()(const PointLightDesc& stated) const {
+  return builder.add_point(to_world().point(stated.from), emitted(stated.intensity, factor_for(stated.power, 4 * pi)));
+}
+
+std::optional<LightId> Adder::operator()(const SpotLightDesc& stated) const {
+  const float end = stated.cone_angle, edge = std::max(end - stated.cone_delta_angle, 0.0f);
+  const SpotCone cone{end, edge, stated.falloff == SpotFalloff::squared};
+  return builder.add_spot(to_world().point(stated.from), to_world().direction(stated.to - stated.from), cone,
+                          emitted(stated.intensity, factor_for(stated.power, solid_angle(cone))));
+}
+
+std::optional<LightId> Adder::operator()(const DistantLightDesc& stated) const {
+  return builder.add_distant(to_world().direction(stated.from - stated.to),
+                             emitted(stated.irradiance, factor_for(stated.illuminance, 1)));
+}
+
+std::optional<LightId> Adder::operator()(const GoniometricLightDesc& stated) const {
+  auto slide = image(stated.file, true);
+  if (!stated.file.empty() && !slide) return std::nullopt;
+  const float mean = slide ? average(slide->mean()) : 1.0f;
+  return builder.add_goniometric(to_world(), emitted(stated.intensity, factor_for(stated.power, 4 * pi * mean)), slide);
+}
+
+std::optional<LightId> Adder::operator()(const ProjectionLightDesc& stated) const {
+  if (stated.file.empty()) {
+    diagnostics.error(light.where, "a projection light needs an image", "state \"string filename\"");
     return std::nullopt;
   }
-  if (by_angles) image = std::make_shared<const LightImage>(equal_area_image(*image));
-  float factor = read.scale() * read.factor_for("illuminance", illuminance(*image));
-  return builder.add_image_infinite(read.to_world, gray_rgb(factor), image);
+  auto slide = image(stated.file, false);
+  if (!slide) return std::nullopt;
+  const float factor = factor_for(stated.power, projected_luminance(*slide, stated.fov));
+  return builder.add_projection(to_world(), stated.fov, emitted(stated.factor, factor), slide);
 }
 
-std::optional<LightId> add_spot(LightSetBuilder& builder, const Reader& read) {
-  const ParameterList& p = read.light.parameters;
-  const float end = p.number("coneangle", 30), edge = std::max(end - p.number("conedeltaangle", 5), 0.0f);
-  const SpotCone cone{end, edge, p.string("falloff", "smooth") == "squared"};
-  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", solid_angle(cone)));
-  return builder.add_spot(read.to_world.point(read.from()), read.to_world.direction(read.to() - read.from()), cone,
-                          intensity);
-}
-
-std::optional<LightId> add_goniometric(LightSetBuilder& builder, const Reader& read) {
-  bool stated = !read.light.parameters.string("filename", "").empty();
-  auto image = read.image(true);
-  if (stated && !image) return std::nullopt;
-  float mean = image ? average(image->mean()) : 1.0f;
-  Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", 4 * pi * mean));
-  return builder.add_goniometric(read.to_world, intensity, image);
-}
-
-std::optional<LightId> add_projection(LightSetBuilder& builder, const Reader& read) {
-  if (read.light.parameters.string("filename", "").empty()) {
-    read.diagnostics.error(read.light.where, "a projection light needs an image", "state \"string filename\"");
+std::optional<LightId> Adder::operator()(const InfiniteLightDesc& stated) const {
+  if (stated.file.empty())
+    return builder.add_uniform_infinite(emitted(stated.radiance, factor_for(stated.illuminance, pi)));
+  const EnvironmentMapping mapping = stated.mapping;
+  auto sphere = image(stated.file, mapping == EnvironmentMapping::equal_area);
+  if (!sphere) return std::nullopt;
+  const bool is_automatic = mapping == EnvironmentMapping::automatic;
+  const bool by_angles =
+      mapping == EnvironmentMapping::latlong || (is_automatic && sphere->width == 2 * sphere->height);
+  if (is_automatic && !by_angles && sphere->width != sphere->height) {
+    diagnostics.error(light.where,
+                      "an environment must be square (equal-area) or twice as wide as high (longitude by latitude); "
+                      "the image has " +
+                          std::to_string(sphere->width) + " x " + std::to_string(sphere->height) + " pixels");
     return std::nullopt;
   }
-  auto image = read.image(false);
-  if (!image) return std::nullopt;
-  float fov = read.light.parameters.number("fov", 90);
-  Rgb factor = read.spectrum("I") * (read.scale() * read.factor_for("power", projected_luminance(*image, fov)));
-  return builder.add_projection(read.to_world, fov, factor, image);
+  if (by_angles) sphere = std::make_shared<const LightImage>(equal_area_image(*sphere));
+  const float factor = light.scale * factor_for(stated.illuminance, illuminance(*sphere));
+  return builder.add_image_infinite(to_world(), gray_rgb(factor), sphere);
 }
 
-}  // namespace
-
-std::string light_group(const Entity& light, Diagnostics& diagnostics) {
-  const std::string name = light.parameters.string("group", "default");
+// The group that a light states. A name that no image file can store is an error.
+std::string checked_group(const std::string& name, const SourceLocation& where, Diagnostics& diagnostics) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
   if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), plain)) return name;
-  diagnostics.error(light.where, "\"" + name + "\" is not a valid name of a light group",
+  diagnostics.error(where, "\"" + name + "\" is not a valid name of a light group",
                     "use up to 64 letters of the English alphabet, digits, _ and -");
   return "default";
 }
 
-Emission emission_of(const Entity& area_light, const LightInputs& inputs, Diagnostics& diagnostics) {
-  const ParameterList& list = area_light.parameters;
+}  // namespace
+
+Emission emission_of(const AreaLightDesc& stated, const LightInputs& inputs, Diagnostics& diagnostics) {
   Emission e;
-  e.group = light_group(area_light, diagnostics);
-  auto stated = list.spectrum("L");
-  e.radiance = stated ? inputs.emission(*stated) : gray_rgb(1.0f);
-  e.scale = list.number("scale", 1);
-  if (float power = list.number("power", -1); power > 0) e.power = power;
-  e.two_sided = list.boolean("twosided", false);
-  if (auto tint = list.spectrum("tint")) e.tint = inputs.emission(*tint);
-  if (std::string name = list.string("filename", ""); !name.empty()) e.image = inputs.image(name, area_light.where);
+  e.group = checked_group(stated.group, stated.where, diagnostics);
+  e.radiance = inputs.emission(stated.radiance);
+  e.scale = stated.scale;
+  if (stated.power && *stated.power > 0) e.power = stated.power;
+  e.two_sided = stated.two_sided;
+  e.tint = inputs.emission(stated.tint);
+  if (!stated.file.empty()) e.image = inputs.image(stated.file, stated.where);
   if (e.image) e.image_mean = e.image->mean();
-  e.local_power = list.boolean("localpower", false);
+  e.local_power = stated.local_power;
   return e;
 }
 
-std::optional<LightId> LightSetBuilder::add(const Entity& light, const Transform& to_world, const LightInputs& inputs,
+std::optional<LightId> LightSetBuilder::add(const LightDesc& light, const LightInputs& inputs,
                                             Diagnostics& diagnostics) {
-  Reader read{light, to_world, inputs, diagnostics};
-  begin_group(light_group(light, diagnostics));
-  if (light.type == "point") {
-    Rgb intensity = read.spectrum("I") * (read.scale() * read.factor_for("power", 4 * pi));
-    return add_point(to_world.point(read.from()), intensity);
-  }
-  if (light.type == "distant") {
-    Rgb irradiance = read.spectrum("L") * (read.scale() * read.factor_for("illuminance", 1));
-    return add_distant(to_world.direction(read.from() - read.to()), irradiance);
-  }
-  if (light.type == "spot") return montelux::add_spot(*this, read);
-  if (light.type == "goniometric") return montelux::add_goniometric(*this, read);
-  if (light.type == "projection") return montelux::add_projection(*this, read);
-  if (light.type == "infinite") return montelux::add_infinite(*this, read);
-  diagnostics.error(light.where, "there is no light \"" + light.type + "\"");
-  return std::nullopt;
+  begin_group(checked_group(light.group, light.where, diagnostics));
+  return std::visit(Adder{*this, light, inputs, diagnostics}, light.model);
 }
 
 }  // namespace montelux

@@ -5,106 +5,153 @@ namespace montelux {
 namespace {
 
 using enum ParameterType;
-using List = std::vector<ParameterSpec>;
+using S = LightDesc;
 
 constexpr double most = 1e30;
 
-ParameterSpec scale() { return {"scale", {number}, "factor of the emission; default 1", 0, most}; }
-ParameterSpec group() {
-  return {"group", {string}, "lights with the same name share a layer (--layers); default \"default\""};
-}
-ParameterSpec power() {
-  return {"power", {number}, "total power in watts to which the light is scaled; default: none", -1, most};
-}
-ParameterSpec illuminance(const char* meaning) { return {"illuminance", {number}, meaning, -1, most}; }
-ParameterSpec intensity() { return {"I", {spectrum}, "radiant intensity; default 1", 0, most}; }
-ParameterSpec portal() {
-  ParameterSpec spec{"portal", {point3}, "four corners through which the light enters", -most, most, {}, true};
-  spec.later = true;
-  return spec;
+// The member of a light.
+template <class Light, class T>
+Fields<S>::Place<T> of(T Light::*member) {
+  return [member](S& light) -> T& { return std::get<Light>(light.model).*member; };
 }
 
-std::vector<EntitySpec> lights() {
-  return {
-      {"point",
-       "the same intensity in all directions",
-       {intensity(), {"from", {point3}, "position; default 0 0 0"}, power(), scale(), group()}},
-      {"spot",
-       "a cone with a soft edge",
-       {intensity(),
-        {"from", {point3}, "position; default 0 0 0"},
-        {"to", {point3}, "target point; default 0 0 1"},
-        {"coneangle", {number}, "half-angle in degrees; default 30", 1e-3, 180},
-        {"conedeltaangle", {number}, "width of the edge in degrees; default 5", 0, 180},
-        {"falloff",
-         {string},
-         "falloff: a smooth step of the cosine, or its square as in glTF; default smooth (Montelux alone)",
-         0,
-         0,
-         {"smooth", "squared"}},
-        power(),
-        scale(),
-        group()}},
-      {"distant",
-       "parallel rays",
-       {{"L", {spectrum}, "radiance, which here is irradiance at normal incidence; default 1", 0, most},
-        {"from", {point3}, "the direction is from `from` to `to`; default 0 0 0"},
-        {"to", {point3}, "default 0 0 1"},
-        illuminance("illuminance at normal incidence in lux to which the light is scaled; default: none"),
-        scale(),
-        group()}},
-      {"goniometric",
-       "an intensity by direction, given by an image",
-       {intensity(), {"filename", {string}, "square equal-area image; default constant"}, power(), scale(), group()}},
-      {"projection",
-       "a slide projector along +z",
-       {{"filename", {string}, "the slide"},
-        {"I", {spectrum}, "factor of the slide; default 1", 0, most},
-        {"fov", {number}, "field of view of the shorter side in degrees; default 90", 1e-3, 179.99},
-        power(),
-        scale(),
-        group()}},
-      {"infinite",
-       "an environment",
-       {{"L", {spectrum}, "radiance; default 1", 0, most},
-        {"filename", {string}, "image of the sphere, instead of L"},
-        {"mapping",
-         {string},
-         "the image: square and equal-area, or longitude by latitude with the light's +z at the top, which is resampled"
-         "; auto: by the aspect ratio; default equalarea (Montelux alone)",
-         0,
-         0,
-         {"equalarea", "latlong", "auto"}},
-        illuminance("illuminance of the upward plane in lux to which the light is scaled; default: none"),
-        scale(),
-        group(),
-        portal()}},
-  };
+template <class Light>
+void power(Fields<S>& fields) {
+  fields.optional("power", of(&Light::power), "total power in watts to which the light is scaled; default: none", -1,
+                  most);
+}
+
+template <class Light>
+void illuminance(Fields<S>& fields, const char* meaning) {
+  fields.optional("illuminance", of(&Light::illuminance), meaning, -1, most);
+}
+
+// What all lights have.
+template <class Desc>
+void scale_and_group(Fields<Desc>& fields) {
+  fields.number("scale", &Desc::scale, "factor of the emission", 0, most);
+  fields.words("group", &Desc::group, "lights with the same name share a layer (--layers); default \"default\"");
+}
+
+Model<S> model(std::string_view meaning, LightModel light, Fields<S> fields) {
+  scale_and_group(fields);
+  const std::string_view name = name_of(light);
+  return {name, meaning, {std::move(light)}, std::move(fields)};
+}
+
+Model<S> point() {
+  using L = PointLightDesc;
+  Fields<S> fields;
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.vector("from", point3, of(&L::from), "position");
+  power<L>(fields);
+  return model("the same intensity in all directions", L{}, fields);
+}
+
+Model<S> spot() {
+  using L = SpotLightDesc;
+  Fields<S> fields;
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.vector("from", point3, of(&L::from), "position");
+  fields.vector("to", point3, of(&L::to), "target point");
+  fields.number("coneangle", of(&L::cone_angle), "half-angle in degrees", 1e-3, 180);
+  fields.number("conedeltaangle", of(&L::cone_delta_angle), "width of the edge in degrees", 0, 180);
+  fields.choice<SpotFalloff>("falloff", of(&L::falloff),
+                             "a smooth step of the cosine, or its square as in glTF (Montelux alone)",
+                             {{"smooth", SpotFalloff::smooth}, {"squared", SpotFalloff::squared}});
+  power<L>(fields);
+  return model("a cone with a soft edge", L{}, fields);
+}
+
+Model<S> distant() {
+  using L = DistantLightDesc;
+  Fields<S> fields;
+  fields.spectrum("L", of(&L::irradiance), "radiance, which here is irradiance at normal incidence", 0, most);
+  fields.vector("from", point3, of(&L::from), "the direction is from `from` to `to`");
+  fields.vector("to", point3, of(&L::to), "see `from`");
+  illuminance<L>(fields, "illuminance at normal incidence in lux to which the light is scaled; default: none");
+  return model("parallel rays", L{}, fields);
+}
+
+Model<S> goniometric() {
+  using L = GoniometricLightDesc;
+  Fields<S> fields;
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.words("filename", of(&L::file), "square equal-area image; default constant");
+  power<L>(fields);
+  return model("an intensity by direction, given by an image", L{}, fields);
+}
+
+Model<S> projection() {
+  using L = ProjectionLightDesc;
+  Fields<S> fields;
+  fields.words("filename", of(&L::file), "the slide");
+  fields.spectrum("I", of(&L::factor), "factor of the slide", 0, most);
+  fields.number("fov", of(&L::fov), "field of view of the shorter side in degrees", 1e-3, 179.99);
+  power<L>(fields);
+  return model("a slide projector along +z", L{}, fields);
+}
+
+Model<S> infinite() {
+  using L = InfiniteLightDesc;
+  Fields<S> fields;
+  fields.spectrum("L", of(&L::radiance), "radiance", 0, most);
+  fields.words("filename", of(&L::file), "image of the sphere, instead of L");
+  fields
+      .choice<EnvironmentMapping>(
+          "mapping", of(&L::mapping),
+          "the image: square and equal-area, or longitude by latitude with the light's +z at the top, which is "
+          "resampled; auto: by the aspect ratio (Montelux alone)",
+          {{"equalarea", EnvironmentMapping::equal_area},
+           {"latlong", EnvironmentMapping::latlong},
+           {"auto", EnvironmentMapping::automatic}})
+      .only_if([](const S& light) { return !std::get<L>(light.model).file.empty(); });
+  illuminance<L>(fields, "illuminance of the upward plane in lux to which the light is scaled; default: none");
+  ParameterSpec portal{"portal", {point3}, "four corners through which the light enters", -most, most, {}, true};
+  portal.later = true;
+  fields.other(portal);
+  return model("an environment", L{}, fields);
+}
+
+Model<AreaLightDesc> diffuse() {
+  using L = AreaLightDesc;
+  const auto has_image = [](const L& light) { return !light.file.empty(); };
+  Fields<L> fields;
+  fields.spectrum("L", &L::radiance, "radiance", 0, most).only_if([](const L& light) { return light.file.empty(); });
+  fields.words("filename", &L::file, "image over (u, v), instead of L");
+  fields
+      .flag("localpower", &L::local_power,
+            "triangles are chosen by the image's texels on them instead of by its mean (Montelux alone)")
+      .only_if(has_image);
+  fields.spectrum("tint", &L::tint, "factor of the image (Montelux alone)", 0, most).only_if(has_image);
+  fields.flag("twosided", &L::two_sided, "emits on both sides");
+  fields.optional("power", &L::power, "total power in watts to which the light is scaled; default: none", -1, most);
+  scale_and_group(fields);
+  return {"diffuse", "the same radiance in all directions", {}, std::move(fields)};
 }
 
 }  // namespace
 
-std::span<const EntitySpec> light_table() {
-  static const std::vector<EntitySpec> table = lights();
-  return table;
+std::string_view name_of(const LightModel& model) {
+  struct Name {
+    std::string_view operator()(const PointLightDesc&) const { return "point"; }
+    std::string_view operator()(const SpotLightDesc&) const { return "spot"; }
+    std::string_view operator()(const DistantLightDesc&) const { return "distant"; }
+    std::string_view operator()(const GoniometricLightDesc&) const { return "goniometric"; }
+    std::string_view operator()(const ProjectionLightDesc&) const { return "projection"; }
+    std::string_view operator()(const InfiniteLightDesc&) const { return "infinite"; }
+  };
+  return std::visit(Name{}, model);
 }
 
-std::span<const EntitySpec> area_light_table() {
-  static const std::vector<EntitySpec> table{
-      {"diffuse",
-       "the same radiance in all directions",
-       {{"L", {spectrum}, "radiance; default 1", 0, most},
-        {"filename", {string}, "image over (u, v), instead of L"},
-        {"localpower",
-         {boolean},
-         "triangles are chosen by the image's texels on them instead of by its "
-         "mean; default false (Montelux alone)"},
-        {"tint", {spectrum}, "factor of the image; default 1 (Montelux alone)", 0, most},
-        {"twosided", {boolean}, "emits on both sides; default false"},
-        power(),
-        scale(),
-        group()}}};
-  return table;
+const Models<LightDesc>& light_models() {
+  static const Models<S> models({point(), spot(), distant(), goniometric(), projection(), infinite()});
+  return models;
+}
+
+const Models<AreaLightDesc>& area_light_models() {
+  static const Models<AreaLightDesc> models({diffuse()});
+  return models;
 }
 
 }  // namespace montelux

@@ -1,14 +1,13 @@
 // The lights that a scene may state.
 #pragma once
-#include <span>
-
-#include "parameter/spec.h"
+#include "light/description.h"
+#include "parameter/models.h"
 
 namespace montelux {
 
 // Every light that is not an emitting shape, by name.
-std::span<const EntitySpec> light_table();
+const Models<LightDesc>& light_models();
 // Every kind of emission that a shape may have.
-std::span<const EntitySpec> area_light_table();
+const Models<AreaLightDesc>& area_light_models();
 
 }  // namespace montelux

@@ -26,17 +26,14 @@ constexpr std::array<MeasuredMedium, 12> measured{{
 
 std::span<const MeasuredMedium> measured_media() { return measured; }
 
-Medium build_medium(const Entity& entity, const MediumInputs& inputs) {
-  const ParameterList& p = entity.parameters;
-  const auto preset = std::ranges::find(measured, p.string("preset", "Wholemilk"), &MeasuredMedium::name);
+Medium build_medium(const HomogeneousMediumDesc& stated, const MediumInputs& inputs) {
+  const auto preset = std::ranges::find(measured, stated.preset, &MeasuredMedium::name);
   const MeasuredMedium& basis = preset == measured.end() ? measured.back() : *preset;
-  const auto absorption = p.spectrum("sigma_a"), scattering = p.spectrum("sigma_s"), emission = p.spectrum("Le");
-  const float scale = p.number("scale", 1), emission_scale = p.number("Lescale", 1);
   Medium medium;
-  medium.absorption = (absorption ? inputs.coefficient(*absorption) : basis.absorption) * scale;
-  medium.scattering = (scattering ? inputs.coefficient(*scattering) : basis.scattering) * scale;
-  if (emission) medium.emission = inputs.emission(*emission) * emission_scale;
-  medium.mean_cosine = p.number("g", 0);
+  medium.absorption = (stated.absorption ? inputs.coefficient(*stated.absorption) : basis.absorption) * stated.scale;
+  medium.scattering = (stated.scattering ? inputs.coefficient(*stated.scattering) : basis.scattering) * stated.scale;
+  medium.emission = inputs.emission(stated.emission) * stated.emission_scale;
+  medium.mean_cosine = stated.mean_cosine;
   return medium;
 }
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "medium/description.h"
 #include "medium/medium.h"
-#include "parameter/value.h"
 
 namespace montelux {
 
@@ -15,8 +15,8 @@ struct MediumInputs {
   std::function<Rgb(const SpectrumValue&)> emission;     // of emitted light
 };
 
-// By the names and parameters of medium_table(), which the entity has been checked against.
-Medium build_medium(const Entity& entity, const MediumInputs& inputs);
+// An unknown preset counts as the default one.
+Medium build_medium(const HomogeneousMediumDesc& stated, const MediumInputs& inputs);
 
 // Measured media by name, in units of 1/mm (Jensen, Marschner, Levoy and Hanrahan 2001, fig. 5: the reduced scattering
 // coefficient, for use with g = 0).

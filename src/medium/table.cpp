@@ -6,35 +6,36 @@ namespace montelux {
 
 namespace {
 
-using enum ParameterType;
+using S = HomogeneousMediumDesc;
 
 constexpr double most = 1e30;
 
-std::vector<std::string_view> preset_names() {
-  std::vector<std::string_view> names;
-  for (const MeasuredMedium& medium : measured_media()) names.push_back(medium.name);
-  return names;
+Model<S> homogeneous() {
+  NamedValues<std::string> presets;
+  for (const MeasuredMedium& medium : measured_media()) presets.emplace_back(medium.name, medium.name);
+  Fields<S> fields;
+  fields.choice<std::string>("preset", &S::preset, "measured coefficients, per millimetre", presets)
+      .only_if([](const S& medium) { return !medium.absorption || !medium.scattering; });
+  fields.optional("sigma_a", &S::absorption, "absorption per unit of length; default the preset's", 0, most);
+  fields.optional("sigma_s", &S::scattering, "scattering per unit of length; default the preset's", 0, most);
+  fields.number("scale", &S::scale, "factor of both", 0, most);
+  fields.number("g", &S::mean_cosine, "mean cosine of the phase function of Henyey and Greenstein", -0.999, 0.999);
+  fields.spectrum("Le", &S::emission, "emitted radiance, times sigma_a per unit of length", 0, most);
+  fields.number("Lescale", &S::emission_scale, "factor of Le", 0, most).only_if([](const S& medium) {
+    return !(medium.emission == gray_value(0));
+  });
+  return {name_of(S{}), "the same everywhere", {}, std::move(fields)};
 }
+
+Model<S> later(std::string_view name, std::string_view meaning) { return {name, meaning, {}, {}, true}; }
 
 }  // namespace
 
-std::span<const EntitySpec> medium_table() {
-  static const std::vector<EntitySpec> table{
-      {"homogeneous",
-       "the same everywhere",
-       {{"preset", {string}, "measured coefficients, per millimetre; default Wholemilk", 0, 0, preset_names()},
-        {"sigma_a", {spectrum}, "absorption per unit of length; default the preset's", 0, most},
-        {"sigma_s", {spectrum}, "scattering per unit of length; default the preset's", 0, most},
-        {"scale", {number}, "factor of both; default 1", 0, most},
-        {"g", {number}, "mean cosine of the phase function of Henyey and Greenstein; default 0", -0.999, 0.999},
-        {"Le", {spectrum}, "emitted radiance, times sigma_a per unit of length; default 0", 0, most},
-        {"Lescale", {number}, "factor of Le; default 1", 0, most}}},
-      {"uniformgrid", "densities on a grid", {}, true},
-      {"rgbgrid", "coefficients on a grid", {}, true},
-      {"cloud", "procedural cloud", {}, true},
-      {"nanovdb", "densities of a NanoVDB file", {}, true},
-  };
-  return table;
+const Models<HomogeneousMediumDesc>& medium_models() {
+  static const Models<S> models({homogeneous(), later("uniformgrid", "densities on a grid"),
+                                 later("rgbgrid", "coefficients on a grid"), later("cloud", "procedural cloud"),
+                                 later("nanovdb", "densities of a NanoVDB file")});
+  return models;
 }
 
 }  // namespace montelux

@@ -1,11 +1,13 @@
-// What a scene may say about participating media.
+// What a scene may state about participating media.
 #pragma once
-#include <span>
+#include <string_view>
 
-#include "parameter/spec.h"
+#include "medium/description.h"
+#include "parameter/models.h"
 
 namespace montelux {
 
-std::span<const EntitySpec> medium_table();
+const Models<HomogeneousMediumDesc>& medium_models();
+inline std::string_view name_of(const HomogeneousMediumDesc&) { return "homogeneous"; }
 
 }  // namespace montelux

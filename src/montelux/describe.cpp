@@ -7,7 +7,10 @@
 #include "io/pbrt/meshes.h"
 #include "io/pbrt/picture.h"
 #include "io/ply.h"
+#include "io/read_model.h"
 #include "io/text_file.h"
+#include "light/table.h"
+#include "medium/table.h"
 #include "montelux/parameters.h"
 #include "scene/shape_models.h"
 
@@ -117,12 +120,8 @@ std::optional<montelux::Mesh> Description::checked_mesh(const Mesh& mesh, const 
 
 // What the entity states of a shape besides its mesh.
 bool Description::set_shape(const Entity& stated, ShapeDesc& desc) {
-  montelux::Result<ShapeDesc> read = shape_models().read(stated);
-  if (!read) {
-    report_.error(stated.where, read.error());
-    return false;
-  }
-  pbrt::report_unused("shape '" + stated.type + "'", stated.parameters, report_);
+  std::optional<ShapeDesc> read = read_model(shape_models(), Family::shape, stated, report_);
+  if (!read) return false;
   desc = *std::move(read);
   desc.where = stated.where;
   return true;
@@ -184,7 +183,11 @@ void Description::add_shape(const Shape& shape, const SourceLocation& where) {
     report_.error(where, "the material is none of this scene"), good = false;
   // Number 0 of a description is the default material.
   if (surface.material) desc.material = MaterialDescId(std::uint32_t(*surface.material) + 1);
-  if (surface.area_light) desc.area_light = entity(Family::area_light, *surface.area_light, where);
+  if (surface.area_light)
+    if (const auto stated = entity(Family::area_light, *surface.area_light, where)) {
+      desc.area_light = read_model(area_light_models(), Family::area_light, *stated, report_);
+      if (desc.area_light) desc.area_light->where = where;
+    }
   desc.media = {medium(surface.media.inside, where), medium(surface.media.outside, where)};
   if (!surface.object) {
     if (good && place) desc_.shapes.push_back(std::move(desc));
@@ -225,14 +228,19 @@ ReadResult Description::make() {
   for (std::size_t i = 0; i < content_.media.size(); ++i) {
     const std::string name = "medium " + std::to_string(i);
     auto stated = entity(Family::medium, content_.media[i], part(name));
-    desc_.media.push_back({name, stated.value_or(Entity{})});
+    desc_.media.push_back(
+        {name, stated ? read_model(medium_models(), Family::medium, *stated, report_) : std::nullopt, {}});
   }
   desc_.camera_medium = medium(content_.camera_medium, part("camera"));
   for (std::size_t i = 0; i < content_.lights.size(); ++i) {
     const SourceLocation where = part("light " + std::to_string(i));
     auto stated = entity(Family::light, content_.lights[i].model, where);
     const auto t = transform(content_.lights[i].transform, where);
-    if (stated && t) desc_.lights.push_back({*std::move(stated), *t});
+    std::optional<LightDesc> light =
+        stated ? read_model(light_models(), Family::light, *stated, report_) : std::nullopt;
+    if (!light || !t) continue;
+    light->where = where, light->light_to_world = *t;
+    desc_.lights.push_back(*std::move(light));
   }
   for (std::uint32_t i = 0; i < content_.objects; ++i) desc_.objects.push_back({"object " + std::to_string(i), {}});
   for (std::size_t i = 0; i < content_.shapes.size(); ++i)

@@ -13,9 +13,11 @@
 #include "filter/description.h"
 #include "geometry/curve.h"
 #include "geometry/mesh.h"
+#include "light/description.h"
 #include "light/light.h"
 #include "math/transform.h"
 #include "mc/point_set.h"
+#include "medium/description.h"
 #include "parameter/value.h"
 
 namespace montelux {
@@ -33,11 +35,6 @@ struct TextureDesc {
 
 struct MaterialDesc {
   std::string name;  // empty if it was stated in place
-  Entity entity;
-};
-
-struct MediumDesc {
-  std::string name;
   Entity entity;
 };
 
@@ -85,7 +82,7 @@ struct ShapeDesc {
   std::vector<Transform> object_to_world_later{};
   bool reverse_orientation = false;
   MaterialDescId material{};
-  std::optional<Entity> area_light{};
+  std::optional<AreaLightDesc> area_light{};
   MediumSidesDesc media{};
 };
 
@@ -95,11 +92,6 @@ inline std::shared_ptr<const Mesh> mesh_of(const ShapeDesc& shape) {
   if (const auto* surface = std::get_if<SubdivisionForm>(&shape.form)) return surface->control;
   return nullptr;
 }
-
-struct LightDesc {
-  Entity entity;
-  Transform light_to_world;
-};
 
 // Shapes that are placed by instances; their transforms map to the object's space.
 struct ObjectDesc {

@@ -88,7 +88,6 @@ std::uint32_t GeometryBuilder::add_object_of(const ShapeDesc& moving) {
   if (quadric_of(moving) && moving.object_to_world.swaps_handedness())
     still.reverse_orientation = !moving.reverse_orientation;
   const std::uint32_t object = add_store_object([&] { add_shape(still, false); });
-  if (moving.area_light) moving.area_light->parameters.use_all();  // it is reported that it does not emit
   return object;
 }
 
@@ -182,7 +181,6 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   const bool partly_interface = inputs_.is_partly_interface(shape.material);
   const std::optional<MediumSides> media = inputs_.media(shape);
   if (!alpha || (interface && !shape.area_light && !media)) {  // nothing that light could hit
-    if (shape.area_light) shape.area_light->parameters.use_all();
     return;
   }
   if (shape.area_light && !in_world)

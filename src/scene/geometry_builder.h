@@ -19,7 +19,7 @@ struct MediumSides {
 // What the builder needs to know about a shape's attributes.
 struct ShapeInputs {
   // Emission of an area light.
-  std::function<Emission(const Entity& area_light)> emission;
+  std::function<Emission(const AreaLightDesc&)> emission;
   // 1 + number of the texture, or 0 for a surface without a mask; none if the surface is fully transparent.
   std::function<std::optional<std::uint32_t>(const ShapeDesc&)> alpha;
   // Whether light passes the material unchanged.

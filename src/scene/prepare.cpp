@@ -34,7 +34,7 @@ class Preparation {
     MediumSet media = make_media();
     LightSetBuilder lights;
     GeometryStore geometry = make_geometry(materials, lights);
-    for (const LightDesc& light : desc_.lights) add_light(light, lights);
+    for (const LightDesc& light : desc_.lights) lights.add(light, light_inputs(), diagnostics_);
     Vec3f centre = (bounds_.low + bounds_.high) * 0.5f;
     float radius = length(bounds_.high - centre);
     if (bounds_.is_empty()) centre = {0, 0, 0}, radius = 1;
@@ -68,7 +68,6 @@ class Preparation {
   Camera make_camera();
   void break_mixture_cycles(std::vector<Material>& materials);
   GeometryStore make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights);
-  void add_light(const LightDesc& light, LightSetBuilder& lights);
   LightInputs light_inputs();
   std::shared_ptr<const LightImage> light_image(const std::string& file, const SourceLocation& where);
   std::optional<std::uint32_t> alpha_of(const ShapeDesc& shape);
@@ -108,9 +107,8 @@ std::vector<Material> Preparation::make_materials() {
 MediumSet Preparation::make_media() {
   MediumSet media;
   for (const MediumDesc& medium : desc_.media)
-    medium_numbers_.push_back(medium.entity.type.empty()
-                                  ? empty_space
-                                  : media.add(build_medium(medium.entity, {unbounded_rgb, emission_rgb})));
+    medium_numbers_.push_back(medium.model ? media.add(build_medium(*medium.model, {unbounded_rgb, emission_rgb}))
+                                           : empty_space);
   return media;
 }
 
@@ -152,7 +150,7 @@ bool is_partly_interface(const std::vector<Material>& materials, std::uint32_t n
 }
 
 GeometryStore Preparation::make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights) {
-  ShapeInputs inputs{[this](const Entity& light) { return emission_of(light, light_inputs(), diagnostics_); },
+  ShapeInputs inputs{[this](const AreaLightDesc& light) { return emission_of(light, light_inputs(), diagnostics_); },
                      [this](const ShapeDesc& shape) { return alpha_of(shape); },
                      [&](MaterialDescId id) { return materials[std::size_t(id)].is_interface; },
                      [&](MaterialDescId id) { return is_partly_interface(materials, std::uint32_t(id)); },
@@ -184,10 +182,6 @@ std::optional<std::uint32_t> Preparation::alpha_of(const ShapeDesc& shape) {
 LightInputs Preparation::light_inputs() {
   return {emission_rgb,
           [this](const std::string& file, const SourceLocation& where) { return light_image(file, where); }};
-}
-
-void Preparation::add_light(const LightDesc& light, LightSetBuilder& lights) {
-  lights.add(light.entity, light.light_to_world, light_inputs(), diagnostics_);
 }
 
 std::shared_ptr<const LightImage> Preparation::light_image(const std::string& file, const SourceLocation& where) {

@@ -21,9 +21,6 @@ class UnusedReport {
   void add(const std::string& family, const Entity& entity) {
     add(family + " '" + entity.type + "'", entity.parameters);
   }
-  void add(const ShapeDesc& shape) {
-    if (shape.area_light) add("area light", *shape.area_light);
-  }
 
  private:
   Diagnostics& diagnostics_;
@@ -36,11 +33,6 @@ void report_unused(const SceneDesc& scene, Diagnostics& diagnostics) {
   UnusedReport report(diagnostics);
   for (const TextureDesc& texture : scene.textures) report.add("texture", texture.entity);
   for (const MaterialDesc& material : scene.materials) report.add("material", material.entity);
-  for (const MediumDesc& medium : scene.media) report.add("medium", medium.entity);
-  for (const LightDesc& light : scene.lights) report.add("light", light.entity);
-  for (const ShapeDesc& shape : scene.shapes) report.add(shape);
-  for (const ObjectDesc& object : scene.objects)
-    for (const ShapeDesc& shape : object.shapes) report.add(shape);
 }
 
 }  // namespace montelux

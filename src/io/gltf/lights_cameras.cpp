@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "io/gltf/choice.h"
-#include "io/gltf/parameters.h"
 
 namespace montelux::gltf {
 
@@ -47,15 +46,16 @@ Vec3f color_of(const Element& light) {
   return c ? Vec3f{float((*c)[0]), float((*c)[1]), float((*c)[2])} : Vec3f{1, 1, 1};
 }
 
-void state_spot(const Element& spot, Entity& e) {
+SpotLightDesc spot_of(const Element& spot, const SpectrumValue& intensity) {
   constexpr double right_angle = std::numbers::pi / 2, degrees = 180 / std::numbers::pi;
   const double outer = spot["outerConeAngle"].number(1e-4, right_angle + 1e-6).value_or(std::numbers::pi / 4);
   const double inner = spot["innerConeAngle"].number(0, right_angle).value_or(0);
   if (inner > outer) spot.error("innerConeAngle must be less than outerConeAngle");
-  put_point(e, "to", {0, 0, -1});
-  put_number(e, "coneangle", std::min(outer, right_angle) * degrees);
-  put_number(e, "conedeltaangle", std::max(outer - inner, 0.0) * degrees);
-  put_string(e, "falloff", "squared");
+  SpotLightDesc light;
+  light.intensity = intensity, light.to = {0, 0, -1}, light.falloff = SpotFalloff::squared;
+  light.cone_angle = float(std::min(outer, right_angle) * degrees);
+  light.cone_delta_angle = float(std::max(outer - inner, 0.0) * degrees);
+  return light;
 }
 
 }  // namespace
@@ -147,14 +147,20 @@ std::optional<LightDesc> light_of(Document& document, std::size_t light, const M
   const double intensity = element["intensity"].number(0, 1e30).value_or(1);
   const Vec3f c = color_of(element);
   if (!type) return std::nullopt;
-  const Rgb emission = Rgb{{c.x, c.y, c.z}} * float(intensity);
-  Entity e{*type == "directional" ? "distant" : *type, {}, element.where()};
-  put_rgb(e, *type == "directional" ? "L" : "I", emission);
+  const SpectrumValue emission = RgbValue{Rgb{{c.x, c.y, c.z}} * float(intensity)};
+  LightDesc desc;
+  desc.where = element.where();
   // Lights emit along their own -z.
-  if (*type == "directional") put_point(e, "to", {0, 0, -1});
-  if (*type == "spot") state_spot(element["spot"], e);
-  const auto placed = from_matrix(rigid(node_to_world));
-  if (placed) return LightDesc{std::move(e), *placed};
+  if (*type == "directional")
+    desc.model = DistantLightDesc{emission, {0, 0, 0}, {0, 0, -1}};
+  else if (*type == "spot")
+    desc.model = spot_of(element["spot"], emission);
+  else
+    desc.model = PointLightDesc{emission};
+  if (const auto placed = from_matrix(rigid(node_to_world))) {
+    desc.light_to_world = *placed;
+    return desc;
+  }
   element.warning("the node of the light leaves it no direction: it is omitted");
   return std::nullopt;
 }
@@ -169,13 +175,15 @@ std::optional<LightDesc> environment_of(Document& document, const Element& scene
     extras["environment"].error("there is no file '" + printable(link->file) + "'");
     return std::nullopt;
   }
-  Entity e{"infinite", {}, extras["environment"].where()};
-  put_string(e, "filename", link->file);
-  put_string(e, "mapping", "latlong");
+  InfiniteLightDesc sphere;
+  sphere.file = link->file, sphere.mapping = EnvironmentMapping::latlong;
+  LightDesc desc;
+  desc.model = std::move(sphere), desc.where = extras["environment"].where();
   // The pole of the image, its own +z, is +y of the world; its azimuth goes from +x towards +z.
   Matrix4 m;
   m.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
-  return LightDesc{std::move(e), *from_matrix(m)};
+  desc.light_to_world = *from_matrix(m);
+  return desc;
 }
 
 }  // namespace montelux::gltf

@@ -210,27 +210,28 @@ bool MaterialReader::repeats(const std::optional<TextureUse>& texture) {
   return texture && (texture->wrap[0] != "clamp" || texture->wrap[1] != "clamp");
 }
 
-std::optional<Entity> MaterialReader::emission_of(const Factor& factor, double scale, const Element& where) {
+std::optional<AreaLightDesc> MaterialReader::emission_of(const Factor& factor, double scale, const Element& where) {
   if (is_black(factor.value) || scale <= 0) return std::nullopt;
-  Entity light{"diffuse", {}, where.where()};
-  put_rgb(light, factor.texture ? "tint" : "L", factor.value);
+  AreaLightDesc light;
+  light.where = where.where(), light.scale = float(scale);
+  const SpectrumValue color = RgbValue{factor.value};
   if (factor.texture) {
-    put_string(light, "filename", factor.texture->file);
-    put_boolean(light, "localpower", true);
+    light.tint = color, light.file = factor.texture->file, light.local_power = true;
     if (factor.texture->uv_map != TextureUse().uv_map)
       where.warning("the KHR_texture_transform of an emissive texture is not applied");
+  } else {
+    light.radiance = color;
   }
-  if (scale != 1) put_number(light, "scale", scale);
   return light;
 }
 
-std::optional<Entity> MaterialReader::emission(const Element& material) {
+std::optional<AreaLightDesc> MaterialReader::emission(const Element& material) {
   Factor factor{rgb_of(shares(material["emissiveFactor"], {0, 0, 0})), textures_.use(material["emissiveTexture"])};
   const Element strength = material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
   const double scale = strength.number(0, 1e30).value_or(1);
   note_uv_set(factor.texture, material);
-  std::optional<Entity> light = emission_of(factor, scale, material);
-  if (light && is_double_sided(material)) put_boolean(*light, "twosided", true);
+  std::optional<AreaLightDesc> light = emission_of(factor, scale, material);
+  if (light) light->two_sided = is_double_sided(material);
   return light;
 }
 
@@ -258,7 +259,7 @@ MaterialUse MaterialReader::read_unlit(const Element& material) {
   use.id = add(std::move(black), material["name"].text().value_or(""));
   use.area_light = emission_of(base_color(material), 1, material);
   use.one_sided = !is_double_sided(material);
-  if (use.area_light && !use.one_sided) put_boolean(*use.area_light, "twosided", true);
+  if (use.area_light) use.area_light->two_sided = !use.one_sided;
   use.repeats_emission = repeats(base_color(material).texture);
   use.alpha = alpha(material);
   return use;

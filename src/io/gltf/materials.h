@@ -9,7 +9,7 @@ struct MaterialUse {
   MaterialDescId id{};
   // For mirrored texture coordinates: the same with the green of the normal map inverted.
   std::optional<MaterialDescId> mirrored;
-  std::optional<Entity> area_light;
+  std::optional<AreaLightDesc> area_light;
   bool repeats_emission = false;   // its texture repeats beyond its edges, which that of an area light does not
   std::optional<Parameter> alpha;  // of the shapes
   bool one_sided = false;          // backs are not shown
@@ -48,8 +48,8 @@ class MaterialReader {
   static std::optional<Entity> mirrored(const Entity& e);
   MaterialDescId add(Entity e, const std::string& name);
   MaterialDescId transmitting(const Entity& base, const Element& material, const std::string& name);
-  std::optional<Entity> emission(const Element& material);
-  std::optional<Entity> emission_of(const Factor& factor, double scale, const Element& where);
+  std::optional<AreaLightDesc> emission(const Element& material);
+  std::optional<AreaLightDesc> emission_of(const Factor& factor, double scale, const Element& where);
   std::optional<Parameter> alpha(const Element& material);
   static bool repeats(const std::optional<TextureUse>& texture);
   Factor base_color(const Element& material);

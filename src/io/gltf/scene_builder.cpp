@@ -243,9 +243,9 @@ void SceneBuilder::place_lights() {
                                   [](const ShapeDesc& shape) { return shape.area_light.has_value(); });
   if (!scene_.lights.empty() || shines) return;
   document_.report().note(document_.whole(), "the scene has no light: a uniform sky of radiance 1 is used");
-  Entity sky{"infinite", {}, document_.whole()};
-  put_rgb(sky, "L", gray_rgb(1.0f));
-  scene_.lights.push_back({std::move(sky), {}});
+  LightDesc sky;
+  sky.model = InfiniteLightDesc{}, sky.where = document_.whole();
+  scene_.lights.push_back(std::move(sky));
 }
 
 void SceneBuilder::place_camera() {

@@ -29,7 +29,7 @@ struct GraphicsState {
   bool change_start = true, change_end = true;  // by ActiveTransform
   bool reverse_orientation = false;
   std::uint32_t material = 0;  // a number of a material, or `named_material` plus one of a name
-  std::optional<Entity> area_light;
+  std::optional<AreaLightDesc> area_light;
   MediumSidesDesc media;
   std::string color_space = "srgb";
   std::map<Family, ParameterList> attributes;  // defaults stated by Attribute

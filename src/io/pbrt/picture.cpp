@@ -7,6 +7,7 @@
 #include "io/checks.h"
 #include "io/numbers.h"
 #include "io/pbrt/picture_models.h"
+#include "io/read_model.h"
 
 namespace montelux::pbrt {
 
@@ -120,11 +121,6 @@ Entity stated_integrator(const IntegratorDesc& integrator) {
 }
 
 }  // namespace
-
-void report_unused(const std::string& owner, const ParameterList& parameters, Reporter& report) {
-  for (const Parameter* p : parameters.unused())
-    report.warning(p->where, "'" + p->name + "' of " + owner + " has no effect here");
-}
 
 void describe_picture(const StatedPicture& stated, SceneDesc& scene, Reporter& report) {
   scene.replaced.clear();

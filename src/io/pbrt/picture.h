@@ -25,6 +25,5 @@ void describe_picture(const StatedPicture& stated, SceneDesc& scene, Reporter& r
 StatedPicture stated_picture(const SceneDesc& scene);
 
 // Warns, at its position, of each parameter that nothing has looked up. `owner`: such as "film 'rgb'".
-void report_unused(const std::string& owner, const ParameterList& parameters, Reporter& report);
 
 }  // namespace montelux::pbrt

@@ -2,6 +2,7 @@
 #include "io/pbrt/meshes.h"
 #include "io/pbrt/parser.h"
 #include "io/ply.h"
+#include "io/read_model.h"
 #include "io/text_file.h"
 #include "scene/shape_models.h"
 
@@ -79,12 +80,8 @@ std::optional<ShapeDesc> Parser::shape_of(Entity stated) {
   const bool has_mesh = is_mesh(stated.type);
   const std::shared_ptr<const Mesh> mesh = has_mesh ? mesh_stated_by(stated) : nullptr;
   if (has_mesh && (!mesh || (mesh->triangles.empty() && mesh->quads.empty()))) return std::nullopt;
-  Result<ShapeDesc> shape = shape_models().read(stated);
-  if (!shape) {
-    report_.error(stated.where, shape.error());
-    return std::nullopt;
-  }
-  report_unused("shape '" + stated.type + "'", stated.parameters, report_);
+  std::optional<ShapeDesc> shape = read_model(shape_models(), Family::shape, stated, report_);
+  if (!shape) return std::nullopt;
   shape->where = stated.where;
   set_mesh(*shape, mesh);
   return *std::move(shape);

@@ -2,7 +2,10 @@
 #include <utility>
 
 #include "io/pbrt/parser.h"
+#include "io/read_model.h"
 #include "io/text_file.h"
+#include "light/table.h"
+#include "medium/table.h"
 
 namespace montelux::pbrt {
 
@@ -112,13 +115,17 @@ void Parser::directive_named_material() {
 void Parser::directive_light_source() {
   auto light = stated_entity(Family::light);
   if (!is_in_world(true) || !light) return;
-  scene_.lights.push_back({std::move(light->entity), still_transform("light")});
+  std::optional<LightDesc> desc = read_model(light_models(), Family::light, light->entity, report_);
+  if (!desc) return;
+  desc->where = light->entity.where, desc->light_to_world = still_transform("light");
+  scene_.lights.push_back(*std::move(desc));
 }
 
 void Parser::directive_area_light_source() {
   auto light = stated_entity(Family::area_light);
   if (!is_in_world(true) || !light) return;
-  state_.area_light = std::move(light->entity);
+  state_.area_light = read_model(area_light_models(), Family::area_light, light->entity, report_);
+  if (state_.area_light) state_.area_light->where = light->entity.where;
 }
 
 std::optional<MediumDescId> Parser::medium_named(const std::string& name, const SourceLocation& where) {
@@ -145,7 +152,9 @@ void Parser::directive_make_named_medium() {
     if (parameter.name != "type") others.add(parameter);
   auto entity = stated_entity(Family::medium, type_name, type->where, others, std::nullopt);
   // What is left out is empty space.
-  if (entity) scene_.media[std::size_t(id)].entity = std::move(entity->entity);
+  if (!entity) return;
+  scene_.media[std::size_t(id)].model = read_model(medium_models(), Family::medium, entity->entity, report_);
+  scene_.media[std::size_t(id)].where = entity->entity.where;
 }
 
 void Parser::directive_medium_interface() {

@@ -86,26 +86,29 @@ TEST(Names, of_materials_may_be_used_before_they_are_defined) {
       read("WorldBegin NamedMaterial \"g\" Shape \"sphere\" MakeNamedMaterial \"g\" \"string type\" \"dielectric\"");
   EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.shapes.at(0).material)).name, "g");
 }
+const SpectrumValue& intensity_of(const SceneDesc& scene, std::size_t light) {
+  return std::get<PointLightDesc>(scene.lights.at(light).model).intensity;
+}
+
 TEST(Values, keep_the_colour_space_in_force) {
   SceneDesc scene = read("WorldBegin ColorSpace \"rec2020\" LightSource \"point\" \"rgb I\" [ 1 2 3 ]");
-  auto spectrum = scene.lights.at(0).entity.parameters.spectrum("I");
-  ASSERT_TRUE(spectrum);
-  EXPECT_EQ(std::get<RgbValue>(*spectrum).color_space, "rec2020");
-  EXPECT_EQ(std::get<RgbValue>(*spectrum).rgb.c[2], 3);
+  const auto& rgb = std::get<RgbValue>(intensity_of(scene, 0));
+  EXPECT_EQ(rgb.color_space, "rec2020");
+  EXPECT_EQ(rgb.rgb.c[2], 3);
 }
 TEST(Values, may_be_spectra_of_every_notation) {
   SceneDesc scene = read(
       "WorldBegin LightSource \"point\" \"blackbody I\" 6500 LightSource \"point\" \"spectrum I\" [ 400 1 700 2 ]\n"
       "LightSource \"point\" \"spectrum I\" \"stdillum-D65\"");
-  EXPECT_EQ(std::get<Blackbody>(*scene.lights.at(0).entity.parameters.spectrum("I")).kelvin, 6500);
-  EXPECT_EQ(std::get<SampledValue>(*scene.lights.at(1).entity.parameters.spectrum("I")).values.at(1), 2);
-  EXPECT_EQ(std::get<NamedSpectrum>(*scene.lights.at(2).entity.parameters.spectrum("I")).name, "stdillum-D65");
+  EXPECT_EQ(std::get<Blackbody>(intensity_of(scene, 0)).kelvin, 6500);
+  EXPECT_EQ(std::get<SampledValue>(intensity_of(scene, 1)).values.at(1), 2);
+  EXPECT_EQ(std::get<NamedSpectrum>(intensity_of(scene, 2)).name, "stdillum-D65");
 }
 TEST(Values, of_spectra_may_come_from_a_file) {
   TemporaryFolder folder;
   folder.write("red.spd", "# nm value\n400 0\n600 1\n700 1\n");
   SceneDesc scene = read("WorldBegin LightSource \"point\" \"spectrum I\" \"red.spd\"", folder.path());
-  EXPECT_EQ(std::get<SampledValue>(*scene.lights.at(0).entity.parameters.spectrum("I")).wavelengths.size(), 3u);
+  EXPECT_EQ(std::get<SampledValue>(intensity_of(scene, 0)).wavelengths.size(), 3u);
 }
 TEST(Meshes, take_their_arrays_from_the_parameters) {
   SceneDesc scene = read(

@@ -185,7 +185,7 @@ TEST(GltfScene, without_camera_and_light_gets_both_and_says_so) {
   const ReadResult result = read_text(triangle_json());
   ASSERT_TRUE(result.scene);
   ASSERT_EQ(result.scene->lights.size(), 1u);
-  EXPECT_EQ(result.scene->lights[0].entity.type, "infinite");
+  EXPECT_EQ(name_of(result.scene->lights[0].model), "infinite");
   const std::string text = render(result.diagnostics);
   EXPECT_NE(text.find("note: the scene has no camera"), std::string::npos) << text;
   EXPECT_NE(text.find("note: the scene has no light"), std::string::npos) << text;
@@ -212,18 +212,18 @@ TEST(GltfLight, has_its_intensity_color_and_cone) {
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
   ASSERT_EQ(result.scene->lights.size(), 2u);
   const LightDesc &spot = result.scene->lights[0], &sun = result.scene->lights[1];
-  EXPECT_EQ(spot.entity.type, "spot");
-  expect_point(spot.light_to_world.point(spot.entity.parameters.vec3("from", {0, 0, 0})), 1, 2, 3);
-  expect_point(spot.light_to_world.direction(spot.entity.parameters.vec3("to", {})), 0, 0, -1);
-  const auto emission = std::get<RgbValue>(*spot.entity.parameters.spectrum("I")).rgb;
+  const auto& cone = std::get<SpotLightDesc>(spot.model);
+  expect_point(spot.light_to_world.point(cone.from), 1, 2, 3);
+  expect_point(spot.light_to_world.direction(cone.to), 0, 0, -1);
+  const auto emission = std::get<RgbValue>(cone.intensity).rgb;
   EXPECT_EQ(emission[0], 8);
   EXPECT_EQ(emission[2], 2);
   const float degrees = 180 / std::numbers::pi_v<float>;
-  EXPECT_FLOAT_EQ(spot.entity.parameters.number("coneangle", 0), 0.3f * degrees);
-  EXPECT_FLOAT_EQ(spot.entity.parameters.number("conedeltaangle", 0), 0.2f * degrees);
+  EXPECT_FLOAT_EQ(cone.cone_angle, 0.3f * degrees);
+  EXPECT_FLOAT_EQ(cone.cone_delta_angle, 0.2f * degrees);
+  EXPECT_EQ(cone.falloff, SpotFalloff::squared);
   // Turned a quarter about x, -z becomes -y.
-  EXPECT_EQ(sun.entity.type, "distant");
-  expect_point(sun.light_to_world.direction(sun.entity.parameters.vec3("to", {})), 0, -1, 0);
+  expect_point(sun.light_to_world.direction(std::get<DistantLightDesc>(sun.model).to), 0, -1, 0);
 }
 
 TEST(GltfMaterial, without_a_specular_part_is_lamberts) {
@@ -238,9 +238,9 @@ TEST(GltfMaterial, without_a_specular_part_is_lamberts) {
   EXPECT_EQ(material.type, "diffuse");
   EXPECT_EQ(std::get<RgbValue>(*material.parameters.spectrum("reflectance")).rgb[1], 0.25f);
   ASSERT_TRUE(shape.area_light);
-  EXPECT_EQ(std::get<RgbValue>(*shape.area_light->parameters.spectrum("L")).rgb[1], 1);
-  EXPECT_EQ(shape.area_light->parameters.number("scale", 0), 4);
-  EXPECT_TRUE(shape.area_light->parameters.boolean("twosided", false));
+  EXPECT_EQ(std::get<RgbValue>(shape.area_light->radiance).rgb[1], 1);
+  EXPECT_EQ(shape.area_light->scale, 4);
+  EXPECT_TRUE(shape.area_light->two_sided);
 }
 
 TEST(GltfMaterial, has_gltfs_defaults_where_there_is_none) {

@@ -11,6 +11,8 @@
 #include "io/pbrt.h"
 #include "io/pbrt/parameters.h"
 #include "io/pbrt/picture.h"
+#include "io/read_model.h"
+#include "light/table.h"
 #include "mc/point_set.h"
 #include "scene/prepare.h"
 #include "scene/unused.h"
@@ -93,6 +95,9 @@ const std::map<std::string, std::string, std::less<>>& companions() {
       {"N1", "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ] \"point3 P1\" [ 0 0 1 1 0 1 0 1 1 ]"},
       {"curve:N", "\"string type\" \"ribbon\""},
       {"infinite:mapping", "\"string filename\" \"image.pfm\""},
+      {"localpower", "\"string filename\" \"image.pfm\""},
+      {"diffuse:tint", "\"string filename\" \"image.pfm\""},
+      {"Lescale", "\"rgb Le\" [ 1 2 3 ]"},
       {"filter", ""},
   };
   return all;
@@ -345,13 +350,23 @@ TEST(Parameter, that_nothing_reads_is_told) {
     EXPECT_EQ(said.all()[0].where.column, 9);
     EXPECT_NE(said.all()[0].message.find("'grain' of " + owner), std::string::npos) << said.all()[0].message;
   };
-  for (ParameterList* list : {&scene.lights[0].entity.parameters, &scene.materials[0].entity.parameters}) {
+  {
     SceneDesc faulty = scene;
-    const bool is_light = list == &scene.lights[0].entity.parameters;
-    (is_light ? faulty.lights[0].entity : faulty.materials[0].entity).parameters.add(planted);
+    faulty.materials[0].entity.parameters.add(planted);
     Diagnostics said;
     ASSERT_TRUE(prepare(faulty, {}, said));
-    expect_one(said, is_light ? "light 'point'" : "material 'diffuse'");
+    expect_one(said, "material 'diffuse'");
+  }
+  {
+    Diagnostics said;
+    Reporter report(said, false);
+    Entity lamp{"point", {}, where};
+    lamp.parameters.add(planted);
+    ASSERT_TRUE(read_model(light_models(), Family::light, lamp, report));
+    expect_one(said, "light 'point'");
+    // A default that several lights share is reported once.
+    ASSERT_TRUE(read_model(light_models(), Family::light, Entity(lamp), report));
+    expect_one(said, "light 'point'");
   }
   // The words of a file that are read into the description.
   for (const char* owner : {"sampler 'zsobol'", "Option"}) {
@@ -364,13 +379,17 @@ TEST(Parameter, that_nothing_reads_is_told) {
   }
 }
 
-TEST(Parameter, that_is_only_checked_is_not_used) {
-  ReadResult read = read_pbrt_text("WorldBegin LightSource \"point\" \"float scale\" 4", ".");
-  ASSERT_TRUE(read.scene);
-  const ParameterList& light = read.scene->lights.at(0).entity.parameters;
-  EXPECT_EQ(light.unused().size(), 1u);
-  EXPECT_EQ(light.number("scale", 1), 4);
-  EXPECT_TRUE(light.unused().empty());
+// A parameter that has an effect only with another one.
+TEST(Parameter, that_has_an_effect_only_in_a_case_is_told_in_the_others) {
+  const auto warnings = [](const std::string& parameters) {
+    const ReadResult read =
+        read_pbrt_text("WorldBegin AreaLightSource \"diffuse\" " + parameters + " Shape \"sphere\"", ".");
+    std::string all;
+    for (const Diagnostic& d : read.diagnostics.all()) all += d.message + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings("\"rgb tint\" [ 1 2 3 ]"), "'tint' of area light 'diffuse' has no effect here\n");
+  EXPECT_EQ(warnings("\"rgb L\" [ 1 2 3 ]"), "");
 }
 
 // The picture's settings of a text before WorldBegin, and what was said.

@@ -42,14 +42,15 @@ TEST(LatitudeImage, shines_from_where_it_has_its_light) {
   // Azimuth (20.5 / 64) of a turn from +x toward +y, polar angle (9.5 / 32) of half a turn from +z.
   for (int y = 7; y <= 11; ++y)
     for (int x = 18; x <= 22; ++x) image->texels[std::size_t(y * 64 + x)] = gray_rgb(100.0f);
-  Entity light{"infinite", {}, {}};
-  light.parameters.add({"filename", ParameterType::string, std::vector<std::string>{"sky"}, {}});
-  light.parameters.add({"mapping", ParameterType::string, std::vector<std::string>{"latlong"}, {}});
+  InfiniteLightDesc sky;
+  sky.file = "sky", sky.mapping = EnvironmentMapping::latlong;
+  LightDesc light;
+  light.model = sky;
   const LightInputs inputs{[](const SpectrumValue&) { return gray_rgb(1.0f); },
                            [&](const std::string&, const SourceLocation&) { return image; }};
   LightSetBuilder builder;
   Diagnostics diagnostics;
-  ASSERT_TRUE(builder.add(light, {}, inputs, diagnostics));
+  ASSERT_TRUE(builder.add(light, inputs, diagnostics));
   const LightSet lights = std::move(builder).build({}, {0, 0, 0}, 1);
   const double azimuth = 20.5 / 64 * 2 * std::numbers::pi, polar = 9.5 / 32 * std::numbers::pi;
   const Vec3f w{float(std::sin(polar) * std::cos(azimuth)), float(std::sin(polar) * std::sin(azimuth)),

@@ -1,4 +1,4 @@
-// Lights from the parameters of a scene file.
+// Lights from what a scene states.
 #include <gtest/gtest.h>
 
 #include "light/table.h"
@@ -13,7 +13,7 @@ struct Made {
   LightSet lights;
 };
 
-Made make(Entity entity, const Transform& to_world = {}) {
+Made make(const LightDesc& light) {
   LightInputs inputs{[](const SpectrumValue& v) { return std::get<RgbValue>(v).rgb; },
                      [](const std::string& name, const SourceLocation&) -> std::shared_ptr<const LightImage> {
                        if (name == "square") return test_image();
@@ -23,27 +23,25 @@ Made make(Entity entity, const Transform& to_world = {}) {
                      }};
   Made made;
   LightSetBuilder builder;
-  made.id = builder.add(entity, to_world, inputs, made.diagnostics);
+  made.id = builder.add(light, inputs, made.diagnostics);
   made.lights = alone(std::move(builder));
   return made;
 }
 
-Parameter number(std::string name, float x) {
-  return {std::move(name), ParameterType::number, std::vector<float>{x}, {}};
+LightDesc light(LightModel model, const Transform& to_world = {}) {
+  LightDesc desc;
+  desc.model = std::move(model), desc.light_to_world = to_world;
+  return desc;
 }
-Parameter text(std::string name, std::string x) {
-  return {std::move(name), ParameterType::string, std::vector<std::string>{std::move(x)}, {}};
+LightDesc light_of_group(std::string group, LightModel model = PointLightDesc{}) {
+  LightDesc desc = light(std::move(model));
+  desc.group = std::move(group);
+  return desc;
 }
-Parameter point(std::string name, Vec3f x) {
-  return {std::move(name), ParameterType::point3, std::vector<Vec3f>{x}, {}};
-}
-Parameter rgb(std::string name, Rgb x) {
-  return {std::move(name), ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{x}}, {}};
-}
-Entity entity(std::string type, std::vector<Parameter> parameters) {
-  Entity e{std::move(type), {}, {}};
-  for (Parameter& p : parameters) e.parameters.add(std::move(p));
-  return e;
+// With everything that it needs.
+LightModel needing_image(LightModel model) {
+  if (auto* slide = std::get_if<ProjectionLightDesc>(&model)) slide->file = "square";
+  return model;
 }
 
 // The integral over the sphere of directions of what a light in one point sends: its power.
@@ -60,26 +58,36 @@ float sent(const LightSet& lights, Vec3f place) {
 }
 
 TEST(LightParameters, every_light_of_the_table_can_be_made) {
-  for (const EntitySpec& spec : light_table()) {
-    Made made = make(entity(std::string(spec.name), {text("filename", spec.name == "point" ? "" : "square")}));
+  for (const EntitySpec& spec : light_models().specs()) {
+    const LightDesc& usual = light_models().initial(spec.name);
+    EXPECT_EQ(name_of(usual.model), spec.name);
+    Made made = make(light(needing_image(usual.model)));
     EXPECT_TRUE(made.id) << spec.name;
     EXPECT_FALSE(made.diagnostics.has_errors()) << spec.name;
   }
 }
 
 TEST(LightParameters, power_is_what_a_light_in_one_point_sends_in_all) {
-  for (std::string type : {"point", "spot", "goniometric", "projection"}) {
-    std::vector<Parameter> parameters{number("power", 30)};
-    if (type == "goniometric" || type == "projection") parameters.push_back(text("filename", "square"));
-    Made made = make(entity(type, parameters), translate(1, 2, 3));
+  PointLightDesc point;
+  SpotLightDesc spot;
+  GoniometricLightDesc goniometric;
+  ProjectionLightDesc projection;
+  goniometric.file = projection.file = "square";
+  point.power = spot.power = goniometric.power = projection.power = 30;
+  for (const LightModel& model :
+       {LightModel(point), LightModel(spot), LightModel(goniometric), LightModel(projection)}) {
+    Made made = make(light(model, translate(1, 2, 3)));
     // The sharp edge of a projected picture cuts through about one in thirty of its cells of directions.
-    EXPECT_NEAR(sent(made.lights, {1, 2, 3}) / 30, 1, type == "projection" ? 4e-3 : 1e-3) << type;
+    const bool is_slide = std::holds_alternative<ProjectionLightDesc>(model);
+    EXPECT_NEAR(sent(made.lights, {1, 2, 3}) / 30, 1, is_slide ? 4e-3 : 1e-3) << name_of(model);
   }
 }
 
 TEST(LightParameters, illuminance_is_what_the_upward_plane_receives) {
   for (std::string file : {"", "square"}) {
-    Made made = make(entity("infinite", {text("filename", file), number("illuminance", 5)}));
+    InfiniteLightDesc sky;
+    sky.file = file, sky.illuminance = 5;
+    Made made = make(light(sky));
     double sum = 0;
     const int n = 400;
     for (int i = 0; i < n; ++i)
@@ -93,45 +101,49 @@ TEST(LightParameters, illuminance_is_what_the_upward_plane_receives) {
 }
 
 TEST(LightParameters, emission_is_scaled_as_stated) {
-  Made made =
-      make(entity("point", {rgb("I", {1, 2, 3}), number("scale", 4), point("from", {0, 0, 2})}), scale(1, 1, 2));
+  LightDesc lamp = light(PointLightDesc{RgbValue{{{1, 2, 3}}}, {0, 0, 2}}, scale(1, 1, 2));
+  lamp.scale = 4;
+  Made made = make(lamp);
   LightSample<float> s = made.lights.sample<float>({0, 0, 2}, {0, 0, 0}, 0.5f, Vec2f{0.5f, 0.5f}, true);
   EXPECT_FLOAT_EQ(s.distance, 2);
   EXPECT_FLOAT_EQ(s.radiance[1], 2);
 }
 
 TEST(LightParameters, distant_light_comes_from_where_it_is_said_to) {
-  Made made = make(entity("distant", {point("from", {0, 5, 0}), point("to", {0, 0, 0}), rgb("L", {3, 3, 3})}));
+  Made made = make(light(DistantLightDesc{gray_value(3), {0, 5, 0}, {0, 0, 0}}));
   LightSample<float> s = made.lights.sample<float>({0, 0, 2}, {0, 0, 0}, 0.5f, Vec2f{0.5f, 0.5f}, true);
   EXPECT_FLOAT_EQ(s.wi.y, 1);
   EXPECT_FLOAT_EQ(s.radiance[0], 3);
 }
 
 TEST(LightParameters, images_of_directions_must_be_square_and_readable) {
-  for (std::string type : {"infinite", "goniometric"})
-    for (std::string file : {"wide", "missing"}) {
-      Made made = make(entity(type, {text("filename", file)}));
-      EXPECT_FALSE(made.id) << type << " " << file;
-      EXPECT_TRUE(made.diagnostics.has_errors()) << type << " " << file;
+  for (std::string file : {"wide", "missing"}) {
+    InfiniteLightDesc sky;
+    GoniometricLightDesc lamp;
+    sky.file = lamp.file = file;
+    for (const LightModel& model : {LightModel(sky), LightModel(lamp)}) {
+      Made made = make(light(model));
+      EXPECT_FALSE(made.id) << name_of(model) << " " << file;
+      EXPECT_TRUE(made.diagnostics.has_errors()) << name_of(model) << " " << file;
     }
-  EXPECT_FALSE(make(entity("projection", {})).id);
-  EXPECT_FALSE(make(entity("lamp", {})).id);
+  }
+  EXPECT_FALSE(make(light(ProjectionLightDesc{})).id);
 }
 
 TEST(LightParameters, lights_belong_to_the_group_that_they_state) {
   LightSetBuilder b;
   Diagnostics diagnostics;
-  const LightInputs inputs{};
-  b.add(entity("point", {text("group", "key")}), Transform(), inputs, diagnostics);
-  b.add(entity("point", {}), Transform(), inputs, diagnostics);
+  const LightInputs inputs{[](const SpectrumValue& v) { return std::get<RgbValue>(v).rgb; }, {}};
+  b.add(light_of_group("key"), inputs, diagnostics);
+  b.add(light(PointLightDesc{}), inputs, diagnostics);
   b.add(TriangleShape{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {.radiance = gray_rgb(1.0f), .group = "key"});
-  b.add(entity("distant", {text("group", "far_2")}), Transform(), inputs, diagnostics);
+  b.add(light_of_group("far_2", DistantLightDesc{}), inputs, diagnostics);
   const LightSet lights = alone(std::move(b));
   EXPECT_EQ(lights.group_names(), (std::vector<std::string>{"key", "default", "far_2"}));
   EXPECT_EQ(lights.groups(), (std::vector<std::uint32_t>{0, 1, 0, 2}));
   EXPECT_FALSE(diagnostics.has_errors());
   for (const char* name : {"", "two words", "a.b", "\n"})
-    EXPECT_TRUE(make(entity("point", {text("group", name)})).diagnostics.has_errors()) << name;
+    EXPECT_TRUE(make(light_of_group(name)).diagnostics.has_errors()) << name;
 }
 
 TEST(LightParameters, power_of_a_surface_is_what_it_emits_in_all) {

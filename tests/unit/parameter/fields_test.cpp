@@ -109,5 +109,86 @@ TEST(Fields, leave_a_row_of_others_unused) {
   EXPECT_EQ(list->unused().front()->name, "elsewhere");
 }
 
+struct Paint {
+  NumberInput gloss = 0.5f;
+  SpectrumInput color = gray_value(0.25f);
+  std::optional<IndexInput> index;
+  SpectrumValue glow = gray_value(0);
+  std::optional<SpectrumValue> glaze;
+  Vec3f along{0, 0, 1};
+};
+
+Fields<Paint> paint() {
+  Fields<Paint> all;
+  all.input<NumberInput>("gloss", &Paint::gloss, "share", 0, 1)
+      .input<SpectrumInput>("color", &Paint::color, "albedo", 0, 1)
+      .optional_input<IndexInput>("index", &Paint::index, "of refraction; default none", 1, 9)
+      .spectrum("glow", &Paint::glow, "radiance", 0, 9)
+      .optional("glaze", &Paint::glaze, "of the coat; default that of color", 0, 1)
+      .only_if([](const Paint& p) { return p.index.has_value(); })
+      .vector("along", ParameterType::vector3, &Paint::along, "axis");
+  return all;
+}
+
+Parameter stated(std::string name, ParameterType type, Values values) {
+  return {std::move(name), type, std::move(values), {nullptr, 3, 4}};
+}
+
+TEST(Inputs, show_their_defaults_and_take_the_types_of_their_alternatives) {
+  const std::vector<ParameterSpec> specs = paint().specs({});
+  EXPECT_EQ(meanings(specs),
+            "gloss: share; default 0.5\ncolor: albedo; default 0.25\nindex: of refraction; default none\n"
+            "glow: radiance; default 0\nglaze: of the coat; default that of color\nalong: axis; default 0 0 1\n");
+  using enum ParameterType;
+  EXPECT_EQ(specs[0].types, (std::vector{number, texture}));
+  EXPECT_EQ(specs[1].types, (std::vector{spectrum, texture}));
+  EXPECT_EQ(specs[2].types, (std::vector{number, spectrum}));
+  EXPECT_EQ(specs[5].types, (std::vector{vector3}));
+}
+
+TEST(Inputs, are_read_with_their_places_and_written_again) {
+  using enum ParameterType;
+  ParameterList list;
+  list.add(stated("gloss", texture, TextureName{"dust"}));
+  list.add(stated("color", spectrum, std::vector<SpectrumValue>{NamedSpectrum{"red"}}));
+  list.add(stated("index", number, std::vector<float>{2}));
+  list.add(stated("glow", spectrum, std::vector<SpectrumValue>{Blackbody{3000}}));
+  list.add(stated("glaze", spectrum, std::vector<SpectrumValue>{gray_value(1)}));
+  list.add(stated("along", vector3, std::vector<Vec3f>{{1, 2, 3}}));
+  Paint p;
+  ASSERT_TRUE(paint().read(list, p));
+  EXPECT_TRUE(list.unused().empty());
+  ASSERT_TRUE(p.gloss.get<TextureName>());
+  EXPECT_EQ(p.gloss.get<TextureName>()->name, "dust");
+  EXPECT_EQ(p.gloss.where.line, 3);
+  ASSERT_TRUE(p.index);
+  EXPECT_EQ(*p.index->get<float>(), 2);
+  EXPECT_TRUE(p.color == SpectrumInput(SpectrumValue(NamedSpectrum{"red"})));
+  EXPECT_EQ(p.along.z, 3);
+
+  Paint again;
+  const ParameterList written = paint().write(p, {});
+  ASSERT_EQ(written.all().size(), 6u);
+  ASSERT_TRUE(paint().read(written, again));
+  EXPECT_TRUE(again.gloss == p.gloss && again.color == p.color && again.index == p.index && again.glow == p.glow &&
+              again.glaze == p.glaze && again.along.y == p.along.y);
+  // What has its default is not written.
+  EXPECT_TRUE(paint().write({}, {}).all().empty());
+}
+
+TEST(Inputs, without_effect_count_as_unused) {
+  using enum ParameterType;
+  ParameterList list;
+  list.add(stated("glaze", spectrum, std::vector<SpectrumValue>{gray_value(1)}));
+  list.add(stated("gloss", number, std::vector<float>{1}));
+  Paint p;
+  ASSERT_TRUE(paint().read(list, p));
+  ASSERT_EQ(list.unused().size(), 1u);
+  EXPECT_EQ(list.unused()[0]->name, "glaze");
+  list.add(stated("index", number, std::vector<float>{2}));
+  ASSERT_TRUE(paint().read(list, p));
+  EXPECT_TRUE(list.unused().empty());
+}
+
 }  // namespace
 }  // namespace montelux::test
