@@ -23,6 +23,15 @@ std::string setting_text(float value);
 std::string setting_text(const TextureName& value);
 std::string setting_text(Vec3f value);                 // "0 0 1"
 std::string setting_text(const SpectrumValue& value);  // "0.5", "0.25 0.5 1", "metal-Cu-eta", "6500"
+template <std::size_t N>
+std::string setting_text(const std::array<float, N>& values) {
+  std::string text;
+  for (float value : values) {
+    if (!text.empty()) text += ' ';
+    text += setting_text(value);
+  }
+  return text;
+}
 template <class... T>
 std::string setting_text(const Input<T...>& input) {
   return std::visit([](const auto& v) { return setting_text(v); }, input.value);
@@ -144,6 +153,11 @@ class Fields {
     rows_.back().has_effect = std::move(has_effect);
     return *this;
   }
+  // The last row is known, but not applied yet: a reader warns of it.
+  Fields& later() {
+    rows_.back().spec.later = true;
+    return *this;
+  }
   // As many values as the array has. A list of another length, which the checks report, is ignored.
   template <std::size_t N>
   Fields& list(std::string_view name, Place<std::optional<std::array<float, N>>> place, std::string meaning, double low,
@@ -154,6 +168,13 @@ class Fields {
   Fields& list(std::string_view name, Place<std::optional<std::array<int, N>>> place, std::string meaning, double low,
                double high) {
     return array_value<int, N>({name, {ParameterType::integer}, std::move(meaning), low, high, {}, true}, place);
+  }
+  // The same with default values.
+  template <std::size_t N>
+  Fields& list(std::string_view name, Place<std::array<float, N>> place, std::string meaning, double low, double high) {
+    return with_default_value<std::array<float, N>>(
+        {name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place, &array_of<float, N>,
+        [name](const std::array<float, N>& v) { return parameter_of(name, std::vector<float>(v.begin(), v.end())); });
   }
   // A list of any length; by default it is empty. The type is that of the values or one like it: point3, normal.
   template <class T>
@@ -299,6 +320,14 @@ class Fields {
   static std::optional<T> first_of(const Parameter& stated) {
     const auto* values = std::get_if<std::vector<T>>(&stated.values);
     return values && !values->empty() ? std::optional<T>(values->front()) : std::nullopt;
+  }
+  template <class T, std::size_t N>
+  static std::optional<std::array<T, N>> array_of(const Parameter& stated) {
+    const auto* values = std::get_if<std::vector<T>>(&stated.values);
+    if (!values || values->size() != N) return std::nullopt;
+    std::array<T, N> result{};
+    std::copy(values->begin(), values->end(), result.begin());
+    return result;
   }
   template <class T>
   static bool equal(const T& a, const T& b) {

@@ -14,6 +14,9 @@ V uniform(float x) {
     return gray_rgb(x);
 }
 
+template <class V>
+constexpr const char* kind_of = std::is_same_v<V, float> ? "number" : "spectrum";
+
 std::string in_quotes(std::string_view name) {
   std::string text("\"");
   text.append(name).append("\"");
@@ -78,25 +81,34 @@ std::optional<TextureId<V>> TextureBuilder::if_stated(const Entity& entity, std:
 }
 
 template <class V>
-std::optional<TextureId<V>> TextureBuilder::stated_by(const Parameter& stated) {
-  constexpr const char* kind = std::is_same_v<V, float> ? "number" : "spectrum";
-  if (const auto* link = std::get_if<TextureName>(&stated.values)) {
-    auto found = names<V>().find(link->name);
-    if (found != names<V>().end()) return found->second;
-    std::vector<std::string_view> known;
-    for (const auto& [texture, id] : names<V>()) known.push_back(texture);
-    const bool other_kind =
-        std::is_same_v<V, float> ? find_spectrum(link->name).has_value() : find_number(link->name).has_value();
-    diagnostics_.error(
-        stated.where, in_quotes(link->name) + " is not the name of a " + kind + " texture stated before",
-        other_kind ? "the texture with this name is of the other kind" : std::string(nearest_name(link->name, known)));
-  } else if (std::optional<V> x = value<V>(stated)) {
-    return constant(*x);
-  } else {
-    diagnostics_.error(stated.where,
-                       in_quotes(stated.name) + " takes a " + kind + " or the name of a " + kind + " texture");
-  }
+TextureId<V> TextureBuilder::named(const std::string& name, const SourceLocation& where) {
+  auto found = names<V>().find(name);
+  if (found != names<V>().end()) return found->second;
+  std::vector<std::string_view> known;
+  for (const auto& [texture, id] : names<V>()) known.push_back(texture);
+  const bool other_kind = std::is_same_v<V, float> ? find_spectrum(name).has_value() : find_number(name).has_value();
+  diagnostics_.error(
+      where, in_quotes(name) + " is not the name of a " + kind_of<V> + " texture stated before",
+      other_kind ? "the texture with this name is of the other kind" : std::string(nearest_name(name, known)));
   return constant(uniform<V>(0));
+}
+
+template <class V>
+std::optional<TextureId<V>> TextureBuilder::stated_by(const Parameter& stated) {
+  if (const auto* link = std::get_if<TextureName>(&stated.values)) return named<V>(link->name, stated.where);
+  if (std::optional<V> x = value<V>(stated)) return constant(*x);
+  diagnostics_.error(
+      stated.where, in_quotes(stated.name) + " takes a " + kind_of<V> + " or the name of a " + kind_of<V> + " texture");
+  return constant(uniform<V>(0));
+}
+
+NumberTextureId TextureBuilder::number(const NumberInput& input) {
+  if (const auto* link = input.get<TextureName>()) return named<float>(link->name, input.where);
+  return constant(std::get<float>(input.value));
+}
+SpectrumTextureId TextureBuilder::spectrum(const SpectrumInput& input) {
+  if (const auto* link = input.get<TextureName>()) return named<Rgb>(link->name, input.where);
+  return constant(to_rgb_(std::get<SpectrumValue>(input.value)));
 }
 
 template <class V>
@@ -158,9 +170,14 @@ std::shared_ptr<const TexelImage> TextureBuilder::image(const Entity& entity, st
     diagnostics_.error(entity.where, in_quotes(entity.type) + " needs the parameter " + in_quotes(name));
     return nullptr;
   }
+  return image(file, entity.where, encoding);
+}
+
+std::shared_ptr<const TexelImage> TextureBuilder::image(const std::string& file, const SourceLocation& where,
+                                                        std::optional<ColorEncoding> encoding) {
   Result<std::shared_ptr<const TexelImage>> found = textures_.image(std::filesystem::path(folder_) / file, encoding);
   if (found) return *found;
-  diagnostics_.error(entity.where, found.error());
+  diagnostics_.error(where, found.error());
   return nullptr;
 }
 

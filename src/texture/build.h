@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "parameter/value.h"
+#include "parameter/input.h"
 #include "texture/texture_set.h"
 
 namespace montelux {
@@ -27,6 +27,8 @@ class TextureBuilder {
   // if it is absent.
   NumberTextureId number(const Entity& entity, std::string_view parameter, float otherwise);
   SpectrumTextureId spectrum(const Entity& entity, std::string_view parameter, Rgb otherwise);
+  NumberTextureId number(const NumberInput& input);
+  SpectrumTextureId spectrum(const SpectrumInput& input);
   // Nothing if the parameter is absent.
   std::optional<NumberTextureId> number_if_stated(const Entity& entity, std::string_view parameter);
   std::optional<NumberTextureId> number_if_stated(const Parameter& stated);
@@ -42,6 +44,8 @@ class TextureBuilder {
   // The image in the file named by a string parameter, relative to the folder; if it cannot be read, reports that and
   // returns null.
   std::shared_ptr<const TexelImage> image(const Entity& entity, std::string_view parameter,
+                                          std::optional<ColorEncoding> encoding = std::nullopt);
+  std::shared_ptr<const TexelImage> image(const std::string& file, const SourceLocation& where,
                                           std::optional<ColorEncoding> encoding = std::nullopt);
 
   TextureSet& textures() { return textures_; }
@@ -67,6 +71,9 @@ class TextureBuilder {
   std::optional<TextureId<V>> if_stated(const Entity& entity, std::string_view name);
   template <class V>
   std::optional<TextureId<V>> stated_by(const Parameter& stated);
+  // The texture with that name; if there is none, reports that and returns black.
+  template <class V>
+  TextureId<V> named(const std::string& name, const SourceLocation& where);
   template <class V>
   TextureId<V> folded(TextureId<V> id, bool all_constant);
   template <class V>

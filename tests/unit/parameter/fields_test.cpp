@@ -176,6 +176,28 @@ TEST(Inputs, are_read_with_their_places_and_written_again) {
   EXPECT_TRUE(paint().write({}, {}).all().empty());
 }
 
+TEST(Fields, of_arrays_have_defaults_and_take_lists_of_their_length) {
+  struct Map {
+    std::array<float, 2> scale{1, 0.5f};
+  };
+  Fields<Map> all;
+  all.list<2>("scale", &Map::scale, "of x and y", -9, 9).later();
+  const ParameterSpec spec = all.specs({}).front();
+  EXPECT_EQ(spec.meaning, "of x and y; default 1 0.5");
+  EXPECT_TRUE(spec.array && spec.later);
+  ParameterList list;
+  list.add(stated("scale", ParameterType::number, std::vector<float>{2, -3}));
+  Map map;
+  ASSERT_TRUE(all.read(list, map));
+  EXPECT_EQ(map.scale, (std::array<float, 2>{2, -3}));
+  EXPECT_EQ(all.write(map, {}).array<float>("scale"), (std::vector<float>{2, -3}));
+  EXPECT_TRUE(all.write({}, {}).all().empty());
+  ParameterList longer;
+  longer.add(stated("scale", ParameterType::number, std::vector<float>{4, 5, 6}));
+  ASSERT_TRUE(all.read(longer, map));
+  EXPECT_EQ(map.scale[0], 2);
+}
+
 TEST(Inputs, without_effect_count_as_unused) {
   using enum ParameterType;
   ParameterList list;

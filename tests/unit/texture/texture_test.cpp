@@ -292,6 +292,23 @@ TEST(TextureBuilder, what_cannot_be_built_is_reported_with_the_nearest_name) {
   EXPECT_TRUE(errors(false, entity("mix", {text("amount", "much")})).has_errors());
 }
 
+TEST(TextureBuilder, inputs_are_values_or_names) {
+  Bench b;
+  b.builder.add("wavy", false, entity("windy"), {});
+  EXPECT_EQ(b.builder.number(0.5f), b.builder.constant(0.5f));
+  EXPECT_EQ(b.builder.number(TextureName{"wavy"}), *b.builder.find_number("wavy"));
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(RgbValue{Rgb{{1, 2, 3}}})))[2], 3);
+  EXPECT_FALSE(b.diagnostics.has_errors());
+  // Another name, and the name of a texture of the other kind, are reported where they were stated.
+  const SourceLocation where{std::make_shared<const std::string>("room.pbrt"), 7, 9};
+  b.builder.number({TextureName{"wary"}, where});
+  b.builder.spectrum({TextureName{"wavy"}, where});
+  ASSERT_EQ(b.diagnostics.errors(), 2);
+  EXPECT_EQ(b.diagnostics.all()[0].hint, "wavy");
+  EXPECT_EQ(b.diagnostics.all()[0].where.column, 9);
+  EXPECT_NE(b.diagnostics.all()[1].hint.find("other kind"), std::string::npos);
+}
+
 TEST(TextureBuilder, builds_every_texture_of_the_table) {
   Picture picture;
   for (const EntitySpec& spec : texture_table())
