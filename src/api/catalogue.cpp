@@ -72,7 +72,7 @@ constexpr Topic topics[] = {
     {"methods", "methods of integration for integrate --method", [] { return entries_of(lab::method_table()); }},
     {"domains", "domains for integrate --over besides intervals", [] { return entries_of(lab::domain_table()); }},
     {"functions", "functions and constants of expressions", [] { return expression_names(); }},
-    {"materials", "materials of a scene", [] { return entries_of(material_table()); }},
+    {"materials", "materials of a scene", [] { return entries_of(material_models().specs()); }},
     {"textures", "textures of a scene", [] { return entries_of(texture_table()); }},
     {"lights", "lights of a scene that are not shapes", [] { return entries_of(light_models().specs()); }},
     {"area-lights", "emission of the surface of a shape", [] { return entries_of(area_light_models().specs()); }},

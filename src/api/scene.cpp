@@ -12,6 +12,7 @@
 #include "api/parts.h"
 #include "io/report.h"
 #include "io/scene_file.h"
+#include "material/table.h"
 #include "scene/prepare.h"
 #include "work/huge_pages.h"
 
@@ -85,7 +86,7 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
   info.materials = desc.materials.size(), info.textures = desc.textures.size();
   for (const MaterialDesc& material : desc.materials) {
     info.materials_by_number.push_back(material.name);
-    info.material_names.push_back({material.name, material.entity.type});
+    info.material_names.push_back({material.name, std::string(name_of(material.model))});
   }
   for (const TextureDesc& texture : desc.textures) info.texture_names.push_back({texture.name, texture.entity.type});
   const auto has_name = [](const NamedThing& thing) { return !thing.name.empty(); };

@@ -26,7 +26,7 @@ std::string_view name_of(Family family) {
 std::span<const EntitySpec> table_of(Family family) {
   switch (family) {
     case Family::material:
-      return material_table();
+      return material_models().specs();
     case Family::texture:
       return texture_table();
     case Family::light:

@@ -65,6 +65,7 @@ void check_material(const Entity& material, Reporter& report) {
     else
       counted<std::string>(material, "materials", 2, report);
   }
+  for (std::string_view name : {"normalscale", "coatnormalscale"}) counted<float>(material, name, 2, report);
   bool is_conductor = material.type == "conductor" || material.type == "coatedconductor";
   if (!is_conductor || !p.find("reflectance")) return;
   for (std::string_view name : {"eta", "k", "conductor.eta", "conductor.k"})

@@ -7,6 +7,7 @@
 #include "io/pbrt/parameters.h"
 #include "io/pbrt/picture.h"
 #include "light/table.h"
+#include "material/table.h"
 #include "medium/table.h"
 #include "scene/shape_models.h"
 
@@ -131,10 +132,14 @@ class Writer {
     return in_quotes(entity.type) + parameters_text(entity.parameters);
   }
 
+  static Entity stated_material(const MaterialDesc& material) {
+    return material_models().write(name_of(material.model), material);
+  }
   // The default material is written without a name as long as it has not been changed.
   bool is_default(std::size_t i) const {
-    const MaterialDesc& m = scene_.materials[i];
-    return i == 0 && m.name.empty() && m.entity.type == "diffuse" && m.entity.parameters.all().empty();
+    if (i != 0 || !scene_.materials[i].name.empty()) return false;
+    const Entity entity = stated_material(scene_.materials[i]);
+    return entity.type == "diffuse" && entity.parameters.all().empty();
   }
 
   void name_materials() {
@@ -194,7 +199,7 @@ class Writer {
 
   void write_material(std::size_t i) {
     if (is_default(i)) return;
-    const Entity& entity = scene_.materials[i].entity;
+    const Entity entity = stated_material(scene_.materials[i]);
     state_color_space(entity);
     text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) +
              " ]" + parameters_text(entity.parameters) + "\n";

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "material/internal_reflectance.h"
@@ -11,31 +10,10 @@ namespace montelux {
 
 namespace {
 
-template <class F>
-F encoded(F x, const RowBinding& binding) {
-  switch (binding.encoding) {
-    case RowEncoding::plain:
-      break;
-    case RowEncoding::unit:
-      return clamp(x * binding.scale, 0.0f, 1.0f);
-    case RowEncoding::signed_unit:
-      x = 2.0f * x - 1.0f;
-      break;
-    case RowEncoding::roughness:
-      x = safe_sqrt(x);
-      break;
-    case RowEncoding::reflectance_to_k: {
-      F r = clamp(x, 0.0f, 0.9999f);
-      x = 2.0f * sqrt(r / (1.0f - r));
-    }
-  }
-  return x * binding.scale;
-}
-
 // Fills the row of one material, slot by slot.
 class RowBuilder {
  public:
-  RowBuilder(const Entity& entity, const MaterialInputs& inputs) : entity_(entity), inputs_(inputs) {}
+  explicit RowBuilder(const MaterialInputs& inputs) : inputs_(inputs) {}
 
   Material take() && { return std::move(material_); }
   Material& material() { return material_; }
@@ -45,68 +23,54 @@ class RowBuilder {
     const Spectrum<float> carried = from_rgb(value);
     for (int i = 0; i < spectrum_size; ++i) put(slot + i, carried.c[i]);
   }
-  void number(int slot, std::string_view name, float otherwise, RowEncoding encoding = RowEncoding::plain) {
-    bind({std::uint8_t(slot), encoding, false, std::uint32_t(inputs_.textures.number(entity_, name, otherwise)), 1});
+  void number(int slot, const NumberInput& input, RowEncoding encoding = RowEncoding::plain) {
+    bind({std::uint8_t(slot), encoding, false, std::uint32_t(inputs_.textures.number(input)), 1});
   }
-  void spectrum(int slot, std::string_view name, Rgb otherwise, float scale = 1) {
-    bind({std::uint8_t(slot), RowEncoding::unit, true,
-          std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), scale});
+  void spectrum(int slot, const SpectrumInput& input, float scale = 1) {
+    bind_spectrum(slot, input, RowEncoding::unit, scale);
   }
-
-  // A spectrum that is not a reflectance, stated directly; default 0.
-  void coefficients(int slot, std::string_view name) {
-    const auto stated = entity_.parameters.spectrum(name);
-    put(slot, stated ? inputs_.unbounded(*stated) : gray_rgb(0.0f));
-  }
-
   // A factor that may exceed one.
-  void unbounded(int slot, std::string_view name, Rgb otherwise) {
-    bind({std::uint8_t(slot), RowEncoding::plain, true,
-          std::uint32_t(inputs_.textures.spectrum(entity_, name, otherwise)), 1});
+  void unbounded(int slot, const SpectrumInput& input) { bind_spectrum(slot, input, RowEncoding::plain, 1); }
+  // A spectrum that is not a reflectance.
+  void coefficients(int slot, const SpectrumValue& value) { put(slot, inputs_.unbounded(value)); }
+
+  // GGX's alpha along u and v, in two slots.
+  void roughness(int slot, const FacetsDesc& facets, bool maps_roughness) {
+    const RowEncoding encoding = maps_roughness ? RowEncoding::roughness : RowEncoding::plain;
+    number(slot, facets.roughness_u.value_or(facets.roughness), encoding);
+    number(slot + 1, facets.roughness_v.value_or(facets.roughness), encoding);
   }
 
-  // Both slots from "u" + name and "v" + name, or name for both; `prefix` as in "interface.".
-  void roughness(int slot, const std::string& prefix) {
-    RowEncoding encoding =
-        entity_.parameters.boolean("remaproughness", true) ? RowEncoding::roughness : RowEncoding::plain;
-    const char* axes[2] = {"uroughness", "vroughness"};
-    for (int axis = 0; axis < 2; ++axis) {
-      std::string own = prefix + axes[axis];
-      number(slot + axis, entity_.parameters.find(own) ? own : prefix + "roughness", 0, encoding);
-    }
-  }
-
-  // An index of refraction: a number, or a spectrum that is reduced to one number.
-  float index(std::string_view name, float otherwise) const {
-    if (auto spectrum = entity_.parameters.spectrum(name)) return inputs_.index(*spectrum);
-    return entity_.parameters.number(name, otherwise);
+  // A spectrum is reduced to one number.
+  float index(const IndexInput& eta) const {
+    if (const auto* spectrum = eta.get<SpectrumValue>()) return inputs_.index(*spectrum);
+    return std::get<float>(eta.value);
   }
 
   // eta and k, or a reflectance instead, relative to an outer index.
-  void metal(int eta_slot, int k_slot, const std::string& prefix, float outer_index) {
+  void metal(int eta_slot, int k_slot, const MetalDesc& metal, float outer_index) {
     const float scale = 1 / outer_index;
-    if (entity_.parameters.find("reflectance")) {
+    if (metal.reflectance) {
       put(eta_slot, gray_rgb(scale));
-      bind({std::uint8_t(k_slot), RowEncoding::reflectance_to_k, true,
-            std::uint32_t(inputs_.textures.spectrum(entity_, "reflectance", gray_rgb(0.5f))), scale});
+      bind_spectrum(k_slot, *metal.reflectance, RowEncoding::reflectance_to_k, scale);
       return;
     }
-    const std::string eta_name = prefix + "eta", k_name = prefix + "k";
-    SpectrumValue eta = entity_.parameters.spectrum(eta_name).value_or(NamedSpectrum{"metal-Cu-eta"});
-    SpectrumValue k = entity_.parameters.spectrum(k_name).value_or(NamedSpectrum{"metal-Cu-k"});
-    ConductorRgb rgb = inputs_.conductor(eta, k);
+    // One that is a texture counts as the default in the conversion of the other.
+    const auto value = [](const SpectrumInput& stated, const SpectrumInput& otherwise) {
+      const auto* spectrum = stated.get<SpectrumValue>();
+      return spectrum ? *spectrum : std::get<SpectrumValue>(otherwise.value);
+    };
+    const MetalDesc usual;
+    const ConductorRgb rgb = inputs_.conductor(value(metal.eta, usual.eta), value(metal.k, usual.k));
     put(eta_slot, rgb.eta * scale);
     put(k_slot, rgb.k * scale);
-    texture_instead(eta_slot, eta_name, scale);
-    texture_instead(k_slot, k_name, scale);
+    if (metal.eta.get<TextureName>()) bind_spectrum(eta_slot, metal.eta, RowEncoding::plain, scale);
+    if (metal.k.get<TextureName>()) bind_spectrum(k_slot, metal.k, RowEncoding::plain, scale);
   }
 
  private:
-  // A texture instead of a spectrum that is not a reflectance.
-  void texture_instead(int slot, const std::string& name, float scale) {
-    if (!entity_.parameters.texture(name)) return;
-    bind({std::uint8_t(slot), RowEncoding::plain, true,
-          std::uint32_t(inputs_.textures.spectrum(entity_, name, gray_rgb(1.0f))), scale});
+  void bind_spectrum(int slot, const SpectrumInput& input, RowEncoding encoding, float scale) {
+    bind({std::uint8_t(slot), encoding, true, std::uint32_t(inputs_.textures.spectrum(input)), scale});
   }
   // Sets a constant, or leaves the slot to be looked up at each point.
   void bind(const RowBinding& binding) {
@@ -123,21 +87,9 @@ class RowBuilder {
     material_.bindings.push_back(binding);
   }
 
-  const Entity& entity_;
   const MaterialInputs& inputs_;
   Material material_;
 };
-
-void layers(RowBuilder& b, const Entity& entity, const std::string& prefix) {
-  using Slots = LayeredSlots;
-  b.put(Slots::eta, b.index(prefix + "eta", 1.5f));
-  b.roughness(Slots::alpha_x, prefix);
-  b.number(Slots::thickness, "thickness", 0.01f);
-  b.number(Slots::g, "g", 0);
-  b.spectrum(Slots::albedo, "albedo", gray_rgb(0.0f));
-  b.put(Slots::max_depth, float(entity.parameters.integer("maxdepth", 10)));
-  b.put(Slots::samples, float(entity.parameters.integer("nsamples", 1)));
-}
 
 // If coat and layer are constant and nothing scatters under the coat, its walks can be summed in closed form.
 void sum_reflections(Material& material) {
@@ -150,229 +102,146 @@ void sum_reflections(Material& material) {
       internal_reflectance({{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]});
 }
 
-void fill_mixture(RowBuilder& b, const Entity& entity, const MaterialInputs& inputs) {
-  const auto& names = entity.parameters.array<std::string>("materials");
-  if (names.size() != 2) {
-    inputs.diagnostics.error(entity.where,
-                             fmt::format("a mix takes the names of two materials in \"string materials\"; "
-                                         "found {}",
-                                         names.size()));
-    return;
-  }
-  Mixture mixture{{0, 0}, inputs.textures.number(entity, "amount", 0.5f)};
-  for (std::size_t i = 0; i < 2; ++i) {
-    auto child = inputs.material(names[i]);
-    if (!child)
-      inputs.diagnostics.error(entity.where,
-                               fmt::format("the mix names material \"{}\", which is not defined", names[i]));
-    mixture.children[i] = child.value_or(0);
-  }
-  b.material().mixture = mixture;
+void put_layer(RowBuilder& b, const IndexInput& eta, const FacetsDesc& facets, bool maps_roughness,
+               const LayerDesc& layer) {
+  using Slots = LayeredSlots;
+  b.put(Slots::eta, b.index(eta));
+  b.roughness(Slots::alpha_x, facets, maps_roughness);
+  b.number(Slots::thickness, layer.thickness);
+  b.number(Slots::g, layer.g);
+  b.spectrum(Slots::albedo, layer.albedo);
+  b.put(Slots::max_depth, float(layer.max_depth));
+  b.put(Slots::samples, float(layer.samples));
 }
 
-using Fill = void (*)(RowBuilder&, const Entity&);
-
-// How each model's row follows from its parameters.
-struct MaterialRow {
-  std::string_view name;
-  BsdfKind kind;
-  Fill fill;
-};
-
-void metallic_roughness(RowBuilder& b) {
+void put_metallic_roughness(RowBuilder& b, const MetallicRoughnessDesc& m) {
   using Slots = MetallicRoughnessSlots;
-  b.spectrum(Slots::base, "basecolor", gray_rgb(1.0f));
-  b.number(Slots::metallic, "metallic", 1, RowEncoding::unit);
-  b.number(Slots::roughness, "roughness", 1, RowEncoding::unit);
-  b.number(Slots::specular, "specular", 1, RowEncoding::unit);
-  b.unbounded(Slots::specular_color, "specularcolor", gray_rgb(1.0f));
-  const float eta = b.index("eta", 1.5f), ratio = (eta - 1) / (eta + 1);
+  b.spectrum(Slots::base, m.base_color);
+  b.number(Slots::metallic, m.metallic, RowEncoding::unit);
+  b.number(Slots::roughness, m.roughness, RowEncoding::unit);
+  b.number(Slots::specular, m.specular, RowEncoding::unit);
+  b.unbounded(Slots::specular_color, m.specular_color);
+  const float eta = b.index(m.eta), ratio = (eta - 1) / (eta + 1);
   b.put(Slots::reflected, ratio * ratio);
 }
 
-void coat_and_grain(RowBuilder& b, const Entity& entity) {
-  using Slots = CoatedMetallicRoughnessSlots;
-  b.number(Slots::coat, "clearcoat", 1, RowEncoding::unit);
-  b.number(Slots::coat_roughness, "clearcoatroughness", 0, RowEncoding::unit);
-  b.number(Slots::anisotropy, "anisotropy", 0, RowEncoding::unit);
-  // Encoded as an image stores a direction: 1 and 1/2 decode to 1 and 0.
-  b.number(Slots::grain_x, "grainx", 1, RowEncoding::signed_unit);
-  b.number(Slots::grain_y, "grainy", 0.5f, RowEncoding::signed_unit);
-  const float angle = entity.parameters.number("anisotropyrotation", 0) * (pi / 180);
-  b.put(Slots::turn_cos, std::cos(angle)), b.put(Slots::turn_sin, std::sin(angle));
-  b.put(Slots::side, entity.parameters.boolean("grainmirrored", false) ? -1.0f : 1.0f);
-  b.put(Slots::coat_normal + 2, 1);
-}
+// How the row of each model follows from what is stated.
+class ModelBuilder {
+ public:
+  ModelBuilder(RowBuilder& b, const SourceLocation& where, const MaterialInputs& inputs)
+      : b_(b), where_(where), inputs_(inputs) {}
 
-const std::array<MaterialRow, bsdf_kind_count>& material_rows() {
-  static const std::array<MaterialRow, bsdf_kind_count> rows{{
-      {"diffuse", BsdfKind::diffuse,
-       [](RowBuilder& b, const Entity&) { b.spectrum(DiffuseSlots::reflectance, "reflectance", gray_rgb(0.5f)); }},
-      {"conductor", BsdfKind::conductor,
-       [](RowBuilder& b, const Entity&) {
-         b.roughness(ConductorSlots::alpha_x, "");
-         b.metal(ConductorSlots::eta, ConductorSlots::k, "", 1);
-       }},
-      {"dielectric", BsdfKind::dielectric,
-       [](RowBuilder& b, const Entity&) {
-         b.roughness(DielectricSlots::alpha_x, "");
-         b.put(DielectricSlots::eta, b.index("eta", 1.5f));
-       }},
-      {"coateddiffuse", BsdfKind::coated_diffuse,
-       [](RowBuilder& b, const Entity& entity) {
-         layers(b, entity, "");
-         b.spectrum(CoatedDiffuseSlots::reflectance, "reflectance", gray_rgb(0.5f));
-         sum_reflections(b.material());
-       }},
-      {"coatedconductor", BsdfKind::coated_conductor,
-       [](RowBuilder& b, const Entity& entity) {
-         layers(b, entity, "interface.");
-         b.roughness(CoatedConductorSlots::conductor_alpha_x, "conductor.");
-         b.metal(CoatedConductorSlots::conductor_eta, CoatedConductorSlots::conductor_k, "conductor.",
-                 b.index("interface.eta", 1.5f));
-       }},
-      {"diffusetransmission", BsdfKind::diffuse_transmission,
-       [](RowBuilder& b, const Entity& entity) {
-         const float scale = entity.parameters.number("scale", 1);
-         b.spectrum(DiffuseTransmissionSlots::reflectance, "reflectance", gray_rgb(0.25f), scale);
-         b.spectrum(DiffuseTransmissionSlots::transmittance, "transmittance", gray_rgb(0.25f), scale);
-       }},
-      {"thindielectric", BsdfKind::thin_dielectric,
-       [](RowBuilder& b, const Entity& entity) {
-         b.put(ThinDielectricSlots::eta, b.index("eta", 1.5f));
-         b.spectrum(ThinDielectricSlots::tint, "tint", gray_rgb(1.0f));
-         const bool remaps = entity.parameters.boolean("remaproughness", true);
-         b.number(ThinDielectricSlots::alpha, "roughness", 0, remaps ? RowEncoding::roughness : RowEncoding::plain);
-       }},
-      {"phong", BsdfKind::phong,
-       [](RowBuilder& b, const Entity&) {
-         b.spectrum(PhongSlots::diffuse, "kd", gray_rgb(0.5f));
-         b.spectrum(PhongSlots::specular, "ks", gray_rgb(0.3f));
-         b.number(PhongSlots::exponent, "exponent", 32);
-       }},
-      {"metallicroughness", BsdfKind::metallic_roughness, [](RowBuilder& b, const Entity&) { metallic_roughness(b); }},
-      {"coatedmetallicroughness", BsdfKind::coated_metallic_roughness,
-       [](RowBuilder& b, const Entity& entity) { metallic_roughness(b), coat_and_grain(b, entity); }},
-      {"tinteddielectric", BsdfKind::tinted_dielectric,
-       [](RowBuilder& b, const Entity&) {
-         using Slots = TintedDielectricSlots;
-         b.roughness(Slots::alpha_x, "");
-         b.put(Slots::eta, b.index("eta", 1.5f));
-         b.spectrum(Slots::tint, "tint", gray_rgb(1.0f));
-         b.coefficients(Slots::absorption, "absorption");
-       }},
-  }};
-  return rows;
-}
+  void operator()(const DiffuseDesc& m) {
+    b_.material().kind = BsdfKind::diffuse;
+    b_.spectrum(DiffuseSlots::reflectance, m.albedo);
+  }
+  void operator()(const ConductorDesc& m) {
+    b_.material().kind = BsdfKind::conductor;
+    b_.roughness(ConductorSlots::alpha_x, m.facets, m.maps_roughness);
+    b_.metal(ConductorSlots::eta, ConductorSlots::k, m.metal, 1);
+  }
+  void operator()(const DielectricDesc& m) {
+    b_.material().kind = BsdfKind::dielectric;
+    b_.roughness(DielectricSlots::alpha_x, m.facets, m.maps_roughness);
+    b_.put(DielectricSlots::eta, b_.index(m.eta));
+  }
+  void operator()(const TintedDielectricDesc& m) {
+    using Slots = TintedDielectricSlots;
+    b_.material().kind = BsdfKind::tinted_dielectric;
+    b_.roughness(Slots::alpha_x, m.facets, m.maps_roughness);
+    b_.put(Slots::eta, b_.index(m.eta));
+    b_.spectrum(Slots::tint, m.tint);
+    b_.coefficients(Slots::absorption, m.absorption);
+  }
+  void operator()(const ThinDielectricDesc& m) {
+    using Slots = ThinDielectricSlots;
+    b_.material().kind = BsdfKind::thin_dielectric;
+    b_.put(Slots::eta, b_.index(m.eta));
+    b_.spectrum(Slots::tint, m.tint);
+    b_.number(Slots::alpha, m.roughness, m.maps_roughness ? RowEncoding::roughness : RowEncoding::plain);
+  }
+  void operator()(const CoatedDiffuseDesc& m) {
+    b_.material().kind = BsdfKind::coated_diffuse;
+    put_layer(b_, m.eta, m.facets, m.maps_roughness, m.layer);
+    b_.spectrum(CoatedDiffuseSlots::reflectance, m.albedo);
+    sum_reflections(b_.material());
+  }
+  void operator()(const CoatedConductorDesc& m) {
+    using Slots = CoatedConductorSlots;
+    b_.material().kind = BsdfKind::coated_conductor;
+    put_layer(b_, m.coat_eta, m.coat_facets, m.maps_roughness, m.layer);
+    b_.roughness(Slots::conductor_alpha_x, m.metal_facets, m.maps_roughness);
+    b_.metal(Slots::conductor_eta, Slots::conductor_k, m.metal, b_.index(m.coat_eta));
+  }
+  void operator()(const DiffuseTransmissionDesc& m) {
+    using Slots = DiffuseTransmissionSlots;
+    b_.material().kind = BsdfKind::diffuse_transmission;
+    b_.spectrum(Slots::reflectance, m.reflected, m.scale);
+    b_.spectrum(Slots::transmittance, m.transmitted, m.scale);
+  }
+  void operator()(const PhongDesc& m) {
+    b_.material().kind = BsdfKind::phong;
+    b_.spectrum(PhongSlots::diffuse, m.diffuse_albedo);
+    b_.spectrum(PhongSlots::specular, m.glossy_albedo);
+    b_.number(PhongSlots::exponent, m.exponent);
+  }
+  void operator()(const MetallicRoughnessDesc& m) {
+    b_.material().kind = BsdfKind::metallic_roughness;
+    put_metallic_roughness(b_, m);
+  }
+  void operator()(const CoatedMetallicRoughnessDesc& m) {
+    using Slots = CoatedMetallicRoughnessSlots;
+    b_.material().kind = BsdfKind::coated_metallic_roughness;
+    put_metallic_roughness(b_, m.base);
+    b_.number(Slots::coat, m.coat, RowEncoding::unit);
+    b_.number(Slots::coat_roughness, m.coat_roughness, RowEncoding::unit);
+    b_.number(Slots::anisotropy, m.anisotropy, RowEncoding::unit);
+    // Encoded as an image stores a direction: 1 and 1/2 decode to 1 and 0.
+    b_.number(Slots::grain_x, m.grain_x, RowEncoding::signed_unit);
+    b_.number(Slots::grain_y, m.grain_y, RowEncoding::signed_unit);
+    const float angle = m.grain_rotation * (pi / 180);
+    b_.put(Slots::turn_cos, std::cos(angle)), b_.put(Slots::turn_sin, std::sin(angle));
+    b_.put(Slots::side, m.grain_is_mirrored ? -1.0f : 1.0f);
+    b_.put(Slots::coat_normal + 2, 1);
+    if (m.coat_normals.texture) b_.material().coat_normal_texture = inputs_.textures.spectrum(*m.coat_normals.texture);
+    b_.material().coat_normal_scale = {m.coat_normals.scale[0], m.coat_normals.scale[1]};
+  }
+  void operator()(const InterfaceDesc&) { b_.material().is_interface = true; }
+  void operator()(const MixDesc& m) {
+    if (m.materials.size() != 2) {
+      inputs_.diagnostics.error(where_,
+                                fmt::format("a mix takes the names of two materials; found {}", m.materials.size()));
+      return;
+    }
+    Mixture mixture{{0, 0}, inputs_.textures.number(m.amount)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      auto child = inputs_.material(m.materials[i]);
+      if (!child)
+        inputs_.diagnostics.error(where_,
+                                  fmt::format("the mix names material \"{}\", which is not defined", m.materials[i]));
+      mixture.children[i] = child.value_or(0);
+    }
+    b_.material().mixture = mixture;
+  }
+
+ private:
+  RowBuilder& b_;
+  const SourceLocation& where_;
+  const MaterialInputs& inputs_;
+};
 
 }  // namespace
 
-Material build_material(const Entity& entity, const MaterialInputs& inputs) {
-  RowBuilder b(entity, inputs);
-  if (entity.type == "mix") {
-    fill_mixture(b, entity, inputs);
-    return std::move(b).take();
-  }
-  if (entity.type == "interface" || entity.type.empty() || entity.type == "none") {
-    b.material().is_interface = true;
-    return std::move(b).take();
-  }
-  const auto& rows = material_rows();
-  auto row = std::find_if(rows.begin(), rows.end(), [&](const MaterialRow& r) { return r.name == entity.type; });
-  if (row == rows.end()) row = rows.begin();  // unknown to Montelux; the reader has reported it
-  b.material().kind = row->kind;
-  row->fill(b, entity);
-  if (entity.parameters.find("normalmap"))
-    b.material().normal_map = inputs.textures.image(entity, "normalmap", ColorEncoding{});
-  if (entity.parameters.find("normaltexture"))
-    b.material().normal_texture = inputs.textures.spectrum(entity, "normaltexture", gray_rgb(0.5f));
-  if (const auto& scale = entity.parameters.array<float>("normalscale"); scale.size() == 2)
-    b.material().normal_scale = {scale[0], scale[1]};
-  if (entity.parameters.find("coatnormaltexture"))
-    b.material().coat_normal_texture = inputs.textures.spectrum(entity, "coatnormaltexture", gray_rgb(0.5f));
-  if (const auto& scale = entity.parameters.array<float>("coatnormalscale"); scale.size() == 2)
-    b.material().coat_normal_scale = {scale[0], scale[1]};
+Material build_material(const MaterialDesc& desc, const MaterialInputs& inputs) {
+  RowBuilder b(inputs);
+  std::visit(ModelBuilder(b, desc.where, inputs), desc.model);
+  Material& material = b.material();
+  if (material.mixture || material.is_interface) return std::move(b).take();
+  if (!desc.normal_file.empty())
+    material.normal_map = inputs.textures.image(desc.normal_file, desc.where, ColorEncoding{});
+  if (desc.normals.texture) material.normal_texture = inputs.textures.spectrum(*desc.normals.texture);
+  material.normal_scale = {desc.normals.scale[0], desc.normals.scale[1]};
   return std::move(b).take();
 }
-
-bool uses_parameters(const Material& material) {
-  if (!material.is_plain()) return true;
-  // A grain: different roughness along u and v.
-  const float* v = material.row.v;
-  switch (material.kind) {
-    case BsdfKind::conductor:
-      return v[ConductorSlots::alpha_x] != v[ConductorSlots::alpha_y];
-    case BsdfKind::dielectric:
-    case BsdfKind::tinted_dielectric:
-      return v[DielectricSlots::alpha_x] != v[DielectricSlots::alpha_y];
-    case BsdfKind::coated_metallic_roughness:
-      return v[CoatedMetallicRoughnessSlots::anisotropy] != 0;
-    case BsdfKind::coated_diffuse:
-      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y];
-    case BsdfKind::coated_conductor:
-      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y] ||
-             v[CoatedConductorSlots::conductor_alpha_x] != v[CoatedConductorSlots::conductor_alpha_y];
-    default:
-      return false;
-  }
-}
-
-template <class F>
-void look_up_slots(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on,
-                   BsdfSlots<F>& slots) {
-  const auto put = [&](int slot, F value, const RowBinding& binding) {
-    slots.v[slot] = select(on, encoded(value, binding), slots.v[slot]);
-  };
-  for (const RowBinding& binding : material.bindings) {
-    if (!binding.is_spectrum) {
-      put(binding.slot, textures.number(NumberTextureId(binding.texture), points, on), binding);
-      continue;
-    }
-    const Spectrum<F> value = textures.spectrum(SpectrumTextureId(binding.texture), points, on);
-    for (int i = 0; i < spectrum_size; ++i) put(binding.slot + i, value.c[i], binding);
-  }
-}
-
-BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {
-  BsdfRow row = material.row;
-  look_up_slots<float>(material, textures, {point.uv, point.p, point.n}, true, row);
-  return row;
-}
-
-// The direction that an image stores as a colour, with x and y scaled.
-template <class F>
-static Vec3<F> normal_of(const RgbOf<F>& c, const Vec2f& scale) {
-  return {scale.x * (2.0f * c.c[0] - 1.0f), scale.y * (2.0f * c.c[1] - 1.0f), 2.0f * c.c[2] - 1.0f};
-}
-
-template <class F>
-Vec3<F> mapped_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
-                      Mask<F> on) {
-  const Vec2<F> st{points.uv.x, 1.0f - points.uv.y};
-  RgbOf<F> c;
-  if (material.normal_texture)
-    c = textures.color(*material.normal_texture, points, on);
-  else if constexpr (lanes_of<F> == 1)
-    c = material.normal_map->bilinear(st, Wrap::repeat);
-  else
-    c = material.normal_map->bilinear(st, Wrap::repeat, on);
-  return normal_of(c, material.normal_scale);
-}
-
-template <class F>
-Vec3<F> mapped_coat_normal(const Material& material, const TextureSet& textures, const TexturePoints<F>& points,
-                           Mask<F> on) {
-  return normal_of(textures.color(*material.coat_normal_texture, points, on), material.coat_normal_scale);
-}
-
-template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<float>&, bool, BsdfSlots<float>&);
-template void look_up_slots(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&, Mask<NativeFloats>,
-                            BsdfSlots<NativeFloats>&);
-template Vec3f mapped_normal(const Material&, const TextureSet&, const TexturePoints<float>&, bool);
-template Vec3<NativeFloats> mapped_normal(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&,
-                                          Mask<NativeFloats>);
-template Vec3f mapped_coat_normal(const Material&, const TextureSet&, const TexturePoints<float>&, bool);
-template Vec3<NativeFloats> mapped_coat_normal(const Material&, const TextureSet&, const TexturePoints<NativeFloats>&,
-                                               Mask<NativeFloats>);
 
 }  // namespace montelux

@@ -1,12 +1,16 @@
 // The materials that a scene may state.
 #pragma once
-#include <span>
+#include <string_view>
 
-#include "parameter/spec.h"
+#include "material/description.h"
+#include "parameter/models.h"
 
 namespace montelux {
 
 // Every material by name, with its parameters.
-std::span<const EntitySpec> material_table();
+const Models<MaterialDesc>& material_models();
+
+// The name that states the model.
+std::string_view name_of(const MaterialModel& model);
 
 }  // namespace montelux

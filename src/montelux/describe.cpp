@@ -10,6 +10,7 @@
 #include "io/read_model.h"
 #include "io/text_file.h"
 #include "light/table.h"
+#include "material/table.h"
 #include "medium/table.h"
 #include "montelux/parameters.h"
 #include "scene/shape_models.h"
@@ -220,10 +221,14 @@ ReadResult Description::make() {
     const auto t = transform(placed.transform, where);
     if (stated && t) desc_.textures.push_back({name_of_texture(i), is_spectrum, *std::move(stated), *t});
   }
-  desc_.materials.push_back({"", {"diffuse", {}, {}}});
+  desc_.materials.emplace_back();
   for (std::size_t i = 0; i < content_.materials.size(); ++i) {
-    auto stated = entity(Family::material, content_.materials[i], part(name_of_material(i)));
-    desc_.materials.push_back({name_of_material(i), stated.value_or(Entity{"diffuse", {}, {}})});
+    const SourceLocation where = part(name_of_material(i));
+    std::optional<MaterialDesc> material;
+    if (const auto stated = entity(Family::material, content_.materials[i], where))
+      material = read_model(material_models(), Family::material, *stated, report_);
+    MaterialDesc& desc = desc_.materials.emplace_back(std::move(material).value_or(MaterialDesc{}));
+    desc.name = name_of_material(i), desc.where = where;
   }
   for (std::size_t i = 0; i < content_.media.size(); ++i) {
     const std::string name = "medium " + std::to_string(i);

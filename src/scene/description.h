@@ -15,6 +15,7 @@
 #include "geometry/mesh.h"
 #include "light/description.h"
 #include "light/light.h"
+#include "material/description.h"
 #include "math/transform.h"
 #include "mc/point_set.h"
 #include "medium/description.h"
@@ -31,11 +32,6 @@ struct TextureDesc {
   bool is_spectrum = false;  // false: a texture of numbers
   Entity entity;
   Transform texture_to_world;
-};
-
-struct MaterialDesc {
-  std::string name;  // empty if it was stated in place
-  Entity entity;
 };
 
 // The media on the two sides of a surface; none: empty space. `outside` is where the oriented normal points.

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "material/build.h"
+#include "material/bound_material.h"
 #include "material/material.h"
 #include "scene/surface.h"
 #include "texture/texture_set.h"

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "material/build.h"
 #include "medium/build.h"
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
@@ -97,8 +98,8 @@ std::vector<Material> Preparation::make_materials() {
                         },
                         diagnostics_};
   std::vector<Material> materials;
-  for (const MaterialDesc& material : desc_.materials) materials.push_back(build_material(material.entity, inputs));
-  if (materials.empty()) materials.push_back(build_material({"diffuse", {}, {}}, inputs));
+  for (const MaterialDesc& material : desc_.materials) materials.push_back(build_material(material, inputs));
+  if (materials.empty()) materials.push_back(build_material({}, inputs));
   break_mixture_cycles(materials);
   return materials;
 }
@@ -134,7 +135,7 @@ void Preparation::break_mixture_cycles(std::vector<Material>& materials) {
     for (std::uint32_t child : materials[i].mixture->children) found = has_cycle(child) || found;
     visits[i] = Visit::done;
     if (!found) return false;
-    diagnostics_.error(desc_.materials[i].entity.where, "the mix contains itself");
+    diagnostics_.error(desc_.materials[i].where, "the mix contains itself");
     materials[i].mixture.reset();
     return false;
   };

@@ -32,7 +32,6 @@ class UnusedReport {
 void report_unused(const SceneDesc& scene, Diagnostics& diagnostics) {
   UnusedReport report(diagnostics);
   for (const TextureDesc& texture : scene.textures) report.add("texture", texture.entity);
-  for (const MaterialDesc& material : scene.materials) report.add("material", material.entity);
 }
 
 }  // namespace montelux

@@ -41,19 +41,17 @@ void MaterialReader::note_uv_set(const std::optional<TextureUse>& use, const Ele
                      " is used for all");
 }
 
-void MaterialReader::put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning) {
+SpectrumInput MaterialReader::spectrum(const Factor& factor, TexelMeaning meaning) {
   if (factor.texture)
-    put_texture(e, name, textures_.spectrum(*factor.texture, factor.value, meaning));
-  else
-    put_rgb(e, name, factor.value);
+    return {TextureName{textures_.spectrum(*factor.texture, factor.value, meaning)}, factor.texture->where};
+  return RgbValue{factor.value};
 }
 
-void MaterialReader::put_channel(Entity& e, const char* name, const Factor& factor, const char* channel) {
-  const double value = double(factor.value[0]);
+NumberInput MaterialReader::channel(const Factor& factor, const char* channel) {
+  const float value = factor.value[0];
   if (factor.texture && value != 0)
-    put_texture(e, name, textures_.number(*factor.texture, channel, value));
-  else
-    put_number(e, name, value);
+    return {TextureName{textures_.number(*factor.texture, channel, double(value))}, factor.texture->where};
+  return value;
 }
 
 MaterialReader::Factor MaterialReader::base_color(const Element& material) {
@@ -68,20 +66,20 @@ double MaterialReader::base_alpha(const Element& material) const {
 }
 
 // KHR_materials_ior and KHR_materials_specular.
-void MaterialReader::put_specular(Entity& e, const Element& extensions) {
+void MaterialReader::read_specular(const Element& extensions, MetallicRoughnessDesc& base) {
   const Element ior = extensions["KHR_materials_ior"]["ior"];
   if (const auto eta = ior.number()) {
     if (*eta != 0 && *eta < 1)
       ior.error("an index of refraction must be at least 1");
     else
       // 0 means that the dielectric reflects like a mirror, as with an infinite index.
-      put_number(e, "eta", *eta == 0 ? 1e6 : *eta);
+      base.eta = float(*eta == 0 ? 1e6 : *eta);
   }
   const Element specular = extensions["KHR_materials_specular"];
   if (!specular) return;
   Factor weight{gray_rgb(float(share(specular["specularFactor"], 1))), textures_.use(specular["specularTexture"])};
   note_uv_set(weight.texture, specular);
-  put_channel(e, "specular", weight, "a");
+  base.specular = channel(weight, "a");
   Factor color{gray_rgb(1.0f), textures_.use(specular["specularColorTexture"])};
   note_uv_set(color.texture, specular);
   if (const auto stated = specular["specularColorFactor"].numbers(3)) {
@@ -90,119 +88,130 @@ void MaterialReader::put_specular(Entity& e, const Element& extensions) {
     else
       color.value = rgb_of(*stated);
   }
-  put_spectrum(e, "specularcolor", color, TexelMeaning::color);
+  base.specular_color = spectrum(color, TexelMeaning::color);
 }
 
 // KHR_materials_clearcoat and KHR_materials_anisotropy.
-void MaterialReader::put_coat_and_grain(Entity& e, const Element& extensions) {
+MaterialModel MaterialReader::with_coat_and_grain(const MetallicRoughnessDesc& base, const Element& extensions) {
   const Element coat = extensions["KHR_materials_clearcoat"], grain = extensions["KHR_materials_anisotropy"];
   const Factor amount{gray_rgb(float(share(coat["clearcoatFactor"], 0))), textures_.use(coat["clearcoatTexture"])};
   const Factor strength{gray_rgb(float(share(grain["anisotropyStrength"], 0))),
                         textures_.use(grain["anisotropyTexture"])};
   const Factor roughness{gray_rgb(float(share(coat["clearcoatRoughnessFactor"], 0))),
                          textures_.use(coat["clearcoatRoughnessTexture"])};
-  if (is_black(amount.value) && is_black(strength.value)) return;
+  if (is_black(amount.value) && is_black(strength.value)) return base;
   for (const Factor* factor : {&amount, &roughness, &strength}) note_uv_set(factor->texture, coat ? coat : grain);
-  e.type = "coatedmetallicroughness";
-  put_channel(e, "clearcoat", amount, "r");
-  put_channel(e, "clearcoatroughness", roughness, "g");
-  if (!is_black(amount.value)) put_normal_map(e, coat["clearcoatNormalTexture"], coat_normals);
-  if (is_black(strength.value)) return;
-  put_channel(e, "anisotropy", strength, "b");
-  put_number(e, "anisotropyrotation", grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
-  if (!strength.texture) return;
+  CoatedMetallicRoughnessDesc coated{base};
+  coated.coat = channel(amount, "r");
+  coated.coat_roughness = channel(roughness, "g");
+  if (!is_black(amount.value)) coated.coat_normals = normal_map(coat["clearcoatNormalTexture"]);
+  if (is_black(strength.value)) return coated;
+  coated.anisotropy = channel(strength, "b");
+  coated.grain_rotation = float(grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
+  if (!strength.texture) return coated;
   const Factor direction{gray_rgb(1.0f), strength.texture};
-  put_channel(e, "grainx", direction, "r");
-  put_channel(e, "grainy", direction, "g");
+  coated.grain_x = channel(direction, "r");
+  coated.grain_y = channel(direction, "g");
+  return coated;
 }
 
 // KHR_materials_volume: attenuationColor is the transmittance of attenuationDistance.
-void MaterialReader::put_absorption(Entity& glass, const Element& volume) {
+SpectrumValue MaterialReader::absorption(const Element& volume) {
+  const SpectrumValue none = TintedDielectricDesc().absorption;
   const std::vector<double> left = shares(volume["attenuationColor"], {1, 1, 1});
   const Element stated = volume["attenuationDistance"];
   const auto distance = stated.number();
-  if (!distance) return;
-  if (!(*distance > 0)) return stated.error("must be above 0");
+  if (!distance) return none;
+  if (!(*distance > 0)) {
+    stated.error("must be above 0");
+    return none;
+  }
   Rgb absorption;
   // A black component absorbs everything over that distance, but not immediately.
   for (int i = 0; i < rgb_size; ++i)
     absorption.c[i] = float(-std::log(std::max(left[std::size_t(i)], 1e-6)) / *distance);
-  if (!is_black(absorption)) put_rgb(glass, "absorption", absorption);
+  return is_black(absorption) ? none : RgbValue{absorption};
 }
 
-void MaterialReader::put_normal_map(Entity& e, const Element& info, const NormalParameters& names) {
+NormalMapDesc MaterialReader::normal_map(const Element& info) {
   const auto use = textures_.use(info);
-  if (!use) return;
+  if (!use) return {};
   note_uv_set(use, info);
-  put_texture(e, names.texture, textures_.spectrum(*use, gray_rgb(1.0f), TexelMeaning::data));
-  const double scale = info["scale"].number().value_or(1);
-  if (scale != 1) put_numbers(e, names.scale, {float(scale), float(scale)});
+  NormalMapDesc map;
+  map.texture.emplace(TextureName{textures_.spectrum(*use, gray_rgb(1.0f), TexelMeaning::data)}, use->where);
+  const float scale = float(info["scale"].number().value_or(1));
+  map.scale = {scale, scale};
+  return map;
 }
 
 // The material for mirrored texture coordinates; nothing if it is the same.
-std::optional<Entity> MaterialReader::mirrored(const Entity& e) {
-  const bool has_grain = e.parameters.find("anisotropyrotation") != nullptr;
-  Entity turned{e.type, {}, e.where};
-  for (const Parameter& p : e.parameters.all())
-    if (p.name != base_normals.scale && p.name != coat_normals.scale) turned.parameters.add(p);
-  bool has_map = false;
-  for (const NormalParameters& names : {base_normals, coat_normals}) {
-    if (!e.parameters.find(names.texture)) continue;
-    has_map = true;
-    const auto& stated = e.parameters.array<float>(names.scale);
-    const float scale = stated.empty() ? 1 : stated[0];
-    put_numbers(turned, names.scale, {scale, -scale});
+std::optional<MaterialDesc> MaterialReader::mirrored(const MaterialDesc& material) {
+  MaterialDesc turned = material;
+  bool differs = false;
+  const auto turn = [&](NormalMapDesc& map) {
+    if (!map.texture) return;
+    map.scale[1] = -map.scale[1];
+    differs = true;
+  };
+  turn(turned.normals);
+  if (auto* coated = std::get_if<CoatedMetallicRoughnessDesc>(&turned.model)) {
+    turn(coated->coat_normals);
+    coated->grain_is_mirrored = coated->anisotropy != CoatedMetallicRoughnessDesc().anisotropy;
+    differs = differs || coated->grain_is_mirrored;
   }
-  if (!has_map && !has_grain) return std::nullopt;
-  if (has_grain) put_boolean(turned, "grainmirrored", true);
-  return turned;
+  return differs ? std::optional(std::move(turned)) : std::nullopt;
 }
 
-MaterialDescId MaterialReader::add(Entity e, const std::string& name) {
+MaterialDescId MaterialReader::add(MaterialDesc material, const std::string& name) {
   const auto id = MaterialDescId(scene_.materials.size());
-  std::string unique = std::to_string(scene_.materials.size());
-  if (!name.empty()) unique += " " + name;
-  scene_.materials.push_back({std::move(unique), std::move(e)});
+  material.name = std::to_string(scene_.materials.size());
+  if (!name.empty()) material.name += " " + name;
+  scene_.materials.push_back(std::move(material));
   return id;
 }
 
+// A body where there is a volume, otherwise a pane.
+MaterialModel MaterialReader::glass(const MaterialDesc& base, const Element& material) {
+  const Element volume = material["extensions"]["KHR_materials_volume"], model = material["pbrMetallicRoughness"];
+  const bool is_solid = volume && volume["thicknessFactor"].number().value_or(0) > 0;
+  const double roughness = share(model["roughnessFactor"], 1);
+  const auto* coated = std::get_if<CoatedMetallicRoughnessDesc>(&base.model);
+  const auto* opaque = coated ? &coated->base : std::get_if<MetallicRoughnessDesc>(&base.model);
+  const IndexInput eta = opaque ? opaque->eta : MetallicRoughnessDesc().eta;
+  // The facets' alpha is the square.
+  NumberInput alpha = float(roughness * roughness);
+  const auto roughness_map = textures_.use(model["metallicRoughnessTexture"]);
+  if (roughness_map && roughness > 0)
+    alpha = {TextureName{textures_.squared(textures_.number(*roughness_map, "g", roughness))}, roughness_map->where};
+  const SpectrumValue absorbed = is_solid ? absorption(volume) : gray_value(0);
+  const Factor color = base_color(material);
+  const bool is_tinted = color.texture || color.value[0] < 1 || color.value[1] < 1 || color.value[2] < 1;
+  const SpectrumInput tint = is_tinted ? spectrum(color, TexelMeaning::color) : ThinDielectricDesc().tint;
+  if (is_solid) return TintedDielectricDesc{eta, tint, absorbed, {alpha}, false};
+  return ThinDielectricDesc{eta, tint, alpha, false};
+}
+
 // KHR_materials_transmission: a share of the light passes, through glass or, if there is no volume, through a pane.
-MaterialDescId MaterialReader::transmitting(const Entity& base, const Element& material, const std::string& name) {
-  const Element extensions = material["extensions"], transmission = extensions["KHR_materials_transmission"];
-  const Element volume = extensions["KHR_materials_volume"], model = material["pbrMetallicRoughness"];
+MaterialDescId MaterialReader::transmitting(const MaterialDesc& base, const Element& material,
+                                            const std::string& name) {
+  const Element transmission = material["extensions"]["KHR_materials_transmission"];
   Factor amount{gray_rgb(float(share(transmission["transmissionFactor"], 0))),
                 textures_.use(transmission["transmissionTexture"])};
   note_uv_set(amount.texture, material);
   if (is_black(amount.value)) return add(base, name);
-  const bool is_solid = volume && volume["thicknessFactor"].number().value_or(0) > 0;
-  const double roughness = share(model["roughnessFactor"], 1);
-  const float eta = base.parameters.number("eta", 1.5f);
-  Entity glass{is_solid ? "tinteddielectric" : "thindielectric", {}, material.where()};
-  put_number(glass, "eta", double(eta));
-  // The facets' alpha is the square.
-  const auto roughness_map = textures_.use(model["metallicRoughnessTexture"]);
-  if (roughness_map && roughness > 0)
-    put_texture(glass, "roughness", textures_.squared(textures_.number(*roughness_map, "g", roughness)));
-  else
-    put_number(glass, "roughness", roughness * roughness);
-  put_boolean(glass, "remaproughness", false);
-  if (is_solid) put_absorption(glass, volume);
-  const Factor tint = base_color(material);
-  if (tint.texture || tint.value[0] < 1 || tint.value[1] < 1 || tint.value[2] < 1)
-    put_spectrum(glass, "tint", tint, TexelMeaning::color);
+  MaterialDesc pane = base;
+  pane.model = glass(base, material);
   // Reported once, for any number of materials.
-  if (base.type == "coatedmetallicroughness" && !std::exchange(has_lost_coat_, true))
+  if (std::holds_alternative<CoatedMetallicRoughnessDesc>(base.model) && !std::exchange(has_lost_coat_, true))
     transmission.warning(
         "transmissive glass is shown without its clear coat and its grain, here and in all such materials");
-  for (const char* part : {base_normals.texture, base_normals.scale})
-    if (const Parameter* map = base.parameters.find(part)) glass.parameters.add(*map);
-  const MaterialDescId through = add(std::move(glass), name.empty() ? "glass" : name + " glass");
+  const MaterialDescId through = add(std::move(pane), name.empty() ? "glass" : name + " glass");
   if (!amount.texture && amount.value[0] >= 1) return through;
   const MaterialDescId opaque = add(base, name.empty() ? "opaque" : name + " opaque");
-  Entity mix{"mix", {}, material.where()};
-  put_strings(mix, "materials",
-              {scene_.materials[std::size_t(opaque)].name, scene_.materials[std::size_t(through)].name});
-  put_channel(mix, "amount", amount, "r");
+  MaterialDesc mix;
+  mix.where = material.where();
+  mix.model = MixDesc{{scene_.materials[std::size_t(opaque)].name, scene_.materials[std::size_t(through)].name},
+                      channel(amount, "r")};
   return add(std::move(mix), name);
 }
 
@@ -254,8 +263,8 @@ std::optional<Parameter> MaterialReader::alpha(const Element& material) {
 // KHR_materials_unlit: a black surface that emits its base colour, on the sides that are shown.
 MaterialUse MaterialReader::read_unlit(const Element& material) {
   MaterialUse use;
-  Entity black{"diffuse", {}, material.where()};
-  put_rgb(black, "reflectance", Rgb{});
+  MaterialDesc black;
+  black.model = DiffuseDesc{RgbValue{Rgb{}}}, black.where = material.where();
   use.id = add(std::move(black), material["name"].text().value_or(""));
   use.area_light = emission_of(base_color(material), 1, material);
   use.one_sided = !is_double_sided(material);
@@ -280,28 +289,33 @@ MaterialUse MaterialReader::read(const Element& material) {
   Factor roughness{gray_rgb(float(share(model["roughnessFactor"], 1))), metallic.texture};
   note_uv_set(metallic.texture, material);
 
-  Entity e{"metallicroughness", {}, material.where()};
-  put_specular(e, extensions);
-  put_coat_and_grain(e, extensions);
-  const bool is_coated = e.type == "coatedmetallicroughness";
+  MetallicRoughnessDesc facets;
+  read_specular(extensions, facets);
+  MaterialDesc desc;
+  desc.where = material.where();
+  desc.model = with_coat_and_grain(facets, extensions);
+  auto* coated = std::get_if<CoatedMetallicRoughnessDesc>(&desc.model);
+  const NumberInput none = 0.0f;
   // Without a specular part it is Lambertian.
-  const bool is_diffuse = !is_coated && is_black(metallic.value) && e.parameters.number("specular", 1) == 0;
-  if (is_diffuse) e = Entity{"diffuse", {}, material.where()};
-  put_spectrum(e, is_diffuse ? "reflectance" : "basecolor", base, TexelMeaning::color);
-  if (!is_diffuse) {
-    put_channel(e, "metallic", metallic, "b");
-    put_channel(e, "roughness", roughness, "g");
+  if (!coated && is_black(metallic.value) && facets.specular == none) {
+    desc.model = DiffuseDesc{spectrum(base, TexelMeaning::color)};
+  } else {
+    MetallicRoughnessDesc& opaque = coated ? coated->base : std::get<MetallicRoughnessDesc>(desc.model);
+    opaque.base_color = spectrum(base, TexelMeaning::color);
+    opaque.metallic = channel(metallic, "b");
+    opaque.roughness = channel(roughness, "g");
   }
-  put_normal_map(e, material["normalTexture"], base_normals);
+  desc.normals = normal_map(material["normalTexture"]);
   MaterialUse use;
-  use.id = transmitting(e, material, name);
-  if (const std::optional<Entity> turned = mirrored(e))
+  use.id = transmitting(desc, material, name);
+  if (const std::optional<MaterialDesc> turned = mirrored(desc))
     use.mirrored = transmitting(*turned, material, name.empty() ? "mirrored" : name + " mirrored");
   use.area_light = emission(material);
   use.repeats_emission = use.area_light && repeats(textures_.use(material["emissiveTexture"]));
   use.alpha = alpha(material);
   // Glass has an inside, from which its surface is visible.
-  use.one_sided = !is_double_sided(material) && scene_.materials[std::size_t(use.id)].entity.type == e.type;
+  use.one_sided =
+      !is_double_sided(material) && scene_.materials[std::size_t(use.id)].model.index() == desc.model.index();
   use.uv_set = uv_set_.value_or(0);
   return use;
 }

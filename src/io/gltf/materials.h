@@ -32,22 +32,17 @@ class MaterialReader {
   };
   MaterialUse read(const Element& material);
   MaterialUse read_unlit(const Element& material);
-  void put_spectrum(Entity& e, const char* name, const Factor& factor, TexelMeaning meaning);
-  void put_channel(Entity& e, const char* name, const Factor& factor, const char* channel);
-  void put_specular(Entity& e, const Element& extensions);
-  // If there are any; then the material is a coated one.
-  void put_coat_and_grain(Entity& e, const Element& extensions);
-  void put_absorption(Entity& glass, const Element& volume);
-  // The names of the parameters of a normal map and of the factors of its x and y.
-  struct NormalParameters {
-    const char *texture, *scale;
-  };
-  static constexpr NormalParameters base_normals{"normaltexture", "normalscale"},
-      coat_normals{"coatnormaltexture", "coatnormalscale"};
-  void put_normal_map(Entity& e, const Element& info, const NormalParameters& names);
-  static std::optional<Entity> mirrored(const Entity& e);
-  MaterialDescId add(Entity e, const std::string& name);
-  MaterialDescId transmitting(const Entity& base, const Element& material, const std::string& name);
+  SpectrumInput spectrum(const Factor& factor, TexelMeaning meaning);
+  NumberInput channel(const Factor& factor, const char* channel);
+  void read_specular(const Element& extensions, MetallicRoughnessDesc& base);
+  // The same with a coat and a grain, if there are any.
+  MaterialModel with_coat_and_grain(const MetallicRoughnessDesc& base, const Element& extensions);
+  static SpectrumValue absorption(const Element& volume);
+  NormalMapDesc normal_map(const Element& info);
+  static std::optional<MaterialDesc> mirrored(const MaterialDesc& material);
+  MaterialDescId add(MaterialDesc material, const std::string& name);
+  MaterialDescId transmitting(const MaterialDesc& base, const Element& material, const std::string& name);
+  MaterialModel glass(const MaterialDesc& base, const Element& material);
   std::optional<AreaLightDesc> emission(const Element& material);
   std::optional<AreaLightDesc> emission_of(const Factor& factor, double scale, const Element& where);
   std::optional<Parameter> alpha(const Element& material);

@@ -33,7 +33,7 @@ bool same(const MeshPose& a, const MeshPose& b) {
 SceneDesc SceneBuilder::build() {
   scene_.file = *document_.whole().file;
   scene_.folder = document_.folder();
-  scene_.materials.push_back({"", {"diffuse", {}, {}}});
+  scene_.materials.emplace_back();
   read_animation_and_time();
   read_meshes();
   place_meshes();

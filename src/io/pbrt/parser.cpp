@@ -74,7 +74,7 @@ bool is_directive(std::string_view word) { return Parser::knows(word); }
 
 Parser::Parser(std::string folder, Diagnostics& diagnostics, bool lenient) : report_(diagnostics, lenient) {
   scene_.folder = std::move(folder);
-  scene_.materials.push_back({"", Entity{"diffuse", {}, {}}});
+  scene_.materials.emplace_back();
 }
 
 // The format of a file that is not pbrt's, recognised by its beginning.

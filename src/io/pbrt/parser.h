@@ -139,6 +139,7 @@ class Parser {
   void directive_material();
   void directive_make_named_material();
   void directive_named_material();
+  std::optional<MaterialDescId> add_material(const Stated& stated, const std::string& name);
   void directive_light_source();
   void directive_area_light_source();
   void directive_make_named_medium();
@@ -184,6 +185,12 @@ class Parser {
   std::vector<TextureUse> texture_uses_;
   std::map<std::string, MaterialDescId> named_materials_;
   std::vector<NameUse> material_uses_;
+  // Where a mixture states its materials.
+  struct MixtureUse {
+    std::size_t mixture;  // its number
+    SourceLocation where;
+  };
+  std::vector<MixtureUse> mixture_uses_;
   // Media get their numbers where they are first named, which may be before they are defined.
   struct NamedMedium {
     MediumDescId id;

@@ -58,19 +58,15 @@ void Parser::resolve_materials() {
     for (ShapeDesc& shape : object.shapes) resolve(shape);
 
   // A mixture names only materials before it, so that none can contain itself.
-  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-    const Entity& mix = scene_.materials[i].entity;
-    if (mix.type != "mix") continue;
-    const Parameter* materials = mix.parameters.find("materials");
-    for (const std::string& name : mix.parameters.array<std::string>("materials")) {
+  for (const MixtureUse& use : mixture_uses_)
+    for (const std::string& name : std::get<MixDesc>(scene_.materials[use.mixture].model).materials) {
       auto named = named_materials_.find(name);
       if (named == named_materials_.end())
-        report_.error(materials->where, "there is no material '" + printable(name) + "'",
+        report_.error(use.where, "there is no material '" + printable(name) + "'",
                       did_you_mean(name, material_names()));
-      else if (static_cast<std::size_t>(named->second) >= i)
-        report_.error(materials->where, "material '" + printable(name) + "' must be defined before the mixture of it");
+      else if (static_cast<std::size_t>(named->second) >= use.mixture)
+        report_.error(use.where, "material '" + printable(name) + "' must be defined before the mixture of it");
     }
-  }
 }
 
 void Parser::resolve_media() {

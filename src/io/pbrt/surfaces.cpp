@@ -5,6 +5,7 @@
 #include "io/read_model.h"
 #include "io/text_file.h"
 #include "light/table.h"
+#include "material/table.h"
 #include "medium/table.h"
 
 namespace montelux::pbrt {
@@ -62,6 +63,19 @@ void Parser::check_texture_of_texture(const Stated& stated, TextureKind kind) {
   }
 }
 
+// No value after an error.
+std::optional<MaterialDescId> Parser::add_material(const Stated& stated, const std::string& name) {
+  note_texture_uses(stated);
+  std::optional<MaterialDesc> material = read_model(material_models(), Family::material, stated.entity, report_);
+  if (!material) return std::nullopt;
+  material->name = name, material->where = stated.entity.where;
+  if (std::holds_alternative<MixDesc>(material->model))
+    if (const Parameter* materials = stated.entity.parameters.find("materials"))
+      mixture_uses_.push_back({scene_.materials.size(), materials->where});
+  scene_.materials.push_back(*std::move(material));
+  return MaterialDescId(scene_.materials.size() - 1);
+}
+
 void Parser::directive_material() {
   Token type = lexer_->peek();
   if (type.kind == TokenKind::quoted && (type.text.empty() || type.text == "none")) {
@@ -71,14 +85,13 @@ void Parser::directive_material() {
     if (!is_in_world(true)) return;
     report_.warning(here(), "a material '" + std::string(type.text) + "' is 'interface' in pbrt-v4");
     state_.material = static_cast<std::uint32_t>(scene_.materials.size());
-    scene_.materials.push_back({"", Entity{"interface", {}, here()}});
+    MaterialDesc& none = scene_.materials.emplace_back();
+    none.model = InterfaceDesc{}, none.where = here();
     return;
   }
   auto material = stated_entity(Family::material);
   if (!is_in_world(true) || !material) return;
-  note_texture_uses(*material);
-  state_.material = static_cast<std::uint32_t>(scene_.materials.size());
-  scene_.materials.push_back({"", std::move(material->entity)});
+  if (const auto id = add_material(*material, "")) state_.material = static_cast<std::uint32_t>(*id);
 }
 
 void Parser::directive_make_named_material() {
@@ -99,9 +112,7 @@ void Parser::directive_make_named_material() {
   auto id = static_cast<MaterialDescId>(material ? scene_.materials.size() : 0);
   if (!named_materials_.try_emplace(*name, id).second)
     return report_.error(here(), "material '" + printable(*name) + "' is defined twice");
-  if (!material) return;
-  note_texture_uses(*material);
-  scene_.materials.push_back({*name, std::move(material->entity)});
+  if (material) add_material(*material, *name);
 }
 
 void Parser::directive_named_material() {

@@ -10,19 +10,15 @@
 namespace montelux::test {
 namespace {
 
-Parameter gray_parameter(const std::string& name, float value) {
-  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{gray_rgb(value), "srgb"}}, {}};
-}
+SpectrumValue made_gray(const SpectrumValue& value) { return gray_value(luminance(std::get<RgbValue>(value).rgb)); }
 
 // As the grey twin has it: colours by their luminance, and emission in the same way.
 SceneDesc made_gray(SceneDesc scene) {
   for (MaterialDesc& m : scene.materials)
-    if (auto c = m.entity.parameters.spectrum("reflectance"))
-      m.entity.parameters.add(gray_parameter("reflectance", luminance(std::get<RgbValue>(*c).rgb)));
+    if (auto* diffuse = std::get_if<DiffuseDesc>(&m.model))
+      diffuse->albedo = made_gray(std::get<SpectrumValue>(diffuse->albedo.value));
   for (ShapeDesc& shape : scene.shapes)
-    if (shape.area_light)
-      if (auto c = shape.area_light->parameters.spectrum("L"))
-        shape.area_light->parameters.add(gray_parameter("L", luminance(std::get<RgbValue>(*c).rgb)));
+    if (shape.area_light) shape.area_light->radiance = made_gray(shape.area_light->radiance);
   scene.filter.sigma = 0.5f;
   scene.integrator.max_depth = 16;
   return scene;

@@ -70,10 +70,12 @@ TEST(Attributes, end_with_their_block) {
   ASSERT_EQ(scene.shapes.size(), 2u);
   EXPECT_TRUE(scene.shapes[0].reverse_orientation);
   EXPECT_TRUE(scene.shapes[0].area_light);
-  EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.shapes[0].material)).entity.type, "dielectric");
+  EXPECT_TRUE(std::holds_alternative<DielectricDesc>(
+      scene.materials.at(static_cast<std::size_t>(scene.shapes[0].material)).model));
   EXPECT_FALSE(scene.shapes[1].reverse_orientation);
   EXPECT_FALSE(scene.shapes[1].area_light);
-  EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.shapes[1].material)).entity.type, "diffuse");
+  EXPECT_TRUE(std::holds_alternative<DiffuseDesc>(
+      scene.materials.at(static_cast<std::size_t>(scene.shapes[1].material)).model));
 }
 TEST(Attributes, give_defaults_that_statements_override) {
   SceneDesc scene =

@@ -234,9 +234,8 @@ TEST(GltfMaterial, without_a_specular_part_is_lamberts) {
             {"specularFactor": 0}, "KHR_materials_emissive_strength": {"emissiveStrength": 4}}}])"));
   ASSERT_TRUE(result.scene) << render(result.diagnostics);
   const ShapeDesc& shape = result.scene->shapes.at(0);
-  const Entity& material = result.scene->materials[std::size_t(shape.material)].entity;
-  EXPECT_EQ(material.type, "diffuse");
-  EXPECT_EQ(std::get<RgbValue>(*material.parameters.spectrum("reflectance")).rgb[1], 0.25f);
+  const MaterialModel stated = DiffuseDesc{RgbValue{Rgb{{0.5f, 0.25f, 0.125f}}}};
+  EXPECT_TRUE(result.scene->materials[std::size_t(shape.material)].model == stated);
   ASSERT_TRUE(shape.area_light);
   EXPECT_EQ(std::get<RgbValue>(shape.area_light->radiance).rgb[1], 1);
   EXPECT_EQ(shape.area_light->scale, 4);
@@ -246,10 +245,10 @@ TEST(GltfMaterial, without_a_specular_part_is_lamberts) {
 TEST(GltfMaterial, has_gltfs_defaults_where_there_is_none) {
   const ReadResult result = read_text(triangle_json());
   ASSERT_TRUE(result.scene);
-  const Entity& e = result.scene->materials[std::size_t(result.scene->shapes.at(0).material)].entity;
-  EXPECT_EQ(e.type, "metallicroughness");
-  EXPECT_EQ(e.parameters.number("metallic", 0), 1);
-  EXPECT_EQ(e.parameters.number("roughness", 0), 1);
+  const MaterialDesc& material = result.scene->materials[std::size_t(result.scene->shapes.at(0).material)];
+  const RgbValue white{gray_rgb(1.0f)};
+  const MaterialModel stated = MetallicRoughnessDesc{white, 1.0f, 1.0f, 1.0f, white, 1.5f};
+  EXPECT_TRUE(material.model == stated);
 }
 
 TEST(GltfMaterial, cuts_out_what_is_below_the_threshold_of_a_mask) {

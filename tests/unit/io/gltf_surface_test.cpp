@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gltf_files.h"
+#include "material/table.h"
 #include "render_scenes.h"
 #include "scene/prepare.h"
 
@@ -19,16 +20,20 @@ ReadResult with_material(const std::string& material, const std::string& node = 
                                  R"(, "materials": [{)" + material + "}]" + more));
 }
 
-const Entity& material_of(const ReadResult& result) {
+const MaterialDesc& material_of(const ReadResult& result) {
   EXPECT_TRUE(result.scene) << render(result.diagnostics);
-  return result.scene->materials[std::size_t(result.scene->shapes.at(0).material)].entity;
+  return result.scene->materials[std::size_t(result.scene->shapes.at(0).material)];
+}
+// Its model, which must be an M.
+template <class M>
+const M& model_of(const ReadResult& result) {
+  const MaterialDesc& material = material_of(result);
+  EXPECT_TRUE(std::holds_alternative<M>(material.model)) << name_of(material.model);
+  return std::get<M>(material.model);
 }
 
-Rgb rgb_of(const Entity& e, const char* name) {
-  const auto stated = e.parameters.spectrum(name);
-  EXPECT_TRUE(stated) << name;
-  return stated ? std::get<RgbValue>(*stated).rgb : gray_rgb(-1.0f);
-}
+Rgb rgb_of(const SpectrumValue& value) { return std::get<RgbValue>(value).rgb; }
+using Scales = std::array<float, 2>;
 
 bool is_one_sided(const ReadResult& result) {
   EXPECT_TRUE(result.scene) << render(result.diagnostics);
@@ -89,16 +94,14 @@ TEST(GltfMaterial, of_a_volume_absorbs_and_is_tinted) {
          "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.33},
          "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationColor": [0.5, 0.25, 1],
          "attenuationDistance": 2}})");
-  const Entity& e = material_of(result);
-  EXPECT_EQ(e.type, "tinteddielectric");
-  const Rgb absorption = rgb_of(e, "absorption"), tint = rgb_of(e, "tint");
+  const auto& glass = model_of<TintedDielectricDesc>(result);
+  const Rgb absorption = rgb_of(glass.absorption);
   // exp(-absorption * 2) is the attenuation colour.
   EXPECT_NEAR(absorption[0], -std::log(0.5) / 2, 1e-6);
   EXPECT_NEAR(absorption[1], -std::log(0.25) / 2, 1e-6);
   EXPECT_EQ(absorption[2], 0);
-  EXPECT_EQ(tint[1], 0.5f);
-  EXPECT_EQ(e.parameters.number("eta", 0), 1.33f);
-  EXPECT_EQ(e.parameters.number("roughness", 0), 0.25f);
+  const TintedDielectricDesc expected{1.33f, RgbValue{Rgb{{1, 0.5f, 0.25f}}}, glass.absorption, {0.25f}, false};
+  EXPECT_TRUE(glass == expected);
   EXPECT_TRUE(result.diagnostics.all().size() <= 2) << render(result.diagnostics);  // no light, no camera
 }
 
@@ -106,8 +109,8 @@ TEST(GltfMaterial, of_a_pane_is_tinted) {
   const ReadResult result = with_material(
       R"("pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "roughnessFactor": 0},
          "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}})");
-  EXPECT_EQ(material_of(result).type, "thindielectric");
-  EXPECT_EQ(rgb_of(material_of(result), "tint")[2], 0.25f);
+  const ThinDielectricDesc expected{1.5f, RgbValue{Rgb{{1, 0.5f, 0.25f}}}, 0.0f, false};
+  EXPECT_TRUE(model_of<ThinDielectricDesc>(result) == expected);
 }
 
 TEST(GltfMaterial, has_a_clear_coat_and_a_grain) {
@@ -115,15 +118,14 @@ TEST(GltfMaterial, has_a_clear_coat_and_a_grain) {
       R"("pbrMetallicRoughness": {"metallicFactor": 0.25}, "extensions": {
          "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.125},
          "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966}})");
-  const Entity& e = material_of(result);
-  EXPECT_EQ(e.type, "coatedmetallicroughness");
-  EXPECT_EQ(e.parameters.number("clearcoat", 0), 0.75f);
-  EXPECT_EQ(e.parameters.number("clearcoatroughness", 0), 0.125f);
-  EXPECT_EQ(e.parameters.number("anisotropy", 0), 0.5f);
-  EXPECT_NEAR(e.parameters.number("anisotropyrotation", 0), 90, 1e-4);
-  EXPECT_EQ(e.parameters.number("metallic", 0), 0.25f);
-  EXPECT_EQ(material_of(with_material(R"("extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0}})")).type,
-            "metallicroughness");
+  const auto& material = model_of<CoatedMetallicRoughnessDesc>(result);
+  const RgbValue white{gray_rgb(1.0f)};
+  CoatedMetallicRoughnessDesc expected{{white, 0.25f, 1.0f, 1.0f, white, 1.5f}, 0.75f, 0.125f, {}, 0.5f, 0};
+  EXPECT_NEAR(material.grain_rotation, 90, 1e-4);
+  expected.grain_rotation = material.grain_rotation;
+  EXPECT_TRUE(material == expected);
+  model_of<MetallicRoughnessDesc>(
+      with_material(R"("extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0}})"));
 }
 
 // Materials with an image.
@@ -137,15 +139,16 @@ TEST(GltfMaterial, has_a_clear_coat_with_normals_of_its_own) {
   const ReadResult both = with_image(
       R"("normalTexture": {"index": 0, "scale": 0.25}, "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1,
          "clearcoatNormalTexture": {"index": 0, "scale": 0.5}}})");
-  const Entity& e = material_of(both);
-  EXPECT_TRUE(e.parameters.texture("normaltexture"));
-  EXPECT_TRUE(e.parameters.texture("coatnormaltexture"));
-  EXPECT_EQ(e.parameters.array<float>("normalscale"), (std::vector<float>{0.25f, 0.25f}));
-  EXPECT_EQ(e.parameters.array<float>("coatnormalscale"), (std::vector<float>{0.5f, 0.5f}));
+  const NormalMapDesc &normals = material_of(both).normals,
+                      &coat_normals = model_of<CoatedMetallicRoughnessDesc>(both).coat_normals;
+  EXPECT_TRUE(normals.texture && normals.texture->get<TextureName>());
+  EXPECT_TRUE(coat_normals.texture && coat_normals.texture->get<TextureName>());
+  EXPECT_EQ(normals.scale, (Scales{0.25f, 0.25f}));
+  EXPECT_EQ(coat_normals.scale, (Scales{0.5f, 0.5f}));
   EXPECT_EQ(render(both.diagnostics).find("warning"), std::string::npos) << render(both.diagnostics);
   const ReadResult base = with_image(R"("normalTexture": {"index": 0}, "extensions": {"KHR_materials_clearcoat":
          {"clearcoatFactor": 1}})");
-  EXPECT_FALSE(material_of(base).parameters.find("coatnormaltexture"));
+  EXPECT_FALSE(model_of<CoatedMetallicRoughnessDesc>(base).coat_normals.texture);
 }
 
 // Where a node mirrors, the maps' y and the grain lie the other way round, of glass, too.
@@ -156,16 +159,16 @@ TEST(GltfMaterial, turns_its_maps_round_where_its_node_mirrors) {
          {"anisotropyStrength": 1}, "KHR_materials_clearcoat": {"clearcoatFactor": 1,
          "clearcoatNormalTexture": {"index": 0}}})",
       mirrored);
-  const Entity& e = material_of(coated);
-  EXPECT_EQ(e.parameters.array<float>("normalscale"), (std::vector<float>{0.25f, -0.25f}));
-  EXPECT_EQ(e.parameters.array<float>("coatnormalscale"), (std::vector<float>{1, -1}));
-  EXPECT_TRUE(e.parameters.boolean("grainmirrored", false));
+  const auto& material = model_of<CoatedMetallicRoughnessDesc>(coated);
+  EXPECT_EQ(material_of(coated).normals.scale, (Scales{0.25f, -0.25f}));
+  EXPECT_EQ(material.coat_normals.scale, (Scales{1, -1}));
+  EXPECT_TRUE(material.grain_is_mirrored);
   const ReadResult glass = with_image(
       R"("normalTexture": {"index": 0, "scale": 0.25}, "extensions": {"KHR_materials_transmission":
          {"transmissionFactor": 1}})",
       mirrored);
-  EXPECT_EQ(material_of(glass).type, "thindielectric");
-  EXPECT_EQ(material_of(glass).parameters.array<float>("normalscale"), (std::vector<float>{0.25f, -0.25f}));
+  model_of<ThinDielectricDesc>(glass);
+  EXPECT_EQ(material_of(glass).normals.scale, (Scales{0.25f, -0.25f}));
 }
 
 // KHR_materials_transmission: what goes through is as rough as what is reflected, by factor and texture.
@@ -175,14 +178,20 @@ TEST(GltfMaterial, of_glass_is_as_rough_as_stated) {
     const std::string glass = R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1})" +
                               (is_solid ? volume : std::string()) + "}";
     const ReadResult plain = with_material(R"("pbrMetallicRoughness": {"roughnessFactor": 0.5}, )" + glass);
-    const Entity& e = material_of(plain);
-    EXPECT_EQ(e.type, is_solid ? "tinteddielectric" : "thindielectric");
-    EXPECT_EQ(e.parameters.number("roughness", 0), 0.25f);
-    EXPECT_FALSE(e.parameters.boolean("remaproughness", true));
+    // Its roughness is alpha itself.
+    const auto roughness = [&](const ReadResult& result) {
+      const MaterialModel& model = material_of(result).model;
+      const auto* solid = std::get_if<TintedDielectricDesc>(&model);
+      const auto* pane = std::get_if<ThinDielectricDesc>(&model);
+      EXPECT_TRUE(is_solid ? solid && !solid->maps_roughness : pane && !pane->maps_roughness) << name_of(model);
+      return solid ? solid->facets.roughness : pane ? pane->roughness : NumberInput();
+    };
+    EXPECT_TRUE(roughness(plain) == NumberInput(0.25f));
     EXPECT_EQ(render(plain.diagnostics).find("warning"), std::string::npos) << render(plain.diagnostics);
     const ReadResult mapped = with_image(
         R"("pbrMetallicRoughness": {"roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}}, )" + glass);
-    const auto name = material_of(mapped).parameters.texture("roughness");
+    const NumberInput map = roughness(mapped);
+    const auto* name = map.get<TextureName>();
     ASSERT_TRUE(name) << render(mapped.diagnostics);
     EXPECT_EQ(render(mapped.diagnostics).find("warning"), std::string::npos) << render(mapped.diagnostics);
     // The square of the green channel, scaled.
@@ -191,7 +200,7 @@ TEST(GltfMaterial, of_glass_is_as_rough_as_stated) {
         if (t.name == wanted) return t.entity;
       throw std::runtime_error("no texture " + wanted);
     };
-    const Entity& square = texture(*name);
+    const Entity& square = texture(name->name);
     EXPECT_EQ(square.type, "scale");
     EXPECT_EQ(square.parameters.texture("tex"), square.parameters.texture("scale"));
     const Entity& channel = texture(*square.parameters.texture("tex"));

@@ -13,6 +13,7 @@
 #include "io/pbrt/picture.h"
 #include "io/read_model.h"
 #include "light/table.h"
+#include "material/table.h"
 #include "mc/point_set.h"
 #include "scene/prepare.h"
 #include "scene/unused.h"
@@ -350,12 +351,14 @@ TEST(Parameter, that_nothing_reads_is_told) {
     EXPECT_EQ(said.all()[0].where.column, 9);
     EXPECT_NE(said.all()[0].message.find("'grain' of " + owner), std::string::npos) << said.all()[0].message;
   };
-  {
-    SceneDesc faulty = scene;
-    faulty.materials[0].entity.parameters.add(planted);
+  for (const EntitySpec& spec : material_models().specs()) {
     Diagnostics said;
-    ASSERT_TRUE(prepare(faulty, {}, said));
-    expect_one(said, "material 'diffuse'");
+    Reporter report(said, false);
+    Entity stated{std::string(spec.name), {}, where};
+    stated.parameters.add(planted);
+    // Once, however many materials it is copied to.
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(read_model(material_models(), Family::material, stated, report));
+    expect_one(said, "material '" + stated.type + "'");
   }
   {
     Diagnostics said;

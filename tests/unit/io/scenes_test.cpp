@@ -94,8 +94,7 @@ void expect_same(const SceneDesc& a, const SceneDesc& b) {
     EXPECT_TRUE(same_motion(a.instances[i].object_to_world_later, b.instances[i].object_to_world_later));
   }
   ASSERT_EQ(a.materials.size(), b.materials.size());
-  for (std::size_t i = 0; i < a.materials.size(); ++i)
-    EXPECT_EQ(a.materials[i].entity.type, b.materials[i].entity.type);
+  for (std::size_t i = 0; i < a.materials.size(); ++i) EXPECT_TRUE(a.materials[i].model == b.materials[i].model);
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (std::size_t i = 0; i < a.lights.size(); ++i)
     EXPECT_TRUE(same_matrix(a.lights[i].light_to_world, b.lights[i].light_to_world));
