@@ -179,7 +179,9 @@ class Writer {
     text_ += "PixelFilter " + entity_text(picture.filter) + "\n";
     text_ += "Sampler " + entity_text(picture.sampler) + "\n";
     text_ += "Integrator " + entity_text(picture.integrator) + "\n";
-    if (scene_.transforms_start != 0 || scene_.transforms_end != 1)
+    // A scene without motion may have no interval.
+    const bool has_times = scene_.transforms_start < scene_.transforms_end;
+    if (has_times && (scene_.transforms_start != 0 || scene_.transforms_end != 1))
       text_ += "TransformTimes " + shortest(scene_.transforms_start) + " " + shortest(scene_.transforms_end) + "\n";
     for (const MediumDesc& medium : scene_.media) write_medium(medium);
     if (has_camera_medium()) text_ += "MediumInterface \"\" " + medium_name(scene_.camera_medium) + "\n";

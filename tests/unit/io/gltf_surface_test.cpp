@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "gltf_files.h"
+#include "io/pbrt.h"
+#include "io/write_pbrt.h"
 #include "material/table.h"
 #include "render_scenes.h"
 #include "scene/prepare.h"
@@ -214,6 +217,40 @@ TEST(GltfExtension, that_is_not_read_is_warned_of) {
                                           R"("mesh": 0)", R"(, "extensionsUsed": ["KHR_materials_sheen"])");
   EXPECT_NE(render(result.diagnostics).find("\"KHR_materials_sheen\" is not supported: the scene is shown without it"),
             std::string::npos);
+}
+
+// What the reader of glTF fills in, a file of pbrt can state.
+TEST(GltfMaterial, is_written_for_pbrt_and_read_again) {
+  const std::string glass = R"("KHR_materials_transmission": {"transmissionFactor": 0.5})";
+  const std::string volume =
+      R"("KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.5, 0.25, 1]})";
+  const std::string coat = R"("KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.5},
+      "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1})";
+  const std::string facets =
+      R"("pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1], "metallicFactor": 0.5,
+      "roughnessFactor": 0.375}, "extensions": {"KHR_materials_ior": {"ior": 1.25},
+      "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 2, 0.5]})";
+  const std::string lambert = R"("pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+      "KHR_materials_specular": {"specularFactor": 0}})";
+  const std::string mirrored = R"("mesh": 0, "scale": [-1, 1, 1])";
+  std::set<std::string_view> seen;
+  for (const std::string& material :
+       {std::string(), facets + "}", facets + ", " + coat + "}", facets + ", " + glass + "}",
+        facets + ", " + glass + ", " + volume + "}", lambert}) {
+    const ReadResult first = with_material(material, mirrored);
+    ASSERT_TRUE(first.scene) << render(first.diagnostics);
+    const std::string text = write_pbrt(*first.scene);
+    const ReadResult second = read_pbrt_text(text, ".");
+    ASSERT_TRUE(second.scene) << render(second.diagnostics) << text;
+    ASSERT_EQ(first.scene->materials.size(), second.scene->materials.size());
+    for (std::size_t i = 0; i < first.scene->materials.size(); ++i) {
+      const MaterialDesc &a = first.scene->materials[i], &b = second.scene->materials[i];
+      EXPECT_TRUE(a.model == b.model && a.normals == b.normals && a.name == b.name) << text;
+      seen.insert(name_of(a.model));
+    }
+  }
+  EXPECT_EQ(seen, (std::set<std::string_view>{"coatedmetallicroughness", "diffuse", "metallicroughness", "mix",
+                                              "thindielectric", "tinteddielectric"}));
 }
 
 // Nothing that the reader of glTF states is left unused.
