@@ -226,11 +226,14 @@ TEST(SceneInCode, reports_all_that_is_wrong_at_once) {
 TEST(SceneInCode, warns_of_parameters_without_effect) {
   mx::Scene scene;
   scene.set_film(4, 4, {{"sensor", "cie1931"}});
+  scene.add_material({"conductor", {{"roughness", 0.1}, {"uroughness", 0.2}, {"vroughness", 0.3}}});
   scene.add_shape({"sphere", {}});
   const mx::PreparedScene prepared = mx::prepare(scene).value();
-  ASSERT_EQ(prepared.messages().size(), 1u);
+  ASSERT_EQ(prepared.messages().size(), 2u);
   EXPECT_EQ(prepared.messages()[0].severity, mx::Severity::warning);
   EXPECT_EQ(to_text(prepared.messages()[0]), "film: warning: 'sensor' of film 'rgb' has no effect yet");
+  EXPECT_EQ(to_text(prepared.messages()[1]),
+            "material 0: warning: 'roughness' of material 'conductor' has no effect here");
 }
 
 TEST(SceneInCode, has_no_error_bar_without_light) {
