@@ -73,7 +73,7 @@ constexpr Topic topics[] = {
     {"domains", "domains for integrate --over besides intervals", [] { return entries_of(lab::domain_table()); }},
     {"functions", "functions and constants of expressions", [] { return expression_names(); }},
     {"materials", "materials of a scene", [] { return entries_of(material_models().specs()); }},
-    {"textures", "textures of a scene", [] { return entries_of(texture_table()); }},
+    {"textures", "textures of a scene", [] { return entries_of(texture_models().specs()); }},
     {"lights", "lights of a scene that are not shapes", [] { return entries_of(light_models().specs()); }},
     {"area-lights", "emission of the surface of a shape", [] { return entries_of(area_light_models().specs()); }},
     {"shapes", "shapes of a scene", [] { return entries_of(shape_models().specs()); }},

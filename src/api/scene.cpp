@@ -88,7 +88,8 @@ SceneInfo info_of(const SceneDesc& desc, const LoadedScene::Parts& parts) {
     info.materials_by_number.push_back(material.name);
     info.material_names.push_back({material.name, std::string(name_of(material.model))});
   }
-  for (const TextureDesc& texture : desc.textures) info.texture_names.push_back({texture.name, texture.entity.type});
+  for (const TextureDesc& texture : desc.textures)
+    info.texture_names.push_back({texture.name, std::string(name_of(texture.model))});
   const auto has_name = [](const NamedThing& thing) { return !thing.name.empty(); };
   std::stable_partition(info.material_names.begin(), info.material_names.end(), has_name);
   std::map<std::string, std::size_t> lights;

@@ -28,7 +28,7 @@ std::span<const EntitySpec> table_of(Family family) {
     case Family::material:
       return material_models().specs();
     case Family::texture:
-      return texture_table();
+      return texture_models().specs();
     case Family::light:
       return light_models().specs();
     case Family::area_light:

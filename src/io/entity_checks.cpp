@@ -129,9 +129,17 @@ void check_shape(const Entity& shape, Reporter& report) {
     report.error(place_of(shape, "zmin"), "nothing is left of the sphere between 'zmin' and 'zmax'");
 }
 
-void check_texture(const Entity& tex, Reporter& report) {
+void check_texture(const Entity& tex, const CheckContext& context) {
   const ParameterList& p = tex.parameters;
-  if (tex.type == "imagemap" && !p.find("filename")) report.error(tex.where, "texture 'imagemap' needs 'filename'");
+  Reporter& report = context.report;
+  counted<float>(tex, "uvmatrix", 6, report);
+  if (tex.type == "imagemap") {
+    if (!p.find("filename")) report.error(tex.where, "texture 'imagemap' needs 'filename'");
+    const bool is_spectrum = context.kind == TextureKind::spectrum;
+    if (const Parameter* other = p.find(is_spectrum ? "channel" : "tint"))
+      report.warning(other->where, "'" + other->name + "' of texture 'imagemap' has no effect here: it is for " +
+                                       (is_spectrum ? "numbers" : "spectra"));
+  }
   const Parameter* encoding = p.find("encoding");
   if (!encoding) return;
   std::string value = p.string("encoding", "");
@@ -177,7 +185,7 @@ void check_entity(Family family, const Entity& entity, const CheckContext& conte
       check_shape(entity, context.report);
       break;
     case Family::texture:
-      check_texture(entity, context.report);
+      check_texture(entity, context);
       break;
     case Family::option:
       return;

@@ -10,6 +10,7 @@
 #include "material/table.h"
 #include "medium/table.h"
 #include "scene/shape_models.h"
+#include "texture/table.h"
 
 namespace montelux {
 
@@ -190,9 +191,10 @@ class Writer {
   }
 
   void write_texture(const TextureDesc& texture) {
-    state_color_space(texture.entity);
+    const Entity entity = texture_models().write(name_of(texture.model), texture);
+    state_color_space(entity);
     std::string text = "Texture " + in_quotes(texture.name) + (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") +
-                       entity_text(texture.entity);
+                       entity_text(entity);
     if (texture.texture_to_world.is_identity())
       text_ += text + "\n";
     else

@@ -14,6 +14,7 @@
 #include "medium/table.h"
 #include "montelux/parameters.h"
 #include "scene/shape_models.h"
+#include "texture/table.h"
 
 namespace montelux::api {
 
@@ -219,7 +220,11 @@ ReadResult Description::make() {
     auto stated = entity(Family::texture, placed.model, where,
                          is_spectrum ? montelux::TextureKind::spectrum : montelux::TextureKind::number);
     const auto t = transform(placed.transform, where);
-    if (stated && t) desc_.textures.push_back({name_of_texture(i), is_spectrum, *std::move(stated), *t});
+    std::optional<TextureDesc> desc =
+        stated ? read_model(texture_models(), Family::texture, *stated, report_) : std::nullopt;
+    if (!desc || !t) continue;
+    desc->name = name_of_texture(i), desc->is_spectrum = is_spectrum, desc->texture_to_world = *t, desc->where = where;
+    desc_.textures.push_back(*std::move(desc));
   }
   desc_.materials.emplace_back();
   for (std::size_t i = 0; i < content_.materials.size(); ++i) {

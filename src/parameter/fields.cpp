@@ -44,7 +44,7 @@ Parameter parameter_of(std::string_view name, std::vector<std::string> values) {
 }
 
 ParameterSpec with_default(ParameterSpec row, const std::string& value) {
-  row.meaning += "; default " + value;
+  row.meaning += (row.meaning.empty() ? "default " : "; default ") + value;
   return row;
 }
 

@@ -103,6 +103,26 @@ class Fields {
                      write});
     return *this;
   }
+  // The same without a default value; the meaning states what is used instead.
+  template <class E>
+  Fields& optional_choice(std::string_view name, Place<std::optional<E>> place, std::string meaning,
+                          NamedValues<E> names) {
+    ParameterSpec row{name, {ParameterType::string}, std::move(meaning), 0, 0};
+    for (const auto& [word, value] : names) row.choices.push_back(word);
+    const auto write = [name, place, names](S& s, S& defaults, ParameterList& list) {
+      if (!place(s) || place(s) == place(defaults)) return;
+      for (const auto& [word, value] : names)
+        if (value == *place(s)) list.add(parameter_of(name, std::string(word)));
+    };
+    const auto read = [name, place, names](const ParameterList& list, S& s) -> Status {
+      const std::string stated = list.string(name, "");
+      for (const auto& [word, value] : names)
+        if (word == stated) place(s) = value;
+      return Done{};
+    };
+    rows_.push_back({std::move(row), {}, read, write});
+    return *this;
+  }
   // Numbers, integers and text that have no default value; the meaning states what is used instead.
   Fields& optional(std::string_view name, Place<std::optional<float>> place, std::string meaning, double low,
                    double high) {
@@ -206,21 +226,6 @@ class Fields {
                      write});
     return *this;
   }
-  // A parameter of several types, kept as it is stated: a number or the name of a texture.
-  Fields& stated(ParameterSpec row, Place<std::optional<Parameter>> place) {
-    const std::string_view name = row.name;
-    const auto write = [place](S& s, S&, ParameterList& list) {
-      if (place(s)) list.add(*place(s));
-    };
-    rows_.push_back({std::move(row),
-                     {},
-                     [name, place](const ParameterList& list, S& s) -> Status {
-                       if (const Parameter* p = list.find(name)) place(s) = *p;
-                       return Done{};
-                     },
-                     write});
-    return *this;
-  }
   // A number that sets several others, each of which has a row of its own after it; the meaning states the default.
   Fields& common(ParameterSpec row, std::function<void(float, S&)> set) {
     const std::string_view name = row.name;
@@ -233,15 +238,21 @@ class Fields {
                      {}});
     return *this;
   }
-  // Text, any or one of the choices, that `read` takes apart where it is stated; `shown` writes the default.
+  // Text, any or one of the choices, that `read` takes apart where it is stated; `shown` writes the default. `written`
+  // states a value; an empty text: there is nothing to state.
   Fields& text(std::string_view name, std::string meaning, std::function<Status(const std::string&, S&)> read,
-               std::function<std::string(const S&)> shown = {}, std::vector<std::string_view> choices = {}) {
+               std::function<std::string(const S&)> shown = {}, std::vector<std::string_view> choices = {},
+               std::function<std::string(const S&)> written = {}) {
+    const auto write = [name, written](S& s, S& defaults, ParameterList& list) {
+      std::string text = written ? written(s) : std::string();
+      if (!text.empty() && text != written(defaults)) list.add(parameter_of(name, std::move(text)));
+    };
     rows_.push_back({{name, {ParameterType::string}, std::move(meaning), 0, 0, std::move(choices)},
                      std::move(shown),
                      [name, read](const ParameterList& list, S& s) -> Status {
                        return list.find(name) ? read(list.string(name, ""), s) : Status(Done{});
                      },
-                     {}});
+                     write});
     return *this;
   }
   // A row whose meaning states the default, since that is no value of its own, and that is read elsewhere.

@@ -32,8 +32,10 @@ struct Input {
 // What may vary over a surface.
 using NumberInput = Input<float, TextureName>;
 using SpectrumInput = Input<SpectrumValue, TextureName>;
+// What is the same everywhere.
+using ConstantInput = Input<float, SpectrumValue>;
 // An index of refraction: one for all wavelengths, or a spectrum.
-using IndexInput = Input<float, SpectrumValue>;
+using IndexInput = ConstantInput;
 // What a texture of numbers or of spectra combines.
 using ValueInput = Input<float, SpectrumValue, TextureName>;
 

@@ -20,19 +20,13 @@
 #include "mc/point_set.h"
 #include "medium/description.h"
 #include "parameter/value.h"
+#include "texture/description.h"
 
 namespace montelux {
 
 enum class MaterialDescId : std::uint32_t {};
 enum class ObjectDescId : std::uint32_t {};
 enum class MediumDescId : std::uint32_t {};
-
-struct TextureDesc {
-  std::string name;
-  bool is_spectrum = false;  // false: a texture of numbers
-  Entity entity;
-  Transform texture_to_world;
-};
 
 // The media on the two sides of a surface; none: empty space. `outside` is where the oriented normal points.
 struct MediumSidesDesc {
@@ -70,8 +64,8 @@ using ShapeForm = std::variant<MeshForm, SubdivisionForm, SphereForm, DiskForm, 
 struct ShapeDesc {
   ShapeForm form;
   SourceLocation where{};
-  std::optional<Parameter> alpha{};  // opacity: a number or a texture of numbers; none: 1
-  bool one_sided = false;            // the camera does not see the back of a mesh
+  std::optional<NumberInput> alpha{};  // opacity; none: 1
+  bool one_sided = false;              // the camera does not see the back of a mesh
   Transform object_to_world{};
   // The transforms of a moving shape at times evenly spaced up to the end of the transforms' time; object_to_world is
   // that at the start.

@@ -8,7 +8,6 @@
 #include "medium/build.h"
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
-#include "scene/unused.h"
 #include "texture/build.h"
 
 namespace montelux {
@@ -29,8 +28,7 @@ class Preparation {
   PreparedScene run() {
     for (const auto& [name, bytes] : desc_.embedded)
       textures_->embed(std::filesystem::path(desc_.folder) / name, bytes);
-    for (const TextureDesc& t : desc_.textures)
-      texture_builder_.add(t.name, t.is_spectrum, t.entity, t.texture_to_world);
+    for (const TextureDesc& t : desc_.textures) texture_builder_.add(t);
     std::vector<Material> materials = make_materials();
     MediumSet media = make_media();
     LightSetBuilder lights;
@@ -171,13 +169,12 @@ GeometryStore Preparation::make_geometry(const std::vector<Material>& materials,
 
 std::optional<std::uint32_t> Preparation::alpha_of(const ShapeDesc& shape) {
   if (!shape.alpha) return 0;
-  const std::optional<NumberTextureId> texture = texture_builder_.number_if_stated(*shape.alpha);
-  if (!texture) return 0;
-  if (std::optional<float> constant = textures_->constant(*texture)) {
+  const NumberTextureId texture = texture_builder_.number(*shape.alpha);
+  if (std::optional<float> constant = textures_->constant(texture)) {
     if (*constant >= 1) return 0;
     if (*constant <= 0) return std::nullopt;
   }
-  return std::uint32_t(*texture) + 1;
+  return std::uint32_t(texture) + 1;
 }
 
 LightInputs Preparation::light_inputs() {
@@ -209,7 +206,6 @@ std::optional<PreparedScene> prepare(const SceneDesc& desc, const PrepareOptions
   const int before = diagnostics.errors();
   PreparedScene scene = Preparation(desc, options, diagnostics).run();
   if (diagnostics.errors() > before) return std::nullopt;
-  report_unused(desc, diagnostics);
   return scene;
 }
 

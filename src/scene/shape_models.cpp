@@ -26,7 +26,7 @@ ParameterSpec later(ParameterSpec spec) {
 }
 
 Model<S> model(std::string_view name, std::string_view meaning, ShapeForm form, Fields<S> fields) {
-  fields.stated({"alpha", {number, texture}, "opacity; default 1", 0, 1}, &S::alpha);
+  fields.optional_input<NumberInput>("alpha", &S::alpha, "opacity; default 1", 0, 1);
   return {name, meaning, {std::move(form)}, std::move(fields)};
 }
 

@@ -1,7 +1,5 @@
 #include "texture/build.h"
 
-#include "texture/table.h"
-
 namespace montelux {
 
 namespace {
@@ -14,9 +12,6 @@ V uniform(float x) {
     return gray_rgb(x);
 }
 
-template <class V>
-constexpr const char* kind_of = std::is_same_v<V, float> ? "number" : "spectrum";
-
 std::string in_quotes(std::string_view name) {
   std::string text("\"");
   text.append(name).append("\"");
@@ -28,7 +23,7 @@ std::string in_quotes(std::string_view name) {
 TextureBuilder::TextureBuilder(TextureSet& textures, std::string folder, ToRgb to_rgb, Diagnostics& diagnostics)
     : textures_(textures), folder_(std::move(folder)), to_rgb_(std::move(to_rgb)), diagnostics_(diagnostics) {}
 
-// ---- names, constants and parameters --------------------------------------------------------------------------------
+// ---- names, constants and inputs --------------------------------------------------------------------------------
 
 template <>
 const TextureBuilder::Names<float>& TextureBuilder::names<float>() const {
@@ -61,78 +56,47 @@ SpectrumTextureId TextureBuilder::constant(Rgb value) {
   return place->second;
 }
 
-// A value that was stated directly; nothing if the parameter holds something else.
+// A value that was stated directly. A spectrum is of a texture of spectra, as the checks have made sure.
 template <class V>
-std::optional<V> TextureBuilder::value(const Parameter& parameter) const {
-  if (const auto* x = std::get_if<std::vector<float>>(&parameter.values); x && !x->empty())
-    return uniform<V>(x->front());
-  if (const auto* x = std::get_if<std::vector<int>>(&parameter.values); x && !x->empty())
-    return uniform<V>(float(x->front()));
-  if constexpr (std::is_same_v<V, Rgb>)
-    if (const auto* x = std::get_if<std::vector<SpectrumValue>>(&parameter.values); x && !x->empty())
-      return to_rgb_(x->front());
-  return std::nullopt;
+V TextureBuilder::value(float stated) const {
+  return uniform<V>(stated);
 }
-
 template <class V>
-std::optional<TextureId<V>> TextureBuilder::if_stated(const Entity& entity, std::string_view name) {
-  const Parameter* stated = entity.parameters.find(name);
-  return stated ? stated_by<V>(*stated) : std::nullopt;
+V TextureBuilder::value(const SpectrumValue& stated) const {
+  if constexpr (std::is_same_v<V, Rgb>)
+    return to_rgb_(stated);
+  else
+    return average(to_rgb_(stated));
 }
 
 template <class V>
 TextureId<V> TextureBuilder::named(const std::string& name, const SourceLocation& where) {
+  constexpr const char* kind = std::is_same_v<V, float> ? "number" : "spectrum";
   auto found = names<V>().find(name);
   if (found != names<V>().end()) return found->second;
   std::vector<std::string_view> known;
   for (const auto& [texture, id] : names<V>()) known.push_back(texture);
   const bool other_kind = std::is_same_v<V, float> ? find_spectrum(name).has_value() : find_number(name).has_value();
   diagnostics_.error(
-      where, in_quotes(name) + " is not the name of a " + kind_of<V> + " texture stated before",
+      where, in_quotes(name) + " is not the name of a " + kind + " texture stated before",
       other_kind ? "the texture with this name is of the other kind" : std::string(nearest_name(name, known)));
   return constant(uniform<V>(0));
 }
 
-template <class V>
-std::optional<TextureId<V>> TextureBuilder::stated_by(const Parameter& stated) {
-  if (const auto* link = std::get_if<TextureName>(&stated.values)) return named<V>(link->name, stated.where);
-  if (std::optional<V> x = value<V>(stated)) return constant(*x);
-  diagnostics_.error(
-      stated.where, in_quotes(stated.name) + " takes a " + kind_of<V> + " or the name of a " + kind_of<V> + " texture");
-  return constant(uniform<V>(0));
+template <class V, class... T>
+TextureId<V> TextureBuilder::texture_of(const Input<T...>& input) {
+  return std::visit(
+      [&]<class Stated>(const Stated& stated) {
+        if constexpr (std::is_same_v<Stated, TextureName>)
+          return named<V>(stated.name, input.where);
+        else
+          return constant(value<V>(stated));
+      },
+      input.value);
 }
 
-NumberTextureId TextureBuilder::number(const NumberInput& input) {
-  if (const auto* link = input.get<TextureName>()) return named<float>(link->name, input.where);
-  return constant(std::get<float>(input.value));
-}
-SpectrumTextureId TextureBuilder::spectrum(const SpectrumInput& input) {
-  if (const auto* link = input.get<TextureName>()) return named<Rgb>(link->name, input.where);
-  return constant(to_rgb_(std::get<SpectrumValue>(input.value)));
-}
-
-template <class V>
-TextureId<V> TextureBuilder::parameter(const Entity& entity, std::string_view name, float otherwise) {
-  std::optional<TextureId<V>> stated = if_stated<V>(entity, name);
-  return stated ? *stated : constant(uniform<V>(otherwise));
-}
-
-NumberTextureId TextureBuilder::number(const Entity& entity, std::string_view name, float otherwise) {
-  return parameter<float>(entity, name, otherwise);
-}
-SpectrumTextureId TextureBuilder::spectrum(const Entity& entity, std::string_view name, Rgb otherwise) {
-  std::optional<SpectrumTextureId> stated = if_stated<Rgb>(entity, name);
-  return stated ? *stated : constant(otherwise);
-}
-std::optional<NumberTextureId> TextureBuilder::number_if_stated(const Entity& entity, std::string_view name) {
-  return if_stated<float>(entity, name);
-}
-std::optional<NumberTextureId> TextureBuilder::number_if_stated(const Parameter& stated) {
-  return stated_by<float>(stated);
-}
-std::optional<SpectrumTextureId> TextureBuilder::spectrum_if_stated(const Entity& entity, std::string_view name) {
-  return if_stated<Rgb>(entity, name);
-}
+template NumberTextureId TextureBuilder::texture_of<float>(const NumberInput&);
+template SpectrumTextureId TextureBuilder::texture_of<Rgb>(const SpectrumInput&);
 
 // ---- textures -------------------------------------------------------------------------------------------------------
 
@@ -140,37 +104,6 @@ std::optional<SpectrumTextureId> TextureBuilder::spectrum_if_stated(const Entity
 template <class V>
 TextureId<V> TextureBuilder::folded(TextureId<V> id, bool all_constant) {
   return all_constant ? constant(textures_.value(id, TexturePoint{{0, 0}, {0, 0, 0}, {0, 0, 1}})) : id;
-}
-
-template <class V>
-TextureId<V> TextureBuilder::build_combination(const Entity& entity, const Transform& texture_to_world) {
-  using Texture = std::conditional_t<std::is_same_v<V, float>, NumberTexture, SpectrumTexture>;
-  auto fixed = [this](auto... ids) { return (textures_.is_constant(ids) && ...); };
-  if (entity.type == "scale") {
-    ScaleTexture<V> t{parameter<V>(entity, "tex", 1), number(entity, "scale", 1)};
-    return folded<V>(textures_.add(Texture(t)), fixed(t.texture, t.factor));
-  }
-  TextureId<V> first = parameter<V>(entity, "tex1", 0), second = parameter<V>(entity, "tex2", 1);
-  if (entity.type == "mix") {
-    NumberTextureId amount = number(entity, "amount", 0.5f);
-    return folded<V>(textures_.add(Texture(MixTexture<V>{first, second, amount})), fixed(first, second, amount));
-  }
-  Vec3f direction = texture_to_world.direction(entity.parameters.vec3("dir", {0, 1, 0}));
-  if (!(length_squared(direction) > 0)) {
-    diagnostics_.error(entity.where, "dir of a directionmix texture must not be zero");
-    direction = {0, 1, 0};
-  }
-  return textures_.add(Texture(DirectionMixTexture<V>{first, second, normalize(direction)}));
-}
-
-std::shared_ptr<const TexelImage> TextureBuilder::image(const Entity& entity, std::string_view name,
-                                                        std::optional<ColorEncoding> encoding) {
-  std::string file = entity.parameters.string(name, "");
-  if (file.empty()) {
-    diagnostics_.error(entity.where, in_quotes(entity.type) + " needs the parameter " + in_quotes(name));
-    return nullptr;
-  }
-  return image(file, entity.where, encoding);
 }
 
 std::shared_ptr<const TexelImage> TextureBuilder::image(const std::string& file, const SourceLocation& where,
@@ -182,116 +115,135 @@ std::shared_ptr<const TexelImage> TextureBuilder::image(const std::string& file,
 }
 
 // Nothing if the image cannot be read, which has been reported.
-std::optional<ImageTexture> TextureBuilder::build_image(const Entity& entity, const Transform& texture_to_world) {
-  const ParameterList& p = entity.parameters;
-  std::string encoding_name = p.string("encoding", ""), wrap_name = p.string("wrap", "repeat");
-  std::optional<ColorEncoding> encoding = parse_encoding(encoding_name);
-  if (!encoding && !encoding_name.empty())
-    diagnostics_.error(entity.where, std::string("unknown encoding ") + in_quotes(encoding_name),
-                       "sRGB, linear or gamma X");
-  std::optional<Wrap> wrap = parse_wrap(wrap_name);
-  if (!wrap)
-    diagnostics_.error(entity.where, std::string("unknown wrap mode ") + in_quotes(wrap_name),
-                       "repeat, black, clamp or octahedralsphere");
-  std::string filter = p.string("filter", "bilinear");
-  const bool prefiltered = filter == "trilinear" || filter == "ewa";
+std::optional<ImageTexture> TextureBuilder::build_image(const ImageTextureDesc& stated, const TextureDesc& texture) {
+  const bool prefiltered = stated.filter == TextureFilter::trilinear || stated.filter == TextureFilter::ewa;
   if (prefiltered && !told_of_filter_) {
     told_of_filter_ = true;
-    diagnostics_.note(entity.where, "the texture filter " + filter + " is replaced by bilinear at full resolution",
+    const std::string name = stated.filter == TextureFilter::ewa ? "ewa" : "trilinear";
+    diagnostics_.note(texture.where, "the texture filter " + name + " is replaced by bilinear at full resolution",
                       "the samples of a pixel average the texture without the bias of a prefilter");
   }
-  if (!prefiltered && filter != "bilinear" && filter != "point")
-    diagnostics_.error(entity.where, "unknown texture filter \"" + filter + "\"", "point, bilinear, trilinear or ewa");
-  std::shared_ptr<const TexelImage> texels = image(entity, "filename", encoding);
+  if (stated.file.empty()) {
+    diagnostics_.error(texture.where, "an image texture needs the file of an image");
+    return std::nullopt;
+  }
+  std::shared_ptr<const TexelImage> texels = image(stated.file, texture.where, stated.encoding);
   if (!texels) return std::nullopt;
   ImageTexture t;
-  t.mapping = build_mapping(entity, texture_to_world, diagnostics_);
+  t.mapping = build_mapping(stated.mapping, texture.texture_to_world);
   t.image = std::move(texels);
-  t.wrap = wrap.value_or(Wrap::repeat), t.nearest = filter == "point";
-  t.scale = p.number("scale", 1), t.invert = p.boolean("invert", false);
-  if (const std::string channel = p.string("channel", ""); !channel.empty())
-    t.channel = int(std::string("rgba").find(channel));
-  if (auto tint = p.spectrum("tint")) t.tint = to_rgb_(*tint);
-  const char* axes[2] = {"uwrap", "vwrap"};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const std::string fold = p.string(axes[axis], "");
-    t.folds[axis] = fold == "clamp" ? Fold::clamp : fold == "mirror" ? Fold::mirror : Fold::none;
-  }
+  t.wrap = stated.wrap, t.nearest = stated.filter == TextureFilter::point;
+  t.scale = stated.scale, t.invert = stated.invert;
+  if (stated.channel) t.channel = int(*stated.channel);
+  if (!(stated.tint == gray_value(1))) t.tint = to_rgb_(stated.tint);
+  t.folds = stated.folds;
   return t;
 }
 
-NumberTextureId TextureBuilder::build_threshold(const Entity& entity) {
-  const ThresholdTexture t{number(entity, "tex", 1), entity.parameters.number("edge", 0.5f)};
-  return folded<float>(textures_.add(NumberTexture(t)), textures_.is_constant(t.texture));
-}
-
+// Makes one texture of values V, by its model.
 template <class V>
-TextureId<V> TextureBuilder::build_flat(const Entity& entity, const Transform& texture_to_world) {
+struct TextureBuilder::Maker {
   using Texture = std::conditional_t<std::is_same_v<V, float>, NumberTexture, SpectrumTexture>;
-  if (entity.type == "imagemap") {
-    std::optional<ImageTexture> t = build_image(entity, texture_to_world);
-    return t ? textures_.add(Texture(std::move(*t))) : constant(uniform<V>(0));
-  }
-  Mapping mapping = build_mapping(entity, texture_to_world, diagnostics_);
-  if (entity.type == "bilerp") {
-    auto corner = [&](const char* name, float otherwise) {
-      const Parameter* stated = entity.parameters.find(name);
-      return stated ? value<V>(*stated).value_or(uniform<V>(otherwise)) : uniform<V>(otherwise);
-    };
-    return textures_.add(
-        Texture(BilerpTexture<V>{mapping, corner("v00", 0), corner("v01", 1), corner("v10", 0), corner("v11", 1)}));
-  }
-  if (entity.type == "dots")
-    return textures_.add(
-        Texture(DotsTexture<V>{mapping, parameter<V>(entity, "inside", 1), parameter<V>(entity, "outside", 0)}));
-  int dimension = entity.parameters.integer("dimension", 2);
-  if (dimension != 2 && dimension != 3) diagnostics_.error(entity.where, "dimension of a checkerboard must be 2 or 3");
-  return textures_.add(Texture(CheckerboardTexture<V>{dimension == 3 ? std::nullopt : std::optional(mapping),
-                                                      texture_to_world.inverted(), parameter<V>(entity, "tex1", 1),
-                                                      parameter<V>(entity, "tex2", 0)}));
-}
+  using Id = TextureId<V>;
+  TextureBuilder& builder;
+  const TextureDesc& texture;
 
-NumberTextureId TextureBuilder::build_noise(const Entity& entity, const Transform& texture_to_world) {
-  const float roughness = entity.parameters.number("roughness", 0.5f);
-  const int octaves = entity.parameters.integer("octaves", 8);
-  const Transform to_texture = texture_to_world.inverted();
-  if (entity.type == "fbm") return textures_.add(NumberTexture(FbmTexture{to_texture, roughness, octaves}));
-  if (entity.type == "wrinkled") return textures_.add(NumberTexture(WrinkledTexture{to_texture, roughness, octaves}));
-  return textures_.add(NumberTexture(WindyTexture{to_texture}));
-}
+  TextureSet& set() const { return builder.textures_; }
+  Id add(Texture made) const { return set().add(std::move(made)); }
+  template <class... T>
+  Id of(const Input<T...>& input) const {
+    return builder.texture_of<V>(input);
+  }
+  template <class... Ids>
+  bool are_constant(Ids... ids) const {
+    return (set().is_constant(ids) && ...);
+  }
+  Mapping mapping(const MappingDesc& stated) const { return build_mapping(stated, texture.texture_to_world); }
+  Transform to_texture() const { return texture.texture_to_world.inverted(); }
+
+  Id operator()(const ConstantTextureDesc& t) const { return of(t.value); }
+  Id operator()(const ScaleTextureDesc& t) const {
+    const ScaleTexture<V> made{of(t.texture), builder.number(t.factor)};
+    return builder.folded<V>(add(made), are_constant(made.texture, made.factor));
+  }
+  Id operator()(const MixTextureDesc& t) const {
+    const Id first = of(t.first), second = of(t.second);
+    const NumberTextureId amount = builder.number(t.amount);
+    return builder.folded<V>(add(MixTexture<V>{first, second, amount}), are_constant(first, second, amount));
+  }
+  Id operator()(const DirectionMixTextureDesc& t) const {
+    const Id along = of(t.along), across = of(t.across);
+    Vec3f direction = texture.texture_to_world.direction(t.direction);
+    if (!(length_squared(direction) > 0)) {
+      builder.diagnostics_.error(texture.where, "dir of a directionmix texture must not be zero");
+      direction = {0, 1, 0};
+    }
+    return add(DirectionMixTexture<V>{along, across, normalize(direction)});
+  }
+  Id operator()(const ImageTextureDesc& t) const {
+    std::optional<ImageTexture> made = builder.build_image(t, texture);
+    return made ? add(std::move(*made)) : builder.constant(uniform<V>(0));
+  }
+  Id operator()(const CheckerboardTextureDesc& t) const {
+    const bool is_solid = t.dimension == 3;
+    return add(CheckerboardTexture<V>{is_solid ? std::nullopt : std::optional(mapping(t.mapping)), to_texture(),
+                                      of(t.even), of(t.odd)});
+  }
+  Id operator()(const BilerpTextureDesc& t) const {
+    const auto corner = [&](const ConstantInput& input) {
+      return std::visit([&](const auto& stated) { return builder.value<V>(stated); }, input.value);
+    };
+    return add(BilerpTexture<V>{mapping(t.mapping), corner(t.v00), corner(t.v01), corner(t.v10), corner(t.v11)});
+  }
+  Id operator()(const DotsTextureDesc& t) const {
+    return add(DotsTexture<V>{mapping(t.mapping), of(t.inside), of(t.outside)});
+  }
+
+  // Of numbers alone.
+  Id operator()(const ThresholdTextureDesc& t) const {
+    if constexpr (std::is_same_v<V, float>) {
+      const ThresholdTexture made{builder.number(t.texture), t.edge};
+      return builder.folded<V>(add(made), are_constant(made.texture));
+    }
+    return of_other_kind();
+  }
+  Id operator()(const FbmTextureDesc& t) const {
+    if constexpr (std::is_same_v<V, float>) return add(FbmTexture{to_texture(), t.noise.roughness, t.noise.octaves});
+    return of_other_kind();
+  }
+  Id operator()(const WrinkledTextureDesc& t) const {
+    if constexpr (std::is_same_v<V, float>)
+      return add(WrinkledTexture{to_texture(), t.noise.roughness, t.noise.octaves});
+    return of_other_kind();
+  }
+  Id operator()(const WindyTextureDesc&) const {
+    if constexpr (std::is_same_v<V, float>) return add(WindyTexture{to_texture()});
+    return of_other_kind();
+  }
+  // Of spectra alone.
+  Id operator()(const MarbleTextureDesc& t) const {
+    if constexpr (std::is_same_v<V, Rgb>)
+      return add(MarbleTexture{to_texture(), t.noise.roughness, t.noise.octaves, t.scale, t.variation});
+    return of_other_kind();
+  }
+  Id of_other_kind() const {
+    builder.diagnostics_.error(texture.where,
+                               "a texture \"" + std::string(name_of(texture.model)) + "\" makes " +
+                                   (std::is_same_v<V, float> ? "spectra, not numbers" : "numbers, not spectra"));
+    return builder.constant(uniform<V>(1));
+  }
+};
 
 template <class V>
-auto TextureBuilder::build(const Entity& entity, const Transform& texture_to_world) {
-  const std::string& type = entity.type;
-  const ParameterList& p = entity.parameters;
-  if (type == "constant") return parameter<V>(entity, "value", 1);
-  if (type == "scale" || type == "mix" || type == "directionmix") return build_combination<V>(entity, texture_to_world);
-  if (type == "imagemap" || type == "bilerp" || type == "dots" || type == "checkerboard")
-    return build_flat<V>(entity, texture_to_world);
-  if constexpr (std::is_same_v<V, float>) {
-    if (type == "fbm" || type == "wrinkled" || type == "windy") return build_noise(entity, texture_to_world);
-    if (type == "threshold") return build_threshold(entity);
-  } else if (type == "marble") {
-    return textures_.add(
-        SpectrumTexture(MarbleTexture{texture_to_world.inverted(), p.number("roughness", 0.5f), p.integer("octaves", 8),
-                                      p.number("scale", 1), p.number("variation", 0.2f)}));
-  }
-  const EntitySpec* known = find_entity(texture_table(), type);
-  if (!known)
-    diagnostics_.error(entity.where, "unknown texture \"" + type + "\"",
-                       std::string(nearest_name(type, names_of(texture_table()))));
-  else if (!known->later)
-    diagnostics_.error(entity.where, "a texture \"" + type + "\" makes " +
-                                         (std::is_same_v<V, float> ? "spectra, not numbers" : "numbers, not spectra"));
-  return constant(uniform<V>(1));
+TextureId<V> TextureBuilder::made(const TextureDesc& texture) {
+  return std::visit(Maker<V>{*this, texture}, texture.model);
 }
 
-void TextureBuilder::add(const std::string& name, bool is_spectrum, const Entity& entity,
-                         const Transform& texture_to_world) {
-  if (is_spectrum)
-    spectrum_names_[name] = build<Rgb>(entity, texture_to_world);
+void TextureBuilder::add(const TextureDesc& texture) {
+  if (texture.is_spectrum)
+    spectrum_names_[texture.name] = made<Rgb>(texture);
   else
-    number_names_[name] = build<float>(entity, texture_to_world);
+    number_names_[texture.name] = made<float>(texture);
 }
 
 }  // namespace montelux

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "parameter/input.h"
+#include "texture/description.h"
 #include "texture/texture_set.h"
 
 namespace montelux {
@@ -21,18 +21,11 @@ class TextureBuilder {
 
   // Adds a texture under a name that later textures, parameters and find_... may use. Numbers and spectra have separate
   // names; a name that is stated again means the new texture from there on.
-  void add(const std::string& name, bool is_spectrum, const Entity& entity, const Transform& texture_to_world);
+  void add(const TextureDesc& texture);
 
-  // The parameter as a texture, whether it was stated as a value or as the name of a texture; the constant `otherwise`
-  // if it is absent.
-  NumberTextureId number(const Entity& entity, std::string_view parameter, float otherwise);
-  SpectrumTextureId spectrum(const Entity& entity, std::string_view parameter, Rgb otherwise);
-  NumberTextureId number(const NumberInput& input);
-  SpectrumTextureId spectrum(const SpectrumInput& input);
-  // Nothing if the parameter is absent.
-  std::optional<NumberTextureId> number_if_stated(const Entity& entity, std::string_view parameter);
-  std::optional<NumberTextureId> number_if_stated(const Parameter& stated);
-  std::optional<SpectrumTextureId> spectrum_if_stated(const Entity& entity, std::string_view parameter);
+  // The input as a texture. A name that does not exist is reported, and the texture is 0.
+  NumberTextureId number(const NumberInput& input) { return texture_of<float>(input); }
+  SpectrumTextureId spectrum(const SpectrumInput& input) { return texture_of<Rgb>(input); }
 
   NumberTextureId constant(float value);
   SpectrumTextureId constant(Rgb value);
@@ -41,10 +34,7 @@ class TextureBuilder {
   std::optional<NumberTextureId> find_number(std::string_view name) const;
   std::optional<SpectrumTextureId> find_spectrum(std::string_view name) const;
 
-  // The image in the file named by a string parameter, relative to the folder; if it cannot be read, reports that and
-  // returns null.
-  std::shared_ptr<const TexelImage> image(const Entity& entity, std::string_view parameter,
-                                          std::optional<ColorEncoding> encoding = std::nullopt);
+  // The image in a file, relative to the folder; if it cannot be read, reports that and returns null.
   std::shared_ptr<const TexelImage> image(const std::string& file, const SourceLocation& where,
                                           std::optional<ColorEncoding> encoding = std::nullopt);
 
@@ -55,25 +45,18 @@ class TextureBuilder {
   using Names = std::map<std::string, TextureId<V>, std::less<>>;
 
   template <class V>
-  auto build(const Entity& entity, const Transform& texture_to_world);
+  struct Maker;
   template <class V>
-  TextureId<V> build_combination(const Entity& entity, const Transform& texture_to_world);
-  template <class V>
-  TextureId<V> build_flat(const Entity& entity, const Transform& texture_to_world);
-  NumberTextureId build_threshold(const Entity& entity);
-  NumberTextureId build_noise(const Entity& entity, const Transform& texture_to_world);
-  std::optional<ImageTexture> build_image(const Entity& entity, const Transform& texture_to_world);
-  template <class V>
-  TextureId<V> parameter(const Entity& entity, std::string_view name, float otherwise);
-  template <class V>
-  std::optional<V> value(const Parameter& parameter) const;
-  template <class V>
-  std::optional<TextureId<V>> if_stated(const Entity& entity, std::string_view name);
-  template <class V>
-  std::optional<TextureId<V>> stated_by(const Parameter& stated);
-  // The texture with that name; if there is none, reports that and returns black.
+  TextureId<V> made(const TextureDesc& texture);
+  std::optional<ImageTexture> build_image(const ImageTextureDesc& stated, const TextureDesc& texture);
+  template <class V, class... T>
+  TextureId<V> texture_of(const Input<T...>& input);
   template <class V>
   TextureId<V> named(const std::string& name, const SourceLocation& where);
+  template <class V>
+  V value(float stated) const;
+  template <class V>
+  V value(const SpectrumValue& stated) const;
   template <class V>
   TextureId<V> folded(TextureId<V> id, bool all_constant);
   template <class V>

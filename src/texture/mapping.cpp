@@ -1,7 +1,5 @@
 #include "texture/mapping.h"
 
-#include <algorithm>
-
 namespace montelux {
 
 namespace {
@@ -25,24 +23,20 @@ Vec2f CylindricalMapping::operator()(const TexturePoint& point) const {
   return {0.5f + atan2(p.y, p.x) * inv_two_pi, p.z};
 }
 
-Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, Diagnostics& diagnostics) {
-  const ParameterList& p = entity.parameters;
-  std::string name = p.string("mapping", "uv");
-  const auto delta = [&] { return Vec2f{p.number("udelta", 0), p.number("vdelta", 0)}; };
-  if (name == "spherical") return SphericalMapping{texture_to_world.inverted()};
-  if (name == "cylindrical") return CylindricalMapping{texture_to_world.inverted()};
-  if (name == "planar")
-    return PlanarMapping{texture_to_world.inverted(), p.vec3("v1", {1, 0, 0}), p.vec3("v2", {0, 1, 0}), delta()};
-  if (name != "uv")
-    diagnostics.error(entity.where, "unknown texture mapping \"" + name + "\"", "uv, spherical, cylindrical or planar");
-  if (const std::vector<float>& m = p.array<float>("uvmatrix"); m.size() == 6) {
-    AffineUvMapping affine;
-    std::copy(m.begin(), m.end(), affine.m.begin());
-    return affine;
-  } else if (!m.empty()) {
-    diagnostics.error(entity.where, "uvmatrix takes six numbers");
+Mapping build_mapping(const MappingDesc& stated, const Transform& texture_to_world) {
+  const Vec2f delta{stated.u_delta, stated.v_delta};
+  switch (stated.kind) {
+    case MappingKind::spherical:
+      return SphericalMapping{texture_to_world.inverted()};
+    case MappingKind::cylindrical:
+      return CylindricalMapping{texture_to_world.inverted()};
+    case MappingKind::planar:
+      return PlanarMapping{texture_to_world.inverted(), stated.s_axis, stated.t_axis, delta};
+    case MappingKind::uv:
+      break;
   }
-  return UvMapping{{p.number("uscale", 1), p.number("vscale", 1)}, delta()};
+  if (stated.uv_matrix) return AffineUvMapping{*stated.uv_matrix};
+  return UvMapping{{stated.u_scale, stated.v_scale}, delta};
 }
 
 }  // namespace montelux

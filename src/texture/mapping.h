@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "math/transform.h"
-#include "parameter/value.h"
+#include "texture/description.h"
 #include "texture/texture.h"
 
 namespace montelux {
@@ -60,7 +60,6 @@ inline Vec2f apply(const Mapping& mapping, const TexturePoint& point) {
   return std::visit([&](const auto& m) { return m(point); }, mapping);
 }
 
-// From the parameters mapping, uscale, vscale, udelta, vdelta, uvmatrix, v1, v2. Reports an unknown mapping.
-Mapping build_mapping(const Entity& entity, const Transform& texture_to_world, Diagnostics& diagnostics);
+Mapping build_mapping(const MappingDesc& stated, const Transform& texture_to_world);
 
 }  // namespace montelux

@@ -48,9 +48,6 @@ struct DirectionMixTexture {
   Vec3f direction;  // unit, in world space
 };
 
-// What lies beyond an edge of an image along one axis, if it differs from the wrap mode.
-enum class Fold { none, clamp, mirror };
-
 // scale * image, or 1 minus that and at least 0; spectra are at least 0. t increases upwards in the image.
 struct ImageTexture {
   Mapping mapping;

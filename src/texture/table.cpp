@@ -5,135 +5,265 @@ namespace montelux {
 namespace {
 
 using enum ParameterType;
-using List = std::vector<ParameterSpec>;
+using S = TextureDesc;
 
 constexpr double most = 1e30;
-const std::vector<ParameterType> value{number, spectrum, texture}, number_map{number, texture};
 
-List join(const List& a, const List& b) {
-  List all = a;
-  all.insert(all.end(), b.begin(), b.end());
-  return all;
+// The member of a texture, or of a part of it.
+template <class Texture, class T>
+Fields<S>::Place<T> of(T Texture::*member) {
+  return [member](S& texture) -> T& { return std::get<Texture>(texture.model).*member; };
+}
+template <class Texture, class Part, class T>
+Fields<S>::Place<T> of(Part Texture::*part, T Part::*member) {
+  return [part, member](S& texture) -> T& { return (std::get<Texture>(texture.model).*part).*member; };
 }
 
-// Textures over (u, v).
-List mapping() {
-  return {{"mapping",
-           {string},
-           "map from a point to (s, t); default uv",
-           0,
-           0,
-           {"uv", "spherical", "cylindrical", "planar"}},
-          {"uscale", {number}, "factor of u; default 1"},
-          {"vscale", {number}, "factor of v; default 1"},
-          {"udelta", {number}, "added to u; default 0"},
-          {"vdelta", {number}, "added to v; default 0"},
-          {"uvmatrix",
-           {number},
-           "a b c d e f: s = a u + b v + c, t = d u + e v + f, instead of the four (Montelux alone)",
-           -most,
-           most,
-           {},
-           true},
-          {"v1", {vector3}, "s axis of the planar mapping; default 1 0 0"},
-          {"v2", {vector3}, "t axis of the planar mapping; default 0 1 0"}};
+Model<S> model(std::string_view meaning, TextureModel texture, Fields<S> fields) {
+  const std::string_view name = name_of(texture);
+  return {name, meaning, {"", false, std::move(texture)}, std::move(fields)};
 }
 
-List noise() {
-  return {{"octaves", {integer}, "octaves of noise; default 8", 1, 64},
-          {"roughness", {number}, "falloff of the octaves; default 0.5", 0, most}};
+bool is_planar_map(const S& texture) {
+  const auto* board = std::get_if<CheckerboardTextureDesc>(&texture.model);
+  return !board || board->dimension == 2;
 }
 
-std::vector<EntitySpec> combining_textures() {
-  return {
-      {"constant", "one value everywhere", {{"value", value, "default 1"}}},
-      {"scale",
-       "the product of two textures",
-       {{"tex", value, "default 1"}, {"scale", number_map, "factor; default 1"}}},
-      {"mix",
-       "interpolation between two textures",
-       {{"tex1", value, "default 0"},
-        {"tex2", value, "default 1"},
-        {"amount", number_map, "share of tex2; default 0.5"}}},
-      {"threshold",
-       "1 where a texture is at least as large as a number, else 0 (numbers only; Montelux alone)",
-       {{"tex", number_map, "default 1"}, {"edge", {number}, "default 0.5"}}},
-      {"directionmix",
-       "interpolation by the angle of the normal",
-       {{"tex1", value, "along dir; default 0"},
-        {"tex2", value, "across dir; default 1"},
-        {"dir", {vector3}, "direction; default 0 1 0"}}},
+// The map from a point to (s, t).
+template <class Texture>
+void mapping(Fields<S>& fields) {
+  using M = MappingDesc;
+  const auto at = [](auto M::*member) { return of(&Texture::mapping, member); };
+  const auto is_of = [](MappingKind kind) {
+    return [kind](const S& texture) {
+      return std::get<Texture>(texture.model).mapping.kind == kind && is_planar_map(texture);
+    };
   };
+  const auto is_scaled = [is_of](const S& texture) {
+    return is_of(MappingKind::uv)(texture) && !std::get<Texture>(texture.model).mapping.uv_matrix;
+  };
+  const auto is_shifted = [is_of, is_scaled](const S& texture) {
+    return is_scaled(texture) || is_of(MappingKind::planar)(texture);
+  };
+  fields
+      .choice<MappingKind>("mapping", at(&M::kind), "map from a point to (s, t)",
+                           {{"uv", MappingKind::uv},
+                            {"spherical", MappingKind::spherical},
+                            {"cylindrical", MappingKind::cylindrical},
+                            {"planar", MappingKind::planar}})
+      .only_if(is_planar_map);
+  fields.number("uscale", at(&M::u_scale), "factor of u", -most, most).only_if(is_scaled);
+  fields.number("vscale", at(&M::v_scale), "factor of v", -most, most).only_if(is_scaled);
+  fields.number("udelta", at(&M::u_delta), "added to u", -most, most).only_if(is_shifted);
+  fields.number("vdelta", at(&M::v_delta), "added to v", -most, most).only_if(is_shifted);
+  fields
+      .list<6>("uvmatrix", at(&M::uv_matrix),
+               "a b c d e f: s = a u + b v + c, t = d u + e v + f, instead of the four (Montelux alone)", -most, most)
+      .only_if(is_of(MappingKind::uv));
+  fields.vector("v1", vector3, at(&M::s_axis), "s axis of the planar mapping").only_if(is_of(MappingKind::planar));
+  fields.vector("v2", vector3, at(&M::t_axis), "t axis of the planar mapping").only_if(is_of(MappingKind::planar));
 }
 
-std::vector<EntitySpec> plane_textures() {
-  return {
-      {"imagemap", "an image",
-       join({{"filename", {string}, "the image"},
-             {"wrap",
-              {string},
-              "outside the image; default repeat",
-              0,
-              0,
-              {"repeat", "black", "clamp", "octahedralsphere"}},
-             {"uwrap", {string}, "only along u; default as wrap (Montelux alone)", 0, 0, {"repeat", "clamp", "mirror"}},
-             {"vwrap", {string}, "only along v; default as wrap (Montelux alone)", 0, 0, {"repeat", "clamp", "mirror"}},
-             {"channel",
-              {string},
-              "for numbers; default alpha, or the mean if there is none (Montelux alone)",
-              0,
-              0,
-              {"r", "g", "b", "a"}},
-             {"tint", {spectrum}, "factor of spectra; default 1 (Montelux alone)", 0, most},
-             {"scale", {number}, "factor of the values; default 1"},
-             {"invert", {boolean}, "1 - value; default false"},
-             {"filter", {string}, "interpolation; default bilinear", 0, 0, {"point", "bilinear", "trilinear", "ewa"}},
-             {"maxanisotropy", {number}, "for ewa; default 8", 0, most, {}, false, true},
-             {"encoding", {string}, "sRGB, linear or 'gamma x'; default sRGB for 8 bits, else linear"}},
-            mapping())},
-      {"checkerboard", "checks of size 1",
-       join({{"dimension", {integer}, "2 or 3; default 2", 2, 3},
-             {"tex1", value, "default 1"},
-             {"tex2", value, "default 0"}},
-            mapping())},
-      {"bilerp", "bilinear interpolation of four corner values",
-       join({{"v00", {number, spectrum}, "default 0"},
-             {"v01", {number, spectrum}, "default 1"},
-             {"v10", {number, spectrum}, "default 0"},
-             {"v11", {number, spectrum}, "default 1"}},
-            mapping())},
-      {"dots", "discs at random positions",
-       join({{"inside", value, "default 1"}, {"outside", value, "default 0"}}, mapping())},
-      {"ptex",
-       "a per-face texture",
-       {{"filename", {string}, "the file"},
-        {"encoding", {string}, "default gamma 2.2"},
-        {"scale", {number}, "default 1"}},
-       true,
-       "constant"},
-  };
+// ---- combinations ---------------------------------------------------------------------------------------------------
+
+Model<S> constant() {
+  Fields<S> fields;
+  fields.input<ValueInput>("value", of(&ConstantTextureDesc::value), "", -most, most);
+  return model("one value everywhere", ConstantTextureDesc{}, fields);
 }
 
-std::vector<EntitySpec> noise_textures() {
-  return {
-      {"fbm", "fractional Brownian motion", noise()},
-      {"wrinkled", "sums of absolute values of noise", noise()},
-      {"windy", "waves of varying height", {}},
-      {"marble", "veins of marble (spectra only)",
-       join(noise(), {{"scale", {number}, "factor of space; default 1"},
-                      {"variation", {number}, "strength of the veins; default 0.2"}})},
-  };
+Model<S> scale() {
+  using T = ScaleTextureDesc;
+  Fields<S> fields;
+  fields.input<ValueInput>("tex", of(&T::texture), "", -most, most);
+  fields.input<NumberInput>("scale", of(&T::factor), "factor", -most, most);
+  return model("the product of two textures", T{}, fields);
+}
+
+Model<S> mix() {
+  using T = MixTextureDesc;
+  Fields<S> fields;
+  fields.input<ValueInput>("tex1", of(&T::first), "", -most, most);
+  fields.input<ValueInput>("tex2", of(&T::second), "", -most, most);
+  fields.input<NumberInput>("amount", of(&T::amount), "share of tex2", -most, most);
+  return model("interpolation between two textures", T{}, fields);
+}
+
+Model<S> threshold() {
+  using T = ThresholdTextureDesc;
+  Fields<S> fields;
+  fields.input<NumberInput>("tex", of(&T::texture), "", -most, most);
+  fields.number("edge", of(&T::edge), "", -most, most);
+  return model("1 where a texture is at least as large as a number, else 0 (numbers only; Montelux alone)", T{},
+               fields);
+}
+
+Model<S> direction_mix() {
+  using T = DirectionMixTextureDesc;
+  Fields<S> fields;
+  fields.input<ValueInput>("tex1", of(&T::along), "along dir", -most, most);
+  fields.input<ValueInput>("tex2", of(&T::across), "across dir", -most, most);
+  fields.vector("dir", vector3, of(&T::direction), "direction");
+  return model("interpolation by the angle of the normal", T{}, fields);
+}
+
+// ---- in the plane ---------------------------------------------------------------------------------------------------
+
+const NamedValues<Fold> folds{{"repeat", Fold::none}, {"clamp", Fold::clamp}, {"mirror", Fold::mirror}};
+
+template <std::size_t axis>
+void fold(Fields<S>& fields, std::string_view name, const char* meaning) {
+  using T = ImageTextureDesc;
+  fields
+      .choice<Fold>(
+          name, [](S& texture) -> Fold& { return std::get<T>(texture.model).folds[axis]; }, meaning, folds)
+      .only_if([](const S& texture) {
+        const T& image = std::get<T>(texture.model);
+        return image.folds[axis] != Fold::none || image.wrap == Wrap::repeat;
+      });
+}
+
+Model<S> image() {
+  using T = ImageTextureDesc;
+  Fields<S> fields;
+  fields.words("filename", of(&T::file), "the image");
+  fields.choice<Wrap>("wrap", of(&T::wrap), "outside the image",
+                      {{"repeat", Wrap::repeat},
+                       {"black", Wrap::black},
+                       {"clamp", Wrap::clamp},
+                       {"octahedralsphere", Wrap::octahedral}});
+  fold<0>(fields, "uwrap", "along u, where it is not repeat instead of wrap (Montelux alone)");
+  fold<1>(fields, "vwrap", "along v, where it is not repeat instead of wrap (Montelux alone)");
+  fields.optional_choice<ImageChannel>(
+      "channel", of(&T::channel), "for numbers; default alpha, or the mean if there is none (Montelux alone)",
+      {{"r", ImageChannel::r}, {"g", ImageChannel::g}, {"b", ImageChannel::b}, {"a", ImageChannel::a}});
+  fields.spectrum("tint", of(&T::tint), "factor of spectra (Montelux alone)", 0, most);
+  fields.number("scale", of(&T::scale), "factor of the values", -most, most);
+  fields.flag("invert", of(&T::invert), "1 - value");
+  fields.choice<TextureFilter>("filter", of(&T::filter), "interpolation",
+                               {{"point", TextureFilter::point},
+                                {"bilinear", TextureFilter::bilinear},
+                                {"trilinear", TextureFilter::trilinear},
+                                {"ewa", TextureFilter::ewa}});
+  ParameterSpec anisotropy{"maxanisotropy", {number}, "for ewa; default 8", 0, most};
+  anisotropy.later = true;
+  fields.other(anisotropy);
+  fields.text(
+      "encoding", "sRGB, linear or 'gamma x'; default sRGB for 8 bits, else linear",
+      [](const std::string& text, S& texture) -> Status {
+        // The checks have reported any other text.
+        std::get<T>(texture.model).encoding = parse_encoding(text);
+        return Done{};
+      },
+      {}, {},
+      [](const S& texture) {
+        const auto& encoding = std::get<T>(texture.model).encoding;
+        return encoding ? to_string(*encoding) : std::string();
+      });
+  mapping<T>(fields);
+  return model("an image", T{}, fields);
+}
+
+Model<S> checkerboard() {
+  using T = CheckerboardTextureDesc;
+  Fields<S> fields;
+  fields.integer("dimension", of(&T::dimension), "2 or 3", 2, 3);
+  fields.input<ValueInput>("tex1", of(&T::even), "", -most, most);
+  fields.input<ValueInput>("tex2", of(&T::odd), "", -most, most);
+  mapping<T>(fields);
+  return model("checks of size 1", T{}, fields);
+}
+
+Model<S> bilerp() {
+  using T = BilerpTextureDesc;
+  Fields<S> fields;
+  fields.input<ConstantInput>("v00", of(&T::v00), "", -most, most);
+  fields.input<ConstantInput>("v01", of(&T::v01), "", -most, most);
+  fields.input<ConstantInput>("v10", of(&T::v10), "", -most, most);
+  fields.input<ConstantInput>("v11", of(&T::v11), "", -most, most);
+  mapping<T>(fields);
+  return model("bilinear interpolation of four corner values", T{}, fields);
+}
+
+Model<S> dots() {
+  using T = DotsTextureDesc;
+  Fields<S> fields;
+  fields.input<ValueInput>("inside", of(&T::inside), "", -most, most);
+  fields.input<ValueInput>("outside", of(&T::outside), "", -most, most);
+  mapping<T>(fields);
+  return model("discs at random positions", T{}, fields);
+}
+
+Model<S> ptex() {
+  Fields<S> fields;
+  fields.other({"filename", {string}, "the file"});
+  fields.other({"encoding", {string}, "default gamma 2.2"});
+  fields.other({"scale", {number}, "default 1"});
+  return {"ptex", "a per-face texture", {}, fields, true, "constant"};
+}
+
+// ---- in space -------------------------------------------------------------------------------------------------------
+
+template <class Texture>
+void octaves(Fields<S>& fields) {
+  fields.integer("octaves", of(&Texture::noise, &OctavesDesc::octaves), "octaves of noise", 1, 64);
+  fields.number("roughness", of(&Texture::noise, &OctavesDesc::roughness), "falloff of the octaves", 0, most);
+}
+
+template <class Texture>
+Model<S> noise(std::string_view meaning) {
+  Fields<S> fields;
+  octaves<Texture>(fields);
+  return model(meaning, Texture{}, fields);
+}
+
+Model<S> marble() {
+  using T = MarbleTextureDesc;
+  Fields<S> fields;
+  octaves<T>(fields);
+  fields.number("scale", of(&T::scale), "factor of space", -most, most);
+  fields.number("variation", of(&T::variation), "strength of the veins", -most, most);
+  return model("veins of marble (spectra only)", T{}, fields);
 }
 
 }  // namespace
 
-std::span<const EntitySpec> texture_table() {
-  static const std::vector<EntitySpec> table = [] {
-    std::vector<EntitySpec> all = combining_textures();
-    for (auto more : {plane_textures(), noise_textures()}) all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }();
-  return table;
+std::string_view name_of(const TextureModel& model) {
+  struct Name {
+    std::string_view operator()(const ConstantTextureDesc&) const { return "constant"; }
+    std::string_view operator()(const ScaleTextureDesc&) const { return "scale"; }
+    std::string_view operator()(const MixTextureDesc&) const { return "mix"; }
+    std::string_view operator()(const ThresholdTextureDesc&) const { return "threshold"; }
+    std::string_view operator()(const DirectionMixTextureDesc&) const { return "directionmix"; }
+    std::string_view operator()(const ImageTextureDesc&) const { return "imagemap"; }
+    std::string_view operator()(const CheckerboardTextureDesc&) const { return "checkerboard"; }
+    std::string_view operator()(const BilerpTextureDesc&) const { return "bilerp"; }
+    std::string_view operator()(const DotsTextureDesc&) const { return "dots"; }
+    std::string_view operator()(const FbmTextureDesc&) const { return "fbm"; }
+    std::string_view operator()(const WrinkledTextureDesc&) const { return "wrinkled"; }
+    std::string_view operator()(const WindyTextureDesc&) const { return "windy"; }
+    std::string_view operator()(const MarbleTextureDesc&) const { return "marble"; }
+  };
+  return std::visit(Name{}, model);
+}
+
+bool can_be(const TextureModel& model, bool is_spectrum) {
+  return std::visit(
+      [&]<class T>(const T&) {
+        constexpr bool is_noise = std::is_same_v<T, FbmTextureDesc> || std::is_same_v<T, WrinkledTextureDesc> ||
+                                  std::is_same_v<T, WindyTextureDesc>;
+        if constexpr (is_noise || std::is_same_v<T, ThresholdTextureDesc>) return !is_spectrum;
+        return !std::is_same_v<T, MarbleTextureDesc> || is_spectrum;
+      },
+      model);
+}
+
+const Models<TextureDesc>& texture_models() {
+  static const Models<S> models({constant(), scale(), mix(), threshold(), direction_mix(), image(), checkerboard(),
+                                 bilerp(), dots(), ptex(), noise<FbmTextureDesc>("fractional Brownian motion"),
+                                 noise<WrinkledTextureDesc>("sums of absolute values of noise"),
+                                 model("waves of varying height", WindyTextureDesc{}, {}), marble()});
+  return models;
 }
 
 }  // namespace montelux

@@ -1,13 +1,12 @@
 // The textures that a scene may state.
 #pragma once
-#include <span>
-
-#include "parameter/spec.h"
+#include "parameter/models.h"
+#include "texture/description.h"
 
 namespace montelux {
 
 // Every texture by name, with its parameters. A parameter that takes numbers and spectra takes the kind of the texture
 // that has it: numbers in a texture of numbers, spectra in a texture of spectra.
-std::span<const EntitySpec> texture_table();
+const Models<TextureDesc>& texture_models();
 
 }  // namespace montelux

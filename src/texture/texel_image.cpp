@@ -8,14 +8,6 @@
 
 namespace montelux {
 
-std::optional<Wrap> parse_wrap(std::string_view name) {
-  if (name == "repeat") return Wrap::repeat;
-  if (name == "black") return Wrap::black;
-  if (name == "clamp") return Wrap::clamp;
-  if (name == "octahedralsphere") return Wrap::octahedral;
-  return std::nullopt;
-}
-
 namespace {
 
 // The channels of a buffer that a texture keeps: one gray or red, green, blue; then alpha.

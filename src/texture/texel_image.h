@@ -11,13 +11,9 @@
 #include "color/rgb.h"
 #include "color/transfer.h"
 #include "image/image_file.h"
+#include "texture/wrap.h"
 
 namespace montelux {
-
-// What lies outside an image. octahedral: the image is an equal-area map of the sphere and continues across its edges.
-enum class Wrap { repeat, black, clamp, octahedral };
-// "repeat", "black", "clamp" or "octahedralsphere".
-std::optional<Wrap> parse_wrap(std::string_view name);
 
 // One colour channel (grey) or three, and possibly alpha. Row 0 is the top. Positions (s, t) range over [0, 1]^2 from
 // the upper left corner of the image; texel (x, y) covers [x, x + 1) / width by [y, y + 1) / height. Values are linear.

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "io/gltf/parameters.h"
-
 namespace montelux::gltf {
 
 namespace {
@@ -47,7 +45,7 @@ SpectrumInput MaterialReader::spectrum(const Factor& factor, TexelMeaning meanin
   return RgbValue{factor.value};
 }
 
-NumberInput MaterialReader::channel(const Factor& factor, const char* channel) {
+NumberInput MaterialReader::channel(const Factor& factor, ImageChannel channel) {
   const float value = factor.value[0];
   if (factor.texture && value != 0)
     return {TextureName{textures_.number(*factor.texture, channel, double(value))}, factor.texture->where};
@@ -79,7 +77,7 @@ void MaterialReader::read_specular(const Element& extensions, MetallicRoughnessD
   if (!specular) return;
   Factor weight{gray_rgb(float(share(specular["specularFactor"], 1))), textures_.use(specular["specularTexture"])};
   note_uv_set(weight.texture, specular);
-  base.specular = channel(weight, "a");
+  base.specular = channel(weight, ImageChannel::a);
   Factor color{gray_rgb(1.0f), textures_.use(specular["specularColorTexture"])};
   note_uv_set(color.texture, specular);
   if (const auto stated = specular["specularColorFactor"].numbers(3)) {
@@ -102,16 +100,16 @@ MaterialModel MaterialReader::with_coat_and_grain(const MetallicRoughnessDesc& b
   if (is_black(amount.value) && is_black(strength.value)) return base;
   for (const Factor* factor : {&amount, &roughness, &strength}) note_uv_set(factor->texture, coat ? coat : grain);
   CoatedMetallicRoughnessDesc coated{base};
-  coated.coat = channel(amount, "r");
-  coated.coat_roughness = channel(roughness, "g");
+  coated.coat = channel(amount, ImageChannel::r);
+  coated.coat_roughness = channel(roughness, ImageChannel::g);
   if (!is_black(amount.value)) coated.coat_normals = normal_map(coat["clearcoatNormalTexture"]);
   if (is_black(strength.value)) return coated;
-  coated.anisotropy = channel(strength, "b");
+  coated.anisotropy = channel(strength, ImageChannel::b);
   coated.grain_rotation = float(grain["anisotropyRotation"].number().value_or(0) * 180 / std::numbers::pi);
   if (!strength.texture) return coated;
   const Factor direction{gray_rgb(1.0f), strength.texture};
-  coated.grain_x = channel(direction, "r");
-  coated.grain_y = channel(direction, "g");
+  coated.grain_x = channel(direction, ImageChannel::r);
+  coated.grain_y = channel(direction, ImageChannel::g);
   return coated;
 }
 
@@ -182,7 +180,8 @@ MaterialModel MaterialReader::glass(const MaterialDesc& base, const Element& mat
   NumberInput alpha = float(roughness * roughness);
   const auto roughness_map = textures_.use(model["metallicRoughnessTexture"]);
   if (roughness_map && roughness > 0)
-    alpha = {TextureName{textures_.squared(textures_.number(*roughness_map, "g", roughness))}, roughness_map->where};
+    alpha = {TextureName{textures_.squared(textures_.number(*roughness_map, ImageChannel::g, roughness))},
+             roughness_map->where};
   const SpectrumValue absorbed = is_solid ? absorption(volume) : gray_value(0);
   const Factor color = base_color(material);
   const bool is_tinted = color.texture || color.value[0] < 1 || color.value[1] < 1 || color.value[2] < 1;
@@ -211,12 +210,12 @@ MaterialDescId MaterialReader::transmitting(const MaterialDesc& base, const Elem
   MaterialDesc mix;
   mix.where = material.where();
   mix.model = MixDesc{{scene_.materials[std::size_t(opaque)].name, scene_.materials[std::size_t(through)].name},
-                      channel(amount, "r")};
+                      channel(amount, ImageChannel::r)};
   return add(std::move(mix), name);
 }
 
 bool MaterialReader::repeats(const std::optional<TextureUse>& texture) {
-  return texture && (texture->wrap[0] != "clamp" || texture->wrap[1] != "clamp");
+  return texture && (texture->folds[0] != Fold::clamp || texture->folds[1] != Fold::clamp);
 }
 
 std::optional<AreaLightDesc> MaterialReader::emission_of(const Factor& factor, double scale, const Element& where) {
@@ -244,20 +243,17 @@ std::optional<AreaLightDesc> MaterialReader::emission(const Element& material) {
   return light;
 }
 
-std::optional<Parameter> MaterialReader::alpha(const Element& material) {
+std::optional<NumberInput> MaterialReader::alpha(const Element& material) {
   const auto mode = material["alphaMode"].choice({"OPAQUE", "MASK", "BLEND"}).value_or("OPAQUE");
   const double cutoff = material["alphaCutoff"].number(0, 1e30).value_or(0.5);
   if (mode == "OPAQUE") return std::nullopt;
   const double factor = base_alpha(material);
   const auto texture = textures_.use(material["pbrMetallicRoughness"]["baseColorTexture"]);
-  Entity e{"", {}, material.where()};
   if (texture && factor > 0) {
-    std::string name = textures_.number(*texture, "a", factor);
-    put_texture(e, "alpha", mode == "MASK" ? textures_.threshold(name, cutoff) : name);
-  } else {
-    put_number(e, "alpha", mode == "BLEND" ? factor : factor >= cutoff ? 1.0 : 0.0);
+    const std::string name = textures_.number(*texture, ImageChannel::a, factor);
+    return NumberInput(TextureName{mode == "MASK" ? textures_.threshold(name, cutoff) : name}, material.where());
   }
-  return e.parameters.all().front();
+  return NumberInput(mode == "BLEND" ? float(factor) : factor >= cutoff ? 1.0f : 0.0f);
 }
 
 // KHR_materials_unlit: a black surface that emits its base colour, on the sides that are shown.
@@ -302,8 +298,8 @@ MaterialUse MaterialReader::read(const Element& material) {
   } else {
     MetallicRoughnessDesc& opaque = coated ? coated->base : std::get<MetallicRoughnessDesc>(desc.model);
     opaque.base_color = spectrum(base, TexelMeaning::color);
-    opaque.metallic = channel(metallic, "b");
-    opaque.roughness = channel(roughness, "g");
+    opaque.metallic = channel(metallic, ImageChannel::b);
+    opaque.roughness = channel(roughness, ImageChannel::g);
   }
   desc.normals = normal_map(material["normalTexture"]);
   MaterialUse use;

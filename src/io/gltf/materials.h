@@ -10,9 +10,9 @@ struct MaterialUse {
   // For mirrored texture coordinates: the same with the green of the normal map inverted.
   std::optional<MaterialDescId> mirrored;
   std::optional<AreaLightDesc> area_light;
-  bool repeats_emission = false;   // its texture repeats beyond its edges, which that of an area light does not
-  std::optional<Parameter> alpha;  // of the shapes
-  bool one_sided = false;          // backs are not shown
+  bool repeats_emission = false;     // its texture repeats beyond its edges, which that of an area light does not
+  std::optional<NumberInput> alpha;  // of the shapes
+  bool one_sided = false;            // backs are not shown
   int uv_set = 0;
 };
 
@@ -33,7 +33,7 @@ class MaterialReader {
   MaterialUse read(const Element& material);
   MaterialUse read_unlit(const Element& material);
   SpectrumInput spectrum(const Factor& factor, TexelMeaning meaning);
-  NumberInput channel(const Factor& factor, const char* channel);
+  NumberInput channel(const Factor& factor, ImageChannel channel);
   void read_specular(const Element& extensions, MetallicRoughnessDesc& base);
   // The same with a coat and a grain, if there are any.
   MaterialModel with_coat_and_grain(const MetallicRoughnessDesc& base, const Element& extensions);
@@ -45,7 +45,7 @@ class MaterialReader {
   MaterialModel glass(const MaterialDesc& base, const Element& material);
   std::optional<AreaLightDesc> emission(const Element& material);
   std::optional<AreaLightDesc> emission_of(const Factor& factor, double scale, const Element& where);
-  std::optional<Parameter> alpha(const Element& material);
+  std::optional<NumberInput> alpha(const Element& material);
   static bool repeats(const std::optional<TextureUse>& texture);
   Factor base_color(const Element& material);
   double base_alpha(const Element& material) const;

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "io/gltf/lights_cameras.h"
-#include "io/gltf/parameters.h"
 #include "io/mesh_check.h"
 #include "io/text_file.h"
 

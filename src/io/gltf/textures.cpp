@@ -1,10 +1,10 @@
 #include "io/gltf/textures.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 
-#include "io/gltf/parameters.h"
 #include "io/text_file.h"
 
 namespace montelux::gltf {
@@ -40,9 +40,9 @@ void TextureReader::read_sampler(const Element& sampler, TextureUse& use) const 
     const auto code = wrap.whole();
     if (!code || *code == 10497) continue;
     if (*code == 33071)
-      use.wrap[axis] = "clamp";
+      use.folds[axis] = Fold::clamp;
     else if (*code == 33648)
-      use.wrap[axis] = "mirror";
+      use.folds[axis] = Fold::mirror;
     else
       wrap.error("must be 10497 (repeat), 33071 (clamp to the edge) or 33648 (mirrored)");
   }
@@ -88,53 +88,49 @@ std::optional<TextureUse> TextureReader::use(const Element& info) {
   return use;
 }
 
-Entity TextureReader::image_entity(const TextureUse& use) const {
-  Entity e{"imagemap", {}, use.where};
-  put_string(e, "filename", use.file);
-  if (use.wrap[0] != "repeat") put_string(e, "uwrap", use.wrap[0]);
-  if (use.wrap[1] != "repeat") put_string(e, "vwrap", use.wrap[1]);
-  if (use.nearest) put_string(e, "filter", "point");
-  if (use.uv_map != TextureUse().uv_map)
-    put_numbers(e, "uvmatrix", std::vector<float>(use.uv_map.begin(), use.uv_map.end()));
-  return e;
+ImageTextureDesc TextureReader::image_of(const TextureUse& use) {
+  ImageTextureDesc image;
+  image.file = use.file, image.folds = use.folds;
+  if (use.nearest) image.filter = TextureFilter::point;
+  if (use.uv_map != TextureUse().uv_map) {
+    auto& matrix = image.mapping.uv_matrix.emplace();
+    std::transform(use.uv_map.begin(), use.uv_map.end(), matrix.begin(), [](double x) { return float(x); });
+  }
+  return image;
 }
 
-std::string TextureReader::add(bool is_spectrum, Entity entity) {
+std::string TextureReader::add(bool is_spectrum, TextureModel model, const SourceLocation& where) {
   std::string name = "texture " + std::to_string(scene_.textures.size());
-  scene_.textures.push_back({name, is_spectrum, std::move(entity), {}});
+  scene_.textures.push_back({name, is_spectrum, std::move(model), {}, where});
   return name;
 }
 
 std::string TextureReader::spectrum(const TextureUse& use, const Rgb& factor, TexelMeaning meaning) {
-  Entity e = image_entity(use);
-  if (meaning == TexelMeaning::data) put_string(e, "encoding", "linear");
+  ImageTextureDesc image = image_of(use);
+  if (meaning == TexelMeaning::data) image.encoding = ColorEncoding{};
   const bool is_gray = factor[0] == factor[1] && factor[1] == factor[2];
-  if (is_gray && factor[0] != 1) put_number(e, "scale", double(factor[0]));
-  if (!is_gray) put_rgb(e, "tint", factor);
-  return add(true, std::move(e));
+  if (is_gray)
+    image.scale = factor[0];
+  else
+    image.tint = RgbValue{factor};
+  return add(true, std::move(image), use.where);
 }
 
-std::string TextureReader::number(const TextureUse& use, std::string_view channel, double factor) {
-  Entity e = image_entity(use);
+std::string TextureReader::number(const TextureUse& use, ImageChannel channel, double factor) {
+  ImageTextureDesc image = image_of(use);
   // Alpha is linear in every encoding, so it shares the texels of the colour.
-  if (channel != "a") put_string(e, "encoding", "linear");
-  put_string(e, "channel", std::string(channel));
-  if (factor != 1) put_number(e, "scale", factor);
-  return add(false, std::move(e));
+  if (channel != ImageChannel::a) image.encoding = ColorEncoding{};
+  image.channel = channel, image.scale = float(factor);
+  return add(false, std::move(image), use.where);
 }
 
 std::string TextureReader::squared(const std::string& texture) {
-  Entity e{"scale", {}, document_.whole()};
-  put_texture(e, "tex", texture);
-  put_texture(e, "scale", texture);
-  return add(false, std::move(e));
+  const TextureName name{texture};
+  return add(false, ScaleTextureDesc{{name, document_.whole()}, {name, document_.whole()}}, document_.whole());
 }
 
 std::string TextureReader::threshold(const std::string& texture, double edge) {
-  Entity e{"threshold", {}, document_.whole()};
-  put_texture(e, "tex", texture);
-  put_number(e, "edge", edge);
-  return add(false, std::move(e));
+  return add(false, ThresholdTextureDesc{{TextureName{texture}, document_.whole()}, float(edge)}, document_.whole());
 }
 
 }  // namespace montelux::gltf

@@ -9,10 +9,10 @@ enum class TexelMeaning { color, data };
 
 // The content of a textureInfo, checked.
 struct TextureUse {
-  std::string file;                                     // image, relative to the scene's folder, or embedded
-  int uv_set = 0;                                       // index n of TEXCOORD_n
-  std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};       // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
-  std::array<std::string, 2> wrap{"repeat", "repeat"};  // of u and v
+  std::string file;                                // image, relative to the scene's folder, or embedded
+  int uv_set = 0;                                  // index n of TEXCOORD_n
+  std::array<double, 6> uv_map{1, 0, 0, 0, 1, 0};  // KHR_texture_transform, rows: (u, v) upward to (s, t) upward
+  std::array<Fold, 2> folds{};                     // along u and v
   bool nearest = false;
   SourceLocation where;
 };
@@ -26,8 +26,8 @@ class TextureReader {
 
   // The name of a texture of spectra: the image times the factor.
   std::string spectrum(const TextureUse& use, const Rgb& factor, TexelMeaning meaning);
-  // The name of a texture of numbers: one channel ("r", "g", "b", "a") of the image times the factor.
-  std::string number(const TextureUse& use, std::string_view channel, double factor);
+  // The name of a texture of numbers: one channel of the image times the factor.
+  std::string number(const TextureUse& use, ImageChannel channel, double factor);
   // The names of two derived textures: the square of the given one, and one that is 1 where the given one is at least
   // `edge`, else 0.
   std::string squared(const std::string& texture);
@@ -37,9 +37,9 @@ class TextureReader {
   std::optional<std::string> image_file(const Element& image, std::size_t number);
   void read_sampler(const Element& sampler, TextureUse& use) const;
   void read_transform(const Element& transform, TextureUse& use) const;
-  Entity image_entity(const TextureUse& use) const;
-  // The name of a texture with this content, existing or new.
-  std::string add(bool is_spectrum, Entity entity);
+  static ImageTextureDesc image_of(const TextureUse& use);
+  // The name of a new texture with this content.
+  std::string add(bool is_spectrum, TextureModel model, const SourceLocation& where);
 
   Document& document_;
   SceneDesc& scene_;

@@ -7,6 +7,7 @@
 #include "light/table.h"
 #include "material/table.h"
 #include "medium/table.h"
+#include "texture/table.h"
 
 namespace montelux::pbrt {
 
@@ -35,17 +36,18 @@ void Parser::directive_texture() {
     return report_.error(where, "texture '" + printable(*name) + "' is defined twice",
                          "first in line " + std::to_string(first->second.line));
   if (!texture) return;
-  scene_.textures.push_back(
-      {*name, kind == TextureKind::spectrum, std::move(texture->entity), still_transform("texture")});
+  std::optional<TextureDesc> desc = read_model(texture_models(), Family::texture, texture->entity, report_);
+  if (!desc) return;
+  desc->name = *name, desc->is_spectrum = kind == TextureKind::spectrum, desc->where = texture->entity.where;
+  desc->texture_to_world = still_transform("texture");
+  if (!can_be(desc->model, desc->is_spectrum))
+    report_.error(desc->where, "texture '" + texture->entity.type + "' is of \"" +
+                                   (desc->is_spectrum ? "float" : "spectrum") + "\" only");
+  scene_.textures.push_back(*std::move(desc));
 }
 
 // Textures use only textures before them, so that none can contain itself.
 void Parser::check_texture_of_texture(const Stated& stated, TextureKind kind) {
-  if (stated.entity.type == "marble" && kind == TextureKind::number)
-    report_.error(here(), "texture 'marble' is of \"spectrum\" only");
-  bool is_noise = stated.entity.type == "fbm" || stated.entity.type == "wrinkled" || stated.entity.type == "windy";
-  if (is_noise && kind == TextureKind::spectrum)
-    report_.error(here(), "texture '" + stated.entity.type + "' is of \"float\" only");
   for (const Parameter& parameter : stated.entity.parameters.all()) {
     const auto* use = std::get_if<TextureName>(&parameter.values);
     const ParameterSpec* row = find_parameter(*stated.spec, parameter.name);

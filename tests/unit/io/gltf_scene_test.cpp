@@ -258,8 +258,8 @@ TEST(GltfMaterial, cuts_out_what_is_below_the_threshold_of_a_mask) {
         R"(, "materials": [{"alphaMode": ")" + mode + R"(", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" +
             std::to_string(factor) + "]}}]"));
     EXPECT_TRUE(result.scene) << render(result.diagnostics);
-    const std::optional<Parameter>& stated = result.scene->shapes.at(0).alpha;
-    return stated ? std::get<std::vector<float>>(stated->values).at(0) : -1;
+    const std::optional<NumberInput>& stated = result.scene->shapes.at(0).alpha;
+    return stated ? std::get<float>(stated->value) : -1;
   };
   EXPECT_EQ(alpha("OPAQUE", 0.25), -1);  // not stated
   EXPECT_EQ(alpha("MASK", 0.25), 0);

@@ -198,17 +198,19 @@ TEST(GltfMaterial, of_glass_is_as_rough_as_stated) {
     ASSERT_TRUE(name) << render(mapped.diagnostics);
     EXPECT_EQ(render(mapped.diagnostics).find("warning"), std::string::npos) << render(mapped.diagnostics);
     // The square of the green channel, scaled.
-    const auto texture = [&](const std::string& wanted) -> const Entity& {
+    const auto texture = [&](const std::string& wanted) -> const TextureModel& {
       for (const auto& t : mapped.scene->textures)
-        if (t.name == wanted) return t.entity;
+        if (t.name == wanted) return t.model;
       throw std::runtime_error("no texture " + wanted);
     };
-    const Entity& square = texture(name->name);
-    EXPECT_EQ(square.type, "scale");
-    EXPECT_EQ(square.parameters.texture("tex"), square.parameters.texture("scale"));
-    const Entity& channel = texture(*square.parameters.texture("tex"));
-    EXPECT_EQ(channel.parameters.string("channel", ""), "g");
-    EXPECT_EQ(channel.parameters.number("scale", 1), 0.5f);
+    const auto& square = std::get<ScaleTextureDesc>(texture(name->name));
+    const auto* factor = square.factor.get<TextureName>();
+    ASSERT_TRUE(factor);
+    EXPECT_TRUE(square.texture == ValueInput(*factor));
+    const auto& channel = std::get<ImageTextureDesc>(texture(factor->name));
+    EXPECT_EQ(channel.channel, ImageChannel::g);
+    EXPECT_EQ(channel.scale, 0.5f);
+    EXPECT_EQ(channel.encoding, ColorEncoding{});
   }
 }
 

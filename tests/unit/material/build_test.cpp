@@ -34,10 +34,9 @@ struct Workshop {
   }
   // A checkerboard of 0.9 and 0.1 by this name.
   void add_board() {
-    Entity board{"checkerboard", {}, {}};
-    board.parameters.add(parameter_of("tex1", gray_value(0.9f)));
-    board.parameters.add(parameter_of("tex2", gray_value(0.1f)));
-    builder.add("board", true, board, Transform{});
+    CheckerboardTextureDesc board;
+    board.even = gray_value(0.9f), board.odd = gray_value(0.1f);
+    builder.add({"board", true, board, {}, {}});
   }
   BsdfRow row(const Material& material) const {
     return material_row(material, textures, {{0.2f, 0.3f}, {}, {0, 0, 1}});

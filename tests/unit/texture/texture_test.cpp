@@ -14,25 +14,10 @@
 namespace montelux {
 namespace {
 
-using Parameters = std::vector<Parameter>;
-
-Parameter number(const char* name, float x) { return {name, ParameterType::number, std::vector<float>{x}, {}}; }
-Parameter integer(const char* name, int x) { return {name, ParameterType::integer, std::vector<int>{x}, {}}; }
-Parameter text(const char* name, const std::string& x) {
-  return {name, ParameterType::string, std::vector<std::string>{x}, {}};
-}
-Parameter flag(const char* name, bool x) {
-  return {name, ParameterType::boolean, std::vector<std::uint8_t>{std::uint8_t(x)}, {}};
-}
-Parameter link(const char* name, const char* to) { return {name, ParameterType::texture, TextureName{to}, {}}; }
-Parameter vector(const char* name, Vec3f x) { return {name, ParameterType::vector3, std::vector<Vec3f>{x}, {}}; }
-Parameter rgb(const char* name, Rgb x) {
-  return {name, ParameterType::spectrum, std::vector<SpectrumValue>{RgbValue{x, "srgb"}}, {}};
-}
-Entity entity(const char* type, Parameters parameters = {}) {
-  Entity e{type, {}, {}};
-  for (Parameter& p : parameters) e.parameters.add(std::move(p));
-  return e;
+TextureName name(const char* of) { return {of}; }
+SpectrumValue rgb(float r, float g, float b) { return RgbValue{{{r, g, b}}}; }
+TextureDesc texture(std::string under, bool is_spectrum, TextureModel model, const Transform& to_world = {}) {
+  return {std::move(under), is_spectrum, std::move(model), to_world, {}};
 }
 TexturePoint at_uv(float u, float v) { return {{u, v}, {0, 0, 0}, {0, 0, 1}}; }
 TexturePoint at_point(Vec3f p) { return {{0, 0}, p, {0, 0, 1}}; }
@@ -44,26 +29,25 @@ struct Bench {
   TextureBuilder builder{set, std::filesystem::temp_directory_path().string(),
                          [](const SpectrumValue& v) { return std::get<RgbValue>(v).rgb; }, diagnostics};
 
-  NumberTextureId number_texture(const Entity& e, const Transform& t = {}) {
-    builder.add("n", false, e, t);
+  NumberTextureId number_texture(TextureModel model, const Transform& t = {}) {
+    builder.add(texture("n", false, std::move(model), t));
     return *builder.find_number("n");
   }
-  SpectrumTextureId spectrum_texture(const Entity& e, const Transform& t = {}) {
-    builder.add("s", true, e, t);
+  SpectrumTextureId spectrum_texture(TextureModel model, const Transform& t = {}) {
+    builder.add(texture("s", true, std::move(model), t));
     return *builder.find_spectrum("s");
   }
 };
 
 TEST(Bilerp, corners_have_their_values_and_the_middle_their_mean) {
   Bench b;
-  NumberTextureId id =
-      b.number_texture(entity("bilerp", {number("v00", 1), number("v01", 2), number("v10", 3), number("v11", 6)}));
+  NumberTextureId id = b.number_texture(BilerpTextureDesc{.v00 = 1.0f, .v01 = 2.0f, .v10 = 3.0f, .v11 = 6.0f});
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0, 0)), 1);
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0, 1)), 2);
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(1, 0)), 3);
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(1, 1)), 6);
   EXPECT_FLOAT_EQ(b.set.number(id, at_uv(0.5f, 0.5f)), 3);
-  SpectrumTextureId colors = b.spectrum_texture(entity("bilerp", {rgb("v00", {{1, 0, 0}}), rgb("v11", {{0, 0, 4}})}));
+  SpectrumTextureId colors = b.spectrum_texture(BilerpTextureDesc{.v00 = rgb(1, 0, 0), .v11 = rgb(0, 0, 4)});
   EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(1, 1))[2], 4);
   EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(0, 0))[0], 1);
   EXPECT_FLOAT_EQ(b.set.color(colors, at_uv(0, 1))[0], 1);
@@ -71,8 +55,8 @@ TEST(Bilerp, corners_have_their_values_and_the_middle_their_mean) {
 
 TEST(Checkerboard, cells_alternate_in_the_plane_and_in_space) {
   Bench b;
-  NumberTextureId flat = b.number_texture(entity("checkerboard", {number("uscale", 4), number("vscale", 2)}));
-  NumberTextureId solid = b.number_texture(entity("checkerboard", {integer("dimension", 3)}), translate(0.5, 0, 0));
+  NumberTextureId flat = b.number_texture(CheckerboardTextureDesc{.mapping = {.u_scale = 4, .v_scale = 2}});
+  NumberTextureId solid = b.number_texture(CheckerboardTextureDesc{.dimension = 3}, translate(0.5, 0, 0));
   RandomStream<float> random(1u, 1u);
   for (int k = 0; k < 1000; ++k) {
     float u = 4 * random.next() - 2, v = 4 * random.next() - 2, w = 4 * random.next() - 2;
@@ -85,56 +69,50 @@ TEST(Checkerboard, cells_alternate_in_the_plane_and_in_space) {
 
 TEST(Combinations, scale_mix_and_directionmix_follow_their_definitions) {
   Bench b;
-  b.builder.add("ramp", false, entity("bilerp", {number("v01", 0), number("v10", 1)}), {});  // is u
-  b.builder.add("color", true, entity("constant", {rgb("value", {{0.2f, 0.4f, 0.8f}})}), {});
-  SpectrumTextureId scaled = b.spectrum_texture(entity("scale", {link("tex", "color"), link("scale", "ramp")}));
+  b.builder.add(texture("ramp", false, BilerpTextureDesc{.v01 = 0.0f, .v10 = 1.0f}));  // is u
+  b.builder.add(texture("color", true, ConstantTextureDesc{rgb(0.2f, 0.4f, 0.8f)}));
+  SpectrumTextureId scaled = b.spectrum_texture(ScaleTextureDesc{name("color"), name("ramp")});
   EXPECT_FLOAT_EQ(b.set.color(scaled, at_uv(0.25f, 0.9f))[2], 0.2f);
-  NumberTextureId mixed =
-      b.number_texture(entity("mix", {number("tex1", 10), number("tex2", 20), link("amount", "ramp")}));
+  NumberTextureId mixed = b.number_texture(MixTextureDesc{10.0f, 20.0f, name("ramp")});
   EXPECT_FLOAT_EQ(b.set.number(mixed, at_uv(0.25f, 0.1f)), 12.5f);
-  NumberTextureId directed = b.number_texture(
-      entity("directionmix", {number("tex1", 10), number("tex2", 20), vector("dir", {3, 0, 0})}), rotate(90, 0, 0, 1));
+  NumberTextureId directed = b.number_texture(DirectionMixTextureDesc{10.0f, 20.0f, {3, 0, 0}}, rotate(90, 0, 0, 1));
   EXPECT_FLOAT_EQ(b.set.number(directed, {{0, 0}, {0, 0, 0}, {0, -1, 0}}), 10);
   EXPECT_FLOAT_EQ(b.set.number(directed, {{0, 0}, {0, 0, 0}, {1, 0, 0}}), 20);
 }
 
 TEST(Combinations, of_constants_are_constant) {
   Bench b;
-  NumberTextureId mixed = b.number_texture(entity("mix", {number("tex1", 1), number("tex2", 3)}));
+  NumberTextureId mixed = b.number_texture(MixTextureDesc{1.0f, 3.0f});
   ASSERT_TRUE(b.set.is_constant(mixed));
   EXPECT_FLOAT_EQ(*b.set.constant(mixed), 2);
-  SpectrumTextureId scaled = b.spectrum_texture(entity("scale", {rgb("tex", {{1, 2, 3}}), link("scale", "n")}));
+  SpectrumTextureId scaled = b.spectrum_texture(ScaleTextureDesc{rgb(1, 2, 3), name("n")});
   ASSERT_TRUE(b.set.is_constant(scaled));
   EXPECT_FLOAT_EQ((*b.set.constant(scaled))[1], 4);
-  EXPECT_FALSE(b.set.is_constant(b.number_texture(entity("fbm"))));
+  EXPECT_FALSE(b.set.is_constant(b.number_texture(FbmTextureDesc{})));
 }
 
 TEST(Mapping, each_follows_its_definition) {
   Bench b;
   // A bilerp that shows s, and one that shows t.
-  auto st = [&](Parameters mapping, const Transform& to_world, const TexturePoint& point) {
-    Parameters s = mapping, t = mapping;
-    for (const char* name : {"v10", "v11"}) s.push_back(number(name, 1));
-    for (const char* name : {"v00", "v01"}) s.push_back(number(name, 0));
-    for (const char* name : {"v01", "v11"}) t.push_back(number(name, 1));
-    for (const char* name : {"v00", "v10"}) t.push_back(number(name, 0));
-    return Vec2f{b.set.number(b.number_texture(entity("bilerp", s), to_world), point),
-                 b.set.number(b.number_texture(entity("bilerp", t), to_world), point)};
+  auto st = [&](const MappingDesc& mapping, const Transform& to_world, const TexturePoint& point) {
+    const BilerpTextureDesc s{0.0f, 0.0f, 1.0f, 1.0f, mapping}, t{0.0f, 1.0f, 0.0f, 1.0f, mapping};
+    return Vec2f{b.set.number(b.number_texture(s, to_world), point),
+                 b.set.number(b.number_texture(t, to_world), point)};
   };
+  const auto of = [](MappingKind kind) { return MappingDesc{.kind = kind}; };
   auto expect = [](Vec2f a, float s, float t) {
     EXPECT_NEAR(a.x, s, 1e-6f);
     EXPECT_NEAR(a.y, t, 1e-6f);
   };
-  expect(st({number("uscale", 2), number("vscale", -1), number("udelta", 0.5f), number("vdelta", 3)}, {},
-            at_uv(0.25f, 0.5f)),
-         1, 2.5f);
-  expect(st({text("mapping", "spherical")}, translate(1, 2, 3), at_point({1, 2, 9})), 0, 0);
-  expect(st({text("mapping", "spherical")}, {}, at_point({0, 5, 0})), 0.5f, 0.25f);
-  expect(st({text("mapping", "spherical")}, {}, at_point({0, -5, 0})), 0.5f, 0.75f);
-  expect(st({text("mapping", "cylindrical")}, {}, at_point({5, 0, 0.25f})), 0.5f, 0.25f);
-  expect(st({text("mapping", "cylindrical")}, {}, at_point({0, -5, 2})), 0.25f, 2);
-  expect(st({text("mapping", "planar"), vector("v1", {0, 0, 2}), vector("v2", {1, 1, 0}), number("udelta", 10)},
-            scale(2, 2, 2), at_point({2, 4, 6})),
+  expect(st({.u_scale = 2, .v_scale = -1, .u_delta = 0.5f, .v_delta = 3}, {}, at_uv(0.25f, 0.5f)), 1, 2.5f);
+  expect(st({.uv_matrix = std::array<float, 6>{1, 2, 3, 4, 5, 6}}, {}, at_uv(1, 0.5f)), 5, 12.5f);
+  expect(st(of(MappingKind::spherical), translate(1, 2, 3), at_point({1, 2, 9})), 0, 0);
+  expect(st(of(MappingKind::spherical), {}, at_point({0, 5, 0})), 0.5f, 0.25f);
+  expect(st(of(MappingKind::spherical), {}, at_point({0, -5, 0})), 0.5f, 0.75f);
+  expect(st(of(MappingKind::cylindrical), {}, at_point({5, 0, 0.25f})), 0.5f, 0.25f);
+  expect(st(of(MappingKind::cylindrical), {}, at_point({0, -5, 2})), 0.25f, 2);
+  expect(st({.kind = MappingKind::planar, .u_delta = 10, .s_axis = {0, 0, 2}, .t_axis = {1, 1, 0}}, scale(2, 2, 2),
+            at_point({2, 4, 6})),
          16, 3);
 }
 
@@ -161,9 +139,9 @@ TEST(Noise, is_zero_on_the_lattice_bounded_continuous_and_periodic) {
 TEST(Noise, textures_of_one_octave_are_the_noise_itself) {
   Bench b;
   Transform to_world = translate(1, 2, 3) * scale(2, 2, 2);
-  NumberTextureId fbm = b.number_texture(entity("fbm", {integer("octaves", 1)}), to_world);
-  NumberTextureId wrinkled = b.number_texture(entity("wrinkled", {integer("octaves", 1)}), to_world);
-  NumberTextureId two = b.number_texture(entity("fbm", {integer("octaves", 2), number("roughness", 0.25f)}), to_world);
+  NumberTextureId fbm = b.number_texture(FbmTextureDesc{{1}}, to_world);
+  NumberTextureId wrinkled = b.number_texture(WrinkledTextureDesc{{1}}, to_world);
+  NumberTextureId two = b.number_texture(FbmTextureDesc{{2, 0.25f}}, to_world);
   Vec3f p{3.3f, -1.2f, 0.7f}, local{1.15f, -1.6f, -1.15f};
   EXPECT_NEAR(b.set.number(fbm, at_point(p)), gradient_noise(local), 1e-5f);
   EXPECT_NEAR(b.set.number(wrinkled, at_point(p)), std::abs(gradient_noise(local)), 1e-5f);
@@ -172,8 +150,8 @@ TEST(Noise, textures_of_one_octave_are_the_noise_itself) {
 
 TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_palette) {
   Bench b;
-  NumberTextureId windy = b.number_texture(entity("windy"));
-  SpectrumTextureId marble = b.spectrum_texture(entity("marble"));
+  NumberTextureId windy = b.number_texture(WindyTextureDesc{});
+  SpectrumTextureId marble = b.spectrum_texture(MarbleTextureDesc{});
   EXPECT_EQ(b.set.number(windy, at_point({0, 0, 0})), 0);
   RandomStream<float> random(3u, 3u);
   for (int k = 0; k < 1000; ++k) {
@@ -187,7 +165,7 @@ TEST(Noise, windy_is_flat_where_the_wind_is_still_and_marble_stays_within_its_pa
 
 TEST(Dots, are_discs_inside_of_their_cells_and_in_two_of_five_of_them) {
   Bench b;
-  NumberTextureId id = b.number_texture(entity("dots"));
+  NumberTextureId id = b.number_texture(DotsTextureDesc{});
   // Whether a cell has a dot depends on the noise at its centre, which follows from the gradients at its corners; cells
   // at even positions share none.
   int apart_with_dot = 0;
@@ -225,79 +203,54 @@ struct Picture {
 TEST(ImageMap, shows_the_picture_upright_with_v_up) {
   Picture picture;
   Bench b;
-  SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name)}));
+  SpectrumTextureId id = b.spectrum_texture(ImageTextureDesc{.file = picture.name});
   ASSERT_FALSE(b.diagnostics.has_errors());
   EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.75f, 0.75f))[0], 1);  // red: upper right
   EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.25f, 0.25f))[1], 1);  // green: lower left
   EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.75f, 0.25f))[2], 1);  // blue: lower right
   EXPECT_FLOAT_EQ(b.set.color(id, at_uv(0.5f, 0.5f))[1], 0.25f);
-  NumberTextureId mean = b.number_texture(entity("imagemap", {text("filename", picture.name)}));
+  NumberTextureId mean = b.number_texture(ImageTextureDesc{.file = picture.name});
   EXPECT_FLOAT_EQ(b.set.number(mean, at_uv(0.75f, 0.75f)), 1.0f / 3);
 }
 
 TEST(ImageMap, scale_invert_and_point_filter_apply) {
   Picture picture;
   Bench b;
-  SpectrumTextureId id = b.spectrum_texture(entity("imagemap", {text("filename", picture.name), number("scale", 0.25f),
-                                                                flag("invert", true), text("filter", "point")}));
+  SpectrumTextureId id = b.spectrum_texture(
+      ImageTextureDesc{.file = picture.name, .scale = 0.25f, .invert = true, .filter = TextureFilter::point});
   Rgb c = b.set.color(id, at_uv(0.51f, 0.51f));
   EXPECT_FLOAT_EQ(c[0], 0.75f);
   EXPECT_FLOAT_EQ(c[1], 1);
-  SpectrumTextureId dark = b.spectrum_texture(
-      entity("imagemap", {text("filename", picture.name), number("scale", 3), flag("invert", true)}));
+  SpectrumTextureId dark = b.spectrum_texture(ImageTextureDesc{.file = picture.name, .scale = 3, .invert = true});
   EXPECT_EQ(b.set.color(dark, at_uv(0.75f, 0.75f))[0], 0);
 }
 
 TEST(ImageMap, one_file_is_held_once_an_encoding_and_prefilters_are_noted_once) {
   Picture picture;
   Bench b;
-  for (const char* filter : {"trilinear", "ewa", "bilinear"})
-    b.number_texture(entity("imagemap", {text("filename", picture.name), text("filter", filter)}));
+  for (TextureFilter filter : {TextureFilter::trilinear, TextureFilter::ewa, TextureFilter::bilinear})
+    b.number_texture(ImageTextureDesc{.file = picture.name, .filter = filter});
   EXPECT_EQ(b.set.image_bytes(), 12u);
   ASSERT_EQ(b.diagnostics.all().size(), 1u);
   EXPECT_EQ(b.diagnostics.all()[0].severity, Severity::note);
-  b.number_texture(entity("imagemap", {text("filename", picture.name), text("encoding", "linear")}));
+  b.number_texture(ImageTextureDesc{.file = picture.name, .encoding = ColorEncoding{}});
   EXPECT_EQ(b.set.image_bytes(), 24u);
-}
-
-TEST(TextureBuilder, parameters_are_values_or_names_and_the_default_where_absent) {
-  Bench b;
-  b.builder.add("wavy", false, entity("windy"), {});
-  Entity user = entity("diffuse", {number("a", 0.5f), link("b", "wavy"), rgb("c", {{1, 2, 3}}), number("d", 7)});
-  EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "a", 0)), 0.5f);
-  EXPECT_EQ(b.builder.number(user, "b", 0), *b.builder.find_number("wavy"));
-  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "c", Rgb{})))[2], 3);
-  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(user, "d", Rgb{})))[0], 7);
-  EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(user, "z", 0.125f)), 0.125f);
-  EXPECT_FALSE(b.builder.number_if_stated(user, "z"));
-  EXPECT_EQ(b.builder.constant(0.5f), b.builder.number(user, "a", 0));
-  EXPECT_FALSE(b.diagnostics.has_errors());
-}
-
-TEST(TextureBuilder, what_cannot_be_built_is_reported_with_the_nearest_name) {
-  auto errors = [](bool is_spectrum, const Entity& e) {
-    Bench b;
-    b.builder.add("granite", false, entity("fbm"), {});
-    b.builder.add("x", is_spectrum, e, {});
-    return b.diagnostics;
-  };
-  EXPECT_EQ(errors(false, entity("wrinkel")).all()[0].hint, "wrinkled");
-  EXPECT_EQ(errors(false, entity("scale", {link("tex", "granit")})).all()[0].hint, "granite");
-  EXPECT_TRUE(errors(true, entity("scale", {link("tex", "granite")})).has_errors());
-  EXPECT_TRUE(errors(true, entity("fbm")).has_errors());
-  EXPECT_TRUE(errors(false, entity("marble")).has_errors());
-  EXPECT_TRUE(errors(false, entity("imagemap")).has_errors());
-  EXPECT_TRUE(errors(false, entity("imagemap", {text("filename", "no_such.png")})).has_errors());
-  EXPECT_TRUE(errors(false, entity("dots", {text("mapping", "conical")})).has_errors());
-  EXPECT_TRUE(errors(false, entity("mix", {text("amount", "much")})).has_errors());
 }
 
 TEST(TextureBuilder, inputs_are_values_or_names) {
   Bench b;
-  b.builder.add("wavy", false, entity("windy"), {});
-  EXPECT_EQ(b.builder.number(0.5f), b.builder.constant(0.5f));
-  EXPECT_EQ(b.builder.number(TextureName{"wavy"}), *b.builder.find_number("wavy"));
-  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(RgbValue{Rgb{{1, 2, 3}}})))[2], 3);
+  b.builder.add(texture("wavy", false, WindyTextureDesc{}));
+  b.builder.add(texture("veins", true, MarbleTextureDesc{}));
+  EXPECT_FLOAT_EQ(*b.set.constant(b.builder.number(0.5f)), 0.5f);
+  EXPECT_EQ(b.builder.number(name("wavy")), *b.builder.find_number("wavy"));
+  EXPECT_FLOAT_EQ((*b.set.constant(b.builder.spectrum(rgb(1, 2, 3))))[2], 3);
+  EXPECT_EQ(b.builder.spectrum(name("veins")), *b.builder.find_spectrum("veins"));
+  EXPECT_EQ(b.builder.constant(0.5f), b.builder.number(0.5f));
+  // A number in a texture of spectra is the same in all components.
+  const auto seven = b.set.constant(b.spectrum_texture(ConstantTextureDesc{7.0f}));
+  ASSERT_TRUE(seven);
+  EXPECT_FLOAT_EQ((*seven)[0], 7);
+  EXPECT_FLOAT_EQ((*seven)[2], 7);
   EXPECT_FALSE(b.diagnostics.has_errors());
   // Another name, and the name of a texture of the other kind, are reported where they were stated.
   const SourceLocation where{std::make_shared<const std::string>("room.pbrt"), 7, 9};
@@ -309,35 +262,58 @@ TEST(TextureBuilder, inputs_are_values_or_names) {
   EXPECT_NE(b.diagnostics.all()[1].hint.find("other kind"), std::string::npos);
 }
 
-TEST(TextureBuilder, builds_every_texture_of_the_table) {
+TEST(TextureBuilder, what_cannot_be_built_is_reported_with_the_nearest_name) {
+  auto errors = [](bool is_spectrum, TextureModel model) {
+    Bench b;
+    b.builder.add(texture("granite", false, FbmTextureDesc{}));
+    b.builder.add(texture("x", is_spectrum, std::move(model)));
+    return b.diagnostics;
+  };
+  const SourceLocation place{nullptr, 3, 4};
+  const Diagnostics unknown = errors(false, ScaleTextureDesc{{name("granit"), place}});
+  ASSERT_EQ(unknown.all().size(), 1u);
+  EXPECT_EQ(unknown.all()[0].hint, "granite");
+  EXPECT_EQ(unknown.all()[0].where.line, 3);
+  EXPECT_TRUE(errors(true, ScaleTextureDesc{name("granite")}).has_errors());
+  EXPECT_TRUE(errors(false, ImageTextureDesc{}).has_errors());
+  EXPECT_TRUE(errors(false, ImageTextureDesc{.file = "no_such.png"}).has_errors());
+  EXPECT_TRUE(errors(false, DirectionMixTextureDesc{.direction = {0, 0, 0}}).has_errors());
+}
+
+TEST(TextureBuilder, builds_every_texture_of_the_table_that_can_be_of_the_kind) {
   Picture picture;
-  for (const EntitySpec& spec : texture_table())
+  int of_one_kind = 0;
+  for (const EntitySpec& spec : texture_models().specs())
     for (bool is_spectrum : {false, true}) {
-      bool noise = spec.name == "fbm" || spec.name == "wrinkled" || spec.name == "windy" || spec.name == "threshold";
-      if ((noise && is_spectrum) || (spec.name == "marble" && !is_spectrum)) continue;
+      if (spec.later) continue;
+      TextureModel model = texture_models().initial(spec.name).model;
+      EXPECT_EQ(name_of(model), spec.name);
+      if (auto* image = std::get_if<ImageTextureDesc>(&model)) image->file = picture.name;
       Bench b;
-      b.builder.add("x", is_spectrum, entity(std::string(spec.name).c_str(), {text("filename", picture.name)}), {});
-      EXPECT_FALSE(b.diagnostics.has_errors()) << spec.name;
+      b.builder.add(texture("x", is_spectrum, model));
+      EXPECT_EQ(b.diagnostics.has_errors(), !can_be(model, is_spectrum)) << spec.name;
+      of_one_kind += !can_be(model, is_spectrum);
     }
+  EXPECT_EQ(of_one_kind, 5);
 }
 
 TEST(TextureSet, packs_and_threads_find_the_values_of_single_points) {
   using F = NativeFloats;
   Bench b;
-  b.builder.add("board", false, entity("checkerboard", {number("uscale", 8)}), {});
-  b.builder.add("bilerp", true, entity("bilerp", {rgb("v00", {{1, 0, 0.5f}}), rgb("v11", {{0, 0, 4}})}), {});
-  b.builder.add("solid", true,
-                entity("checkerboard", {integer("dimension", 3), link("tex1", "bilerp"), rgb("tex2", {{0.1f, 1, 0}})}),
-                scale(0.2, 0.3, 0.4));
+  b.builder.add(texture("board", false, CheckerboardTextureDesc{.mapping = {.u_scale = 8}}));
+  b.builder.add(texture("bilerp", true, BilerpTextureDesc{.v00 = rgb(1, 0, 0.5f), .v11 = rgb(0, 0, 4)}));
+  b.builder.add(texture("solid", true,
+                        CheckerboardTextureDesc{.dimension = 3, .even = name("bilerp"), .odd = rgb(0.1f, 1, 0)},
+                        scale(0.2, 0.3, 0.4)));
   const NumberTextureId number_ids[] = {
-      b.number_texture(entity("fbm")), b.number_texture(entity("scale", {link("tex", "board"), number("scale", 0.7f)})),
-      b.number_texture(entity("bilerp", {text("mapping", "spherical"), number("v00", 1), number("v11", 3)})),
-      b.number_texture(entity("bilerp", {text("mapping", "planar"), number("v00", 1), number("v11", 3)})),
-      b.number_texture(entity("dots", {number("uscale", 5), number("inside", 2)}))};
+      b.number_texture(FbmTextureDesc{}), b.number_texture(ScaleTextureDesc{name("board"), 0.7f}),
+      b.number_texture(BilerpTextureDesc{.v00 = 1.0f, .v11 = 3.0f, .mapping = {.kind = MappingKind::spherical}}),
+      b.number_texture(BilerpTextureDesc{.v00 = 1.0f, .v11 = 3.0f, .mapping = {.kind = MappingKind::planar}}),
+      b.number_texture(DotsTextureDesc{.inside = 2.0f, .mapping = {.u_scale = 5}})};
   const SpectrumTextureId spectrum_ids[] = {
-      b.spectrum_texture(entity("marble")),
-      b.spectrum_texture(entity("mix", {link("tex1", "solid"), link("tex2", "bilerp"), link("amount", "board")})),
-      b.spectrum_texture(entity("directionmix", {link("tex1", "solid"), vector("dir", {1, 2, 3})}))};
+      b.spectrum_texture(MarbleTextureDesc{}),
+      b.spectrum_texture(MixTextureDesc{name("solid"), name("bilerp"), name("board")}),
+      b.spectrum_texture(DirectionMixTextureDesc{.along = name("solid"), .direction = {1, 2, 3}})};
   auto check = [&](std::uint32_t seed) {
     RandomStream<float> random(seed, 7u);
     for (int round = 0; round < 100; ++round) {
