@@ -170,6 +170,30 @@ std::string error_line(const Rendering& rendering) {
   return line;
 }
 
+Json mixing_json(const MixingFigures& mixing) {
+  const auto known = [](const std::optional<double>& x) { return x ? number_or_null(*x) : Json(); };
+  return {{"chains", mixing.chains},
+          {"steps", mixing.steps},
+          {"large_step_acceptance", known(mixing.large_acceptance())},
+          {"small_step_acceptance", known(mixing.small_acceptance())},
+          {"autocorrelation_time", known(mixing.autocorrelation_time())},
+          {"effective_samples", known(mixing.effective_samples())}};
+}
+
+// How the Markov chains have moved.
+void print_mixing(const MixingFigures& mixing) {
+  std::string accepted;
+  const auto add = [&](const std::optional<double>& share, const char* steps) {
+    if (share) accepted += fmt::format("{}{:.3g} % of {}", accepted.empty() ? "" : " and ", 100 * *share, steps);
+  };
+  add(mixing.large_acceptance(), "large"), add(mixing.small_acceptance(), "small");
+  fmt::print("chains   {} with {:.4g} steps each; accepted {} steps\n", mixing.chains,
+             double(mixing.steps) / double(mixing.chains), accepted);
+  if (const auto time = mixing.autocorrelation_time())
+    fmt::print("         autocorrelation {:.3g} steps: {} steps are worth {} independent ones\n", *time,
+               count_text(double(mixing.steps)), count_text(mixing.effective_samples().value_or(0)));
+}
+
 }  // namespace
 
 Outcome outcome_of(const Rendering& rendering) {
@@ -225,6 +249,7 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
   json["non_finite"] = outcome.non_finite;
   if (rendering.layers) json["layers"] = layers_to_json(rendering);
   json["biased_options"] = header_text(rendering, "montelux:biasedOptions");
+  if (!rendering.result.mixing.empty()) json["mixing"] = mixing_json(sum_of(rendering.result.mixing));
   if (const auto& bias = rendering.measured_bias)
     json["measured_bias"] = {{"mean", bias->mean}, {"standard_error", bias->standard_error}, {"passes", bias->passes}};
   if (report.display) json["display"] = display_json<Json>(*report.display);
@@ -245,6 +270,7 @@ void print_picture_text(const PictureReport& report, const Rendering& rendering)
   if (rendering.choice) fmt::print("chosen   {}\n", to_text(*rendering.choice));
   if (rendering.target) fmt::print("target   {}\n", target_line(*rendering.target));
   if (rendering.denoised) fmt::print("denoised {}\n", denoising_text(rendering.denoised->estimate));
+  if (!rendering.result.mixing.empty()) print_mixing(sum_of(rendering.result.mixing));
   if (outcome.non_finite > 0) fmt::print("not finite {} samples, excluded from the mean\n", outcome.non_finite);
   print_text(Shortcomings{rendering.missing, rendering.replaced, rendering.left_out}, 9);
   const double pixels = rendering.result.film.bounds().area(), share = sampled_share(rendering);

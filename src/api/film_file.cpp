@@ -172,6 +172,24 @@ BiasOfPasses bias_from(const Json& json) {
   return bias;
 }
 
+// Of each pass its number and the figures.
+Json mixing_json(const MixingOfPasses& mixing) {
+  Json json = Json::array();
+  for (const auto& [pass, m] : mixing)
+    json.push_back(
+        {pass, m.chains, m.steps, m.large, m.large_accepted, m.small_accepted, m.between_chains, m.independent});
+  return json;
+}
+MixingOfPasses mixing_from(const Json& json) {
+  const auto count = [](const Json& n) { return whole_from<std::uint64_t>(n, 0, std::uint64_t(1) << 60); };
+  MixingOfPasses mixing;
+  for (const Json& pass : json)
+    mixing[whole_from(pass.at(0), 0, int(max_film_samples))] = {
+        count(pass.at(1)),        count(pass.at(2)),        count(pass.at(3)),       pass.at(4).get<double>(),
+        pass.at(5).get<double>(), pass.at(6).get<double>(), pass.at(7).get<double>()};
+  return mixing;
+}
+
 // All but the film itself.
 Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
@@ -183,6 +201,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   json["seconds"] = snapshot.seconds;
   json["rays"] = rays_json(snapshot.rays);
   if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
+  if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
@@ -221,7 +240,8 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
           wanted,
           facts,
           {std::move(film), rays_from(j.at("rays")), seconds,
-           j.contains("measured_bias") ? bias_from(j.at("measured_bias")) : BiasOfPasses{}}};
+           j.contains("measured_bias") ? bias_from(j.at("measured_bias")) : BiasOfPasses{},
+           j.contains("mixing") ? mixing_from(j.at("mixing")) : MixingOfPasses{}}};
 }
 
 // The first of the values on which the passes of a film depend that differs: "seed is 1 and 2".
@@ -274,7 +294,7 @@ Result<SavedFilm> load_film(const fs::path& file) { return load_saved_bytes<Json
 
 Status save_film(const fs::path& file, const SavedFilm& film) {
   const Film& all = film.begun.film;
-  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds, film.begun.bias};
+  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds, film.begun.bias, film.begun.mixing};
   for (const auto& [index, tile] : all.tiles()) {
     snapshot.tile_side = std::max({snapshot.tile_side, tile.cells.width(), tile.cells.height()});
     all.write_tile(tile.cells, snapshot.tiles);
@@ -340,7 +360,7 @@ Result<SavedFilm> merge_films(std::vector<SavedFilm> films, const Texts& names) 
       SavedFilm& part = films[i];
       total.begun.film.merge(part.begun.film);
       total.begun.rays += part.begun.rays, total.begun.seconds += part.begun.seconds;
-      total.begun.bias.merge(part.begun.bias);
+      total.begun.bias.merge(part.begun.bias), total.begun.mixing.merge(part.begun.mixing);
       if (total.wanted && part.wanted)
         total.wanted = {std::min(total.wanted->first, part.wanted->first),
                         std::max(total.wanted->last, part.wanted->last)};

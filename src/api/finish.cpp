@@ -134,7 +134,7 @@ bool add_intervals(Rendering& rendering) {
 Rendering rendering_of(SavedFilm film) {
   BegunFilm& begun = film.begun;
   RenderResult result{std::move(begun.film), begun.rays, begun.seconds, false};
-  result.bias = std::move(begun.bias);
+  result.bias = std::move(begun.bias), result.mixing = std::move(begun.mixing);
   const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
   film.facts.target = film.options.target;
   const Result<LayerRequest> layers = parse_layers(film.settings.layers);

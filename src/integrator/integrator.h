@@ -10,6 +10,7 @@
 #include "image/layers.h"
 #include "image/pixel_sample.h"
 #include "integrator/traced_path.h"
+#include "mc/mixing.h"
 #include "mc/point_set.h"
 
 namespace montelux {
@@ -112,6 +113,8 @@ class Chain {
   // How much the picture of the frames so far differs in the mean from unbiased samples that were taken for comparison
   // at some of its samples. None where nothing was compared. Only while no step runs.
   virtual std::optional<MeanDifference> measured_bias() { return std::nullopt; }
+  // How the Markov chains of the frames so far have mixed; none where there are none. Only while no step runs.
+  virtual std::optional<MixingFigures> mixing() const { return std::nullopt; }
 };
 
 // Maps a pass to a chain of frames over the whole picture, whose mean over frames is the pass's picture: chains are

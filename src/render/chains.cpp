@@ -33,7 +33,7 @@ class ChainJob final : public WatchedWork {
     skip_passes();
     passes_begun_ = pass_;
     if (settings.begun) {
-      rays_ = settings.begun->rays, bias_ = settings.begun->bias;
+      rays_ = settings.begun->rays, bias_ = settings.begun->bias, mixing_ = settings.begun->mixing;
       has_image_ = film_.passes(tiles_.front().bounds) > 0;
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
@@ -47,6 +47,7 @@ class ChainJob final : public WatchedWork {
     // An incomplete chain is in the image, but not in the saved film: it restarts when the film is continued.
     if (incomplete_) add_to_film(*incomplete_);
     if (bias_of_incomplete_) bias_[*incomplete_] = *bias_of_incomplete_;
+    if (mixing_of_incomplete_) mixing_[*incomplete_] = *mixing_of_incomplete_;
     watch_.report_end(*this, observer);
     memories_.keep_first(std::size_t(pass_));
     const double seconds = watch_.seconds();
@@ -58,7 +59,8 @@ class ChainJob final : public WatchedWork {
             warm_up_seconds(seconds),
             memories_.forgotten(),
             frames_run_,
-            std::move(bias_)};
+            std::move(bias_),
+            std::move(mixing_)};
   }
 
   RenderState state() override {
@@ -95,7 +97,7 @@ class ChainJob final : public WatchedWork {
     for (const ChainTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
     const PixelBounds& first = tiles_.front().bounds;
     snapshot.tile_side = std::max(first.width(), first.height());
-    snapshot.rays = rays_, snapshot.bias = bias_;
+    snapshot.rays = rays_, snapshot.bias = bias_, snapshot.mixing = mixing_;
     return snapshot;
   }
 
@@ -197,12 +199,14 @@ class ChainJob final : public WatchedWork {
 
   void end_chain() {
     const std::optional<MeanDifference> bias = chain_->measured_bias();
+    const std::optional<MixingFigures> mixing = chain_->mixing();
     memories_.store(std::size_t(pass_), *chain_, step_.frame);
     if (step_.frame == frames_) {
       add_to_film(pass_number());
       if (bias) bias_[pass_number()] = *bias;
+      if (mixing) mixing_[pass_number()] = *mixing;
     } else {
-      incomplete_ = pass_number(), bias_of_incomplete_ = bias;
+      incomplete_ = pass_number(), bias_of_incomplete_ = bias, mixing_of_incomplete_ = mixing;
     }
     ++pass_, has_image_ = true;
     skip_passes();
@@ -226,7 +230,9 @@ class ChainJob final : public WatchedWork {
   int passes_begun_ = 0;
   std::optional<int> incomplete_;  // the pass of the last chain, if it ended early
   std::optional<MeanDifference> bias_of_incomplete_;
+  std::optional<MixingFigures> mixing_of_incomplete_;
   BiasOfPasses bias_;       // of the passes that are done
+  MixingOfPasses mixing_;   // likewise
   bool has_image_ = false;  // a chain is done
   std::uint64_t samples_before_ = 0;
   std::uint64_t shown_frames_ = 0;

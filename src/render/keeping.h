@@ -6,6 +6,7 @@
 
 #include "film/film.h"
 #include "integrator/integrator.h"
+#include "mc/mixing.h"
 #include "render/measured_bias.h"
 
 namespace montelux {
@@ -16,6 +17,7 @@ struct BegunFilm {
   RayCounts rays;
   double seconds = 0;  // of the renders before
   BiasOfPasses bias{};
+  MixingOfPasses mixing{};
 };
 
 // A film at one moment, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
@@ -26,6 +28,7 @@ struct FilmSnapshot {
   RayCounts rays;
   double seconds = 0;
   BiasOfPasses bias{};
+  MixingOfPasses mixing{};
 };
 
 // Receives the film now and then, and at the end of the render; not before it has a pass.

@@ -43,6 +43,7 @@ struct RenderResult {
   int forgotten = 0;         // chains that stored no memory because it did not fit
   int frames = 0;            // of chains, including those that are not shown
   BiasOfPasses bias{};       // as far as the integrator measures it
+  MixingOfPasses mixing{};   // of integrators with Markov chains
   std::vector<std::uint64_t> rays_of_tiles{};  // in their order; only of pixel integrators, and not of earlier renders
   double shown_seconds() const { return seconds - warm_up; }
 };

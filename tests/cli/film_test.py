@@ -84,6 +84,20 @@ class Films(ProgramTest):
         told = json.loads(self.run_program("render", *plan[:5], "--integrator", "path", "-o", "p.exr", "--json").stdout)
         self.assertNotIn("measured_bias", told)
 
+    def test_parts_keep_how_their_markov_chains_have_mixed(self):
+        plan = [SCENE, "--resolution", "40x32", "--spp", "16", "--integrator", "metropolis", "--samples-per-pass", "4"]
+        told = lambda *arguments: json.loads(self.run_program(*arguments, "--json").stdout).get("mixing")
+        whole = told("render", *plan, "--threads", "1", "-o", "whole.exr")
+        self.assertEqual(whole["steps"], 4 * 4 * 16 * (64 + 16))  # passes, frames, chains of a cell, their steps in it
+        self.assertGreater(whole["effective_samples"], whole["chains"] / 2)
+        for passes in "2:3", "0:0", "1:1":
+            self.run_program("render", *plan, "--passes", passes, "--checkpoint", passes[0] + ".film")
+        self.run_program("merge", "2.film", "0.film", "1.film", "-o", "all.film")
+        self.assertEqual(told("render", "--resume", "all.film", "-o", "all.exr"), whole)
+        self.run_program("render", *plan, "--passes", "0:1", "--checkpoint", "begin.film")
+        self.assertEqual(told("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr"), whole)
+        self.assertIsNone(told("render", *plan[:5], "--integrator", "path", "-o", "p.exr"))
+
     def test_a_film_with_a_gap_is_filled_where_it_goes_on(self):
         whole = self.picture(SCENE, *PLAN, name="whole.exr")
         self.run_program("merge", self.part(6, 7, "end.film"), self.part(0, 2, "begin.film"), "-o", "gap.film")

@@ -31,10 +31,12 @@ struct Cell {
   PixelBounds bounds;
 };
 
-// The chains of a cell, and where their next states are built.
+// The chains of a cell, and how they have moved.
 struct CellChains {
   std::vector<MarkovChains<F>> packs;
   std::uint32_t steps_done = 0;
+  MixingFigures figures;
+  std::array<RegionShares, std::size_t(packs_per_cell* lanes_of<F>)> shares{};  // of each chain
 };
 
 class MetropolisChain final : public Chain {
@@ -72,6 +74,20 @@ class MetropolisChain final : public Chain {
       show(tile, out);
     }
     return counts;
+  }
+
+  // The sums of the cells in their order: the same for any number of threads.
+  std::optional<MixingFigures> mixing() const override {
+    MixingFigures all;
+    std::vector<RegionShares> shares;
+    for (const CellChains& cell : chains_) {
+      all += cell.figures;
+      if (cell.steps_done > 0) shares.insert(shares.end(), cell.shares.begin(), cell.shares.end());
+    }
+    if (all.steps == 0) return std::nullopt;
+    all.chains = shares.size();
+    add_spread(shares, all);
+    return all;
   }
 
  private:
@@ -203,10 +219,33 @@ class MetropolisChain final : public Chain {
       for (int pack = 0; pack < packs_per_cell; ++pack) {
         const RandomStream<F> numbers =
             random_.fork(U(purpose::steps)).fork(chain_numbers(cell, pack)).fork(U(own.steps_done + i));
-        step_chains(own.packs[std::size_t(pack)], proposal, sizes, numbers, evaluate, counts,
-                    [&](const Contribution<F>& c, const F& share) { deposit(c, share * scale); });
+        const StepsMade<F> made = step_chains(own.packs[std::size_t(pack)], proposal, sizes, numbers, evaluate, counts,
+                                              [&](const Contribution<F>& c, const F& share) {
+                                                deposit(c, share * scale);
+                                                note_place(own, pack, c, share);
+                                              });
+        note_steps(own.figures, made);
       }
     own.steps_done += steps;
+  }
+
+  // The region of the picture where the share of a step is.
+  void note_place(CellChains& own, int pack, const Contribution<F>& c, const F& share) const {
+    constexpr std::uint32_t across = 4, down = mixing_regions / across;
+    const PixelBounds& b = pass_.bounds;
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const std::uint32_t x = (lane(c.x, k) - std::uint32_t(b.x0)) * across / std::uint32_t(b.width());
+      const std::uint32_t y = (lane(c.y, k) - std::uint32_t(b.y0)) * down / std::uint32_t(b.height());
+      own.shares[std::size_t(pack * lanes_of<F> + k)][y * across + x] += double(lane(share, k));
+    }
+  }
+  static void note_steps(MixingFigures& figures, const StepsMade<F>& made) {
+    figures.steps += lanes_of<F>;
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const bool is_large = lane(made.large, k);
+      figures.large += is_large;
+      (is_large ? figures.large_accepted : figures.small_accepted) += double(lane(made.accepted, k));
+    }
   }
 
   // Light in proportion to its share in the brightness.

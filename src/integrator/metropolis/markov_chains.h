@@ -155,10 +155,16 @@ F numbers_at(const SamplePoint<F>& point, std::size_t dimension) {
 }
 
 // One step of every chain of the pack. `deposit(contribution, share)` receives both ends of the step: what is expected
-// of the chain there (Veach and Guibas 1997, sec. 4.4), in lanes.
+// of the chain there (Veach and Guibas 1997, sec. 4.4), in lanes. Returns how the proposals were made, and with which
+// probability they were accepted.
+template <class F>
+struct StepsMade {
+  Mask<F> large;
+  F accepted;
+};
 template <class F, class Function, class Deposit>
-void step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, const MutationSizes& sizes,
-                 const RandomStream<F>& numbers, Function& evaluate, RayCounts& counts, Deposit deposit) {
+StepsMade<F> step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, const MutationSizes& sizes,
+                         const RandomStream<F>& numbers, Function& evaluate, RayCounts& counts, Deposit deposit) {
   using U = Uint<F>;
   const RandomStream<F> decisions = numbers.fork(U(0x9e37u));
   const Mask<F> large = decisions.at(U(0u)) < F(sizes.large_step);
@@ -182,6 +188,7 @@ void step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, const Mutati
   chains.point.beyond = select_words(moves, proposal.beyond, chains.point.beyond);
   chains.value.brightness = select(moves, there.brightness, chains.value.brightness);
   chains.value.x = select(moves, there.x, chains.value.x), chains.value.y = select(moves, there.y, chains.value.y);
+  return {large, accepted};
 }
 
 }  // namespace montelux

@@ -207,5 +207,76 @@ TEST(Metropolis, is_the_same_bits_for_any_number_of_threads) {
       for (int c = 0; c < 3; ++c) EXPECT_EQ(one.pixel(x, y).mean[c], three.pixel(x, y).mean[c]) << x << ", " << y;
 }
 
+// ---- how the chains move
+
+// A camera that sees two lamps, one in each half of the picture, and nothing else. Without roulette and reflections a
+// path's brightness is that of its lamp.
+std::string two_lamps(double left, double right) {
+  const auto lamp = [](double brightness, const char* corners) {
+    return "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ " + std::to_string(brightness * 2) + " " +
+           std::to_string(brightness) +
+           " 0 ] \"bool twosided\" true Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ] "
+           "Shape \"bilinearmesh\" \"point3 P\" [ " +
+           corners + " ] AttributeEnd\n";
+  };
+  return "Camera \"orthographic\" Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 64\n"
+         "PixelFilter \"box\" WorldBegin\n" +
+         lamp(left, "0 -1 1  0 1 1  -1 -1 1  -1 1 1") + lamp(right, "1 -1 1  1 1 1  0 -1 1  0 1 1");
+}
+
+MixingOfPasses mixing_of(const TestScene& scene, const std::string& way, PassPlan plan, int threads = 0) {
+  const ChosenIntegrator chosen = scene.integrator(way);
+  RenderSettings settings = scene.settings(PointSetKind::blue_noise, plan, 5);
+  settings.threads = threads;
+  RenderObserver silent;
+  return render(chosen.any(), settings, silent).mixing;
+}
+
+TEST(Mixing, accepts_what_the_brightness_of_two_lamps_says) {
+  // Independent proposals meet either lamp equally often. Chains are at the brighter one 4 times in 5, and leave it for
+  // the other with probability 1/4: they accept 4/5 (1/2 + 1/2 1/4) + 1/5 = 7/10.
+  const TestScene scene(two_lamps(2, 0.5));
+  std::vector<double> accepted, of_small;
+  for (const auto& [pass, figures] : mixing_of(scene, "metropolis:large-step=0.5", {16, 20})) {
+    EXPECT_EQ(figures.steps, 64u * 64 * 16);
+    EXPECT_EQ(figures.chains, 64u);
+    EXPECT_NEAR(double(figures.large) / double(figures.steps), 0.5, 0.02);
+    accepted.push_back(figures.large_acceptance().value());
+    of_small.push_back(figures.small_acceptance().value());
+  }
+  ASSERT_EQ(accepted.size(), 20u);
+  EXPECT_GT(t_test(accepted, 0.7).p_value, family_level);
+  EXPECT_LT(t_test(accepted, 0.71).p_value, family_level);
+  // Small moves seldom cross from one lamp to the other.
+  EXPECT_GT(summarize(of_small).mean, 0.97);
+}
+
+TEST(Mixing, of_independent_states_has_one_step_of_autocorrelation) {
+  // All proposals are independent and all are accepted: the lamps are equally bright.
+  const TestScene scene(two_lamps(1, 1));
+  std::vector<double> times, of_small_moves;
+  for (const auto& [pass, figures] : mixing_of(scene, "metropolis:large-step=1", {16, 40})) {
+    EXPECT_DOUBLE_EQ(figures.large_acceptance().value(), 1);
+    EXPECT_FALSE(figures.small_acceptance());
+    times.push_back(figures.autocorrelation_time().value());
+  }
+  for (const auto& [pass, figures] : mixing_of(scene, "metropolis:large-step=0.02", {16, 4}))
+    of_small_moves.push_back(figures.autocorrelation_time().value());
+  EXPECT_GT(t_test(times, 1).p_value, family_level);
+  EXPECT_GT(summarize(of_small_moves).mean, 20);
+}
+
+TEST(Mixing, is_the_same_for_any_number_of_threads) {
+  const TestScene scene(room);
+  const MixingFigures one = sum_of(mixing_of(scene, "metropolis", {8, 2}, 1)),
+                      three = sum_of(mixing_of(scene, "metropolis", {8, 2}, 3));
+  EXPECT_GT(one.steps, 0u);
+  EXPECT_EQ(one.large, three.large);
+  EXPECT_EQ(one.large_accepted, three.large_accepted);
+  EXPECT_EQ(one.small_accepted, three.small_accepted);
+  EXPECT_EQ(one.between_chains, three.between_chains);
+  EXPECT_TRUE(mixing_of(scene, "path", {8, 2}).empty());
+}
+
 }  // namespace
 }  // namespace montelux::test
