@@ -45,4 +45,8 @@ if(MONTELUX_SANITIZE)
   target_compile_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer)
   target_link_options(montelux_options INTERFACE -fsanitize=${MONTELUX_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND MONTELUX_SANITIZE MATCHES "address")
+    # Otherwise clang 14 stores packs of 64 bytes on stacks that it has aligned to 32 bytes only.
+    target_compile_options(montelux_options INTERFACE "SHELL:-mllvm -asan-stack-dynamic-alloca=0")
+  endif()
 endif()
