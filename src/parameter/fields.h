@@ -49,6 +49,14 @@ Parameter parameter_of(std::string_view name, SpectrumValue value);
 Parameter parameter_of(std::string_view name, std::vector<int> values);
 Parameter parameter_of(std::string_view name, std::vector<float> values);
 Parameter parameter_of(std::string_view name, std::vector<std::string> values);
+template <class T, std::size_t N>
+Parameter parameter_of(std::string_view name, const std::array<T, N>& values) {
+  return parameter_of(name, std::vector<T>(values.begin(), values.end()));
+}
+template <class... T>
+Parameter parameter_of(std::string_view name, const Input<T...>& input) {
+  return InputConversion<Input<T...>>::write(name, input);
+}
 
 // A name for each value of an enumeration.
 template <class E>
@@ -62,13 +70,15 @@ class Fields {
   using Place = std::function<T&(S&)>;
 
   Fields& integer(std::string_view name, Place<int> place, std::string meaning, double low, double high) {
-    return value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place, &ParameterList::integer);
+    return with_default_value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place,
+                                   &first_of<int>);
   }
   Fields& number(std::string_view name, Place<float> place, std::string meaning, double low, double high) {
-    return value<float>({name, {ParameterType::number}, std::move(meaning), low, high}, place, &ParameterList::number);
+    return with_default_value<float>({name, {ParameterType::number}, std::move(meaning), low, high}, place,
+                                     &first_of<float>);
   }
   Fields& boolean(std::string_view name, Place<bool> place, std::string meaning) {
-    return value<bool>({name, {ParameterType::boolean}, std::move(meaning)}, place, &ParameterList::boolean);
+    return with_default_value<bool>({name, {ParameterType::boolean}, std::move(meaning)}, place, &truth_of);
   }
   // The same where a file states "true" and "false".
   Fields& flag(std::string_view name, Place<bool> place, std::string meaning) {
@@ -126,47 +136,40 @@ class Fields {
   // Numbers, integers and text that have no default value; the meaning states what is used instead.
   Fields& optional(std::string_view name, Place<std::optional<float>> place, std::string meaning, double low,
                    double high) {
-    return optional_value<float>({name, {ParameterType::number}, std::move(meaning), low, high}, place,
-                                 &ParameterList::number);
+    return without_default_value<float>({name, {ParameterType::number}, std::move(meaning), low, high}, place,
+                                        &first_of<float>);
   }
   Fields& optional(std::string_view name, Place<std::optional<int>> place, std::string meaning, double low,
                    double high) {
-    return optional_value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place,
-                               &ParameterList::integer);
+    return without_default_value<int>({name, {ParameterType::integer}, std::move(meaning), low, high}, place,
+                                      &first_of<int>);
   }
   // A spectrum.
   Fields& spectrum(std::string_view name, Place<SpectrumValue> place, std::string meaning, double low, double high) {
     return with_default_value<SpectrumValue>({name, {ParameterType::spectrum}, std::move(meaning), low, high}, place,
-                                             &first_of<SpectrumValue>,
-                                             [name](const SpectrumValue& v) { return parameter_of(name, v); });
+                                             &first_of<SpectrumValue>);
   }
   Fields& optional(std::string_view name, Place<std::optional<SpectrumValue>> place, std::string meaning, double low,
                    double high) {
     return without_default_value<SpectrumValue>({name, {ParameterType::spectrum}, std::move(meaning), low, high}, place,
-                                                &first_of<SpectrumValue>,
-                                                [name](const SpectrumValue& v) { return parameter_of(name, v); });
+                                                &first_of<SpectrumValue>);
   }
   // A point or a vector; `type` states which.
   Fields& vector(std::string_view name, ParameterType type, Place<Vec3f> place, std::string meaning) {
-    return with_default_value<Vec3f>({name, {type}, std::move(meaning)}, place, &first_of<Vec3f>,
-                                     [name, type](const Vec3f& v) {
-                                       return Parameter{std::string(name), type, std::vector<Vec3f>{v}, {}};
-                                     });
+    return with_default_value<Vec3f>({name, {type}, std::move(meaning)}, place, &first_of<Vec3f>);
   }
   // What may be stated in several ways (I: an Input).
   template <class I>
   Fields& input(std::string_view name, Place<I> place, std::string meaning, double low, double high) {
     return with_default_value<I>({name, InputConversion<I>::types(), std::move(meaning), low, high}, place,
-                                 &InputConversion<I>::read,
-                                 [name](const I& v) { return InputConversion<I>::write(name, v); });
+                                 &InputConversion<I>::read);
   }
   // The same without a default value; the meaning states what is used instead.
   template <class I>
   Fields& optional_input(std::string_view name, Place<std::optional<I>> place, std::string meaning, double low,
                          double high) {
     return without_default_value<I>({name, InputConversion<I>::types(), std::move(meaning), low, high}, place,
-                                    &InputConversion<I>::read,
-                                    [name](const I& v) { return InputConversion<I>::write(name, v); });
+                                    &InputConversion<I>::read);
   }
   // The last row has an effect only where `has_effect` is true of what was read; otherwise it counts as unused.
   Fields& only_if(std::function<bool(const S&)> has_effect) {
@@ -182,19 +185,20 @@ class Fields {
   template <std::size_t N>
   Fields& list(std::string_view name, Place<std::optional<std::array<float, N>>> place, std::string meaning, double low,
                double high) {
-    return array_value<float, N>({name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place);
+    return without_default_value<std::array<float, N>>(
+        {name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place, &array_of<float, N>);
   }
   template <std::size_t N>
   Fields& list(std::string_view name, Place<std::optional<std::array<int, N>>> place, std::string meaning, double low,
                double high) {
-    return array_value<int, N>({name, {ParameterType::integer}, std::move(meaning), low, high, {}, true}, place);
+    return without_default_value<std::array<int, N>>(
+        {name, {ParameterType::integer}, std::move(meaning), low, high, {}, true}, place, &array_of<int, N>);
   }
   // The same with default values.
   template <std::size_t N>
   Fields& list(std::string_view name, Place<std::array<float, N>> place, std::string meaning, double low, double high) {
     return with_default_value<std::array<float, N>>(
-        {name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place, &array_of<float, N>,
-        [name](const std::array<float, N>& v) { return parameter_of(name, std::vector<float>(v.begin(), v.end())); });
+        {name, {ParameterType::number}, std::move(meaning), low, high, {}, true}, place, &array_of<float, N>);
   }
   // A list of any length; by default it is empty. The type is that of the values or one like it: point3, normal.
   template <class T>
@@ -309,28 +313,13 @@ class Fields {
   };
 
   template <class T>
-  Fields& value(ParameterSpec spec, Place<T> place, T (ParameterList::*get)(std::string_view, T) const) {
-    const std::string_view name = spec.name;
-    const auto shown = [place](const S& s) {
-      S copy = s;
-      return setting_text(place(copy));
-    };
-    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
-      if (place(s) != place(defaults)) list.add(parameter_of(name, place(s)));
-    };
-    rows_.push_back({std::move(spec), shown,
-                     [name, place, get](const ParameterList& list, S& s) -> Status {
-                       place(s) = (list.*get)(name, place(s));
-                       return Done{};
-                     },
-                     write});
-    return *this;
-  }
-
-  template <class T>
   static std::optional<T> first_of(const Parameter& stated) {
     const auto* values = std::get_if<std::vector<T>>(&stated.values);
     return values && !values->empty() ? std::optional<T>(values->front()) : std::nullopt;
+  }
+  static std::optional<bool> truth_of(const Parameter& stated) {
+    const auto truth = first_of<std::uint8_t>(stated);
+    return truth ? std::optional(*truth != 0) : std::nullopt;
   }
   template <class T, std::size_t N>
   static std::optional<std::array<T, N>> array_of(const Parameter& stated) {
@@ -348,75 +337,45 @@ class Fields {
       return a == b;
   }
 
-  // `taken` is the value of a parameter, if it has the right type; `stated` is the parameter that states a value.
+  // The parameter that states a value; vectors have the type of their row.
   template <class T>
-  Fields& with_default_value(ParameterSpec spec, Place<T> place, std::optional<T> (*taken)(const Parameter&),
-                             std::function<Parameter(const T&)> stated) {
-    const std::string_view name = spec.name;
+  static Parameter stated(const ParameterSpec& spec, const T& v) {
+    if constexpr (std::is_same_v<T, Vec3f>)
+      return {std::string(spec.name), spec.types.front(), std::vector<Vec3f>{v}, {}};
+    else
+      return parameter_of(spec.name, v);
+  }
+
+  // `taken`: the value of a parameter, if it has the right type.
+  template <class T>
+  Fields& with_default_value(ParameterSpec spec, Place<T> place, std::optional<T> (*taken)(const Parameter&)) {
     const auto shown = [place](const S& s) {
       S copy = s;
       return setting_text(place(copy));
     };
-    const auto read = [name, place, taken](const ParameterList& list, S& s) -> Status {
+    const auto read = [name = spec.name, place, taken](const ParameterList& list, S& s) -> Status {
       const Parameter* p = list.find(name);
       if (std::optional<T> v = p ? taken(*p) : std::nullopt) place(s) = *std::move(v);
       return Done{};
     };
-    const auto write = [place, stated](S& s, S& defaults, ParameterList& list) {
-      if (!equal(place(s), place(defaults))) list.add(stated(place(s)));
+    const auto write = [spec, place](S& s, S& defaults, ParameterList& list) {
+      if (!equal(place(s), place(defaults))) list.add(stated(spec, place(s)));
     };
     rows_.push_back({std::move(spec), shown, read, write});
     return *this;
   }
   template <class T>
   Fields& without_default_value(ParameterSpec spec, Place<std::optional<T>> place,
-                                std::optional<T> (*taken)(const Parameter&),
-                                std::function<Parameter(const T&)> stated) {
-    const std::string_view name = spec.name;
-    const auto read = [name, place, taken](const ParameterList& list, S& s) -> Status {
-      if (const Parameter* p = list.find(name)) place(s) = taken(*p);
+                                std::optional<T> (*taken)(const Parameter&)) {
+    const auto read = [name = spec.name, place, taken](const ParameterList& list, S& s) -> Status {
+      const Parameter* p = list.find(name);
+      if (std::optional<T> v = p ? taken(*p) : std::nullopt) place(s) = std::move(v);
       return Done{};
     };
-    const auto write = [place, stated](S& s, S& defaults, ParameterList& list) {
-      if (place(s) && place(s) != place(defaults)) list.add(stated(*place(s)));
+    const auto write = [spec, place](S& s, S& defaults, ParameterList& list) {
+      if (place(s) && place(s) != place(defaults)) list.add(stated(spec, *place(s)));
     };
     rows_.push_back({std::move(spec), {}, read, write});
-    return *this;
-  }
-
-  template <class T>
-  Fields& optional_value(ParameterSpec spec, Place<std::optional<T>> place,
-                         T (ParameterList::*get)(std::string_view, T) const) {
-    const std::string_view name = spec.name;
-    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
-      if (place(s) && place(s) != place(defaults)) list.add(parameter_of(name, *place(s)));
-    };
-    rows_.push_back({std::move(spec),
-                     {},
-                     [name, place, get](const ParameterList& list, S& s) -> Status {
-                       if (list.find(name)) place(s) = (list.*get)(name, T{});
-                       return Done{};
-                     },
-                     write});
-    return *this;
-  }
-
-  template <class T, std::size_t N>
-  Fields& array_value(ParameterSpec spec, Place<std::optional<std::array<T, N>>> place) {
-    const std::string_view name = spec.name;
-    const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
-      if (place(s) && place(s) != place(defaults))
-        list.add(parameter_of(name, std::vector<T>(place(s)->begin(), place(s)->end())));
-    };
-    rows_.push_back({std::move(spec),
-                     {},
-                     [name, place](const ParameterList& list, S& s) -> Status {
-                       const std::vector<T>& values = list.template array<T>(name);
-                       if (values.size() != N) return Done{};
-                       std::copy(values.begin(), values.end(), place(s).emplace().begin());
-                       return Done{};
-                     },
-                     write});
     return *this;
   }
 
