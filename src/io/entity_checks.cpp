@@ -158,9 +158,9 @@ void check_files(const Entity& entity, const CheckContext& context) {
     for (const std::string& file : entity.parameters.array<std::string>(name)) {
       if (file.empty())
         context.report.error(p->where, "'" + std::string(name) + "' is empty");
-      else if (!is_regular_file(resolve_path(context.folder, file)))
+      else if (const std::string path = resolve_path(context.folder, file); !is_regular_file(path))
         context.report.error(p->where, "there is no file '" + printable(file) + "'",
-                             "its path is '" + printable(resolve_path(context.folder, file)) + "'");
+                             path == file ? "" : "its path is '" + printable(path) + "'");
     }
   }
 }

@@ -68,7 +68,7 @@ struct ImageTextureDesc {
   float scale = 1;                        // factor
   bool invert = false;                    // 1 - value
   TextureFilter filter = TextureFilter::bilinear;
-  std::optional<ColorEncoding> encoding{};  // none: sRGB for images of 8 bits, else linear
+  std::optional<ColorEncoding> encoding{};  // of images of integers; none: sRGB. Floats are linear
   MappingDesc mapping{};
 };
 

@@ -149,7 +149,7 @@ Model<S> image() {
   anisotropy.later = true;
   fields.other(anisotropy);
   fields.text(
-      "encoding", "sRGB, linear or 'gamma x'; default sRGB for 8 bits, else linear",
+      "encoding", "of integers: sRGB, linear or 'gamma x'; default sRGB; images of floats are linear",
       [](const std::string& text, S& texture) -> Status {
         // The checks have reported any other text.
         std::get<T>(texture.model).encoding = parse_encoding(text);
