@@ -12,6 +12,7 @@
 #include "io/pbrt/parameters.h"
 #include "io/pbrt/picture.h"
 #include "io/read_model.h"
+#include "io/write_pbrt.h"
 #include "light/table.h"
 #include "material/table.h"
 #include "mc/point_set.h"
@@ -494,6 +495,41 @@ INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
                            std::ranges::replace(name, ' ', '_');
                            return name;
                          });
+
+// A parameter that differs from its default is in the text that is written, and is read from there.
+TEST_P(ShownParameters, survive_writing) {
+  TemporaryFolder folder;
+  write_files(folder);
+  const Family family = GetParam();
+  std::string lost;
+  int count = 0;
+  for (const EntitySpec& entity : table_of(family)) {
+    if (entity.later) continue;
+    for (const ParameterSpec& spec : entity.parameters)
+      for (const ParameterType type : spec.types) {
+        if (spec.later || spec.choices.size() == 1) continue;  // nothing to write
+        const std::string name = std::string(entity.name) + ":" + std::string(spec.name);
+        const auto written = [&](const std::string& value, bool spectra) -> std::string {
+          std::string text = entity_text(family, entity, spec, type_text(type), value);
+          text += of(shown_with(), std::string(entity.name), spec.name) + "\n";
+          const ReadResult read = read_pbrt_text(visible_text(family, entity, text, spectra), folder.path());
+          return read.scene ? write_pbrt(*read.scene) : "";
+        };
+        std::string value = type == spec.types.front() ? of(other_values(), std::string(entity.name), spec.name) : "";
+        if (value.empty()) value = value_of(std::string(entity.name), spec, type, false);
+        std::string first;
+        for (bool spectra : {false, true})
+          if (first.empty())
+            first = written(type == ParameterType::texture ? texture_for(spec, spectra) : value, spectra);
+        const ReadResult again = read_pbrt_text(first, folder.path());
+        ++count;
+        // The width of a curve is written as that of both ends.
+        const bool is_there = first.find(" " + std::string(spec.name) + "\"") != first.npos || name == "curve:width";
+        if (!again.scene || write_pbrt(*again.scene) != first || !is_there) lost += name + "\n";
+      }
+  }
+  EXPECT_EQ(lost, "") << "of " << count;
+}
 
 // The other families state how a picture is made, not what it shows.
 INSTANTIATE_TEST_SUITE_P(OfTheTables, ShownParameters,
