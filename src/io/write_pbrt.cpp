@@ -111,9 +111,9 @@ class Writer {
     for (const TextureDesc& texture : scene_.textures) write_texture(texture);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);
     for (const LightDesc& light : scene_.lights) {
-      const Entity entity = light_models().write(name_of(light.model), light);
-      state_color_space(entity);
-      write_block(light.light_to_world, "LightSource " + entity_text(entity));
+      write_colored(light_models().write(name_of(light.model), light), "light", [&](const Entity& entity) {
+        write_block(light.light_to_world, "LightSource " + entity_text(entity));
+      });
     }
     for (const ObjectDesc& object : scene_.objects) {
       text_ += "ObjectBegin " + in_quotes(object.name) + "\n";
@@ -157,16 +157,49 @@ class Writer {
     }
   }
 
-  // The colour space in which the entity's rgb values are stated.
-  void state_color_space(const Entity& entity) {
+  void state_color_space(const std::string& space) {
+    if (!space.empty() && space != color_space_) text_ += "ColorSpace " + in_quotes(space) + "\n";
+    if (!space.empty()) color_space_ = space;
+  }
+
+  // The colour space of an rgb value; empty for other parameters.
+  static std::string color_space_of(const Parameter& parameter) {
+    if (const auto* values = std::get_if<std::vector<SpectrumValue>>(&parameter.values))
+      for (const SpectrumValue& value : *values)
+        if (const auto* rgb = std::get_if<RgbValue>(&value)) return rgb->color_space;
+    return {};
+  }
+  static std::string color_space_of(const Entity& entity) {
     for (const Parameter& parameter : entity.parameters.all())
-      if (const auto* values = std::get_if<std::vector<SpectrumValue>>(&parameter.values))
-        for (const SpectrumValue& value : *values)
-          if (const auto* rgb = std::get_if<RgbValue>(&value)) {
-            if (rgb->color_space != color_space_) text_ += "ColorSpace " + in_quotes(rgb->color_space) + "\n";
-            color_space_ = rgb->color_space;
-            return;
-          }
+      if (std::string space = color_space_of(parameter); !space.empty()) return space;
+    return {};
+  }
+
+  // Writes an entity in the colour space of its first rgb value. Those in others are stated before it, as defaults of
+  // `family` in a block of their own.
+  template <class Write>
+  void write_colored(const Entity& entity, std::string_view family, Write write) {
+    const std::string space = color_space_of(entity);
+    Entity own{entity.type, {}, {}};
+    std::vector<Parameter> others;
+    for (const Parameter& parameter : entity.parameters.all()) {
+      const std::string its = color_space_of(parameter);
+      if (its.empty() || its == space)
+        own.parameters.add(parameter);
+      else
+        others.push_back(parameter);
+    }
+    const std::string before = color_space_;
+    if (!others.empty()) text_ += "AttributeBegin\n";
+    for (const Parameter& parameter : others) {
+      state_color_space(color_space_of(parameter));
+      text_ += "Attribute " + in_quotes(family) + parameter_text(parameter) + "\n";
+    }
+    state_color_space(space);
+    write(own);
+    if (others.empty()) return;
+    text_ += "AttributeEnd\n";
+    color_space_ = before;
   }
 
   void write_block(const Transform& transform, const std::string& content, const std::vector<Transform>& later = {}) {
@@ -191,28 +224,28 @@ class Writer {
   }
 
   void write_texture(const TextureDesc& texture) {
-    const Entity entity = texture_models().write(name_of(texture.model), texture);
-    state_color_space(entity);
-    std::string text = "Texture " + in_quotes(texture.name) + (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") +
-                       entity_text(entity);
-    if (texture.texture_to_world.is_identity())
-      text_ += text + "\n";
-    else
-      write_block(texture.texture_to_world, text);
+    write_colored(texture_models().write(name_of(texture.model), texture), "texture", [&](const Entity& entity) {
+      const std::string text = "Texture " + in_quotes(texture.name) +
+                               (texture.is_spectrum ? " \"spectrum\" " : " \"float\" ") + entity_text(entity);
+      if (texture.texture_to_world.is_identity())
+        text_ += text + "\n";
+      else
+        write_block(texture.texture_to_world, text);
+    });
   }
 
   void write_material(std::size_t i) {
     if (is_default(i)) return;
-    const Entity entity = stated_material(scene_.materials[i]);
-    state_color_space(entity);
-    text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) +
-             " ]" + parameters_text(entity.parameters) + "\n";
+    write_colored(stated_material(scene_.materials[i]), "material", [&](const Entity& entity) {
+      text_ += "MakeNamedMaterial " + in_quotes(material_names_[i]) + " \"string type\" [ " + in_quotes(entity.type) +
+               " ]" + parameters_text(entity.parameters) + "\n";
+    });
   }
 
   void write_medium(const MediumDesc& medium) {
     if (!medium.model) return;  // left out by a lenient reading
     const Entity entity = medium_models().write(name_of(*medium.model), *medium.model);
-    state_color_space(entity);
+    state_color_space(color_space_of(entity));
     text_ += "MakeNamedMedium " + in_quotes(medium.name) + " \"string type\" [ " + in_quotes(entity.type) + " ]" +
              parameters_text(entity.parameters) + "\n";
   }
@@ -242,7 +275,7 @@ class Writer {
     std::string text, emission;
     if (shape.area_light) {
       const Entity entity = area_light_models().write("diffuse", *shape.area_light);
-      state_color_space(entity);
+      state_color_space(color_space_of(entity));
       emission = "AreaLightSource " + entity_text(entity) + "\n";
     }
     const std::string& material = material_names_[static_cast<std::size_t>(shape.material)];

@@ -270,5 +270,34 @@ TEST(NormalScale, has_two_values) {
     }
 }
 
+// Defaults of attributes may be in another colour space than what states the material itself.
+TEST(Writing, keeps_each_colour_in_its_own_space) {
+  const ReadResult first = read_pbrt_text(
+      "WorldBegin ColorSpace \"rec2020\" Attribute \"material\" \"rgb ks\" [ 0.1 0.2 0.3 ]\n"
+      "Attribute \"texture\" \"rgb tex2\" [ 0.3 0.2 0.1 ] ColorSpace \"dci-p3\"\n"
+      "Texture \"board\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [ 0.4 0.5 0.6 ]\n"
+      "Material \"phong\" \"rgb kd\" [ 0.4 0.5 0.6 ] Shape \"sphere\" ColorSpace \"srgb\"\n"
+      "Material \"diffuse\" \"rgb reflectance\" [ 0.7 0.8 0.9 ] Shape \"disk\" LightSource \"point\" \"rgb I\" [ 1 2 3 "
+      "]",
+      ".");
+  ASSERT_TRUE(first.scene);
+  const ReadResult again = read_pbrt_text(write_pbrt(*first.scene), ".");
+  ASSERT_TRUE(again.scene) << write_pbrt(*first.scene);
+  for (const SceneDesc* scene : {&*first.scene, &*again.scene}) {
+    const auto space = [](const auto& stated) {
+      const SpectrumValue* value = stated.template get<SpectrumValue>();
+      return value ? std::get<RgbValue>(*value).color_space : "none";
+    };
+    const auto& phong = std::get<PhongDesc>(scene->materials.at(1).model);
+    EXPECT_EQ(space(phong.diffuse_albedo), "dci-p3");
+    EXPECT_EQ(space(phong.glossy_albedo), "rec2020");
+    const auto& board = std::get<CheckerboardTextureDesc>(scene->textures.at(0).model);
+    EXPECT_EQ(space(board.even), "dci-p3");
+    EXPECT_EQ(space(board.odd), "rec2020");
+    EXPECT_EQ(space(std::get<DiffuseDesc>(scene->materials.at(2).model).albedo), "srgb");
+    EXPECT_EQ(std::get<RgbValue>(std::get<PointLightDesc>(scene->lights.at(0).model).intensity).color_space, "srgb");
+  }
+}
+
 }  // namespace
 }  // namespace montelux::test
