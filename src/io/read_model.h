@@ -17,7 +17,9 @@ template <class S>
 std::optional<S> read_model(const Models<S>& models, Family family, const Entity& stated, Reporter& report) {
   Result<S> read = models.read(stated);
   if (!read) report.error(stated.where, read.error());
-  report_unused(std::string(name_of(family)) + " '" + stated.type + "'", stated.parameters, report);
+  const std::string owner =
+      family == Family::option ? stated.type : std::string(name_of(family)) + " '" + stated.type + "'";
+  report_unused(owner, stated.parameters, report);
   return read ? std::optional<S>(*std::move(read)) : std::nullopt;
 }
 

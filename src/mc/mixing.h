@@ -38,7 +38,7 @@ struct MixingFigures {
 using MixingOfPasses = std::map<int, MixingFigures>;
 MixingFigures sum_of(const MixingOfPasses& passes);
 
-// Regions into which a picture is split: 4 x 4.
+// Regions into which the space of the states is split.
 inline constexpr int mixing_regions = 16;
 // How much of its steps a chain spent in each region; the sum is the number of its steps.
 using RegionShares = std::array<double, mixing_regions>;

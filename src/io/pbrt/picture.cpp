@@ -20,11 +20,8 @@ S read(const Models<S>& models, const Entity& stated, Family family, SceneDesc& 
   const EntitySpec* spec = find_entity(models.specs(), stated.type);
   if (stated.where.file && spec && !spec->instead.empty())
     scene.replaced.push_back({std::string(name_of(family)), stated.type, std::string(spec->instead)});
-  Result<S> result = models.read(stated);
-  if (!result) report.error(stated.where, result.error());
-  const std::string owner(name_of(family));
-  report_unused(family == Family::option ? stated.type : owner + " '" + stated.type + "'", stated.parameters, report);
-  return result ? *std::move(result) : models.initial(stated.type);
+  const std::optional<S> result = read_model(models, family, stated, report);
+  return result ? *result : models.initial(stated.type);
 }
 
 SourceLocation place_of(const Entity& entity, std::string_view parameter) {

@@ -237,14 +237,17 @@ TEST(Mixing, accepts_what_the_brightness_of_two_lamps_says) {
   // the other with probability 1/4: they accept 4/5 (1/2 + 1/2 1/4) + 1/5 = 7/10.
   const TestScene scene(two_lamps(2, 0.5));
   std::vector<double> accepted, of_small;
+  std::uint64_t large = 0, steps = 0;
   for (const auto& [pass, figures] : mixing_of(scene, "metropolis:large-step=0.5", {16, 20})) {
     EXPECT_EQ(figures.steps, 64u * 64 * 16);
     EXPECT_EQ(figures.chains, 64u);
-    EXPECT_NEAR(double(figures.large) / double(figures.steps), 0.5, 0.02);
+    large += figures.large, steps += figures.steps;
     accepted.push_back(figures.large_acceptance().value());
     of_small.push_back(figures.small_acceptance().value());
   }
   ASSERT_EQ(accepted.size(), 20u);
+  EXPECT_GT(proportion_test(double(large), double(steps), 0.5).p_value, family_level);
+  EXPECT_LT(proportion_test(double(large), double(steps), 0.505).p_value, family_level);
   EXPECT_GT(t_test(accepted, 0.7).p_value, family_level);
   EXPECT_LT(t_test(accepted, 0.71).p_value, family_level);
   // Small moves seldom cross from one lamp to the other.
