@@ -93,12 +93,18 @@ RenderOptions options_from(const Json& j) {
 Json layers_json(const LayerPlan& plan) {
   return {{"bounces", or_null<Json>(plan.bounces)},
           {"light_groups", plan.light_groups},
+          {"strategies", or_null<Json>(plan.strategies)},
+          {"mergings", plan.mergings},
+          {"alone", plan.alone},
           {"errors", plan.spread},
           {"groups", plan.group_names}};
 }
 LayerPlan layers_from(const Json& j) {
   LayerPlan plan;
   if (const Json& bounces = j.at("bounces"); !bounces.is_null()) plan.bounces = whole_from(bounces, 0, 1 << 10);
+  // Films of older versions have no strategies.
+  if (const auto strategies = j.find("strategies"); strategies != j.end() && !strategies->is_null())
+    plan.strategies = whole_from(*strategies, 0, 16), plan.mergings = j.at("mergings"), plan.alone = j.at("alone");
   plan.light_groups = j.at("light_groups"), plan.spread = j.at("errors");
   plan.group_names = j.at("groups").get<Texts>();
   return plan;

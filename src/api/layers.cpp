@@ -10,22 +10,41 @@ namespace montelux {
 
 namespace {
 
-constexpr int default_bounces = 4, max_bounces = 64;
+// A word that may have a number of bounces.
+struct CountedWord {
+  std::string_view name;
+  std::optional<int> LayerRequest::*member;
+  int by_default, max;
+};
+constexpr CountedWord counted_words[]{{"bounces", &LayerRequest::bounces, 4, 64},
+                                      {"strategies", &LayerRequest::strategies, 3, 16}};
+
+// "bounces" or "bounces:3"; nothing if it is no such word.
+std::optional<Status> read_counted(std::string_view word, LayerRequest& request) {
+  for (const CountedWord& row : counted_words) {
+    if (word == row.name) {
+      request.*row.member = row.by_default;
+      return Done{};
+    }
+    if (!word.starts_with(row.name) || word[row.name.size()] != ':') continue;
+    int bounces = 0;
+    const char *at = word.data() + row.name.size() + 1, *end = word.data() + word.size();
+    const auto [next, error] = std::from_chars(at, end, bounces);
+    if (error != std::errc{} || next != end || bounces < 0 || bounces > row.max)
+      return Failure{
+          fmt::format("{0} takes a whole number from 0 to {1}, such as {0}:3; found \"{2}\"", row.name, row.max, word)};
+    request.*row.member = bounces;
+    return Done{};
+  }
+  return std::nullopt;
+}
 
 Status read_word(std::string_view word, LayerRequest& request) {
-  constexpr std::string_view counted = "bounces:";
-  if (word == "bounces") {
-    request.bounces = default_bounces;
-  } else if (word.starts_with(counted)) {
-    int bounces = 0;
-    const char *at = word.data() + counted.size(), *end = word.data() + word.size();
-    const auto [next, error] = std::from_chars(at, end, bounces);
-    if (error != std::errc{} || next != end || bounces < 0 || bounces > max_bounces)
-      return Failure{
-          fmt::format("bounces takes a whole number from 0 to {}, such as bounces:3; found \"{}\"", max_bounces, word)};
-    request.bounces = bounces;
-  } else if (word == "light-groups") {
+  if (const std::optional<Status> counted = read_counted(word, request)) return *counted;
+  if (word == "light-groups") {
     request.light_groups = true;
+  } else if (word == "alone") {
+    request.alone = true;
   } else if (word == "errors") {
     request.errors = true;
   } else if (word == "motion") {
@@ -36,7 +55,8 @@ Status read_word(std::string_view word, LayerRequest& request) {
     request.intervals = true;
   } else {
     return Failure{fmt::format(
-        "there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, errors, motion, halves, intervals",
+        "there are no layers \"{}\"; valid: bounces, bounces:N, light-groups, strategies, strategies:N, alone, errors, "
+        "motion, halves, intervals",
         word)};
   }
   return Done{};
@@ -64,7 +84,8 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     if (more) rest = rest.substr(comma + 1);
   }
   if (!request.of_light() && (request.errors || !(request.motion || request.halves || request.intervals)))
-    return Failure{"errors needs layers: state bounces, light-groups, or both as well"};
+    return Failure{"errors needs layers: state bounces, light-groups or strategies as well"};
+  if (request.alone && !request.strategies) return Failure{"alone needs strategies: state strategies as well"};
   return request;
 }
 
@@ -72,6 +93,8 @@ std::string to_text(const LayerRequest& request) {
   std::vector<std::string> words;
   if (request.bounces) words.push_back(fmt::format("bounces:{}", *request.bounces));
   if (request.light_groups) words.emplace_back("light-groups");
+  if (request.strategies) words.push_back(fmt::format("strategies:{}", *request.strategies));
+  if (request.alone) words.emplace_back("alone");
   if (request.errors) words.emplace_back("errors");
   if (request.motion) words.emplace_back("motion");
   if (request.halves) words.emplace_back("halves");

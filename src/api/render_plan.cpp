@@ -84,7 +84,7 @@ Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& opt
 
 // The requested layers that exist for the scene.
 Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrator& chosen, const Scene& scene) {
-  if (!chosen.integrator || !chosen.integrator->has_layers()) {
+  if (!chosen.any().has_layers()) {
     const bool clamped =
         std::ranges::any_of(chosen.biases, [](const std::string& bias) { return bias.starts_with("maxcomponent="); });
     if (clamped)
@@ -93,8 +93,14 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
     return Failure{fmt::format("the integrator {} has no layers; {} have them", chosen.name,
                                listed(integrators_with(Ability::layers)))};
   }
+  const std::vector<std::string_view> bidirectional = integrators_with(Ability::strategies);
+  if (request.strategies && std::ranges::find(bidirectional, chosen.name) == bidirectional.end())
+    return Failure{
+        fmt::format("the integrator {} has no layers of strategies; {} have them", chosen.name, listed(bidirectional))};
   LayerPlan plan;
   plan.bounces = request.bounces;
+  plan.strategies = request.strategies, plan.alone = request.alone;
+  plan.mergings = chosen.name == "vcm";
   plan.light_groups = request.light_groups;
   plan.spread = request.errors;
   state_light_groups(plan, scene);

@@ -192,26 +192,17 @@ void Film::add_pass(const PixelBounds& tile, int pass, int samples_per_pixel, st
                     std::span<const ExactRgb> sums) {
   FilmPass& whole = new_pass(tile, pass);
   const PixelSample* sample = samples.data();
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      PixelPass of_pixel;
-      for (int s = 0; s < samples_per_pixel; ++s, ++sample) of_pixel.add(*sample);
-      if (layers_ && of_pixel.finite > 0) {
-        const std::size_t stride = std::size_t(layers_->count()) + 1;
-        const auto own = sums.subspan(
-            std::size_t(y - tile.y0) * std::size_t(tile.width()) * stride + std::size_t(x - tile.x0) * stride, stride);
-        layers_->add(x, y, of_pixel.finite, own);
-        for (int i = 0; i < rgb_size; ++i) of_pixel.sum[i] = own.front().c[i].value();
-      }
-      add_pixel(index_of_cell(x, y), of_pixel, whole);
-    }
+  for (std::size_t i = 0; i < std::size_t(tile.area()); ++i) {
+    PixelPass of_pixel;
+    for (int s = 0; s < samples_per_pixel; ++s, ++sample) of_pixel.add(*sample);
+    add_pixel(tile, i, of_pixel, sums, whole);
+  }
 }
 
-void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels) {
+void Film::add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels,
+                    std::span<const ExactRgb> sums) {
   FilmPass& whole = new_pass(tile, pass);
-  const PixelPass* of_pixel = pixels.data();
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x, ++of_pixel) add_pixel(index_of_cell(x, y), *of_pixel, whole);
+  for (std::size_t i = 0; i < std::size_t(tile.area()); ++i) add_pixel(tile, i, pixels[i], sums, whole);
 }
 
 FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
@@ -221,13 +212,22 @@ FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
   return *passes.insert(at, {pass, 0, {}});
 }
 
-void Film::add_pixel(std::size_t index, const PixelPass& sums, FilmPass& whole) {
+void Film::add_pixel(const PixelBounds& tile, std::size_t i, PixelPass of_pixel, std::span<const ExactRgb> sums,
+                     FilmPass& whole) {
+  const int width = tile.width(), x = tile.x0 + int(i) % width, y = tile.y0 + int(i) / width;
+  if (layers_ && of_pixel.finite > 0) {
+    const std::size_t stride = std::size_t(layers_->count()) + 1;
+    const auto own = sums.subspan(i * stride, stride);
+    layers_->add(x, y, of_pixel.finite, own);
+    for (int c = 0; c < rgb_size; ++c) of_pixel.sum[c] = own.front().c[c].value();
+  }
+  const std::size_t index = index_of_cell(x, y);
   PixelSums& pixel = pixels_[index];
-  if (has_halves() && whole.pass % 2 == 0) halves_[index].add(sums);
-  pixel.add(whole.pass, sums);
-  if (sums.finite == 0) return;
+  if (has_halves() && whole.pass % 2 == 0) halves_[index].add(of_pixel);
+  pixel.add(whole.pass, of_pixel);
+  if (of_pixel.finite == 0) return;
   double mean[rgb_size] = {};
-  for (int c = 0; c < rgb_size; ++c) whole.sum[c] += mean[c] = sums.sum[c] / sums.finite;
+  for (int c = 0; c < rgb_size; ++c) whole.sum[c] += mean[c] = of_pixel.sum[c] / of_pixel.finite;
   ++whole.pixels;
   pixel.add_mean(whole.pass, mean);
 }

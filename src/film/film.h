@@ -129,7 +129,8 @@ class Film {
                 std::span<const ExactRgb> sums = {});
 
   // The same for a pass whose samples are summed for each pixel already.
-  void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> sums);
+  void add_pass(const PixelBounds& tile, int pass, std::span<const PixelPass> pixels,
+                std::span<const ExactRgb> sums = {});
 
   // Adds the passes of the other film. Grid, layers and tiles must be the same, and no tile may have a pass in both.
   void merge(const Film& other);
@@ -170,7 +171,9 @@ class Film {
   }
   std::size_t index(int x, int y) const { return index_of_cell(grid_.cell_x(x), grid_.cell_y(y)); }
   FilmPass& new_pass(const PixelBounds& tile, int pass);
-  void add_pixel(std::size_t index, const PixelPass& sums, FilmPass& whole);
+  // Pixel number i of the tile; `sums` are those of all its pixels.
+  void add_pixel(const PixelBounds& tile, std::size_t i, PixelPass of_pixel, std::span<const ExactRgb> sums,
+                 FilmPass& whole);
 
   PixelGrid grid_;
   PixelBounds cells_;

@@ -2,6 +2,24 @@
 
 namespace montelux {
 
+namespace {
+
+// "s1_t2": vertices from the light and from the eye, in the order of LayerPlan::strategy_number().
+std::vector<std::string> strategy_names(const LayerPlan& plan, bool merged) {
+  std::vector<std::string> names;
+  if (merged && !plan.mergings) return names;
+  for (int bounce = merged ? 1 : 0; bounce <= *plan.strategies; ++bounce) {
+    const int all = bounce + (merged ? 3 : 2);  // a vertex that is merged is drawn from both sides
+    for (int s = merged ? 2 : 0; s <= bounce + 1; ++s) {
+      std::string& name = names.emplace_back("s");
+      name += std::to_string(s), name += "_t", name += std::to_string(all - s);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
 std::vector<std::string> layer_names(const LayerPlan& plan) {
   std::vector<std::string> names;
   if (plan.bounces) {
@@ -12,6 +30,14 @@ std::vector<std::string> layer_names(const LayerPlan& plan) {
     for (const std::string& group : plan.group_names) names.push_back("Combined_" + group);
   if (plan.techniques)
     for (std::string_view technique : technique_names) names.push_back("technique_" + std::string(technique));
+  if (!plan.strategies) return names;
+  const std::vector<std::string> connections = strategy_names(plan, false), mergings = strategy_names(plan, true);
+  const auto add = [&](const std::string& prefix, const std::vector<std::string>& strategies) {
+    for (const std::string& strategy : strategies) names.push_back(prefix + strategy);
+  };
+  add("strategy_", connections), add("merging_", mergings);
+  names.emplace_back("strategy_rest");
+  if (plan.alone) add("alone_", connections), add("alone_merging_", mergings);
   return names;
 }
 
@@ -24,7 +50,8 @@ std::vector<LayerFamily> layer_families(const LayerPlan& plan) {
   };
   add("bounces", plan.bounce_count());
   add("light groups", plan.group_count());
-  add("techniques", plan.techniques ? int(technique_names.size()) : 0);
+  add("techniques", plan.technique_count());
+  add("strategies", plan.strategy_count());
   return families;
 }
 

@@ -90,6 +90,7 @@ struct ChainPass {
   std::optional<Shutter> shutter{};             // instead of the scene's
   std::shared_ptr<const ChainMemory> before{};  // of a chain of the picture before, on the same scene; null: none
   std::optional<PixelGrid> grid{};              // as TilePass has it; only one with a stride above 1
+  const LayerPlan* layers = nullptr;            // must outlive the chain; null: there are none
 };
 
 // Where a chain is: frames follow one another, stages follow one another within a frame.
@@ -108,6 +109,10 @@ class Chain {
   // The last stage of a frame fills `out`, one sample for each pixel of the tile in row-major order: an unbiased
   // estimate. The other stages leave it alone. The tiles must be the same in all steps.
   virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
+  // The same of a pass with layers, whose last stage adds to sums as PixelIntegrator::trace_layers() does.
+  virtual RayCounts run_layers(const ChainStep&, const PixelBounds&, std::span<PixelSample>, std::span<ExactRgb>) {
+    throw std::logic_error("this integrator has no layers");
+  }
   // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing continues.
   virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
   // How much the picture of the frames so far differs in the mean from unbiased samples that were taken for comparison
@@ -127,6 +132,8 @@ class CoupledIntegrator {
   virtual int frames() const = 0;
   virtual int warm_up() const = 0;
   virtual int stages() const = 0;
+  // Whether its chains have layers.
+  virtual bool has_layers() const { return false; }
   virtual std::unique_ptr<Chain> begin(const ChainPass& pass) const = 0;
 };
 
@@ -138,6 +145,7 @@ class AnyIntegrator {
   AnyIntegrator(const CoupledIntegrator& integrator) : coupled_(&integrator) {}
   const PixelIntegrator* pixel() const { return pixel_; }        // null: it is the other kind
   const CoupledIntegrator* coupled() const { return coupled_; }  // likewise
+  bool has_layers() const { return pixel_ ? pixel_->has_layers() : coupled_->has_layers(); }
 
  private:
   const PixelIntegrator* pixel_ = nullptr;

@@ -24,17 +24,27 @@ PixelBounds SplatPlane::cells_near(Vec2f raster) const {
   return cells;
 }
 
-void SplatPlane::add_to(Pixel& pixel, const Rgb& value, float weight) {
+bool SplatPlane::add_to(Pixel& pixel, const Rgb& value, float weight) {
   float largest = 0;  // of the components, and not a number where one is not
   for (int i = 0; i < rgb_size; ++i) largest += std::abs(value.c[i]);
   if (!(largest * std::abs(weight) < ExactSum::largest)) {
     pixel.broken.store(true, std::memory_order_relaxed);
-    return;
+    return false;
   }
   for (int i = 0; i < rgb_size; ++i) pixel.sums[i].add(value.c[i] * weight);
+  return true;
 }
 
-void SplatPlane::add(Vec2f raster, const Rgb& value) {
+void SplatPlane::add_to_layers(int x, int y, const Rgb& value, float weight, const LightOrigin<float>& from) {
+  const OwnLayers own(*layers_, from);
+  for (const std::uint32_t layer : own.all())
+    for (int i = 0; i < rgb_size; ++i) layer_sums(x, y, layer)[i].add(value.c[i] * weight);
+  if (own.alone() < 0) return;
+  const Rgb all = without_weight(value, from.weight);
+  for (int i = 0; i < rgb_size; ++i) layer_sums(x, y, std::size_t(own.alone()))[i].add(all.c[i] * weight);
+}
+
+void SplatPlane::add(Vec2f raster, const Rgb& value, const LightOrigin<float>* from) {
   using F = NativeFloats;
   const PixelBounds cells = cells_near(raster);
   const int across = cells.width(), count = cells.area();
@@ -49,7 +59,7 @@ void SplatPlane::add(Vec2f raster, const Rgb& value) {
     for (int k = 0; k < n; ++k) {
       const float w = lane(weight, k);
       const int x = cells.x0 + (begin + k) % across, y = cells.y0 + (begin + k) / across;
-      add_to(pixel(x, y), value, w);
+      if (add_to(pixel(x, y), value, w) && from) add_to_layers(x, y, value, w, *from);
     }
   }
 }
@@ -60,6 +70,32 @@ Rgb SplatPlane::take(int x, int y) {
   for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(from.sums[i].take().value());
   if (from.broken.exchange(false, std::memory_order_relaxed)) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
   return sum;
+}
+
+void SplatPlane::take_tile(const PixelBounds& tile, std::span<PixelSample> samples, std::span<ExactRgb> sums) {
+  const std::size_t stride = layers_ ? std::size_t(layers_->count()) + 1 : 0;
+  std::size_t i = 0;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x, ++i) take_into(x, y, samples[i], sums.subspan(i * stride, stride));
+}
+
+void SplatPlane::take_into(int x, int y, PixelSample& sample, std::span<ExactRgb> sums) {
+  if (layers_) {
+    const Pixel& from = pixel(x, y);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      for (int c = 0; c < rgb_size; ++c)
+        sums[i].c[c] += i == 0 ? from.sums[c].sum() : layer_sums(x, y, i - 1)[c].take();
+  }
+  const Rgb splats = take(x, y);
+  bool good = true;
+  for (int c = 0; c < rgb_size; ++c) {
+    float& light = sample.radiance.c[c];
+    light += splats.c[c], good = good && std::abs(light) < ExactSum::largest;
+  }
+  if (layers_ && !good) {
+    sample.radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+    std::ranges::fill(sums, ExactRgb{});
+  }
 }
 
 }  // namespace montelux

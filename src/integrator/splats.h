@@ -7,6 +7,7 @@
 #include "color/rgb.h"
 #include "filter/filter.h"
 #include "image/pixel_sample.h"
+#include "integrator/tally.h"
 #include "math/shared_exact_sum.h"
 
 namespace montelux {
@@ -17,10 +18,17 @@ namespace montelux {
 class SplatPlane {
  public:
   SplatPlane(const PixelBounds& bounds, const Filter& filter) : SplatPlane(PixelGrid{bounds}, filter) {}
-  // Holds only the pixels that represent cells of the grid.
-  SplatPlane(const PixelGrid& grid, const Filter& filter)
-      : grid_(grid), cells_(grid.cells()), filter_(filter), pixels_(std::size_t(cells_.area())) {}
+  // Holds only the pixels that represent cells of the grid. `layers`: the plan of the layers that it keeps as well,
+  // which must outlive it.
+  SplatPlane(const PixelGrid& grid, const Filter& filter, const LayerPlan* layers = nullptr)
+      : grid_(grid),
+        cells_(grid.cells()),
+        filter_(filter),
+        layers_(layers),
+        pixels_(std::size_t(cells_.area())),
+        layer_sums_(layers ? pixels_.size() * std::size_t(layers->count()) * rgb_size : 0) {}
   const PixelGrid& grid() const { return grid_; }
+  const LayerPlan* layers() const { return layers_; }
 
   // Whether a splat at this place may reach a pixel of the picture.
   template <class F>
@@ -32,26 +40,44 @@ class SplatPlane {
   }
   // Adds value, the integral of the light over the splat, in pixels. A value that is not finite, or too large for the
   // sums, spoils the pixels that it reaches: they are not a number.
-  void add(Vec2f raster, const Rgb& value);
+  void add(Vec2f raster, const Rgb& value) { add(raster, value, nullptr); }
+  // The same where it comes from there: also to its layers. Requires layers().
+  void add(Vec2f raster, const Rgb& value, const LightOrigin<float>& from) { add(raster, value, &from); }
   // Adds to the pixel of one cell alone: light that was drawn by the filter of this pixel.
   void add_to_pixel(int x, int y, const Rgb& value) { add_to(pixel(x, y), value, 1.0f); }
   // What was added to a pixel, stated by its cell, since the last time. Only while nobody adds.
   Rgb take(int x, int y);
+  // The same of each pixel of a tile, in row-major order, added to its sample and, if there are layers, to its sums, as
+  // PixelIntegrator::trace_layers() has them. A sample that is not a number then has no sums.
+  void take_tile(const PixelBounds& tile, std::span<PixelSample> samples, std::span<ExactRgb> sums);
 
  private:
   struct Pixel {
     SharedExactSum sums[rgb_size];
     std::atomic<bool> broken{false};
   };
-  Pixel& pixel(int x, int y) { return pixels_[std::size_t((y - cells_.y0) * cells_.width() + x - cells_.x0)]; }
-  static void add_to(Pixel& pixel, const Rgb& value, float weight);
+  std::size_t pixel_number(int x, int y) const {
+    return std::size_t(y - cells_.y0) * std::size_t(cells_.width()) + std::size_t(x - cells_.x0);
+  }
+  Pixel& pixel(int x, int y) { return pixels_[pixel_number(x, y)]; }
+  // The sums of a layer, by channel.
+  SharedExactSum* layer_sums(int x, int y, std::size_t layer) {
+    return &layer_sums_[(pixel_number(x, y) * std::size_t(layers_->count()) + layer) * rgb_size];
+  }
+  void add(Vec2f raster, const Rgb& value, const LightOrigin<float>* from);
+  // Whether the pixel can hold it.
+  static bool add_to(Pixel& pixel, const Rgb& value, float weight);
+  void add_to_layers(int x, int y, const Rgb& value, float weight, const LightOrigin<float>& from);
+  void take_into(int x, int y, PixelSample& sample, std::span<ExactRgb> sums);
   // The cells whose pixels a splat at this place reaches; with an area of 0 if there are none.
   PixelBounds cells_near(Vec2f raster) const;
 
   PixelGrid grid_;
   PixelBounds cells_;
   const Filter& filter_;
+  const LayerPlan* layers_;
   std::vector<Pixel> pixels_;
+  std::vector<SharedExactSum> layer_sums_;  // by pixel and layer
 };
 
 }  // namespace montelux

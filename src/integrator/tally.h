@@ -1,6 +1,7 @@
-// Where the light that a path gathers comes from: told to a tally, which the ordinary render does without.
+// Where the light of a path comes from. A tally receives it; a render without layers has none.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -17,7 +18,58 @@ struct LightOrigin {
   Uint<F> bounces;      // scattering events between the lamp and the camera
   Uint<F> light;        // its number
   Technique technique;  // of light after a bounce; without one it is emission
+  // Of bidirectional integrators: vertices that were drawn from the light, the one at the light included, and whether
+  // the last of them is merged with one from the eye.
+  Uint<F> light_vertices = Uint<F>(technique == Technique::light_sampling ? 1u : 0u);
+  bool merged = false;
+  F weight = F(1.0f);  // by which strategies share the light; a part of the contribution
 };
+
+// That of one lane.
+template <class F>
+LightOrigin<float> lane_of(const LightOrigin<F>& from, int k) {
+  return {lane(from.bounces, k),        lane(from.light, k), from.technique,
+          lane(from.light_vertices, k), from.merged,         lane(from.weight, k)};
+}
+
+// The numbers of the layers to which a contribution belongs, one of each family.
+class OwnLayers {
+ public:
+  OwnLayers(const LayerPlan& plan, const LightOrigin<float>& from) {
+    int first = 0;
+    const auto add = [&](std::uint32_t number, int layers) {
+      numbers_[count_++] = std::uint32_t(first) + number, first += layers;
+    };
+    if (plan.bounces) add(std::min(from.bounces, std::uint32_t(*plan.bounces) + 1), plan.bounce_count());
+    if (plan.light_groups) add(plan.group_of_light[from.light], plan.group_count());
+    if (plan.techniques) add(from.bounces == 0 ? 0u : std::uint32_t(from.technique), plan.technique_count());
+    if (!plan.strategies) return;
+    const int strategy = plan.strategy_number(from.bounces, from.light_vertices, from.merged);
+    add(std::uint32_t(strategy), plan.strategy_count());
+    if (plan.alone && strategy < plan.alone_count()) alone_ = first + strategy;
+  }
+  std::span<const std::uint32_t> all() const { return std::span(numbers_).first(count_); }
+  // Of the strategy by itself; negative: there is none.
+  int alone() const { return alone_; }
+
+ private:
+  std::array<std::uint32_t, 4> numbers_{};
+  std::size_t count_ = 0;
+  int alone_ = -1;
+};
+
+// What the strategy of a contribution would have found by itself: 0 where that is beyond the range of the sums.
+inline Rgb without_weight(const Rgb& light, float weight) {
+  Rgb all = light;
+  float sum = 0;
+  for (float& x : all.c) x /= weight, sum += x < 0 ? -x : x;
+  return sum < ExactSum::largest ? all : gray_rgb(0);
+}
+inline ExactRgb exact(const Rgb& light) {
+  ExactRgb sum;
+  for (int i = 0; i < rgb_size; ++i) sum.c[i].add(light.c[i]);
+  return sum;
+}
 
 // Keeps nothing and costs nothing.
 struct NoTally {
@@ -43,9 +95,7 @@ class LayerTally {
   // `light` as it counts in the pixel, weights of camera and filter included.
   template <class F>
   void add(Mask<F> on, const Spectrum<F>& light, const LightOrigin<F>& from) {
-    for_each_lane(on, [&](int k) {
-      add_lane(k, lane(light, k), {lane(from.bounces, k), lane(from.light, k), from.technique});
-    });
+    for_each_lane(on, [&](int k) { add_lane(k, lane(light, k), lane_of(from, k)); });
   }
 
   // The sample of lane k is done. One that is not finite, or beyond what the sums can hold, is left out, and shows it.
@@ -68,19 +118,12 @@ class LayerTally {
     float& brightness = brightness_[std::size_t(k)];
     for (float x : light.c) brightness += x < 0 ? -x : x;
     if (!(brightness < ExactSum::largest)) return;
-    ExactRgb exact;
-    for (int i = 0; i < rgb_size; ++i) exact.c[i].add(light.c[i]);
+    const ExactRgb sum = exact(light);
     ExactRgb* sums = &lanes_[std::size_t(k) * stride_];
-    *sums++ += exact;
-    if (plan_.bounces) {
-      sums[std::min(from.bounces, std::uint32_t(*plan_.bounces) + 1)] += exact;
-      sums += plan_.bounce_count();
-    }
-    if (plan_.light_groups) {
-      sums[plan_.group_of_light[from.light]] += exact;
-      sums += plan_.group_count();
-    }
-    if (plan_.techniques) sums[from.bounces == 0 ? 0u : std::uint32_t(from.technique)] += exact;
+    *sums++ += sum;
+    const OwnLayers own(plan_, from);
+    for (const std::uint32_t number : own.all()) sums[number] += sum;
+    if (own.alone() >= 0) sums[own.alone()] += exact(without_weight(light, from.weight));
   }
 
   const LayerPlan& plan_;

@@ -18,7 +18,12 @@ class SharedExactSum {
     const std::uint64_t high = std::uint64_t(units >> 64) + (before + low < before ? 1u : 0u);
     if (high != 0) high_.fetch_add(high, std::memory_order_relaxed);
   }
-  // The sum so far, which begins at zero again. Only while nobody adds.
+  // The sum so far. Only while nobody adds.
+  ExactSum sum() const {
+    const UInt128 low = low_.load(std::memory_order_relaxed), high = high_.load(std::memory_order_relaxed);
+    return ExactSum::of_units(Int128(high << 64 | low));
+  }
+  // The same; it begins at zero again.
   ExactSum take() {
     const UInt128 low = low_.exchange(0, std::memory_order_relaxed),
                   high = high_.exchange(0, std::memory_order_relaxed);

@@ -18,6 +18,7 @@ constexpr int tile_side = 16;
 struct ChainTile {
   PixelBounds bounds;
   std::vector<PixelPass> pixels;  // of the current chain
+  std::vector<ExactRgb> sums;     // the same of its layers, if there are any
 };
 
 // The shared state of one render. Each step of a chain is a stage of the scheduler, with one unit for each tile.
@@ -29,7 +30,7 @@ class ChainJob final : public WatchedWork {
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
         film_(first_film(settings, tile_side)) {
     for (const PixelBounds& tile : tiles_of(film_))
-      tiles_.push_back({tile, std::vector<PixelPass>(std::size_t(tile.area()))});
+      tiles_.push_back({tile, std::vector<PixelPass>(std::size_t(tile.area())), std::vector<ExactRgb>(sums_of(tile))});
     skip_passes();
     passes_begun_ = pass_;
     if (settings.begun) {
@@ -105,6 +106,7 @@ class ChainJob final : public WatchedWork {
   struct Worker {
     RayCounts rays;
     std::vector<PixelSample> samples;
+    std::vector<ExactRgb> sums;
   };
 
   // Runs the steps of all chains, one after the other.
@@ -114,7 +116,7 @@ class ChainJob final : public WatchedWork {
     const auto run_tile = [&](std::size_t i, int number) {
       FlushDenormals flush;
       Worker& worker = workers[std::size_t(number)];
-      worker.rays += do_tile(tiles_[i], worker.samples);
+      worker.rays += do_tile(tiles_[i], worker);
     };
     while (!over_) {
       scheduler.run(tiles_.size(), run_tile);
@@ -128,12 +130,21 @@ class ChainJob final : public WatchedWork {
   int pass_number() const { return settings_.plan.first_pass + pass_; }
 
   // A tile belongs to one thread at a time.
-  RayCounts do_tile(ChainTile& tile, std::vector<PixelSample>& samples) {
+  RayCounts do_tile(ChainTile& tile, Worker& worker) {
+    std::vector<PixelSample>& samples = worker.samples;
     samples.assign(std::size_t(tile.bounds.area()), {});
-    const RayCounts rays = chain_->run(step_, tile.bounds, samples);
+    worker.sums.assign(tile.sums.size(), {});
+    const RayCounts rays = settings_.image.layers ? chain_->run_layers(step_, tile.bounds, samples, worker.sums)
+                                                  : chain_->run(step_, tile.bounds, samples);
     if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
     for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
+    for (std::size_t i = 0; i < worker.sums.size(); ++i) tile.sums[i] += worker.sums[i];
     return rays;
+  }
+  // The number of sums of a tile's layers.
+  std::size_t sums_of(const PixelBounds& tile) const {
+    const std::optional<LayerPlan>& layers = settings_.image.layers;
+    return layers ? std::size_t(tile.area()) * (std::size_t(layers->count()) + 1) : 0;
   }
 
   // What follows is called with the mutex held.
@@ -191,9 +202,13 @@ class ChainJob final : public WatchedWork {
     ChainPass pass{film_.grid().cells(), settings_.image.points(pass_number(), frames_), settings_.image.shutter,
                    memories_.take(std::size_t(pass_))};
     if (film_.grid().stride > 1) pass.grid = film_.grid();
+    if (settings_.image.layers) pass.layers = &*settings_.image.layers;
     chain_ = integrator_.begin(pass);
     step_ = {};
-    for (ChainTile& tile : tiles_) std::fill(tile.pixels.begin(), tile.pixels.end(), PixelPass{});
+    for (ChainTile& tile : tiles_) {
+      std::ranges::fill(tile.pixels, PixelPass{});
+      std::ranges::fill(tile.sums, ExactRgb{});
+    }
     warm_up_began_ = watch_.seconds();
   }
 
@@ -213,7 +228,7 @@ class ChainJob final : public WatchedWork {
   }
 
   void add_to_film(int pass) {
-    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass, tile.pixels);
+    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass, tile.pixels, tile.sums);
   }
 
   const CoupledIntegrator& integrator_;

@@ -70,7 +70,6 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
                          Sink sink = {}, [[maybe_unused]] const Distances& distances = {}) {
   using U = Uint<F>;
   constexpr bool in_media = !std::is_same_v<Distances, NoDistances>;
-  static_assert(!in_media || std::is_same_v<Sink, NoSink>, "a sink would receive light before the media on its way");
   Spectrum<F> light = gray(F(0.0f)), left = gray(F(1.0f));
   F passing(1.0f);
   Segment<F> segment{ray, hit, from.media};
@@ -95,7 +94,11 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
       const MediumSet& media = scene.media;
       const U medium = segment.media.medium;
       if constexpr (!std::is_same_v<Weight, NoWeight>)
-        if (media.emits()) light += select(open, left * media.emitted<F>(medium, segment.hit.t), gray(F(0.0f)));
+        if (media.emits()) {
+          const Spectrum<F> emitted = select(open, left * media.emitted<F>(medium, segment.hit.t), gray(F(0.0f)));
+          light += emitted;
+          sink(open, emitted, U(scene.lights.count()), Technique::bsdf_sampling);  // after all lights
+        }
       const DistanceSample<F> way = media.sample_distance<F>(
           medium, distances.throughput * left, segment.hit.t,
           distances.numbers.get2(distances.first + crossings * U(path_dimension::per_crossing)));
@@ -106,8 +109,11 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
       passing = select(open, passing * media.mean_passing<F>(medium, length), passing);
       const Mask<F> escapes = open & !way.is_event & !(segment.hit.t < F(ray_infinity));
       if (!any(escapes)) return;
-      light += left * left_along(segment.media, F(ray_infinity)) *
-               sky_light<F>(scene.lights, {from.p, from.n}, ray.d, escapes, weight, NoSink{}, passing);
+      const Spectrum<F> through = left * left_along(segment.media, F(ray_infinity));
+      const auto dimmed = [&](const Mask<F>& on, const Spectrum<F>& sky, const U& number, Technique technique) {
+        sink(on, through * sky, number, technique);
+      };
+      light += through * sky_light<F>(scene.lights, {from.p, from.n}, ray.d, escapes, weight, dimmed, passing);
       open = open & !escapes, found = found & !escapes;
     }
   };

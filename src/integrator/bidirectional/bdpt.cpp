@@ -23,17 +23,26 @@ class BdptChain final : public Chain {
         light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
-        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter),
-        samples_(std::size_t(pass.bounds.area())) {}
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers),
+        samples_(std::size_t(pass.bounds.area())),
+        stride_(pass.layers ? std::size_t(pass.layers->count()) + 1 : 0),
+        sums_(samples_.size() * stride_),
+        light_of_path_(pass.layers ? samples_.size() : 0) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     if (step.stage == 0) return follow(step, tile);
-    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x, ++i) {
-        out[std::size_t(i)] = samples_[pixel_number(x, y)];
-        const Rgb splats = plane_.take(x, y);
-        for (int c = 0; c < rgb_size; ++c) out[std::size_t(i)].radiance.c[c] += splats.c[c];
-      }
+    const auto row = std::size_t(tile.width());
+    for (std::size_t y = 0; y < std::size_t(tile.height()); ++y) {
+      const std::size_t first = pixel_number(tile.x0, tile.y0 + int(y));
+      std::ranges::copy(std::span(samples_).subspan(first, row), out.begin() + std::ptrdiff_t(y * row));
+      std::ranges::copy(std::span(sums_).subspan(first * stride_, row * stride_),
+                        sums.begin() + std::ptrdiff_t(y * row * stride_));
+    }
+    plane_.take_tile(tile, out, sums);
     return {};
   }
 
@@ -54,14 +63,25 @@ class BdptChain final : public Chain {
                       one_sided_,
                       plane_,
                       std::uint32_t(pass_.bounds.area()),
-                      light_media_ ? &*light_media_ : nullptr};
+                      light_media_ ? &*light_media_ : nullptr,
+                      nullptr,
+                      PhotonKernel::epanechnikov,
+                      light_of_path_.empty() ? nullptr : light_of_path_.data()};
     RayCounts counts;
     const LightVertices light = light_vertices<F, AdjointCorrection, in_media>(frame, tile, Splatting::on, counts);
     std::vector<PixelSample> samples(std::size_t(tile.area()));
-    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light).run(tile, samples);
-    for (int y = tile.y0; y < tile.y1; ++y)
-      std::copy_n(samples.begin() + std::ptrdiff_t(y - tile.y0) * tile.width(), tile.width(),
-                  samples_.begin() + std::ptrdiff_t(pixel_number(tile.x0, y)));
+    std::vector<ExactRgb> sums(samples.size() * stride_);
+    std::optional<LayerTally> tally;
+    if (pass_.layers) tally.emplace(*pass_.layers, 1, sums);
+    counts +=
+        EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light, tally ? &*tally : nullptr).run(tile, samples);
+    const auto row = std::size_t(tile.width());
+    for (std::size_t y = 0; y < std::size_t(tile.height()); ++y) {
+      const std::size_t first = pixel_number(tile.x0, tile.y0 + int(y));
+      std::ranges::copy(std::span(samples).subspan(y * row, row), samples_.begin() + std::ptrdiff_t(first));
+      std::ranges::copy(std::span(sums).subspan(y * row * stride_, row * stride_),
+                        sums_.begin() + std::ptrdiff_t(first * stride_));
+    }
     return counts;
   }
 
@@ -74,6 +94,9 @@ class BdptChain final : public Chain {
   const bool one_sided_;
   SplatPlane plane_;
   std::vector<PixelSample> samples_;  // what the paths from the eye found in this frame
+  const std::size_t stride_;          // sums of a pixel with layers
+  std::vector<ExactRgb> sums_;        // of what they found
+  std::vector<std::uint32_t> light_of_path_;
 };
 
 }  // namespace

@@ -21,13 +21,17 @@ class EyeSubpaths {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  EyeSubpaths(const Frame& frame, const LightVertices& light) : frame_(frame), scene_(frame.scene), light_(light) {
+  // `tally`: receives where the light comes from; null: nobody does.
+  EyeSubpaths(const Frame& frame, const LightVertices& light, LayerTally* tally = nullptr)
+      : frame_(frame), scene_(frame.scene), light_(light), tally_(tally) {
     if (frame.photons) photons_.emplace(*frame.photons, frame.kernel);
   }
 
   RayCounts run(const PixelBounds& tile, std::span<PixelSample> out) {
     const TilePass pass{tile, frame_.pass.points, frame_.pass.shutter, frame_.frame, frame_.moment, frame_.pass.grid};
-    FirstHits<F> first_hits(scene_, frame_.rays, pass, out);
+    tile_ = tile;
+    FirstHits<F> first_hits =
+        tally_ ? FirstHits<F>(scene_, frame_.rays, pass, out, *tally_) : FirstHits<F>(scene_, frame_.rays, pass, out);
     counts_.camera += first_hits.rays();
     PathState<F> path{};
     for (M on(false);;) {
@@ -66,13 +70,20 @@ class EyeSubpaths {
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const M first = on & (path.depth == U(0u));
     only_smooth_ = only_smooth_ | first;
+    F last_weight(1.0f);
     const auto weight = [&](const Density<SolidAngle, F>& sampled, const MetLight<F>& met) {
-      return weight_of_hit(path, sampled, met);
+      return last_weight = weight_of_hit(path, sampled, met);
+    };
+    const auto sink = [&](const M& met, const Spectrum<F>& light, const U& number, Technique technique) {
+      if (!tally_) return;
+      const F share = select(number < U(scene_.lights.count()), last_weight, F(1.0f));
+      tally_->template add<F>(met, path.throughput * light * path.weight,
+                              {path.depth, number, technique, U(0u), false, share});
     };
     const auto follow = [&](const auto& distances) {
       return follow_ray<F>(
           scene_, frame_.rays, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-          sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, NoSink{}, distances);
+          sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink, distances);
     };
     NextVertex<F> at = [&] {
       if constexpr (in_media)
@@ -143,12 +154,23 @@ class EyeSubpaths {
     if constexpr (!in_media)
       if (const M escapes = moves & !found; any(escapes))
         path.radiance +=
-            path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+            path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, sink);
     // In media a ray that meets no surface may still scatter.
     const M ended = on & !(in_media ? moves : moves & found);
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(ended, [&](int k) {
+      PixelSample& sample = out[lane(path.slot, k)];
+      sample.radiance = to_rgb(lane(radiance, k));
+      if (tally_) tally_->finish(k, lane(path.slot, k), sample);
+    });
     return on & !ended;
+  }
+
+  // Adds light, its weight included, to the path and, with origin(), to the layers.
+  template <class Origin>
+  void add_light(PathState<F>& path, M on, const Spectrum<F>& light, Origin origin) {
+    path.radiance += select(on, light, gray(F(0.0f)));
+    if (tally_) tally_->template add<F>(on, light * path.weight, origin());
   }
 
   void arrive(const PathState<F>& path, const NextVertex<F>& at, const Sampler<F>& sampler, M first) {
@@ -190,7 +212,9 @@ class EyeSubpaths {
                                          -view.wi, view.distance * view.distance, density);
     const F weight =
         frame_.weights.light_sample(weights_, end, both, area_cosine<F, in_media>(at, view.wi), seen.passing);
-    path.radiance += select(seen.on, light * seen.left * weight, gray(F(0.0f)));
+    add_light(path, seen.on, light * seen.left * weight, [&] {
+      return LightOrigin<F>{path.depth + U(1u), draw.point.light, Technique::light_sampling, U(1u), false, weight};
+    });
   }
 
   // Every vertex of the pixel's subpath from the lights.
@@ -236,7 +260,25 @@ class EyeSubpaths {
         light.density, evaluate_at<F, in_media>(scene_, y, light_wi, y.wo, light_context, on).density, !y_in_medium};
     const F weight = frame_.weights.connection(weights_, at_eye, area_cosine<F, in_media>(at, wi), y.weights, at_light,
                                                cos_light, squared, seen.passing);
-    path.radiance += select(on, value * seen.left * weight, gray(F(0.0f)));
+    add_light(path, on, value * seen.left * weight, [&] {
+      return LightOrigin<F>{path.depth + y.events + U(2u),
+                            light_of_pixel(path, on),
+                            Technique::light_sampling,
+                            y.events + U(2u),
+                            false,
+                            weight};
+    });
+  }
+
+  // The light where the pixel's own subpath from the lights starts.
+  U light_of_pixel(const PathState<F>& path, M on) const {
+    U number(0u);
+    const auto width = std::uint32_t(tile_.width());
+    for_each_lane(on, [&](int k) {
+      const std::uint32_t slot = lane(path.slot, k);
+      set_lane(number, k, frame_.path_number(tile_.x0 + int(slot % width), tile_.y0 + int(slot / width)));
+    });
+    return gather(frame_.light_of_path, number);
   }
 
   // Vertices of all subpaths from the lights that lie within the radius.
@@ -244,20 +286,32 @@ class EyeSubpaths {
     if (!any(on)) return;
     const U room = U(frame_.paths.max_depth ? std::uint32_t(*frame_.paths.max_depth) - 1u : 0x7fffffffu) - path.depth;
     const auto* words = reinterpret_cast<const float*>(frame_.photons->weights());
-    const Spectrum<F> light =
-        photons_->template radiance<F>(at, at.context, on, [&](const FoundPhoton<F>& photon, M counted) {
-          counted = counted & (photon.events <= room);
-          const U word = photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
-          const PartialWeights<F> y{gather(words, word), F(0.0f), gather(words + 1, word)};
-          const BothDensities<F> both = densities(at, photon.wi, photon.density, counted);
-          return select(counted, frame_.weights.merging(weights_, y, both), F(0.0f));
-        });
+    const auto word_of = [](const FoundPhoton<F>& photon) {
+      return photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
+    };
+    const auto weight = [&](const FoundPhoton<F>& photon, M counted) {
+      counted = counted & (photon.events <= room);
+      const PartialWeights<F> y{gather(words, word_of(photon)), F(0.0f), gather(words + 1, word_of(photon))};
+      const BothDensities<F> both = densities(at, photon.wi, photon.density, counted);
+      return select(counted, frame_.weights.merging(weights_, y, both), F(0.0f));
+    };
+    const auto found = [&](const FoundPhoton<F>& photon, M counted, const Spectrum<F>& merged, const F& share) {
+      if (!tally_) return;
+      const auto* paths = reinterpret_cast<const std::uint32_t*>(words + 2);
+      const U light = gather(frame_.light_of_path, gather(paths, word_of(photon)));
+      tally_->template add<F>(
+          counted, path.throughput * merged * path.weight,
+          {path.depth + photon.events + U(1u), light, Technique::light_sampling, photon.events + U(2u), true, share});
+    };
+    const Spectrum<F> light = photons_->template radiance<F>(at, at.context, on, weight, found);
     path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
   }
 
   const Frame& frame_;
   const Scene& scene_;
   const LightVertices& light_;
+  LayerTally* tally_;
+  PixelBounds tile_{};
   std::optional<PhotonLookup> photons_;
   // Of the paths at hand: the weights so far, and whether all events were deltas.
   PartialWeights<F> weights_{F(0.0f), F(0.0f), F(0.0f)};

@@ -28,6 +28,8 @@ struct BidirectionalFrame {
   const LightMedia* light_media;       // null: the scene has no participating media
   const PhotonMap* photons = nullptr;  // to be merged with the eye's vertices; null: none are
   PhotonKernel kernel = PhotonKernel::epanechnikov;
+  // Of a pass with layers: by the number of a path from the lights the light where it starts; else null.
+  std::uint32_t* light_of_path = nullptr;
 
   float light_paths() const { return float(light_path_count); }
   // As many as are connected with the lens: no light arrives where camera rays go through the centres of pixels alone.
@@ -97,10 +99,12 @@ class LightSubpathSink {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  LightSubpathSink(const Frame& frame, Store store, bool splats, RayCounts& counts)
+  // `first`: these subpaths are followed for the first time in the frame.
+  LightSubpathSink(const Frame& frame, Store store, bool first, RayCounts& counts)
       : frame_(frame),
         store_(store),
-        splats_(splats),
+        notes_lights_(first),
+        splats_(first && frame.splat_paths() > 0),
         scale_(frame.scene.imaging_ratio / frame.light_paths()),
         lens_(frame.scene, frame.rays, frame.one_sided, frame.plane, counts) {}
 
@@ -121,6 +125,8 @@ class LightSubpathSink {
   void leave(const LightPathStart<F>& s, M on) {
     light_ = select(on, s.choice.index, light_);
     p_ = select<F>(on, s.emission.p, p_), n_ = select<F>(on, s.emission.n, n_);
+    if (frame_.light_of_path && notes_lights_)
+      for_each_lane(on, [&](int k) { frame_.light_of_path[lane(s.site.index, k)] = lane(s.choice.index, k); });
   }
 
   struct Query {
@@ -151,7 +157,8 @@ class LightSubpathSink {
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
                    v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-                  light, lit, [&](const F& passing) {
+                  light, lit, {v.path.depth + U(1u), light_, Technique::light_sampling, v.path.depth + U(2u)},
+                  [&](const F& passing) {
                     return frame_.weights.lens(weights_, both, lens.across, cos, frame_.splat_paths(), passing);
                   });
   }
@@ -189,7 +196,7 @@ class LightSubpathSink {
 
   const Frame& frame_;
   Store store_;
-  const bool splats_;
+  const bool notes_lights_, splats_;
   const float scale_;
   LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>, in_media> lens_;
   // Of the paths at hand: the light, where they left it, and the weights so far.
@@ -220,7 +227,7 @@ void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, std::
                                   Densities::exact,
                                   frame.light_media};
   using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store, in_media>;
-  Sink sink(frame, store, splatting == Splatting::on && frame.splat_paths() > 0, counts);
+  Sink sink(frame, store, splatting == Splatting::on, counts);
   LightWalk<F, Rays, Sink, Correction, in_media>(walk, sink, counts).run(count, [&](std::uint32_t i) {
     return PathSite<float>{0, 0, number_of(i)};
   });

@@ -37,9 +37,14 @@ class VcmChain final : public Chain {
         one_sided_(has_one_sided_surfaces(scene)),
         light_paths_(light_paths_of(settings, pass)),
         map_(2 * std::size_t(light_paths_), std::size_t(pass.bounds.area()), true),
-        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers),
+        light_of_path_(pass.layers ? light_paths_ : 0) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     const std::size_t number = pixel_number(tile.x0, tile.y0);
     const Frame frame = frame_of(step.frame);
     switch (step.stage) {
@@ -56,7 +61,7 @@ class VcmChain final : public Chain {
           map_.put_in_order(pixel_number(tile.x0, y), pixel_number(tile.x1, y), std::size_t(pass_.bounds.area()));
         return {};
       default:
-        return follow_eye(frame, tile, out);
+        return follow_eye(frame, tile, out, sums);
     }
   }
 
@@ -82,7 +87,8 @@ class VcmChain final : public Chain {
             light_paths_,
             light_media_ ? &*light_media_ : nullptr,
             &map_,
-            settings_.kernel};
+            settings_.kernel,
+            light_of_path_.empty() ? nullptr : light_of_path_.data()};
   }
 
   RayCounts follow_light(const Frame& frame, const PixelBounds& tile) {
@@ -102,7 +108,7 @@ class VcmChain final : public Chain {
                        lane(flux, k),
                        lane(v.path.depth, k),
                        lane(v.path.site.index, k),
-                       {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
+                       {lane(view.weights.vcm, k), lane(view.weights.vm, k), lane(v.path.site.index, k)}});
       });
     };
     follow_light_subpaths<F, AdjointCorrection, in_media>(
@@ -111,18 +117,18 @@ class VcmChain final : public Chain {
     return counts;
   }
 
-  RayCounts follow_eye(const Frame& frame, const PixelBounds& tile, std::span<PixelSample> out) {
+  RayCounts follow_eye(const Frame& frame, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) {
     RayCounts counts;
     LightVertices light(tile.area());
     if (settings_.paths.connect)
       light = light_vertices<F, AdjointCorrection, in_media>(frame, tile, Splatting::off, counts);
     std::fill(out.begin(), out.end(), PixelSample{});
-    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light).run(tile, out);
-    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x, ++i) {
-        const Rgb splats = plane_.take(x, y);
-        for (int c = 0; c < rgb_size; ++c) out[std::size_t(i)].radiance.c[c] += splats.c[c];
-      }
+    std::optional<LayerTally> tally;
+    if (pass_.layers) tally.emplace(*pass_.layers, 1, sums);
+    counts +=
+        EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, light, tally ? &*tally : nullptr).run(tile, out);
+    plane_.take_tile(tile, out, sums);
     return counts;
   }
 
@@ -136,6 +142,7 @@ class VcmChain final : public Chain {
   const std::uint32_t light_paths_;
   PhotonMap map_;
   SplatPlane plane_;
+  std::vector<std::uint32_t> light_of_path_;
 };
 
 }  // namespace

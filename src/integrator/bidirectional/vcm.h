@@ -21,6 +21,7 @@ class VcmIntegrator final : public CoupledIntegrator {
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
   int stages() const override { return 5; }
+  bool has_layers() const override { return true; }
   std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
 
  private:

@@ -45,20 +45,23 @@ class LensSplats {
     return lens;
   }
   // Splats the light that a place sends to the lens, where nothing is in between.
-  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on) {
-    connect(from, way, light, on, [](const F&) { return F(1.0f); });
+  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on,
+               const LightOrigin<F>& origin) {
+    connect(from, way, light, on, origin, [](const F&) { return F(1.0f); });
   }
   // weight(passing) is that of the light, as Transmitted has `passing`.
   template <class Weight>
-  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on, Weight weight) {
+  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on, LightOrigin<F> origin,
+               Weight weight) {
     if (!any(on)) return;
+    Spectrum<F> left;
     if constexpr (in_media) {
       const Transmitted<F> seen = transmission(from, way, on);
-      splat(way.lens.raster, light * seen.left * weight(seen.passing), on & !is_black(seen.left));
+      left = seen.left, origin.weight = weight(seen.passing), on = on & !is_black(left);
     } else {
-      splat(way.lens.raster, light * way.media.left(way.lens.distance) * weight(F(1.0f)),
-            on & !is_hidden(from, way, on));
+      left = way.media.left(way.lens.distance), origin.weight = weight(F(1.0f)), on = on & !is_hidden(from, way, on);
     }
+    splat(way.lens.raster, light * left * origin.weight, on, origin);
   }
   // What the lens sees of the sky along the ray: a share of its light.
   Spectrum<F> sky_seen(const Ray<F>& ray, const RandomStream<F>& random, M on) {
@@ -68,10 +71,16 @@ class LensSplats {
           .left;
     return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
-  void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on) {
+  void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
+    const bool has_layers = plane_.layers() != nullptr;
     for_each_lane(on, [&](int k) {
       const Rgb value = to_rgb(lane(light, k));
-      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value); });
+      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) {
+        if (has_layers)
+          plane_.add(place, value, lane_of(origin, k));
+        else
+          plane_.add(place, value);
+      });
     });
   }
 

@@ -59,13 +59,14 @@ struct AdjointCorrection {
   }
 };
 
-// A path that has left its light, as the sink sees it: the light, the ray, and the numbers of the path.
+// A path that has left its light, as the sink sees it: the light, the ray, the numbers of the path, and its own.
 template <class F>
 struct LightPathStart {
   const DiscreteSample<F>& choice;
   const LightEmission<F>& emission;
   const Sampler<F>& numbers;
   F time;
+  const PathSite<F>& site;
 };
 
 // A rough or smooth surface that a path has met, or an event in a medium. `flux` arrives there.
@@ -152,7 +153,7 @@ class LightWalk {
     F time = 0.0f;
     if (scene_.moves()) time = shared_.shutter.time(moment_of(site, numbers));
     const Spectrum<F> flux = e.flux * (F(1.0f) / choice.mass.value);
-    sink_.leave(LightPathStart<F>{choice, e, numbers, time}, M(on & e.valid));
+    sink_.leave(LightPathStart<F>{choice, e, numbers, time, site}, M(on & e.valid));
 
     const M carries = on & e.valid & !is_broken(flux, site, on & e.valid) & (max_component(flux) > F(0.0f));
     const M leaves = shared_.max_depth && *shared_.max_depth == 0 ? M(false) : carries;

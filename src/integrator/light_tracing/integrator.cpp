@@ -19,13 +19,16 @@ class LightTracingChain final : public Chain {
         light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
-        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter) {}
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers) {}
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     if (step.stage == 0)
       return settings_.lanes == Lanes::one ? follow<float>(step, tile) : follow<NativeFloats>(step, tile);
-    for (int y = tile.y0, i = 0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x, ++i) out[std::size_t(i)].radiance = plane_.take(x, y);
+    plane_.take_tile(tile, out, sums);
     return {};
   }
 

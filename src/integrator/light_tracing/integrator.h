@@ -23,6 +23,7 @@ class LightTracer final : public CoupledIntegrator {
   int frames() const override { return 16; }
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
+  bool has_layers() const override { return true; }
   std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
 
  private:

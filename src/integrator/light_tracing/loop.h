@@ -59,7 +59,10 @@ class LightTracingLoop {
   // ---- what the walk shows
 
   // Every valid ray starts somewhere that the lens may see.
-  void leave(const LightPathStart<F>& s, M on) { show_light(s.choice, s.emission, s.numbers, s.time, on); }
+  void leave(const LightPathStart<F>& s, M on) {
+    light_ = select(on, s.choice.index, light_);
+    show_light(s.choice, s.emission, s.numbers, s.time, on);
+  }
 
   struct Query {
     LensConnection<F> lens;
@@ -82,14 +85,18 @@ class LightTracingLoop {
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
                    v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-                  light, query.on & !is_black(light));
+                  light, query.on & !is_black(light), origin(v.path.depth + U(1u), light_));
   }
   // It shows in the pixel whose sample point the path has.
   void broken(F value, const PathSite<F>& site, M on) {
-    lens_.splat({to_float(site.x) + 0.5f, to_float(site.y) + 0.5f}, gray(value), on);
+    lens_.splat({to_float(site.x) + 0.5f, to_float(site.y) + 0.5f}, gray(value), on, origin(U(0u), light_));
   }
 
  private:
+  // The lens is the only vertex that is not drawn from the light.
+  static LightOrigin<F> origin(const U& bounces, const U& light) {
+    return {bounces, light, Technique::light_sampling, bounces + U(1u)};
+  }
   void show_light(const DiscreteSample<F>& choice, const LightEmission<F>& e, const Sampler<F>& numbers, const F& time,
                   M on) {
     const Vec2<F> lens_u = numbers.get2(U(light_dimension::lens));
@@ -103,7 +110,7 @@ class LightTracingLoop {
       Media<F> media = no_media<F>();
       if constexpr (in_media)
         media = shared_.light_media->template around<F>(scene_.media, choice.index, (cos > F(0.0f)) ^ e.behind, lit);
-      lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, light, lit);
+      lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, light, lit, origin(U(0u), choice.index));
     }
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
@@ -111,7 +118,8 @@ class LightTracingLoop {
     const M queries = beyond & lens.seen & shared_.plane.reaches(lens.raster);
     if (!any(queries)) return;
     const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
-    lens_.splat(lens.raster, light * lens_.sky_seen({lens.p, -e.d, F(ray_infinity), time}, random, queries), queries);
+    lens_.splat(lens.raster, light * lens_.sky_seen({lens.p, -e.d, F(ray_infinity), time}, random, queries), queries,
+                origin(U(0u), choice.index));
   }
 
   const LightTracingScene<Rays>& shared_;
@@ -119,6 +127,7 @@ class LightTracingLoop {
   const float scale_;  // of one path's light: a frame has one path for each pixel or cell of the pass
   RayCounts counts_;
   LensSplats<F, Rays, in_media> lens_;
+  U light_ = U(0u);  // of the paths at hand
 };
 
 }  // namespace montelux

@@ -50,9 +50,11 @@ class PhotonLookup {
       : map_(map), kernel_(kernel), nearest_(std::size_t(nearest)) {}
 
   // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
-  template <class F, class Share>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share) {
-    return any(on) ? scattered<F>(at, context, on, find<F>(at, on), share) : gray(F(0.0f));
+  // `sink(FoundPhoton, on, radiance, weight)` receives what each of them contributes.
+  template <class F, class Share, class PhotonSink>
+  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share,
+                       PhotonSink sink) {
+    return any(on) ? scattered<F>(at, context, on, find<F>(at, on), share, sink) : gray(F(0.0f));
   }
   // The same with the weight 1 or 0. Diffuse surfaces scatter the sum of their photons at once.
   template <class F>
@@ -76,9 +78,12 @@ class PhotonLookup {
       sum = select(diffuse, value.f_cos * irradiance, sum);
     }
     if (const Mask<F> others = on & !diffuse; any(others))
-      sum += scattered<F>(at, context, others, radius_squared, [&](const FoundPhoton<F>& photon, Mask<F>) {
-        return select((photon.density.value <= F(rules.glossy)) & (photon.events <= rules.room), F(1.0f), F(0.0f));
-      });
+      sum += scattered<F>(
+          at, context, others, radius_squared,
+          [&](const FoundPhoton<F>& photon, Mask<F>) {
+            return select((photon.density.value <= F(rules.glossy)) & (photon.events <= rules.room), F(1.0f), F(0.0f));
+          },
+          NoSink{});
     return sum;
   }
 
@@ -155,9 +160,9 @@ class PhotonLookup {
   }
 
   // What photons send along wo, one photon of each lane at a time.
-  template <class F, class Share>
+  template <class F, class Share, class PhotonSink>
   Spectrum<F> scattered(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const F& radius_squared,
-                        Share share) const {
+                        Share share, PhotonSink sink) const {
     using U = Uint<F>;
     std::size_t most = 0;
     for_each_lane(on, [&](int k) { most = std::max(most, near_[std::size_t(k)].count); });
@@ -181,14 +186,17 @@ class PhotonLookup {
       own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
       const Vec3<F> local = at.bsdf.frame.to_local(wi);
       const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, local, own);
-      const F counted = select(similar, share(FoundPhoton<F>{photon, events, local, value.density}, similar), F(0.0f));
+      const FoundPhoton<F> found{photon, events, local, value.density};
+      const F counted = select(similar, share(found, similar), F(0.0f));
       const Mask<F> counts = counted > F(0.0f);
       // Flux per area is irradiance on the surface itself, f |cos| scatters it by the shading normal.
       const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
       const F weight = kernel_weight<F>(kernel_, distance_squared, radius_squared) / cos * counted;
       Spectrum<F> flux;
       for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 3 + c, word);
-      sum += select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
+      const Spectrum<F> radiance = select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
+      sum += radiance;
+      sink(found, counts, radiance, counted);
     }
     return sum;
   }

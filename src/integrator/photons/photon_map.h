@@ -13,6 +13,7 @@ namespace montelux {
 // What photons carry where they share the light with other strategies; see PartialWeights.
 struct PhotonWeights {
   float vcm = 0, vm = 0;
+  std::uint32_t path = 0;  // the number of their path
 };
 
 // Flux that arrives at a rough surface.
