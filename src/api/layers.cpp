@@ -83,9 +83,9 @@ Result<LayerRequest> parse_layers(const std::string& text) {
     more = comma != std::string_view::npos;
     if (more) rest = rest.substr(comma + 1);
   }
+  if (request.alone && !request.strategies) return Failure{"alone needs strategies: state strategies as well"};
   if (!request.of_light() && (request.errors || !(request.motion || request.halves || request.intervals)))
     return Failure{"errors needs layers: state bounces, light-groups or strategies as well"};
-  if (request.alone && !request.strategies) return Failure{"alone needs strategies: state strategies as well"};
   return request;
 }
 

@@ -235,11 +235,33 @@ class Render(ProgramTest):
             self.assertIn(f"{name}.R\0".encode(), header)
             self.assertIn(f"{name}_stderr.B\0".encode(), header)
 
+    def test_layers_of_strategies_sum_to_the_picture_and_are_kept_in_films(self):
+        options = ["--layers", "strategies:1,alone,bounces:1", "--integrator", "vcm", "--samples-per-pass", "1"]
+        told = json.loads(self.render("--spp", "4", *options, "--json", "-o", "whole.exr").stdout)
+        connections = ["s0_t2", "s1_t1", "s0_t3", "s1_t2", "s2_t1"]
+        self.assertEqual(list(told["layers"]), [
+            "bounce0", "bounce1", "bounce_rest", *(f"strategy_{name}" for name in connections), "merging_s2_t2",
+            "strategy_rest", *(f"alone_{name}" for name in connections), "alone_merging_s2_t2"])
+        for channel in range(3):
+            total = sum(mean[channel] for name, mean in told["layers"].items() if name.startswith(("strategy", "merging")))
+            self.assertAlmostEqual(total, told["mean"][channel], delta=1e-12)
+            self.assertEqual(told["layers"]["strategy_s0_t2"], told["layers"]["bounce0"])
+        self.render("--spp", "2", *options, "--checkpoint", "part.film", "-o", "part.exr")
+        self.run_program("render", "--resume", "part.film", "--spp", "4", "-o", "resumed.exr")
+        for name in "whole.exr", "resumed.exr":
+            self.run_program("tonemap", name, "--layer", "alone_s1_t2", "-o", name.replace(".exr", ".png"))
+        self.assertEqual((self.folder / "whole.png").read_bytes(), (self.folder / "resumed.png").read_bytes())
+
     def test_layers_that_cannot_be_had_are_refused(self):
         for options, reason in (
             (["--layers", "bounce"], 'no layers "bounce"; valid: bounces'),
             (["--layers", "bounces:x"], "whole number from 0 to 64"),
-            (["--layers", "errors"], "or both as well"),
+            (["--layers", "errors"], "light-groups or strategies as well"),
+            (["--layers", "alone"], "alone needs strategies"),
+            (["--layers", "strategies:17", "--integrator", "bdpt"], "whole number from 0 to 16"),
+            (["--layers", "strategies", "--integrator", "path"], "path has no layers of strategies; light, bdpt and vcm"),
+            (["--layers", "bounces", "--integrator", "restir-di"], "the integrator restir-di has no layers"),
+            (["--layers", "bounces", "--integrator", "vcm:maxcomponent=2"], "maxcomponent=none"),
             (["--layers", "bounces", "-o", "room.png"], "need an .exr file"),
             (["--layers", "bounces", "--integrator", "tracepath"], "the integrator tracepath has no layers"),
             (["--layers", "bounces", "--set", "maxcomponent=2"], "maxcomponent=none"),
