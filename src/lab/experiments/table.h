@@ -14,14 +14,17 @@ extern const Experiment ris, uniform_reservoir, weighted_reservoir, merged_reser
 extern const Experiment one_light, russian_roulette, qmc_rates;
 // F: COS 526.
 extern const Experiment stratified_sampling, two_densities, phong_lobe, metropolis_chain;
+// T: the methods for light that path tracing hardly finds.
+extern const Experiment bidirectional_strategies, metropolis_picture, shrinking_radius, filling_cache;
 
 inline constexpr std::string_view group_k = "Rendering, ch. 14 (Yoon, KAIST)";
 inline constexpr std::string_view group_h = "CS348B lecture 6 (Hanrahan)";
 inline constexpr std::string_view group_r = "Resampling and reservoirs";
 inline constexpr std::string_view group_b = "Monte Carlo integrování (Bulant)";
 inline constexpr std::string_view group_f = "COS 526 (Funkhouser)";
+inline constexpr std::string_view group_t = "Light that is hard to find";
 
-inline constexpr std::array<const Experiment*, 24> experiment_table{&running_estimate,
+inline constexpr std::array<const Experiment*, 28> experiment_table{&running_estimate,
                                                                     &three_densities,
                                                                     &hemisphere_integral,
                                                                     &inverse_cdf,
@@ -44,6 +47,10 @@ inline constexpr std::array<const Experiment*, 24> experiment_table{&running_est
                                                                     &stratified_sampling,
                                                                     &two_densities,
                                                                     &phong_lobe,
-                                                                    &metropolis_chain};
+                                                                    &metropolis_chain,
+                                                                    &bidirectional_strategies,
+                                                                    &metropolis_picture,
+                                                                    &shrinking_radius,
+                                                                    &filling_cache};
 
 }  // namespace montelux::lab

@@ -137,7 +137,7 @@ TEST(StrategyLayers, sum_to_the_image_bit_for_bit_for_any_number_of_threads) {
         for (int x = b.x0; x < b.x1; ++x) {
           for (int i = 0; i < plan.count(); ++i)
             EXPECT_EQ(film.layers()->layer(x, y, i), same.layers()->layer(x, y, i)) << way << " " << i;
-          // The image is what it is without layers, but for the rounding of sums of floats.
+          // The image is what it is without layers, except for the rounding of sums of floats.
           for (int c = 0; c < rgb_size; ++c) {
             const double mean = plain.pixel(x, y).mean[c];
             EXPECT_NEAR(film.pixel(x, y).mean[c], mean, 4e-6 * mean + 1e-9) << way;
