@@ -11,6 +11,7 @@
 #include "integrator/direct/integrator.h"
 #include "integrator/distribution/integrator.h"
 #include "integrator/irradiance_cache/integrator.h"
+#include "integrator/light_paths/light_media.h"
 #include "integrator/light_tracing/integrator.h"
 #include "integrator/look/integrator.h"
 #include "integrator/metropolis/integrator.h"
@@ -470,6 +471,11 @@ void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defa
     chosen.missing.push_back(std::move(light.name));
     chosen.notes.push_back(std::move(light.sentence));
   }
+  if (shines_through_endless_medium(scene, accel))
+    chosen.notes.push_back(
+        "light from infinity comes through a medium that has no boundary: integrators differ in how much of it "
+        "arrives; "
+        "a closed surface of the material interface around the scene, with that medium inside, defines it");
 }
 
 Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const IntegratorDefaults& defaults,

@@ -52,4 +52,12 @@ std::optional<LightMedia> light_media(const Scene& scene, const Accel& accel) {
   return LightMedia(scene, accel);
 }
 
+bool shines_through_endless_medium(const Scene& scene, const Accel& accel) {
+  const std::optional<LightMedia> media = light_media(scene, accel);
+  if (!media) return false;
+  for (std::uint32_t i = 0; i < scene.lights.count(); ++i)
+    if (scene.lights.is_beyond<float>(i, true) && media->outside(i) != empty_space) return true;
+  return false;
+}
+
 }  // namespace montelux

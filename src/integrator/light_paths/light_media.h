@@ -23,6 +23,8 @@ class LightMedia {
     const U place = select(on, light, U(0u)) * U(2u) + select(outside, U(1u), U(0u));
     return media_of<F>(media, gather(sides_.data(), place));
   }
+  // The number of the medium on the outside of a light.
+  std::uint32_t outside(std::uint32_t light) const { return sides_[2 * std::size_t(light) + 1]; }
 
  private:
   std::vector<std::uint32_t> sides_;  // of each light: inside, outside
@@ -30,5 +32,9 @@ class LightMedia {
 
 // Those of a scene; none if it has no media, or no lights.
 std::optional<LightMedia> light_media(const Scene& scene, const Accel& accel);
+
+// Whether light from beyond the scene comes through a medium that no boundary ends: how much of it arrives is not
+// defined by the scene.
+bool shines_through_endless_medium(const Scene& scene, const Accel& accel);
 
 }  // namespace montelux

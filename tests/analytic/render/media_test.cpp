@@ -241,6 +241,29 @@ TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
     }
 }
 
+TEST(Media, without_a_boundary_are_named_where_light_comes_from_infinity) {
+  const std::string fog = R"(MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog"
+Camera "perspective" WorldBegin MediumInterface "fog" "fog" )";
+  const auto notes = [](const std::string& text) {
+    const TestScene scene(text);
+    std::size_t found = 0;
+    for (const char* way : {"path", "bdpt"}) {
+      ChosenIntegrator chosen = scene.integrator(way);
+      note_missing_light(chosen, {}, scene.scene(), scene.accel());
+      for (const std::string& note : chosen.notes) found += note.find("no boundary") != std::string::npos;
+    }
+    return found;
+  };
+  const std::string ball = R"( Shape "sphere" )", sky = R"( LightSource "infinite" )",
+                    sun = R"( LightSource "distant" )";
+  EXPECT_EQ(notes(fog + sky + ball), 2u);
+  EXPECT_EQ(notes(fog + sun + ball), 2u);
+  EXPECT_EQ(notes(fog + R"( LightSource "point" )" + ball), 0u);
+  EXPECT_EQ(
+      notes(fog + ball + R"( MediumInterface "fog" "" Material "interface" Shape "sphere" "float radius" 5 )" + sky),
+      0u);
+}
+
 TEST(Media, that_emit_are_named_by_light_tracing_which_misses_them) {
   const auto missing = [](const Coefficients& emission) {
     return TestScene(slab_scene({{1, 1, 1}, {0, 0, 0}, 0, emission}, 1, 3)).integrator("light").missing;
