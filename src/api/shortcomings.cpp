@@ -27,8 +27,9 @@ std::vector<std::string> missing_light_of(const LoadedScene& scene) {
   const LoadedScene::Parts& parts = scene.parts();
   const IntegratorDefaults defaults = integrator_defaults(parts.picture);
   std::vector<std::string> names;
-  for (const MissingLight& light : missing_light(light_search(parts.picture.integrator), parts.scene, *parts.accel,
-                                                 defaults.width, defaults.height))
+  const std::string& stated = parts.picture.integrator;
+  for (const MissingLight& light : missing_light(light_search(stated), parts.scene, *parts.accel, defaults.width,
+                                                 defaults.height, chain_length(stated)))
     names.push_back(light.name);
   return names;
 }

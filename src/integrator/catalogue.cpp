@@ -79,8 +79,11 @@ Made make_path(const Request& r) {
   auto settings = path_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
   if (naive) settings->nee = false;
+  if (settings->manifold > 0 && !r.scene.media.empty())
+    return Failure{"the scene has participating media, through which manifold does not look for light (manifold=off)"};
   settings->width = r.defaults.width, settings->height = r.defaults.height;
   ChosenIntegrator chosen = made(naive ? "naive" : "path", std::make_unique<PathTracer>(r.scene, r.accel, *settings));
+  chosen.chain_length = settings->manifold;
   note_depth(chosen, r.max_depth);
   return chosen;
 }
@@ -461,13 +464,23 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
 LightSearch light_search(std::string_view text) {
   const std::string_view name = text.substr(0, text.find(':'));
   for (const Row& row : rows())
-    if (row.spec.name == name) return row.search;
+    if (row.spec.name == name) return chain_length(text) > 0 ? LightSearch::with_chains : row.search;
   return LightSearch::none;
+}
+
+int chain_length(std::string_view text) {
+  const auto choice = parse_choice(text);
+  if (!choice || choice->name != "path") return 0;
+  const auto read = read_choice(*choice);
+  if (!read) return 0;
+  const auto settings = path_settings(read->second, 1);
+  return settings ? settings->manifold : 0;
 }
 
 void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defaults, const Scene& scene,
                         const Accel& accel) {
-  for (MissingLight& light : missing_light(chosen.search, scene, accel, defaults.width, defaults.height)) {
+  for (MissingLight& light :
+       missing_light(chosen.search, scene, accel, defaults.width, defaults.height, chosen.chain_length)) {
     chosen.missing.push_back(std::move(light.name));
     chosen.notes.push_back(std::move(light.sentence));
   }
@@ -506,6 +519,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   // No light arrives where camera rays go through the centres of pixels alone.
   const bool one_end = scene.pixel_centres && row->search == LightSearch::both_ends;
   result->search = one_end ? LightSearch::any_length : row->search, result->content = row->content;
+  if (result->chain_length > 0) result->search = LightSearch::with_chains;
   if (limit) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *limit);

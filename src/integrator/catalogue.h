@@ -43,6 +43,7 @@ struct ChosenIntegrator {
   std::vector<std::string> notes;               // the same for people, in sentences
   std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels share samples
   LightSearch search = LightSearch::any_length;
+  int chain_length = 0;                // of LightSearch::with_chains: specular events of a connection at most
   Content content = Content::light;    // what its pictures hold, and so how they are displayed
   std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
   AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
@@ -58,6 +59,8 @@ void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defa
 
 // How an integrator of the catalogue looks for light; `text`: its name, perhaps with settings.
 LightSearch light_search(std::string_view text);
+// Its ChosenIntegrator::chain_length.
+int chain_length(std::string_view text);
 
 // Whether name and settings are in the catalogue, for a message before the scene is read.
 Status check_integrator(const ChoiceText& choice);

@@ -7,7 +7,7 @@
 
 #include "integrator/catalogue.h"
 #include "integrator/first_vertex.h"
-#include "scene/smoothness.h"
+#include "integrator/smooth_walks.h"
 
 namespace montelux {
 
@@ -16,79 +16,6 @@ namespace {
 // Walks that are followed in any case, and where none of them finds anything.
 constexpr std::uint32_t usual_walks = 1024, longest_search = 16384;
 constexpr int deepest = 16;
-
-// Surfaces that may have a smooth part: rows of the world, and instances with the rows of their objects.
-class SmoothTargets {
- public:
-  explicit SmoothTargets(const Scene& scene) : scene_(scene) {
-    const GeometryStore& g = scene.geometry;
-    std::vector<bool> smooth;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) smooth.push_back(may_be_smooth(scene.materials, i));
-    const auto take = [&](std::size_t first, std::size_t count, std::vector<std::uint32_t>& rows) {
-      for (std::size_t i = first; i < first + count; ++i)
-        if (smooth[g.rows[i].material] && g.rows[i].kind != GeometryKind::curves) rows.push_back(std::uint32_t(i));
-    };
-    take(0, g.world_rows, world_);
-    objects_.resize(g.objects.size());
-    for (std::size_t i = 0; i < g.objects.size(); ++i) take(g.objects[i].first, g.objects[i].count, objects_[i]);
-    for (std::uint32_t i = 0; i < g.instances.size(); ++i)
-      if (!objects_[g.instances[i].object].empty()) instances_.push_back(i);
-  }
-  bool empty() const { return world_.empty() && instances_.empty(); }
-
-  // A point of one of them, where it is at the start of the time.
-  Vec3f point(RandomStream<float>& random) const {
-    const std::size_t i = pick(random, world_.size() + instances_.size());
-    if (i < world_.size()) return point_of_row(world_[i], random);
-    const PlacedObject& placed = scene_.geometry.instances[instances_[i - world_.size()]];
-    const auto& rows = objects_[placed.object];
-    return placed.object_to_world.point(point_of_row(rows[pick(random, rows.size())], random));
-  }
-
- private:
-  static std::size_t pick(RandomStream<float>& random, std::size_t count) {
-    return std::min(std::size_t(double(random.next()) * double(count)), count - 1);
-  }
-  Vec3f point_of_row(std::uint32_t number, RandomStream<float>& random) const {
-    const GeometryStore& g = scene_.geometry;
-    const GeometryRow& row = g.rows[number];
-    Vec2f u = random.next2();
-    if (row.kind == GeometryKind::shape) return sample_area(g.shapes[row.first], u).point.p;
-    const auto& corners = g.triangles[row.first + pick(random, row.count)];
-    if (u.x + u.y > 1) u = {1 - u.x, 1 - u.y};
-    const Vec3f a = g.positions[corners[0]], b = g.positions[corners[1]], c = g.positions[corners[2]];
-    return a + (b - a) * u.x + (c - a) * u.y;
-  }
-
-  const Scene& scene_;
-  std::vector<std::uint32_t> world_, instances_;
-  std::vector<std::vector<std::uint32_t>> objects_;
-};
-
-// Follows light from `light` toward `target`. The model of the smooth surface that it meets first, where it comes by
-// smooth surfaces alone to one that is rough, at least in part.
-std::optional<BsdfKind> follow(const Scene& scene, const Accel& accel, LightId light, const Vec3f& target,
-                               RandomStream<float> random) {
-  using F = float;
-  const Vec3f zero{0, 0, 0};
-  const LightSample<F> from = scene.lights.sample_light<F>(std::uint32_t(light), target, zero, random.next2(), true);
-  if (!from.valid || !(max_component(from.radiance) > 0)) return std::nullopt;
-  Ray<F> ray{target + from.wi * from.distance, -from.wi, ray_infinity, scene.shutter.time(random.next())};
-  std::optional<BsdfKind> first;
-  std::uint64_t traced = 0;
-  for (int depth = 0; depth < deepest; ++depth) {
-    const NextVertex<F> at = next_vertex<F>(scene, accel, free_point(ray.o), ray, true,
-                                            random.fork(std::uint32_t(depth)), traced, NoWeight{});
-    if (!at.found) return std::nullopt;
-    if (first && !at.bsdf.is_delta) return first;
-    const Vec2f u = random.next2();
-    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo, {random.next(), u.x, u.y}, at.context);
-    if (!next.valid || !next.delta || !(max_component(next.weight) > 0)) return std::nullopt;
-    if (!first) first = BsdfKind(at.bsdf.kind);
-    ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
-  }
-  return std::nullopt;
-}
 
 // "point lights", "point and spot lights".
 template <class Kind, class Name>
@@ -110,6 +37,19 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
                       "and bdpt what the camera sees of it directly (and a small sphere that shines, in the light's "
                       "place, is found)",
                       lights, surfaces)};
+}
+
+// Of path:manifold.
+MissingLight missing_long_chains(const DeltaCaustics& caustics, int chain_length) {
+  const std::string lights =
+      list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
+  const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
+  return {fmt::format("light of {} lights through smooth surfaces that manifold={} does not pass ({})", lights,
+                      chain_length, surfaces),
+          fmt::format("light of {} lights that reaches surfaces by way of more than {} smooth surfaces, or of smooth "
+                      "ones with coats or normal maps, may be missing ({}): manifold={} does not look for it (a larger "
+                      "number finds longer ways; sppm, photonmap and vcm find all)",
+                      lights, chain_length, surfaces, chain_length)};
 }
 
 // Follows a camera ray by smooth surfaces alone. The model of the first of them, where the ray comes to light or to a
@@ -161,7 +101,7 @@ std::optional<MissingLight> missing_reflections(const std::vector<BsdfKind>& see
 
 }  // namespace
 
-DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel) {
+DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel, int chain_length) {
   if (!scene.lights.has_delta()) return {};
   const SmoothTargets targets(scene);
   if (targets.empty()) return {};
@@ -169,6 +109,9 @@ DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel) {
   for (std::uint32_t i = 0; i < scene.lights.count(); ++i)
     if (is_delta(scene.lights.kind(LightId(i)))) lights.push_back(LightId(i));
   const RandomStream<float> all(0x243f6a88u, 0x85a308d3u);
+  const auto is_missing = [&](const SmoothChain& chain) {
+    return !chain.is_plain || int(chain.reflects.size()) > chain_length;
+  };
   std::set<LightKind> kinds;
   std::set<BsdfKind> surfaces;
   for (std::uint32_t i = 0; i < (kinds.empty() ? longest_search : usual_walks); ++i) {
@@ -176,8 +119,8 @@ DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel) {
     // Every light has its turn, and a target of its own each time.
     const LightId light = lights[i % lights.size()];
     const Vec3f target = targets.point(random);
-    if (const auto surface = follow(scene, accel, light, target, random))
-      kinds.insert(scene.lights.kind(light)), surfaces.insert(*surface);
+    if (const auto chain = follow_light(scene, accel, light, target, random, is_missing))
+      kinds.insert(scene.lights.kind(light)), surfaces.insert(chain->first);
   }
   return {{kinds.begin(), kinds.end()}, {surfaces.begin(), surfaces.end()}};
 }
@@ -222,12 +165,15 @@ std::vector<BsdfKind> smooth_surfaces_in_view(const Scene& scene, const Accel& a
 }
 
 std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, const Accel& accel, int width,
-                                        int height) {
+                                        int height, int chain_length) {
   const auto misses = [search](PathClass c) { return finding(search, c) == Finding::no; };
   std::vector<MissingLight> missing;
   if (misses(PathClass::lsde_delta))
     if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
       missing.push_back(missing_caustics(caustics));
+  if (search == LightSearch::with_chains)
+    if (const DeltaCaustics caustics = delta_caustics(scene, accel, chain_length); caustics.any())
+      missing.push_back(missing_long_chains(caustics, chain_length));
   if (search == LightSearch::both_ends && misses(PathClass::lsdse_delta))
     if (const DeltaCaustics caustics = delta_caustics(scene, accel); caustics.any())
       if (const auto light = missing_reflected_caustics(caustics, smooth_surfaces_in_view(scene, accel, width, height)))

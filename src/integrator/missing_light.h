@@ -18,8 +18,9 @@ struct DeltaCaustics {
 
 // Follows light from the scene's delta lights: what it finds is there; what is smaller than a few thousandths of all
 // that it looks at may escape it. A rough surface counts whatever its colour. Takes no time where a scene has no delta
-// lights or no smooth surfaces, else some milliseconds. A pure function of the scene.
-DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel);
+// lights or no smooth surfaces, else some milliseconds. A pure function of the scene. Without the light of chains of up
+// to `chain_length` surfaces that are is_plain_specular(), which path:manifold finds.
+DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel, int chain_length = 0);
 
 // Models of smooth surfaces through which, or in which, the camera sees light or rough surfaces, by some thousand
 // camera rays of a picture of this size. A pure function of the scene.
@@ -35,7 +36,8 @@ struct MissingLight {
 };
 
 // What an integrator that looks for light so does not find in this scene; nothing where it finds all that was seen.
+// `chain_length`: of LightSearch::with_chains.
 std::vector<MissingLight> missing_light(LightSearch search, const Scene& scene, const Accel& accel, int width,
-                                        int height);
+                                        int height, int chain_length = 0);
 
 }  // namespace montelux

@@ -10,6 +10,8 @@ using enum Finding;
 // In the order of PathClass. Paths from the eye end at a lamp, or by a light sample at a rough surface: light of a
 // delta light whose first event is at a smooth surface is found in neither way.
 constexpr std::array<Finding, class_count> any_length_row{yes, yes, yes, yes, yes, yes, by_chance, by_chance, no, no};
+constexpr std::array<Finding, class_count> with_chains_row{yes, yes,       yes,       yes,          yes,
+                                                           yes, by_chance, by_chance, short_chains, short_chains};
 constexpr std::array<Finding, class_count> one_event_row{yes, yes, yes, no, no, no, no, no, no, no};
 constexpr std::array<Finding, class_count> diffuse_row{yes, yes,     refused, refused, refused,
                                                        yes, refused, refused, refused, refused};
@@ -31,6 +33,8 @@ std::optional<Finding> finding(LightSearch search, PathClass path_class) {
   switch (search) {
     case LightSearch::any_length:
       return any_length_row[column];
+    case LightSearch::with_chains:
+      return with_chains_row[column];
     case LightSearch::one_event:
       return one_event_row[column];
     case LightSearch::diffuse:

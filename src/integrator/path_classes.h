@@ -14,14 +14,16 @@ inline constexpr std::array<std::string_view, 10> path_class_names{
     "LE", "LDE", "LSE", "LSSE", "LDSE", "LDD+E", "LSDE", "LSDSE", "LSDE of delta lights", "LSDSE of delta lights"};
 
 // `by_chance`: without bias, where a path from the eye happens to meet the lamp. `refused`: scenes with such paths are
-// not rendered at all.
-enum class Finding { yes, by_chance, no, refused };
-inline constexpr std::array<std::string_view, 4> finding_names{"yes", "by chance", "no", "refused"};
+// not rendered at all. `short_chains`: where there are no more specular events between the lamp and the rough surface
+// than a setting states.
+enum class Finding { yes, by_chance, no, refused, short_chains };
+inline constexpr std::array<std::string_view, 5> finding_names{"yes", "by chance", "no", "refused", "short chains"};
 
-// How an integrator looks for light: by paths of any length from the eye, by one scattering event, between diffuse
-// surfaces alone, by paths from the lights whose vertices it connects with the lens, by paths from both ends that are
-// connected, by photons, or not at all, since its pictures show something else.
-enum class LightSearch { any_length, one_event, diffuse, from_lights, both_ends, photons, none };
+// How an integrator looks for light: by paths of any length from the eye, the same with connections to delta lights
+// through specular chains, by one scattering event, between diffuse surfaces alone, by paths from the lights whose
+// vertices it connects with the lens, by paths from both ends that are connected, by photons, or not at all, since its
+// pictures show something else.
+enum class LightSearch { any_length, with_chains, one_event, diffuse, from_lights, both_ends, photons, none };
 
 // None where an integrator does not show light.
 std::optional<Finding> finding(LightSearch search, PathClass path_class);

@@ -49,6 +49,22 @@ bool is_partly_smooth(const Material& material) {
   return !material.bindings.empty() || !is_delta<float>({std::uint32_t(material.kind), &material.row, true});
 }
 
+bool is_smooth_but_not_plain(const Material& material) {
+  if (!is_smooth(material)) return false;
+  if (material.has_any_normal_map()) return true;
+  switch (material.kind) {
+    case BsdfKind::conductor:
+    case BsdfKind::thin_dielectric:
+      return false;
+    case BsdfKind::dielectric:
+    case BsdfKind::tinted_dielectric:
+      return std::ranges::any_of(material.bindings,
+                                 [](const RowBinding& binding) { return binding.slot == DielectricSlots::eta; });
+    default:
+      return true;
+  }
+}
+
 // Whether the condition holds for the material, or for a part of a mixture.
 bool any_part(const MaterialSet& materials, std::size_t number, bool (&condition)(const Material&)) {
   const Material& material = materials[number];
@@ -63,6 +79,10 @@ bool any_part(const MaterialSet& materials, std::size_t number, bool (&condition
 bool may_be_smooth(const MaterialSet& materials, std::size_t number) { return any_part(materials, number, is_smooth); }
 bool may_be_partly_smooth(const MaterialSet& materials, std::size_t number) {
   return any_part(materials, number, is_partly_smooth);
+}
+
+bool is_plain_specular(const MaterialSet& materials, std::size_t number) {
+  return may_be_smooth(materials, number) && !any_part(materials, number, is_smooth_but_not_plain);
 }
 
 }  // namespace montelux

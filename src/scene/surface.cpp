@@ -3,6 +3,7 @@
 #include "math/affine.h"
 #include "math/prefetch.h"
 #include "math/row_gather.h"
+#include "scene/placement.h"
 
 namespace montelux {
 
@@ -213,16 +214,6 @@ void place_instances(const GeometryStore& store, const Hit<F>& hit, F time, Surf
   s.ns = select<F>(placed, normalize(to_object.transposed(s.ns)), s.ns);
 }
 
-// The map of an instance at a time.
-Transform place_at(const GeometryStore& store, std::uint32_t instance, float time) {
-  const PlacedObject& placed = store.instances[instance];
-  if (placed.keys.count < 2) return placed.object_to_world;
-  const Affine<float> map = moving_place<float>(store, instance, time).to_world;
-  Matrix4 m;
-  for (std::size_t i = 0; i < 12; ++i) m.m[i / 4][i % 4] = double(map.m[i]);
-  return from_matrix(m).value_or(placed.object_to_world);
-}
-
 // A ray in the space of the instance.
 Ray<float> to_object_space(const GeometryStore& store, std::uint32_t instance, Ray<float> ray) {
   if (instance == 0) return ray;
@@ -245,6 +236,21 @@ void set_lane(SurfacePoint<F>& s, int k, const SurfacePoint<float>& x) {
 }
 
 }  // namespace
+
+Transform place_at(const GeometryStore& store, std::uint32_t instance, float time) {
+  const PlacedObject& placed = store.instances[instance];
+  if (placed.keys.count < 2) return placed.object_to_world;
+  const Affine<float> map = moving_place<float>(store, instance, time).to_world;
+  Matrix4 m;
+  for (std::size_t i = 0; i < 12; ++i) m.m[i / 4][i % 4] = double(map.m[i]);
+  return from_matrix(m).value_or(placed.object_to_world);
+}
+
+PoseTime pose_time(const GeometryRow& row, float time) {
+  if (row.poses < 2) return {};
+  const TimeStep<float> step = time_step<float>(time, row.poses);
+  return {step.first, step.first + 1, step.fraction};
+}
 
 template <class F>
 SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on) {

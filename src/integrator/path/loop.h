@@ -1,6 +1,7 @@
 // The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
 #pragma once
 #include "integrator/features.h"
+#include "integrator/manifold/chain_light.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
 #include "integrator/path/path_recorder.h"
@@ -250,6 +251,17 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};
       });
     }
+
+    // Light of delta lights that comes through mirrors and smooth glass.
+    if constexpr (!in_media)
+      if (settings.manifold_light && any(wants_light)) {
+        const ChainLight<F> chain =
+            chain_light<F>(*settings.manifold_light, stored(v), wants_light, max_depth - path.depth, counts.shadow);
+        gather_light(path, wants_light & (max_component(chain.light) > F(0.0f)), path.throughput * chain.light, tally,
+                     [&] {
+                       return LightOrigin<F>{path.depth + chain.events, chain.number, Technique::light_sampling};
+                     });
+      }
 
     // Light that the source of the paths knows to come by way of other surfaces; it ends such paths.
     if constexpr (requires { source.indirect_light(path, v, scatters); })

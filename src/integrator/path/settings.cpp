@@ -92,7 +92,11 @@ Fields<PathSettings> light_fields() {
       .text("light-selection",
             "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one of that many by bvh, by what each "
             "would contribute); default: as stated by the scene",
-            read_light_selection);
+            read_light_selection)
+      .choice<int>("manifold", &PathSettings::manifold,
+                   "specular events at most between a rough surface and a point, spot, goniometric, projection or "
+                   "distant light, whose light is looked for there by walks on manifolds",
+                   {{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"off", 0}});
   return fields;
 }
 

@@ -9,6 +9,7 @@
 
 namespace montelux {
 
+class ManifoldLight;
 class SurvivalMap;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
@@ -46,6 +47,10 @@ struct PathSettings {
   std::optional<LightSelection> light_selection;
   // Next-event estimation by one out of so many candidates, chosen by their contributions; 0: by a single one.
   int candidates = 0;
+  // Specular events at most between a rough surface and a delta light whose light is looked for by walks on manifolds;
+  // 0: none. What looks for it, made where there is none.
+  int manifold = 0;
+  std::shared_ptr<const ManifoldLight> manifold_light;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;

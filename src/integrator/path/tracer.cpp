@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/manifold/manifold_light.h"
 #include "integrator/path/loop.h"
 #include "integrator/path/media_paths.h"
 
@@ -12,6 +13,8 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
+  if (settings.manifold > 0 && !settings.manifold_light)
+    settings_.manifold_light = ManifoldLight::make(scene, accel, settings.manifold);
   if (settings.roulette == PathRoulette::efficiency && !settings.survival)
     settings_.survival = std::make_shared<SurvivalMap>(run_pilot());
 }

@@ -1,0 +1,105 @@
+#include "integrator/manifold/chain.h"
+
+#include "material/specular_lobe.h"
+#include "scene/normal_gradient.h"
+#include "scene/smoothness.h"
+#include "transport/vertex.h"
+
+namespace montelux {
+
+namespace {
+
+// Surfaces that one segment crosses without an event have numbers of their own.
+constexpr std::uint32_t numbers_per_event = 1u << 16;
+
+// A ray and its derivatives.
+struct RayDifferential {
+  Vec3d p, d;
+  std::array<Vec3d, 2> dp, dd;
+
+  // To the point at the distance t, where the surface has the geometric normal ng (Igehy 1999, eq. 10 to 12).
+  void move(double t, const Vec3d& ng) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Vec3d moved = dp[j] + dd[j] * t;
+      dp[j] = moved - d * (dot(ng, moved) / dot(ng, d));
+    }
+  }
+  // At the shading normal n (unit, against d), which changes by dn.
+  void reflect(const Vec3d& n, const std::array<Vec3d, 2>& dn) {
+    const double c = dot(d, n);
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double dc = dot(dd[j], n) + dot(d, dn[j]);
+      dd[j] = dd[j] - (n * dc + dn[j] * c) * 2.0;
+    }
+    d = unit(d - n * (2 * c));
+  }
+  // False at total internal reflection.
+  bool refract(const Vec3d& n, const std::array<Vec3d, 2>& dn, double relative_eta) {
+    const double ratio = 1 / relative_eta, c = -dot(d, n), squared = 1 - ratio * ratio * (1 - c * c);
+    if (!(squared > 0)) return false;
+    const double cos_t = std::sqrt(squared), along = ratio * c - cos_t;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double dc = -(dot(dd[j], n) + dot(d, dn[j])), dcos_t = ratio * ratio * c * dc / cos_t;
+      dd[j] = dd[j] * ratio + n * (ratio * dc - dcos_t) + dn[j] * along;
+    }
+    d = unit(d * ratio + n * along);
+    return true;
+  }
+};
+
+}  // namespace
+
+ChainTracer::ChainTracer(const Scene& scene, const Accel& accel) : scene_(scene), accel_(accel) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) caster_.push_back(is_plain_specular(scene.materials, i));
+}
+
+bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind,
+                        const RandomStream<float>& random, SpecularChain& chain, std::uint64_t& rays) const {
+  using F = float;
+  const Frame<F> frame = Frame<F>::from_normal(w);
+  chain.w = w, chain.s = frame.s, chain.t = frame.t, chain.left = gray(1.0f), chain.at = {};
+  RayDifferential r{to_double(from.p), to_double(w), {}, {to_double(frame.s), to_double(frame.t)}};
+  r.dp = {Vec3d{0, 0, 0}, Vec3d{0, 0, 0}};
+  Ray<F> ray = from.ray_toward(w);
+  Media<F> media = from.media_toward(w);
+  std::uint32_t events = 0, crossings = 0;
+  double distance = 0;  // since the last event
+  while (events < kind.length) {
+    ++rays;
+    const auto met = accel_.trace<F>(ray, true);
+    if (!met.found) return false;
+    const Vertex<F> v(scene_, {ray, met.hit, media}, {true, true},
+                      {TransportMode::radiance, random.fork(events * numbers_per_event + crossings)});
+    distance += double(v.x.distance);
+    chain.left *= v.media.along_wo().left(v.x.distance);
+    if (v.bsdf.is_interface) {
+      media = v.media_toward(ray.d), ray = v.ray_toward(ray.d), ++crossings;
+      continue;
+    }
+    if (!v.bsdf.is_delta || !caster_[v.x.material] || v.x.ray_facing) return false;
+    const bool reflects = kind.reflects(events);
+    const SpecularLobe lobe = specular_lobe(BsdfKind(v.bsdf.kind), v.bsdf.slots, v.wo.z, reflects);
+    chain.left *= lobe.weight;
+    if (!(max_component(chain.left) > 0)) return false;
+
+    const Vec3d ng = to_double(v.x.point.ng), ns = to_double(v.bsdf.frame.n);
+    const double side = dot(ns, r.d) > 0 ? -1 : 1;
+    if (std::abs(dot(ng, r.d)) < 1e-6) return false;
+    r.move(distance, ng);
+    r.p = to_double(v.x.point.p);
+    const NormalGradient gradient = normal_gradient(scene_.geometry, met.hit, v.x.point.p, v.bsdf.frame.n, ray.time);
+    const std::array<Vec3d, 2> dn{gradient.along(r.dp[0]) * side, gradient.along(r.dp[1]) * side};
+    if (reflects)
+      r.reflect(ns * side, dn);
+    else if (lobe.relative_eta != 1 && !r.refract(ns * side, dn, double(lobe.relative_eta)))
+      return false;
+    chain.at[events] = {met.hit.geometry, met.hit.instance};
+    const Vec3f onward = to_float(r.d);
+    if (++events == kind.length) chain.last = stored(v);
+    media = v.media_toward(onward), ray = v.ray_toward(onward), crossings = 0, distance = 0;
+  }
+  chain.p = r.p, chain.d = r.d, chain.dp = r.dp, chain.dd = r.dd;
+  return true;
+}
+
+}  // namespace montelux
