@@ -99,7 +99,7 @@ def mean_over_window(formula, half=WIDE, n=40):
 
 
 ALL = ["path", "naive", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "metropolis",
-       "irradiance-cache"]
+       "irradiance-cache", "path:manifold=2"]
 SCENES = {
     # name: class, title, camera, world, formula, who finds it besides paths from the eye (none: those do not)
     "le": ("LE", "A lamp.", LEVEL, lamp(2, (-1, -1, 0), (-1, 1, 0), (1, 1, 0), (1, -1, 0)), "2", ["direct"]),
@@ -140,6 +140,8 @@ if __name__ == "__main__":
             entries[-1]["wide"] = {"side": WIDE, "value": float("%.9g" % mean_over_window(WIDE_FORMULAS[name]))}
         if entries[-1]["found_by"]:  # by either of the two, and so by both together
             entries[-1]["found_by"].append("bdpt")
+        if more is None:  # a light that no ray meets, behind one mirror
+            entries[-1]["found_by"].append("path:manifold=2")
         entries[-1]["found_by"] += ["sppm", "photonmap", "vcm"]
         if name in PHOTONS:
             half, radius, photons, replacements = PHOTONS[name]

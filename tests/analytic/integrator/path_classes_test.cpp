@@ -19,6 +19,7 @@ const std::filesystem::path folder = std::filesystem::path(MONTELUX_SOURCE_DIR) 
 constexpr int samples_per_pass = 48;
 constexpr double rounding = 1e-5;
 const std::vector<std::string> ways{"path",
+                                    "path:manifold=2",
                                     "naive",
                                     "distribution:branching=1",
                                     "tracepath",
@@ -36,6 +37,10 @@ const std::vector<std::string> ways{"path",
                                     "irradiance-cache:samples=2048"};
 std::string name_of(const std::string& way) { return way.substr(0, way.find(':')); }
 
+// A setting that decides which light is looked for, so that the way has a search of its own.
+bool has_chains(const std::string& way) { return chain_length(way) > 0; }
+LightSearch search_of(const std::string& way) { return light_search(has_chains(way) ? way : name_of(way)); }
+
 struct PhotonSettings {
   double radius;
   int photons;  // in each of so many frames
@@ -51,6 +56,7 @@ struct PathClass {
   double photon_window = 0, photon_floor = 0, photon_value = 0;
   PhotonSettings photon_settings{};
   std::vector<std::pair<std::string, std::string>> photon_changes{};
+  bool is_found_by(const std::string& way) const { return found_by.contains(has_chains(way) ? way : name_of(way)); }
   montelux::PathClass path_class() const {
     const auto at = std::find(path_class_names.begin(), path_class_names.end(), paths);
     EXPECT_NE(at, path_class_names.end()) << paths;
@@ -133,7 +139,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
   const PathClass& c = GetParam();
   const TestScene scene(read_text(folder / c.scene), folder.string());
   for (const std::string& way : ways) {
-    const LightSearch search = light_search(name_of(way));
+    const LightSearch search = search_of(way);
     const bool from_lights = search == LightSearch::from_lights;
     if ((from_lights || (search == LightSearch::both_ends && c.wide_side > 0)) && c.found_by.contains(way)) {
       const TestScene wide(wide_text(c, c.wide_side, c.wide_side), folder.string());
@@ -143,7 +149,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
       EXPECT_FALSE(agrees(m, 1.1 * c.wide_value)) << m.standard_error / m.mean;
       continue;
     }
-    if (light_search(name_of(way)) == LightSearch::photons && c.photon_window > 0) {
+    if (search == LightSearch::photons && c.photon_window > 0) {
       const TestScene wide(photon_text(c), folder.string());
       const Measured m = measure(wide, with_photons(way, c.photon_settings), c.photon_settings.frames);
       EXPECT_TRUE(agrees(m, c.photon_value))
@@ -152,7 +158,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
       continue;
     }
     const Measured m = measure(scene, way);
-    if (!c.found_by.contains(name_of(way))) {
+    if (!c.is_found_by(way)) {
       EXPECT_EQ(m.mean, 0) << way;
       continue;
     }
@@ -167,8 +173,7 @@ TEST_P(PathClasses, are_found_by_those_whose_paths_they_are_and_by_nobody_else) 
 TEST_P(PathClasses, are_in_the_table_of_findings) {
   const PathClass& c = GetParam();
   for (const std::string& way : ways)
-    EXPECT_EQ(finding(light_search(name_of(way)), c.path_class()) != Finding::no, c.found_by.contains(name_of(way)))
-        << way;
+    EXPECT_EQ(finding(search_of(way), c.path_class()) != Finding::no, c.is_found_by(way)) << way;
 }
 
 // Both directions: where light is missing it is named, and where nothing is missing there is no warning.
@@ -179,7 +184,7 @@ TEST_P(PathClasses, that_are_missing_are_named_and_no_others) {
     ChosenIntegrator chosen = scene.integrator(way);
     const std::size_t notes = chosen.notes.size();
     note_missing_light(chosen, {{}, {}, scene.picture().width, scene.picture().height}, scene.scene(), scene.accel());
-    EXPECT_EQ(chosen.missing.empty(), c.found_by.contains(name_of(way))) << way;
+    EXPECT_EQ(chosen.missing.empty(), c.is_found_by(way)) << way;
     EXPECT_EQ(chosen.notes.size() - notes, chosen.missing.size()) << way;
   }
 }
@@ -228,11 +233,12 @@ TEST(PathClassesOfPoints, have_the_colours_of_the_closed_form_in_each_half_of_th
     return reflectance[channel] / std::numbers::pi * intensity[channel] * sum / (n * n);
   };
   constexpr PhotonSettings photons{0.02, 50000, 8};
-  const std::pair<std::string, int> searches[] = {{"light", 8192},
+  const std::pair<std::string, int> searches[] = {{"path:manifold=1", 8},
+                                                  {"light", 8192},
                                                   {"bdpt", 8192},
                                                   {with_photons("sppm", photons), 8},
                                                   {with_photons("photonmap", photons), 8},
-                                                  {with_photons("vcm", photons), 8}};
+                                                  {with_photons("vcm", photons), 10}};
   const double own = sidak_level(family_level, 3.0 * std::size(halves) * std::size(searches));
   std::string text = replaced(read_text(folder / "lsde-point.pbrt"), "[ 3 3 3 ]", "[ 3 1 5 ]");
   text = replaced(text, "[ 0.6 0.6 0.6 ]", "[ 0.6 0.3 0.15 ]");
@@ -275,15 +281,16 @@ TEST(PathClassesOfRadiosity, with_smooth_surfaces_are_refused) {
 // The table of docs/integrators.md, cell by cell.
 TEST(PathClassesOfDocumentation, are_those_of_the_table_of_findings) {
   const std::string text = read_text(std::filesystem::path(MONTELUX_SOURCE_DIR) / "docs/integrators.md");
-  const LightSearch columns[] = {LightSearch::any_length,  LightSearch::one_event, LightSearch::diffuse,
-                                 LightSearch::from_lights, LightSearch::both_ends, LightSearch::photons};
+  const LightSearch columns[] = {LightSearch::any_length, LightSearch::with_chains, LightSearch::one_event,
+                                 LightSearch::diffuse,    LightSearch::from_lights, LightSearch::both_ends,
+                                 LightSearch::photons};
   for (std::size_t i = 0; i < path_class_names.size(); ++i) {
     const std::size_t row = text.find("\n| " + std::string(path_class_names[i]) + " | ");
     ASSERT_NE(row, std::string::npos) << path_class_names[i];
     std::istringstream line(text.substr(row + 1, text.find('\n', row + 1) - row - 1));
     std::vector<std::string> cells;
     for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
-    ASSERT_GE(cells.size(), 9u) << path_class_names[i];
+    ASSERT_GE(cells.size(), 10u) << path_class_names[i];
     for (std::size_t c = 0; c < std::size(columns); ++c) {
       const Finding found = *finding(columns[c], montelux::PathClass(i));
       EXPECT_EQ(cells[3 + c], " " + std::string(finding_names[std::size_t(found)]) + " ")
