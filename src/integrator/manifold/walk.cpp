@@ -4,9 +4,9 @@ namespace montelux {
 
 namespace {
 
-constexpr int max_steps = 24;           // traced, those that are taken back included
-constexpr double max_step = 0.5;        // of the first direction, as a tangent
-constexpr double min_share = 1.0 / 32;  // of a step: below it the walk is lost
+constexpr int max_steps = 16;          // traced, those that are taken back included
+constexpr double max_step = 0.5;       // of the first direction, as a tangent
+constexpr double min_share = 1.0 / 8;  // of a step: below it the walk is lost
 
 // The step of Newton's method; none where the Jacobian is singular.
 std::optional<std::array<double, 2>> newton_step(const ChainMiss& m) {
