@@ -30,13 +30,13 @@ MissingLight missing_caustics(const DeltaCaustics& caustics) {
   const std::string lights =
       list_of(caustics.lights, [](LightKind kind) { return light_kind_names[std::size_t(kind)]; });
   const std::string surfaces = list_of(caustics.surfaces, [](BsdfKind kind) { return name(kind); });
-  return {fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
-          fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
-                      "no ray meets such a light, and no light sample passes such a surface; sppm, photonmap and vcm "
-                      "find it, and light "
-                      "and bdpt what the camera sees of it directly (and a small sphere that shines, in the light's "
-                      "place, is found)",
-                      lights, surfaces)};
+  return {
+      fmt::format("light of {} lights through smooth surfaces ({})", lights, surfaces),
+      fmt::format("light of {} lights that reaches surfaces through smooth glass or mirrors may be missing ({}): "
+                  "no ray meets such a light, and no light sample passes such a surface; sppm, photonmap and vcm "
+                  "find it, path:manifold=2 behind up to two such surfaces, and light and bdpt what the camera sees "
+                  "of it directly (and a small sphere that shines, in the light's place, is found)",
+                  lights, surfaces)};
 }
 
 // Of path:manifold.

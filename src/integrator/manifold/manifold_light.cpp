@@ -110,7 +110,7 @@ std::optional<ChainSolution> ManifoldLight::solution(const StoredVertex<float>& 
 }
 
 // 1 / p is the sum over n >= 0 of the probability that n walks do not find the chain. Beyond sure_walks roulette
-// decides whether the sum goes on: it gets to n walks with the probability (sure_walks / n)^2, so that less than 2
+// decides whether the sum continues: it gets to n walks with the probability (sure_walks / n)^2, so that less than 2
 // sure_walks are expected however small p is, and each term is divided by its probability.
 double ManifoldLight::reciprocal_probability(const StoredVertex<float>& x, const Search& search,
                                              const ChainSolution& found, const RandomStream<float>& random,

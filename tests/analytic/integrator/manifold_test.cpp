@@ -42,7 +42,6 @@ struct Arrival {
 struct Window {
   double x0, x1, z0, z1;
   std::string text() const {
-    // x grows to the left of the picture, since it looks down.
     std::ostringstream out;
     out << "[ " << x0 << " " << x1 << " " << z0 << " " << z1 << " ]";
     return out.str();
@@ -138,6 +137,10 @@ std::string patch(double side, double y) {
   return p.str();
 }
 const std::string glass = "Material \"dielectric\" \"float eta\" [ 1.5 ]\n";
+const std::string metal =
+    "Material \"conductor\" \"spectrum eta\" [ 360 0.2 830 0.2 ] \"spectrum k\" [ 360 3.9 830 3.9 ] \"float "
+    "roughness\" "
+    "[ 0 ]\n";
 const std::string ball = "Shape \"sphere\" \"float radius\" [ 1 ]\n";
 constexpr double floor_y = -1.8;
 const std::string down = "LookAt 0 -1.75 0  0 -1.8 0  0 0 1";
@@ -173,9 +176,8 @@ std::vector<Case> cases() {
     const Colour direct = direct_radiance(w, h - c);
     for (std::size_t k = 0; k < 3; ++k) truth[k] += direct[k];
     all.push_back({std::string("bowl, ") + where,
-                   head(w, "LookAt 0 0.75 0  0 0.8 0  0 0 1") + at(c) + patch(0.3, h) +
-                       "Material \"conductor\" \"spectrum eta\" [ 360 0.2 830 0.2 ] \"spectrum k\" [ 360 3.9 830 3.9 ] "
-                       "\"float roughness\" [ 0 ]\nRotate -90 1 0 0\nShape \"sphere\" \"float radius\" [ 1 ] \"float "
+                   head(w, "LookAt 0 0.75 0  0 0.8 0  0 0 1") + at(c) + patch(0.3, h) + metal +
+                       "Rotate -90 1 0 0\nShape \"sphere\" \"float radius\" [ 1 ] \"float "
                        "zmin\" [ -1 ] \"float zmax\" [ -0.5 ]\n",
                    "path:manifold=1,maxdepth=2", truth});
   }
@@ -199,6 +201,58 @@ TEST(ManifoldLight, has_the_caustics_of_glass_balls_and_mirrors) {
       EXPECT_LT(p(c.fault * c.truth[k]), own) << c.name << " would pass with more: " << m.standard_error[k] / m.mean[k];
     }
   }
+}
+
+// A spot whose light comes to a wall by way of two mirrors, `first` and one of metal, each at 45 degrees: 2, 2 and 3
+// long.
+std::string periscope(const std::string& first) {
+  return head({-1e-3, 1e-3, -1e-3, 1e-3}, "LookAt -2.5 3 0  -3 3 0  0 1 0") +
+         "LightSource \"spot\" \"rgb I\" [ 3 1 5 ] \"point3 from\" [ -2 1 0 ] \"point3 to\" [ 0 1 0 ] \"float "
+         "coneangle\" "
+         "[ 5 ] \"float conedeltaangle\" [ 1 ]\n" +
+         first +
+         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2  0 2 3 ] \"point3 P\" [ -0.5 0.5 -0.5  0.5 1.5 -0.5  0.5 "
+         "1.5 "
+         "0.5  -0.5 0.5 0.5 ]\n" +
+         metal +
+         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2  0 2 3 ] \"point3 P\" [ -0.5 3.5 -0.5  0.5 2.5 -0.5  0.5 "
+         "2.5 "
+         "0.5  -0.5 3.5 0.5 ]\nMaterial \"diffuse\" \"rgb reflectance\" [ 0.6 0.3 0.15 ]\nShape \"trianglemesh\" "
+         "\"integer indices\" [ 0 1 2  0 2 3 ] \"point3 P\" [ -3 2 -1  -3 4 -1  -3 4 1  -3 2 1 ]\n";
+}
+std::vector<std::string> missing(const TestScene& scene, const std::string& way) {
+  ChosenIntegrator chosen = scene.integrator(way);
+  note_missing_light(chosen, {{}, {}, scene.picture().width, scene.picture().height}, scene.scene(), scene.accel());
+  return chosen.missing;
+}
+
+TEST(ManifoldLight, finds_chains_of_two_and_names_those_that_are_longer_than_it_was_set_to) {
+  const TestScene scene(periscope(metal));
+  EXPECT_EQ(measure(scene, "path:manifold=1", 4, 3).mean[0], 0);
+  EXPECT_EQ(missing(scene, "path:manifold=1").size(), 1u);
+  EXPECT_TRUE(missing(scene, "path:manifold=2").empty());
+  const Mean m = measure(scene, "path:manifold=2", 16, 3);
+  const double mirrored = fresnel_metal(std::cos(pi / 4), 0.2, 3.9);
+  const double own = sidak_level(family_level, 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double truth = reflectance[k] / pi * intensity[k] * mirrored * mirrored / 49;
+    EXPECT_GE(p_value(m.mean[k], m.standard_error[k], truth), own) << m.mean[k] << " +- " << m.standard_error[k];
+    EXPECT_LT(p_value(m.mean[k], m.standard_error[k], 1.05 * truth), own) << m.standard_error[k] / m.mean[k];
+  }
+}
+
+TEST(ManifoldLight, names_light_by_way_of_smooth_coats) {
+  const TestScene scene(periscope("Material \"coateddiffuse\" \"float roughness\" [ 0 ]\n"));
+  EXPECT_EQ(missing(scene, "path:manifold=2").size(), 1u);
+}
+
+TEST(ManifoldLight, is_refused_in_participating_media) {
+  const TestScene scene(
+      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 1 1 1 ]\nMediumInterface \"\" "
+      "\"fog\"\n" +
+      periscope(metal));
+  EXPECT_NO_THROW(scene.integrator("path:manifold=off"));
+  EXPECT_THROW(scene.integrator("path:manifold=1"), std::runtime_error);
 }
 
 }  // namespace
