@@ -241,6 +241,33 @@ TEST(ManifoldLight, finds_chains_of_two_and_names_those_that_are_longer_than_it_
   }
 }
 
+// Every pane is one event; chains with reflections between panes have two more.
+TEST(ManifoldLight, goes_through_up_to_four_panes) {
+  const Window w{-1e-3, 1e-3, -1e-3, 1e-3};
+  const double distance = std::hypot(1, 3 - floor_y), cosine = (3 - floor_y) / distance;
+  const double own = sidak_level(family_level, 3 * 4);
+  std::string panes;
+  double left = 1;
+  for (int n = 1; n <= 4; ++n) {
+    const std::string y = " " + std::to_string(0.3 * n) + " ";
+    panes += "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2  0 2 3 ] \"point3 P\" [ -2" + y + "-2  -2" + y +
+             "2  2" + y + "2  2" + y + "-2 ]\n";
+    const double r = fresnel(cosine, 1.5);
+    left *= 1 - 2 * r / (1 + r);
+    const TestScene scene(head(w, down) + "LightSource \"point\" \"rgb I\" [ 3 1 5 ] \"point3 from\" [ 1 3 0 ]\n" +
+                          patch(2, floor_y) + "Material \"thindielectric\" \"float eta\" [ 1.5 ]\n" + panes);
+    const auto way = [](int k) { return "path:manifold=" + (k == 0 ? "off" : std::to_string(k)); };
+    EXPECT_EQ(measure(scene, way(n - 1), 4, 5).mean[0], 0) << n;
+    const Mean m = measure(scene, way(n) + ",maxdepth=" + std::to_string(n + 1), 32, 5);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double truth = reflectance[k] / pi * intensity[k] * left * cosine / (distance * distance);
+      EXPECT_GE(p_value(m.mean[k], m.standard_error[k], truth), own)
+          << m.mean[k] << " +- " << m.standard_error[k] << ", " << truth;
+      EXPECT_LT(p_value(m.mean[k], m.standard_error[k], 1.05 * truth), own) << m.standard_error[k] / m.mean[k];
+    }
+  }
+}
+
 TEST(ManifoldLight, names_light_by_way_of_smooth_coats) {
   const TestScene scene(periscope("Material \"coateddiffuse\" \"float roughness\" [ 0 ]\n"));
   EXPECT_EQ(missing(scene, "path:manifold=2").size(), 1u);
