@@ -31,8 +31,8 @@ class ManifoldLight {
   };
   ManifoldLight(const Scene& scene, const Accel& accel, const std::function<bool(std::size_t)>& is_caster);
   void list_searches(int length);
-  // By walks from the lights: how much light comes by each search to rough surfaces, roughly, which decides how often it
-  // is made; and the ends of its chains, where most walks start.
+  // By walks from the lights: how much light comes by each search to rough surfaces, roughly, which decides how often
+  // it is made; and the ends of its chains, where most walks start.
   std::vector<double> learn_searches();
 
   std::optional<ChainSolution> solution(const StoredVertex<float>& x, const Search& search, RandomStream<float> random,
