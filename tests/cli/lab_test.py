@@ -12,7 +12,7 @@ class LabTest(ProgramTest):
         for name in ("running-estimate", "square-light", "neighbour-bias", "roulette", "metropolis"):
             self.assertIn(name, text)
         entries = json.loads(self.run_program("lab", "list", "--json").stdout)
-        self.assertEqual(len({entry["group"] for entry in entries}), 5)
+        self.assertEqual(len({entry["group"] for entry in entries}), 6)
         self.assertIn("Settings", self.run_program("lab", "list", "circle").stdout)
 
     def test_run_writes_a_report_with_data_and_figures(self):
