@@ -24,8 +24,10 @@ constexpr std::string_view filtered_texture =
     "not settled; likely: the reference renderer takes textures from reduced copies, so that the bright lines between "
     "the tiles of the floor are spread over the dark tiles, under a coat, whose light is not linear in what is below "
     "it";
-const std::map<std::string, std::string_view> expected_failures{
-    {"spot-herd-gray", rough_coats}, {"dining-room-gray", rough_coats}, {"bottles-dof-gray", filtered_texture}, {"staircase2-gray", filtered_texture}};
+const std::map<std::string, std::string_view> expected_failures{{"spot-herd-gray", rough_coats},
+                                                                {"dining-room-gray", rough_coats},
+                                                                {"bottles-dof-gray", filtered_texture},
+                                                                {"staircase2-gray", filtered_texture}};
 
 // Scenes whose light arrives by rare paths take more samples than the others.
 const std::map<std::string, int> times_more{
