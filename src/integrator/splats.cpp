@@ -44,7 +44,8 @@ void SplatPlane::add_to_layers(int x, int y, const Rgb& value, float weight, con
   for (int i = 0; i < rgb_size; ++i) layer_sums(x, y, std::size_t(own.alone()))[i].add(all.c[i] * weight);
 }
 
-void SplatPlane::add(Vec2f raster, const Rgb& value, const LightOrigin<float>* from) {
+template <class Visit>
+void SplatPlane::for_each_pixel_near(Vec2f raster, Visit visit) {
   using F = NativeFloats;
   const PixelBounds cells = cells_near(raster);
   const int across = cells.width(), count = cells.area();
@@ -56,12 +57,19 @@ void SplatPlane::add(Vec2f raster, const Rgb& value, const LightOrigin<float>* f
       set_lane(offset.y, k, raster.y - (float(grid_.pixel_y(cells.y0 + (begin + k) / across)) + 0.5f));
     }
     const F weight = filter_.evaluate(offset);
-    for (int k = 0; k < n; ++k) {
-      const float w = lane(weight, k);
-      const int x = cells.x0 + (begin + k) % across, y = cells.y0 + (begin + k) / across;
-      if (add_to(pixel(x, y), value, w) && from) add_to_layers(x, y, value, w, *from);
-    }
+    for (int k = 0; k < n; ++k)
+      visit(cells.x0 + (begin + k) % across, cells.y0 + (begin + k) / across, lane(weight, k));
   }
+}
+
+void SplatPlane::add(Vec2f raster, const Rgb& value) {
+  for_each_pixel_near(raster, [&](int x, int y, float weight) { add_to(pixel(x, y), value, weight); });
+}
+
+void SplatPlane::add(Vec2f raster, const Rgb& value, const LightOrigin<float>& from) {
+  for_each_pixel_near(raster, [&](int x, int y, float weight) {
+    if (add_to(pixel(x, y), value, weight)) add_to_layers(x, y, value, weight, from);
+  });
 }
 
 Rgb SplatPlane::take(int x, int y) {

@@ -40,9 +40,9 @@ class SplatPlane {
   }
   // Adds value, the integral of the light over the splat, in pixels. A value that is not finite, or too large for the
   // sums, spoils the pixels that it reaches: they are not a number.
-  void add(Vec2f raster, const Rgb& value) { add(raster, value, nullptr); }
+  void add(Vec2f raster, const Rgb& value);
   // The same where it comes from there: also to its layers. Requires layers().
-  void add(Vec2f raster, const Rgb& value, const LightOrigin<float>& from) { add(raster, value, &from); }
+  void add(Vec2f raster, const Rgb& value, const LightOrigin<float>& from);
   // Adds to the pixel of one cell alone: light that was drawn by the filter of this pixel.
   void add_to_pixel(int x, int y, const Rgb& value) { add_to(pixel(x, y), value, 1.0f); }
   // What was added to a pixel, stated by its cell, since the last time. Only while nobody adds.
@@ -64,7 +64,9 @@ class SplatPlane {
   SharedExactSum* layer_sums(int x, int y, std::size_t layer) {
     return &layer_sums_[(pixel_number(x, y) * std::size_t(layers_->count()) + layer) * rgb_size];
   }
-  void add(Vec2f raster, const Rgb& value, const LightOrigin<float>* from);
+  // Calls visit(x, y, weight) for the cell of each pixel that a splat at this place reaches, with the filter's weight.
+  template <class Visit>
+  void for_each_pixel_near(Vec2f raster, Visit visit);
   // Whether the pixel can hold it.
   static bool add_to(Pixel& pixel, const Rgb& value, float weight);
   void add_to_layers(int x, int y, const Rgb& value, float weight, const LightOrigin<float>& from);

@@ -286,24 +286,21 @@ class EyeSubpaths {
     if (!any(on)) return;
     const U room = U(frame_.paths.max_depth ? std::uint32_t(*frame_.paths.max_depth) - 1u : 0x7fffffffu) - path.depth;
     const auto* words = reinterpret_cast<const float*>(frame_.photons->weights());
-    const auto word_of = [](const FoundPhoton<F>& photon) {
-      return photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
-    };
     const auto weight = [&](const FoundPhoton<F>& photon, M counted) {
       counted = counted & (photon.events <= room);
-      const PartialWeights<F> y{gather(words, word_of(photon)), F(0.0f), gather(words + 1, word_of(photon))};
+      const U word = photon.number * U(std::uint32_t(sizeof(PhotonWeights) / 4));
+      const PartialWeights<F> y{gather(words, word), F(0.0f), gather(words + 1, word)};
       const BothDensities<F> both = densities(at, photon.wi, photon.density, counted);
       return select(counted, frame_.weights.merging(weights_, y, both), F(0.0f));
     };
-    const auto found = [&](const FoundPhoton<F>& photon, M counted, const Spectrum<F>& merged, const F& share) {
-      if (!tally_) return;
-      const auto* paths = reinterpret_cast<const std::uint32_t*>(words + 2);
-      const U light = gather(frame_.light_of_path, gather(paths, word_of(photon)));
-      tally_->template add<F>(
-          counted, path.throughput * merged * path.weight,
-          {path.depth + photon.events + U(1u), light, Technique::light_sampling, photon.events + U(2u), true, share});
+    const auto to_layers = [&](const FoundPhoton<F>& photon, M counted, const Spectrum<F>& merged, const F& share) {
+      const U light_number = gather(frame_.light_of_path, gather(frame_.photons->paths(), photon.number));
+      tally_->template add<F>(counted, path.throughput * merged * path.weight,
+                              {path.depth + photon.events + U(1u), light_number, Technique::light_sampling,
+                               photon.events + U(2u), true, share});
     };
-    const Spectrum<F> light = photons_->template radiance<F>(at, at.context, on, weight, found);
+    const Spectrum<F> light = tally_ ? photons_->template radiance<F>(at, at.context, on, weight, to_layers)
+                                     : photons_->template radiance<F>(at, at.context, on, weight, NoSink{});
     path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
   }
 

@@ -108,7 +108,7 @@ class VcmChain final : public Chain {
                        lane(flux, k),
                        lane(v.path.depth, k),
                        lane(v.path.site.index, k),
-                       {lane(view.weights.vcm, k), lane(view.weights.vm, k), lane(v.path.site.index, k)}});
+                       {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
       });
     };
     follow_light_subpaths<F, AdjointCorrection, in_media>(

@@ -72,19 +72,21 @@ class LensSplats {
     return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
-    const bool has_layers = plane_.layers() != nullptr;
+    if (plane_.layers()) return splat_to_layers(raster, light, on, origin);
     for_each_lane(on, [&](int k) {
       const Rgb value = to_rgb(lane(light, k));
-      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) {
-        if (has_layers)
-          plane_.add(place, value, lane_of(origin, k));
-        else
-          plane_.add(place, value);
-      });
+      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value); });
     });
   }
 
  private:
+  void splat_to_layers(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
+    for_each_lane(on, [&](int k) {
+      const Rgb value = to_rgb(lane(light, k));
+      const LightOrigin<float> from = lane_of(origin, k);
+      scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value, from); });
+    });
+  }
   M sees_sky(const Ray<F>& ray, const RandomStream<F>& random, M on) {
     counts_.shadow += std::uint64_t(count(on));
     if (!one_sided_) return on & !rays_.template occluded<F>(ray, on);

@@ -59,7 +59,7 @@ void PhotonMap::lay_out(float radius) {
   dealt_.resize(sum);
   for (std::vector<float>* all : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) all->resize(sum + padding);
   photons_.resize(sum + 1);
-  if (weighted_) weights_.resize(sum + 1);
+  if (weighted_) weights_.resize(sum + 1), paths_.resize(sum + 1);
 }
 
 void PhotonMap::deal(std::size_t tile) {
@@ -82,7 +82,7 @@ void PhotonMap::put_in_order(std::size_t begin, std::size_t end, std::size_t who
       x_[i] = photon.p.x, y_[i] = photon.p.y, z_[i] = photon.p.z;
       nx_[i] = photon.ng.x, ny_[i] = photon.ng.y, nz_[i] = photon.ng.z;
       photons_[i] = {photon.wi, photon.flux, photon.events};
-      if (weighted_) weights_[i] = photon.weights;
+      if (weighted_) weights_[i] = photon.weights, paths_[i] = photon.path;
     }
   }
 }

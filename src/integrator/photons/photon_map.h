@@ -13,7 +13,6 @@ namespace montelux {
 // What photons carry where they share the light with other strategies; see PartialWeights.
 struct PhotonWeights {
   float vcm = 0, vm = 0;
-  std::uint32_t path = 0;  // the number of their path
 };
 
 // Flux that arrives at a rough surface.
@@ -74,6 +73,7 @@ class PhotonMap {
   float radius() const { return radius_; }
   const GatheredPhoton* photons() const { return photons_.data(); }
   const PhotonWeights* weights() const { return weights_.data(); }
+  const std::uint32_t* paths() const { return paths_.data(); }  // their numbers; of a weighted map
   // Finds the photons within the radius of p that lie near the plane across n, on surfaces with similar normals, in a
   // fixed order.
   void near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const;
@@ -97,6 +97,7 @@ class PhotonMap {
   std::vector<GatheredPhoton> photons_;
   bool weighted_;
   std::vector<PhotonWeights> weights_;  // of the same photons
+  std::vector<std::uint32_t> paths_;    // likewise
 };
 
 }  // namespace montelux
