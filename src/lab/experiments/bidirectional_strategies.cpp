@@ -84,7 +84,7 @@ constexpr std::array<std::string_view, 3> explanations{"a path from the eye meet
                                                        "a point of the lamp is sampled",
                                                        "a path from the lamp is connected with the lens"};
 
-// All light and the layers, whose pixels the floor's symmetry lets count from the lamp on.
+// The image of all light and its layers over independent passes. Columns go along x, whichever way the camera shows it.
 class Render {
  public:
   explicit Render(const Setup& setup) : size_(int(setup.count("pixels"))), passes_(int(setup.count("passes"))) {
@@ -218,16 +218,14 @@ Findings run(const Setup& setup) {
   const std::vector<double> combined = render.variance();
   // Veach's bound for one sample of each of three strategies: the variance of the sum exceeds that of none of them by
   // more than (1 - 1/3) of the squared mean.
+  const std::array<std::vector<double>, 3> variances{render.variance(0), render.variance(1), render.variance(2)};
   std::vector<double> above_bound = combined;
-  for (std::size_t i = 0; i < above_bound.size(); ++i) {
-    double least = render.variance(0)[i];
-    for (std::size_t s = 1; s < strategies.size(); ++s) least = std::min(least, render.variance(s)[i]);
-    above_bound[i] -= least + 2.0 / 3 * truth[i] * truth[i];
-  }
+  for (std::size_t i = 0; i < above_bound.size(); ++i)
+    above_bound[i] -= std::min({variances[0][i], variances[1][i], variances[2][i]}) + 2.0 / 3 * truth[i] * truth[i];
   for (std::size_t s = 0; s < strategies.size(); ++s) {
     show(render.picture(alone, s), std::string(strategies[s]) + ": " + std::string(explanations[s]));
     const Spread mean = render.mean_of(s);
-    const std::vector<double> variance = render.variance(s), part = render.picture(weighted, s);
+    const std::vector<double>&variance = variances[s], part = render.picture(weighted, s);
     double share = 0;
     for (double value : part) share += value / (truth_mean * double(part.size()));
     table.rows.push_back({std::string(strategies[s]), std::string(explanations[s]),

@@ -99,16 +99,6 @@ std::vector<double> autocorrelation(RandomStream<float> stream, const Mutation& 
   return correlation;
 }
 
-// The weighted means of one set of chains are correlated, so the largest deviation is tested at the level of all.
-Check weighted_check(const std::vector<double>& z) {
-  double largest = 0;
-  for (double value : z) largest = std::max(largest, std::abs(value));
-  Check check = z_check("Weighted by their starts, the chains are unbiased at every step.", largest, 1, 0);
-  check.statistic = fmt::format("largest deviation {:.2f} standard errors over {} times", largest, z.size());
-  check.p_value = std::min(1.0, check.p_value * double(z.size()));
-  return check;
-}
-
 Findings run(const Setup& setup) {
   const std::uint32_t steps = setup.count("steps");
   const Mutation mutate{setup["jump"], setup.fault()};
@@ -165,7 +155,8 @@ Findings run(const Setup& setup) {
       counts_check("After the last step the states have the density of the target.", counts, probabilities),
       mean_check("Their mean is that of the target.", history.plain_spreads.back(), truth),
       rejected(mean_check("At the start it is not: there is a start-up bias.", history.plain_spreads.front(), truth)),
-      weighted_check(history.z_weighted),
+      largest_deviation_check("Weighted by their starts, the chains are unbiased at every step.", history.z_weighted,
+                              "times"),
       z_check("The mean weight of the starts recovers the normalisation of the target.", normalisation.mean,
               normalisation.mean_error, integral)};
   return findings;

@@ -197,8 +197,7 @@ Findings run(const Setup& setup) {
   const LineFit fit = fit_power_law(std::span(with.x).subspan(early), std::span(with.y).subspan(early), bars);
   errors.curves = {with, without};
 
-  double share = 0;
-  for (int i = 0; i < 2; ++i) share += i == 0 ? spots[0].integral(0, 1, 0, 1) / all : 0;
+  const double share = spots[0].integral(0, 1, 0, 1) / all;  // of the wide spot
   Findings findings;
   findings.sections = {walk, images, errors,
                        Table{"rate",

@@ -89,17 +89,6 @@ Expected expected_over_frames(const Radii& radii, double frames, double photons)
   return e;
 }
 
-// The deviations at the numbers of frames are correlated, so the largest is tested at the level of all.
-Check largest_deviation_check(std::string claim, const std::vector<double>& z) {
-  double largest = 0;
-  for (double value : z) largest = std::max(largest, std::abs(value));
-  Check check = z_check(std::move(claim), largest, 1, 0);
-  check.statistic =
-      fmt::format("largest deviation {:.2f} standard errors over {} numbers of frames", largest, z.size());
-  check.p_value = std::min(1.0, check.p_value * double(z.size()));
-  return check;
-}
-
 Findings run(const Setup& setup) {
   constexpr double alpha = 2.0 / 3;
   const int frames = int(setup.count("frames"));
@@ -160,11 +149,12 @@ Findings run(const Setup& setup) {
                              {"quantity", "exponent", "limit"},
                              {{"bias", std::log(b.bias / a.bias) / std::log(ratio), alpha - 1},
                               {"variance", std::log(b.variance / a.variance) / std::log(ratio), -alpha}}}};
-  findings.checks = {largest_deviation_check("With a radius that shrinks the bias falls as theory says.", z_bias),
-                     largest_deviation_check("So does the variance.", z_variance),
-                     largest_deviation_check("With a constant radius the bias stays.", z_constant),
-                     rejected(mean_check("After all frames the smaller bias is not that of the constant radius.", last,
-                                         truth + bias_of_frame(first_radius)))};
+  findings.checks = {
+      largest_deviation_check("With a radius that shrinks the bias falls as theory says.", z_bias, "numbers of frames"),
+      largest_deviation_check("So does the variance.", z_variance, "numbers of frames"),
+      largest_deviation_check("With a constant radius the bias stays.", z_constant, "numbers of frames"),
+      rejected(mean_check("After all frames the smaller bias is not that of the constant radius.", last,
+                          truth + bias_of_frame(first_radius)))};
   return findings;
 }
 

@@ -61,6 +61,15 @@ Check chi_square_check(std::string claim, double chi_square, double degrees) {
           special::chi_square_tail(chi_square, degrees)};
 }
 
+Check largest_deviation_check(std::string claim, std::span<const double> z, std::string_view what) {
+  double largest = 0;
+  for (double value : z) largest = std::max(largest, std::abs(value));
+  Check check = z_check(std::move(claim), largest, 1, 0);
+  check.statistic = fmt::format("largest deviation {:.2f} standard errors over {} {}", largest, z.size(), what);
+  check.p_value = std::min(1.0, check.p_value * double(z.size()));
+  return check;
+}
+
 Check counts_check(std::string claim, std::span<const double> counts, std::span<const double> probabilities) {
   double total = 0, pooled_count = 0, pooled_expected = 0, chi_square = 0, cells = 0;
   for (double n : counts) total += n;

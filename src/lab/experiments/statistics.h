@@ -26,6 +26,9 @@ Check mean_check(std::string claim, const Spread& spread, double truth);
 Check variance_check(std::string claim, const Spread& spread, double truth);
 // Are all of these standardised deviations normal with variance one? Sum of squares against chi-square.
 Check deviations_check(std::string claim, std::span<const double> z);
+// Is each of these standardised deviations, which may be correlated, normal with variance one? The largest is tested at
+// the level of all (Bonferroni). `what`: what there is one of for each of them.
+Check largest_deviation_check(std::string claim, std::span<const double> z, std::string_view what);
 // Pearson's test of counts against probabilities; cells that expect less than 5 are pooled.
 Check counts_check(std::string claim, std::span<const double> counts, std::span<const double> probabilities);
 // A statistic that is chi-square with so many degrees of freedom.
