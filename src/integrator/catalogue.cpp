@@ -88,6 +88,11 @@ Made make_path(const Request& r) {
   return chosen;
 }
 
+LightSearch path_search(const ParameterList& list) {
+  const auto settings = path_settings(list, {});
+  return settings && settings->manifold > 0 ? LightSearch::with_chains : LightSearch::any_length;
+}
+
 Made make_direct(const Request& r) {
   const DirectSettings settings = direct_settings(r.list);
   ChosenIntegrator chosen = made("direct", std::make_unique<DirectIntegrator>(r.scene, r.accel, settings));
@@ -319,14 +324,17 @@ Made make_vcm(const Request& r) {
 }
 
 Made make_metropolis(const Request& r) {
-  ChosenIntegrator chosen{
-      "metropolis",
-      {},
-      {},
-      {},
-      std::make_unique<MetropolisIntegrator>(r.scene, r.accel, metropolis_settings(r.list, r.max_depth))};
+  MetropolisSettings settings = metropolis_settings(r.list, r.max_depth);
+  settings.width = r.defaults.width, settings.height = r.defaults.height;
+  ChosenIntegrator chosen{"metropolis", {}, {}, {}, std::make_unique<MetropolisIntegrator>(r.scene, r.accel, settings)};
   note_depth(chosen, r.max_depth);
+  if (settings.strategies == MetropolisStrategies::bdpt) note_facing_curves(chosen, r.scene);
   return chosen;
+}
+
+LightSearch metropolis_search(const ParameterList& list) {
+  const bool from_both = metropolis_settings(list, {}).strategies == MetropolisStrategies::bdpt;
+  return from_both ? LightSearch::both_ends : LightSearch::any_length;
 }
 
 // Path, since nothing is known of the render: the choice is made where its length is known.
@@ -360,6 +368,8 @@ struct Row {
   LightSearch search = LightSearch::any_length;
   Content content = Content::light;
   std::uint32_t abilities = 0;
+  LightSearch (*search_by)(const ParameterList&) = nullptr;  // instead of `search`, where settings decide
+  LightSearch search_of(const ParameterList& list) const { return search_by ? search_by(list) : search; }
   bool can(Ability ability) const { return (abilities & std::uint32_t(ability)) != 0; }
 };
 
@@ -373,8 +383,8 @@ constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = [] {
     std::vector<Row> all{
-        {path_spec(), make_path<false>, LightSearch::any_length, Content::light, all_abilities},
-        {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, all_abilities},
+        {path_spec(), make_path<false>, LightSearch::any_length, Content::light, all_abilities, path_search},
+        {naive_spec(), make_path<true>, LightSearch::any_length, Content::light, all_abilities, path_search},
         {direct_spec(), make_direct, LightSearch::one_event, Content::light, only_layers},
         {distribution_spec(), make_distribution, LightSearch::any_length, Content::light, only_layers},
         {tracepath_spec(), make_tracepath},
@@ -388,7 +398,8 @@ const std::vector<Row>& rows() {
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, bidirectional},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
         {vcm_spec(), make_vcm, LightSearch::photons, Content::light, bidirectional},
-        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media},
+        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media,
+         metropolis_search},
         {automatic_spec(), make_automatic, LightSearch::any_length, Content::light, all_abilities}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
@@ -464,7 +475,12 @@ void note_sampler(ChosenIntegrator& chosen, PointSetKind kind) {
 LightSearch light_search(std::string_view text) {
   const std::string_view name = text.substr(0, text.find(':'));
   for (const Row& row : rows())
-    if (row.spec.name == name) return chain_length(text) > 0 ? LightSearch::with_chains : row.search;
+    if (row.spec.name == name) {
+      const auto choice = parse_choice(text);
+      if (!choice) return row.search;
+      const auto read = read_choice(*choice);
+      return read ? row.search_of(read->second) : row.search;
+    }
   return LightSearch::none;
 }
 
@@ -517,9 +533,8 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
         "biased, without the pixel filter, depth of field and motion blur");
   }
   // No light arrives where camera rays go through the centres of pixels alone.
-  const bool one_end = scene.pixel_centres && row->search == LightSearch::both_ends;
-  result->search = one_end ? LightSearch::any_length : row->search, result->content = row->content;
-  if (result->chain_length > 0) result->search = LightSearch::with_chains;
+  result->search = row->search_of(list), result->content = row->content;
+  if (scene.pixel_centres && result->search == LightSearch::both_ends) result->search = LightSearch::any_length;
   if (limit) {
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *limit);

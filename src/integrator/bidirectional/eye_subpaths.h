@@ -12,10 +12,10 @@ namespace montelux {
 // Of the stream of a vertex of the eye's subpath: for the connections with a light, and with a vertex from the lights.
 inline constexpr std::uint32_t light_stream = 0x1b873593u, connection_stream = 0x3c6ef372u;
 
-// One subpath from each pixel of a tile, one a lane, by the same plan of numbers as `path`. Its strategies: it meets a
-// light; a vertex is connected with a point of a light; a vertex is connected with each vertex of the pixel's own
-// subpath from the lights, or merged with those of all such subpaths. `Correction` is AdjointCorrection, but in tests
-// that plant a fault. `in_media`: the scene has participating media, in which vertices are connected but not merged.
+// Subpaths, one a lane, by the same plan of numbers as `path`. The strategies of each: it meets a light; a vertex is
+// connected with a point of a light; a vertex is connected with each vertex of the pixel's own subpath from the lights,
+// or merged with those of all such subpaths. `Correction` is AdjointCorrection, but in tests that plant a fault.
+// `in_media`: the scene has participating media, in which vertices are connected but not merged.
 template <class F, class Frame, class Correction = AdjointCorrection, bool in_media = false>
 class EyeSubpaths {
  public:
@@ -27,15 +27,21 @@ class EyeSubpaths {
     if (frame.photons) photons_.emplace(*frame.photons, frame.kernel);
   }
 
+  // One subpath from each pixel of a tile.
   RayCounts run(const PixelBounds& tile, std::span<PixelSample> out) {
     const TilePass pass{tile, frame_.pass.points, frame_.pass.shutter, frame_.frame, frame_.moment, frame_.pass.grid};
     tile_ = tile;
     FirstHits<F> first_hits =
         tally_ ? FirstHits<F>(scene_, frame_.rays, pass, out, *tally_) : FirstHits<F>(scene_, frame_.rays, pass, out);
     counts_.camera += first_hits.rays();
+    return run(first_hits, out);
+  }
+  // Those that `starts` has, by refill(path, on).
+  template <class Starts>
+  RayCounts run(Starts& starts, std::span<PixelSample> out) {
     PathState<F> path{};
     for (M on(false);;) {
-      on = first_hits.refill(path, on);
+      on = starts.refill(path, on);
       if (!any(on)) return counts_;
       on = step(path, on, out);
     }
@@ -66,7 +72,13 @@ class EyeSubpaths {
 
   // One vertex of every path; gives the lanes that continue.
   M step(PathState<F>& path, M on, std::span<PixelSample> out) {
-    const Sampler<F> sampler(frame_.pass.points, path.x, path.y, path.index);
+    const auto sampler = frame_.eye_numbers(path);
+    using Numbers = std::remove_cv_t<decltype(sampler)>;
+    const U vertices = path.depth + U(2u);
+    // Where a light that the path meets is wanted, and one that it samples.
+    M wants_met(true), wants_sampled(true);
+    if constexpr (!Frame::every_strategy)
+      wants_met = frame_.wants(U(0u), vertices), wants_sampled = frame_.wants(U(1u), vertices);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const M first = on & (path.depth == U(0u));
     only_smooth_ = only_smooth_ | first;
@@ -87,24 +99,24 @@ class EyeSubpaths {
     };
     NextVertex<F> at = [&] {
       if constexpr (in_media)
-        return follow(
-            MediumDistances<F, Sampler<F>>{sampler, dimension + U(path_dimension::distance), path.throughput});
+        return follow(MediumDistances<F, Numbers>{sampler, dimension + U(path_dimension::distance), path.throughput});
       else
         return follow(NoDistances{});
     }();
-    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
+    path.radiance += select(M(on & wants_met), path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     arrive(path, at, sampler, first);
 
     M scatters = on & at.found;
     if (frame_.paths.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*frame_.paths.max_depth)));
+    if constexpr (!Frame::every_strategy) scatters = scatters & frame_.visits(vertices);
     at.context.densities = Densities::exact;
     const Here here{at, M(scatters & !at.bsdf.is_delta)};
 
     // A point of a light, and a direction.
     const LightSet& lights = scene_.lights;
     const ReferencePoint<F> from = at.reference();
-    const M wants_light = here.rough & M(frame_.paths.connect && frame_.by_power != nullptr);
+    const M wants_light = here.rough & M(frame_.paths.connect && frame_.by_power != nullptr) & wants_sampled;
     const LightChoice<F> choice = lights.template choose<F>(
         from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)), wants_light);
     const LightPointDraw<F> draw = lights.template draw_light_point<F>(
@@ -126,6 +138,7 @@ class EyeSubpaths {
 
     // Scatter; roulette.
     M moves = scatters & next.valid;
+    if constexpr (!Frame::every_strategy) moves = moves & frame_.continues_from_eye(vertices, moves);
     const M broken = moves & !is_finite(max_component(next.weight));
     if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
     moves = moves & !broken;
@@ -152,7 +165,7 @@ class EyeSubpaths {
     const auto [found, hit] = frame_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
     if constexpr (!in_media)
-      if (const M escapes = moves & !found; any(escapes))
+      if (const M escapes = moves & !found & sees_next(vertices); any(escapes))
         path.radiance +=
             path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, sink);
     // In media a ray that meets no surface may still scatter.
@@ -173,7 +186,15 @@ class EyeSubpaths {
     if (tally_) tally_->template add<F>(on, light * path.weight, origin());
   }
 
-  void arrive(const PathState<F>& path, const NextVertex<F>& at, const Sampler<F>& sampler, M first) {
+  // Whether a light that is met by the vertex after this one is wanted.
+  M sees_next([[maybe_unused]] const U& vertices) const {
+    if constexpr (Frame::every_strategy)
+      return M(true);
+    else
+      return frame_.wants(U(0u), vertices + U(1u));
+  }
+  template <class Numbers>
+  void arrive(const PathState<F>& path, const NextVertex<F>& at, const Numbers& sampler, M first) {
     const F cos = area_cosine<F, in_media>(at, at.d);
     weights_ = frame_.weights.arrive(weights_, length_squared(at.x.point.p - path.p), cos, at.passing);
     if (!any(first)) return;
@@ -225,6 +246,7 @@ class EyeSubpaths {
       M on = left;
       if (frame_.paths.max_depth)
         on = on & (path.depth + y.events + U(2u) <= U(std::uint32_t(*frame_.paths.max_depth)));
+      if constexpr (!Frame::every_strategy) on = on & frame_.wants(y.events + U(2u), path.depth + U(2u));
       if (any(on)) connect_vertex(path, here, y, on);
       number = select(left, y.before, U(0u));
     }

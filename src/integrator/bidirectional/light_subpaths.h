@@ -12,7 +12,10 @@
 namespace montelux {
 
 // All that the paths of a frame share. `Rays` answers as Accel does.
-template <class Rays, class Weights = StrategyWeights>
+//
+// Each pixel has a pair of subpaths, by the numbers of its points, and all strategies are wanted of all pairs. A frame
+// with other pairs hides what stands below `every_strategy`.
+template <class Rays, class Weights = StrategyWeights, class Plane = SplatPlane>
 struct BidirectionalFrame {
   const Scene& scene;
   const Rays& rays;
@@ -23,7 +26,7 @@ struct BidirectionalFrame {
   BidirectionalPaths paths;
   Weights weights;
   bool one_sided;  // some surface is not there for camera rays that meet its back
-  SplatPlane& plane;
+  Plane& plane;
   std::uint32_t light_path_count;      // at least one for each pixel, or cell: the first ones belong to these
   const LightMedia* light_media;       // null: the scene has no participating media
   const PhotonMap* photons = nullptr;  // to be merged with the eye's vertices; null: none are
@@ -38,6 +41,32 @@ struct BidirectionalFrame {
     return std::uint32_t(y - pass.bounds.y0) * std::uint32_t(pass.bounds.width()) + std::uint32_t(x - pass.bounds.x0);
   }
   PathLights path_lights() const { return {scene.lights, *by_power}; }
+
+  static constexpr bool every_strategy = true;
+  template <class F>
+  Sampler<F> eye_numbers(const PathState<F>& path) const {
+    return Sampler<F>(pass.points, path.x, path.y, path.index);
+  }
+  // Light of a path from a light that is not a number shows in the first pixel of the picture.
+  template <class F>
+  void add_broken(const F& value, Mask<F> on) const {
+    for_each_lane(on, [&](int k) { plane.add_to_pixel(pass.bounds.x0, pass.bounds.y0, gray_rgb(lane(value, k))); });
+  }
+  PointSet light_points() const { return photon_points(pass.points, int(frame), light_path_count); }
+  // The time of a path from a light is that of the pixel's path from the eye.
+  template <class F>
+  F moment_of(const PathSite<F>& site) const {
+    if (moment) return F(*moment);
+    Uint<F> x(0u), y(0u);
+    const PixelBounds& b = pass.bounds;
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const auto number = lane(site.index, k), width = std::uint32_t(b.width());
+      const PixelGrid& grid = plane.grid();
+      set_lane(x, k, std::uint32_t(grid.pixel_x(b.x0 + int(number % width))));
+      set_lane(y, k, std::uint32_t(grid.pixel_y(b.y0 + int(number / width))));
+    }
+    return Sampler<F>(pass.points, x, y, Uint<F>(frame)).get1(Uint<F>(path_dimension::time));
+  }
 };
 
 // A vertex of a subpath from a light.
@@ -89,9 +118,9 @@ class LightVertices {
 
 // What the walk of subpaths from the lights shows: weighs it along the way, splats it, and hands it on to
 //   store(LightVertexView, on)    where the surface is not a mirror or smooth glass
-template <class F>
+template <class F, class Numbers = Sampler<F>>
 struct LightVertexView {
-  const LightPathVertex<F>& vertex;
+  const LightPathVertex<F, Numbers>& vertex;
   const PartialWeights<F>& weights;
 };
 template <class F, class Frame, class Correction, class Store, bool in_media>
@@ -99,6 +128,8 @@ class LightSubpathSink {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
+  using Numbers = decltype(numbers_of(std::declval<const Frame&>().light_points(), std::declval<PathSite<F>>()));
+  using Vertex = LightPathVertex<F, Numbers>;
   // `first`: these subpaths are followed for the first time in the frame.
   LightSubpathSink(const Frame& frame, Store store, bool first, RayCounts& counts)
       : frame_(frame),
@@ -108,21 +139,9 @@ class LightSubpathSink {
         scale_(frame.scene.imaging_ratio / frame.light_paths()),
         lens_(frame.scene, frame.rays, frame.one_sided, frame.plane, counts) {}
 
-  // That of the camera's path.
-  F moment(const PathSite<F>& site) const {
-    if (frame_.moment) return F(*frame_.moment);
-    U x(0u), y(0u);
-    const PixelBounds& b = frame_.pass.bounds;
-    for (int k = 0; k < lanes_of<F>; ++k) {
-      const auto number = lane(site.index, k), width = std::uint32_t(b.width());
-      const PixelGrid& grid = frame_.plane.grid();
-      set_lane(x, k, std::uint32_t(grid.pixel_x(b.x0 + int(number % width))));
-      set_lane(y, k, std::uint32_t(grid.pixel_y(b.y0 + int(number / width))));
-    }
-    return Sampler<F>(frame_.pass.points, x, y, U(frame_.frame)).get1(U(path_dimension::time));
-  }
+  F moment(const PathSite<F>& site) const { return frame_.template moment_of<F>(site); }
 
-  void leave(const LightPathStart<F>& s, M on) {
+  void leave(const LightPathStart<F, Numbers>& s, M on) {
     light_ = select(on, s.choice.index, light_);
     p_ = select<F>(on, s.emission.p, p_), n_ = select<F>(on, s.emission.n, n_);
     if (frame_.light_of_path && notes_lights_)
@@ -134,16 +153,21 @@ class LightSubpathSink {
     Vec3<F> toward;  // the lens, local
     M on;
   };
-  Query query(const LightPathVertex<F>& v, M on) {
+  Query query(const Vertex& v, M on) {
     arrive(v, on);
     const M rough = on & !v.at.bsdf.is_delta;
-    if (any(rough)) store_(LightVertexView<F>{v, weights_}, rough);
-    if (!splats_) return {{}, v.at.wo, M(false)};
+    M stored = rough, splatted = rough;
+    if constexpr (!Frame::every_strategy) {
+      const U vertices = v.path.depth + U(2u);
+      stored = stored & frame_.connects(vertices), splatted = splatted & frame_.wants(vertices, U(1u));
+    }
+    if (any(stored)) store_(LightVertexView<F, Numbers>{v, weights_}, stored);
+    if (!splats_ || !any(splatted)) return {{}, v.at.wo, M(false)};
     const LensConnection<F> lens =
         lens_.toward(v.at.x.point.p, v.numbers.get2(v.dimension + U(light_dimension::vertex_lens)), v.path.ray.time);
-    return {lens, v.at.bsdf.frame.to_local(-lens.d), M(rough & lens.seen)};
+    return {lens, v.at.bsdf.frame.to_local(-lens.d), M(splatted & lens.seen)};
   }
-  void visit(const LightPathVertex<F>& v, const Query& query, const BsdfValue<F>& value, M) {
+  void visit(const Vertex& v, const Query& query, const BsdfValue<F>& value, M) {
     if (!any(query.on)) return;
     const NextVertex<F>& at = v.at;
     const LensConnection<F>& lens = query.lens;
@@ -162,24 +186,27 @@ class LightSubpathSink {
                     return frame_.weights.lens(weights_, both, lens.across, cos, frame_.splat_paths(), passing);
                   });
   }
-  void scatter(const LightPathVertex<F>& v, const BsdfSample<F>& next, M on) {
+  void scatter(const Vertex& v, const BsdfSample<F>& next, M on) {
     const NextVertex<F>& at = v.at;
     const BothDensities<F> both{next.density, reverse_density(at, next.wi, on & !next.delta), !at.in_medium};
     const F cos = area_cosine<F, in_media>(at, at.bsdf.frame.to_world(next.wi));
     weights_ = select_weights(on, frame_.weights.scatter(weights_, both, cos, next.delta), weights_);
   }
-  // It shows in the first pixel of the picture.
-  void broken(F value, const PathSite<F>&, M on) {
-    const PixelBounds& b = frame_.pass.bounds;
-    for_each_lane(on, [&](int k) { frame_.plane.add_to_pixel(b.x0, b.y0, gray_rgb(lane(value, k))); });
+  // Paths whose strategy has further vertices.
+  M follows(const Vertex& v, const BsdfSample<F>&, M on) const {
+    if constexpr (Frame::every_strategy)
+      return on;
+    else
+      return frame_.continues_from_light(v.path.depth + U(2u), on);
   }
+  void broken(F value, const PathSite<F>&, M on) { frame_.add_broken(value, on); }
 
  private:
   // Of the direction in which the path came, drawn from the local wi.
   Density<SolidAngle, F> reverse_density(const NextVertex<F>& at, const Vec3<F>& wi, M on) const {
     return evaluate_at<F, in_media>(frame_.scene, at, wi, at.wo, at.context, on).density;
   }
-  void arrive(const LightPathVertex<F>& v, M on) {
+  void arrive(const Vertex& v, M on) {
     const NextVertex<F>& at = v.at;
     const F cos = area_cosine<F, in_media>(at, at.d);
     const M first = on & (v.path.depth == U(0u));
@@ -198,7 +225,9 @@ class LightSubpathSink {
   Store store_;
   const bool notes_lights_, splats_;
   const float scale_;
-  LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>, in_media> lens_;
+  LensSplats<F, std::remove_cvref_t<decltype(std::declval<Frame>().rays)>, in_media,
+             std::remove_cvref_t<decltype(std::declval<Frame>().plane)>>
+      lens_;
   // Of the paths at hand: the light, where they left it, and the weights so far.
   U light_ = U(0u);
   Vec3<F> p_{}, n_{};
@@ -208,28 +237,36 @@ class LightSubpathSink {
 // Which of their vertices are splatted: subpaths may be followed more than once in a frame.
 enum class Splatting { on, off };
 
-// Follows subpaths from the lights, by their numbers number_of(i) for i below `count`; store(LightVertexView, on)
-// receives their vertices. `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene
-// has participating media.
+// Follows subpaths from the lights: run(walk) chooses which. store(LightVertexView, on) receives their vertices.
+// `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene has participating media.
+template <class F, class Correction, bool in_media, class Frame, class Store, class Run>
+void walk_from_lights(const Frame& frame, Splatting splatting, RayCounts& counts, Store store, Run run) {
+  if (!frame.by_power) return;
+  using Rays = std::remove_cvref_t<decltype(frame.rays)>;
+  using Points = decltype(frame.light_points());
+  const LightWalkScene<Rays, Points> walk{frame.scene,
+                                          frame.rays,
+                                          *frame.by_power,
+                                          frame.light_points(),
+                                          frame.pass.shutter.value_or(frame.scene.shutter),
+                                          {},
+                                          frame.paths.max_depth,
+                                          frame.paths.roulette_depth,
+                                          Densities::exact,
+                                          frame.light_media};
+  using Sink = LightSubpathSink<F, Frame, Correction, Store, in_media>;
+  Sink sink(frame, store, splatting == Splatting::on, counts);
+  LightWalk<F, Rays, Sink, Correction, in_media, Points> all(walk, sink, counts);
+  run(all);
+}
+
+// By their numbers number_of(i) for i below `count`.
 template <class F, class Correction = AdjointCorrection, bool in_media = false, class Rays, class Weights,
           class NumberOf, class Store>
 void follow_light_subpaths(const BidirectionalFrame<Rays, Weights>& frame, std::uint32_t count, NumberOf number_of,
                            Splatting splatting, RayCounts& counts, Store store) {
-  if (!frame.by_power) return;
-  const LightWalkScene<Rays> walk{frame.scene,
-                                  frame.rays,
-                                  *frame.by_power,
-                                  photon_points(frame.pass.points, int(frame.frame), frame.light_path_count),
-                                  frame.pass.shutter.value_or(frame.scene.shutter),
-                                  {},
-                                  frame.paths.max_depth,
-                                  frame.paths.roulette_depth,
-                                  Densities::exact,
-                                  frame.light_media};
-  using Sink = LightSubpathSink<F, BidirectionalFrame<Rays, Weights>, Correction, Store, in_media>;
-  Sink sink(frame, store, splatting == Splatting::on, counts);
-  LightWalk<F, Rays, Sink, Correction, in_media>(walk, sink, counts).run(count, [&](std::uint32_t i) {
-    return PathSite<float>{0, 0, number_of(i)};
+  walk_from_lights<F, Correction, in_media>(frame, splatting, counts, store, [&](auto& walk) {
+    walk.run(count, [&](std::uint32_t i) { return PathSite<float>{0, 0, number_of(i)}; });
   });
 }
 

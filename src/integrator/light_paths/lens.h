@@ -30,12 +30,12 @@ inline bool has_one_sided_surfaces(const Scene& scene) {
 }
 
 // What the paths of a frame send to the lens; `rays` answers as Accel does. `in_media`: the scene has participating
-// media.
-template <class F, class Rays, bool in_media = false>
+// media. `Plane` is a SplatPlane, or keeps the splat of each lane by record(raster, light, on).
+template <class F, class Rays, bool in_media = false, class Plane = SplatPlane>
 class LensSplats {
  public:
   using M = Mask<F>;
-  LensSplats(const Scene& scene, const Rays& rays, bool one_sided, SplatPlane& plane, RayCounts& counts)
+  LensSplats(const Scene& scene, const Rays& rays, bool one_sided, Plane& plane, RayCounts& counts)
       : scene_(scene), rays_(rays), one_sided_(one_sided), plane_(plane), counts_(counts) {}
 
   // The lens as seen from p: where it is behind or the picture does not reach, `seen` is false.
@@ -72,14 +72,20 @@ class LensSplats {
     return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
+    if constexpr (requires { plane_.record(raster, light, on); })
+      return plane_.record(raster, light, on);
+    else
+      return splat_to_plane(raster, light, on, origin);
+  }
+
+ private:
+  void splat_to_plane(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
     if (plane_.layers()) return splat_to_layers(raster, light, on, origin);
     for_each_lane(on, [&](int k) {
       const Rgb value = to_rgb(lane(light, k));
       scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value); });
     });
   }
-
- private:
   void splat_to_layers(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
     for_each_lane(on, [&](int k) {
       const Rgb value = to_rgb(lane(light, k));
@@ -120,7 +126,7 @@ class LensSplats {
   const Scene& scene_;
   const Rays& rays_;
   const bool one_sided_;
-  SplatPlane& plane_;
+  Plane& plane_;
   RayCounts& counts_;
 };
 

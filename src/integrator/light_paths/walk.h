@@ -8,13 +8,13 @@
 
 namespace montelux {
 
-// All that the paths of a frame share.
-template <class Rays>
+// All that the paths of a frame share. `Points` has the numbers of the paths, by numbers_of().
+template <class Rays, class Points = PointSet>
 struct LightWalkScene {
   const Scene& scene;
   const Rays& rays;
   const AliasTable& by_power;
-  PointSet points;
+  Points points;
   Shutter shutter;
   std::optional<float> moment;   // in [0, 1), of the exposure: of all paths; else each has its own
   std::optional<int> max_depth;  // scattering events, that of the last vertex included
@@ -22,6 +22,12 @@ struct LightWalkScene {
   Densities densities = Densities::may_be_estimates;
   const LightMedia* light_media = nullptr;  // of a walk in media
 };
+
+// Those of a path in each lane.
+template <class F>
+Sampler<F> numbers_of(const PointSet& points, const PathSite<F>& site) {
+  return Sampler<F>(points, site.x, site.y, site.index);
+}
 
 // A path on its way, one a lane.
 template <class F>
@@ -60,29 +66,29 @@ struct AdjointCorrection {
 };
 
 // A path that has left its light, as the sink sees it: the light, the ray, the numbers of the path, and its own.
-template <class F>
+template <class F, class Numbers = Sampler<F>>
 struct LightPathStart {
   const DiscreteSample<F>& choice;
   const LightEmission<F>& emission;
-  const Sampler<F>& numbers;
+  const Numbers& numbers;
   F time;
   const PathSite<F>& site;
 };
 
 // A rough or smooth surface that a path has met, or an event in a medium. `flux` arrives there.
-template <class F>
+template <class F, class Numbers = Sampler<F>>
 struct LightPathVertex {
   const NextVertex<F>& at;
   const LightPathState<F>& path;
   F ng_in;  // cosine of the geometric normal with the direction in which the path came
-  const Sampler<F>& numbers;
+  const Numbers& numbers;
   Uint<F> dimension;  // the first of the numbers of this vertex
 };
 
 // The factor by which the vertex scatters importance and radiance differently, for light that leaves along the local
 // `out`; ng_out: the cosine of the geometric normal with it.
-template <class F, class Correction, bool in_media>
-MONTELUX_INLINE F adjoint_correction(const LightPathVertex<F>& v, const Vec3<F>& out, F ng_out) {
+template <class F, class Correction, bool in_media, class Numbers>
+MONTELUX_INLINE F adjoint_correction(const LightPathVertex<F, Numbers>& v, const Vec3<F>& out, F ng_out) {
   const F correction = Correction()(v.at.wo, v.ng_in, out, ng_out);
   if constexpr (!in_media) return correction;
   return select(v.at.in_medium, F(1.0f), correction);
@@ -97,12 +103,14 @@ MONTELUX_INLINE F adjoint_correction(const LightPathVertex<F>& v, const Vec3<F>&
 //   F moment(PathSite)                          optional, where surfaces move: of each path, in the exposure
 //   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
 // `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene has participating media.
-template <class F, class Rays, class Sink, class Correction = AdjointCorrection, bool in_media = false>
+template <class F, class Rays, class Sink, class Correction = AdjointCorrection, bool in_media = false,
+          class Points = PointSet>
 class LightWalk {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  LightWalk(const LightWalkScene<Rays>& shared, Sink& sink, RayCounts& counts)
+  using Numbers = decltype(numbers_of(std::declval<const Points&>(), std::declval<const PathSite<F>&>()));
+  LightWalk(const LightWalkScene<Rays, Points>& shared, Sink& sink, RayCounts& counts)
       : shared_(shared), scene_(shared.scene), sink_(sink), counts_(counts) {}
 
   // So many paths; site_of(number) is the PathSite<float> of one.
@@ -134,26 +142,31 @@ class LightWalk {
     }
   }
 
+  // One path in each lane that is on.
+  void run_pack(const PathSite<F>& site, M on) {
+    auto [path, valid] = start(site, on);
+    for (on = valid; any(on);) on = step(path, on);
+  }
+
  private:
   struct Start {
     LightPathState<F> state;
     M valid;
   };
-  Sampler<F> sampler(const PathSite<F>& site) const { return Sampler<F>(shared_.points, site.x, site.y, site.index); }
-  F moment_of(const PathSite<F>& site, const Sampler<F>& numbers) const {
+  F moment_of(const PathSite<F>& site, const Numbers& numbers) const {
     if constexpr (requires { sink_.moment(site); }) return sink_.moment(site);
     return shared_.moment ? F(*shared_.moment) : numbers.get1(U(light_dimension::time));
   }
   // A ray from a light.
   Start start(const PathSite<F>& site, M on) {
-    const Sampler<F> numbers = sampler(site);
+    const Numbers numbers = numbers_of(shared_.points, site);
     const DiscreteSample<F> choice = shared_.by_power.sample(numbers.get1(U(light_dimension::choice)));
     const LightEmission<F> e = scene_.lights.template emit<F>(choice.index, numbers.get2(U(light_dimension::point)),
                                                               numbers.get2(U(light_dimension::direction)), on);
     F time = 0.0f;
     if (scene_.moves()) time = shared_.shutter.time(moment_of(site, numbers));
     const Spectrum<F> flux = e.flux * (F(1.0f) / choice.mass.value);
-    sink_.leave(LightPathStart<F>{choice, e, numbers, time, site}, M(on & e.valid));
+    sink_.leave(LightPathStart<F, Numbers>{choice, e, numbers, time, site}, M(on & e.valid));
 
     const M carries = on & e.valid & !is_broken(flux, site, on & e.valid) & (max_component(flux) > F(0.0f));
     const M leaves = shared_.max_depth && *shared_.max_depth == 0 ? M(false) : carries;
@@ -166,7 +179,7 @@ class LightWalk {
 
   // Goes to the next vertex, shows it to the sink, and scatters there.
   M step(LightPathState<F>& path, M on) {
-    const Sampler<F> numbers = sampler(path.site);
+    const Numbers numbers = numbers_of(shared_.points, path.site);
     const U dimension = U(light_dimension::first_vertex) + path.depth * U(light_dimension::per_vertex);
     NextVertex<F> at = next(path, on, numbers, dimension);
     on = on & at.found;
@@ -175,7 +188,7 @@ class LightWalk {
     const F ng_in = dot(at.x.point.ng, at.d);
 
     // The BSDF's value for the sink's direction, and a direction that it draws.
-    const LightPathVertex<F> vertex{at, path, ng_in, numbers, dimension};
+    const LightPathVertex<F, Numbers> vertex{at, path, ng_in, numbers, dimension};
     const auto query = sink_.query(vertex, on);
     const Scattering<F> scattered =
         scatter_at<F, in_media>(scene_, at,
@@ -211,14 +224,14 @@ class LightWalk {
     return continues;
   }
 
-  NextVertex<F> next(const LightPathState<F>& path, M on, const Sampler<F>& numbers, const U& dimension) {
+  NextVertex<F> next(const LightPathState<F>& path, M on, const Numbers& numbers, const U& dimension) {
     const auto meet = [&](const auto& distances) {
       return next_vertex<F>(scene_, shared_.rays, path.from, path.ray, on,
                             numbers.stream(dimension + U(light_dimension::own)), counts_.scattered, NoWeight{},
                             NoSink{}, distances);
     };
     if constexpr (in_media)
-      return meet(MediumDistances<F, Sampler<F>>{numbers, dimension + U(light_dimension::distance), path.flux});
+      return meet(MediumDistances<F, Numbers>{numbers, dimension + U(light_dimension::distance), path.flux});
     else
       return meet(NoDistances{});
   }
@@ -230,7 +243,7 @@ class LightWalk {
     return broken;
   }
 
-  const LightWalkScene<Rays>& shared_;
+  const LightWalkScene<Rays, Points>& shared_;
   const Scene& scene_;
   Sink& sink_;
   RayCounts& counts_;

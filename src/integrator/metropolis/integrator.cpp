@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "integrator/metropolis/markov_chains.h"
+#include "integrator/metropolis/path_function.h"
+#include "integrator/metropolis/strategy_function.h"
 #include "integrator/splats.h"
 
 namespace montelux {
@@ -23,7 +24,7 @@ constexpr int look_stage = 0, sum_stage = 1, walk_stage = 2, show_stage = 3;
 
 // What the streams of a pass decide.
 namespace purpose {
-inline constexpr std::uint32_t seeds = 1, steps = 2;
+inline constexpr std::uint32_t seeds = 1, steps = 2, strategies = 3;
 }
 
 struct Cell {
@@ -39,20 +40,22 @@ struct CellChains {
   std::array<RegionShares, std::size_t(packs_per_cell* lanes_of<F>)> shares{};  // of each chain
 };
 
+// `Function`: PathFunction or StrategyFunction.
+template <class Function>
 class MetropolisChain final : public Chain {
  public:
   // What this refers to must outlive the chain.
-  MetropolisChain(const Scene& scene, const Accel& accel, const MetropolisSettings& settings, const PathSettings& path,
-                  const ChainPass& pass)
+  MetropolisChain(const Scene& scene, const Accel& accel, const MetropolisSettings& settings,
+                  const typename Function::Settings& paths, const ChainPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
-        path_(path),
+        paths_(paths),
         pass_(pass),
         cells_across_((pass.bounds.width() + cell_side - 1) / cell_side),
         cells_down_((pass.bounds.height() + cell_side - 1) / cell_side),
         random_(U(mix_bits(pass.points.seed ^ 0x243f6a88u)), U(pass.points.pass)),
-        plane_(pass.bounds, scene.filter),
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter),
         brightness_(std::size_t(pass.bounds.area()) * std::size_t(settings.bootstrap)),
         chains_(std::size_t(cells_across_ * cells_down_)),
         features_(std::size_t(pass.bounds.area())) {
@@ -97,13 +100,13 @@ class MetropolisChain final : public Chain {
     return {number, {x, y, std::min(x + cell_side, b.x1), std::min(y + cell_side, b.y1)}};
   }
   // Those whose first pixel lies in the tile.
-  template <class Function>
-  void for_each_cell(const PixelBounds& tile, Function f) const {
+  template <class Visit>
+  void for_each_cell(const PixelBounds& tile, Visit visit) const {
     const auto next = [](int pixels) { return (pixels + cell_side - 1) / cell_side; };
     const PixelBounds& b = pass_.bounds;
     for (int row = next(tile.y0 - b.y0); row < next(tile.y1 - b.y0); ++row)
       for (int column = next(tile.x0 - b.x0); column < next(tile.x1 - b.x0); ++column)
-        f(cell_at(row * cells_across_ + column));
+        visit(cell_at(row * cells_across_ + column));
   }
   // Of each chain in a frame.
   static std::uint32_t steps_of(const Cell& cell) {
@@ -112,9 +115,14 @@ class MetropolisChain final : public Chain {
   std::size_t pixel_number(int x, int y) const {
     return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
   }
-  PathFunction<F, Accel> path_function() const { return {scene_, accel_, path_, pass_}; }
-  SamplePoint<F> new_point() const {
-    return {std::vector<float>(PathFunction<F, Accel>::dimensions_of(path_) * lanes_of<F>), random_};
+  Function make_function() const {
+    if constexpr (std::is_same_v<typename Function::Settings, PathSettings>)
+      return {scene_, accel_, paths_, pass_};
+    else
+      return {scene_, accel_, paths_, pass_, plane_};
+  }
+  SamplePoint<F> new_point(const Function& evaluate) const {
+    return {std::vector<float>(evaluate.dimensions() * lanes_of<F>), random_};
   }
   // The sample points of the independent paths are those of a path tracer, well spread over the picture and within
   // pixels: sample i of pixel p has number p * bootstrap + i.
@@ -133,10 +141,12 @@ class MetropolisChain final : public Chain {
     }
     const Sampler<F> numbers(points, x, y, index);
     const auto size = Vec2f{float(width), float(pass_.bounds.height())};
-    for (std::uint32_t d = 0; d * lanes_of<F> < point.values.size(); d += 2) {
+    const auto dimensions = std::uint32_t(point.values.size() / lanes_of<F>);
+    for (std::uint32_t d = 0; d < dimensions; d += 2) {
       Vec2<F> u = numbers.get2(U(d));
       if (d == path_dimension::film) u = {(corner.x + u.x) * (1 / size.x), (corner.y + u.y) * (1 / size.y)};
-      put_numbers(point, d, u.x), put_numbers(point, d + 1, u.y);
+      put_numbers(point, d, u.x);
+      if (d + 1 < dimensions) put_numbers(point, d + 1, u.y);
     }
     point.beyond = numbers.own();
   }
@@ -144,8 +154,8 @@ class MetropolisChain final : public Chain {
   // ---- independent paths
 
   void draw_independent(const Cell& cell, RayCounts& counts) {
-    PathFunction<F, Accel> evaluate = path_function();
-    SamplePoint<F> point = new_point();
+    Function evaluate = make_function();
+    SamplePoint<F> point = new_point(evaluate);
     std::vector<std::uint32_t> samples;
     for (int y = cell.bounds.y0; y < cell.bounds.y1; ++y)
       for (int x = cell.bounds.x0; x < cell.bounds.x1; ++x)
@@ -156,7 +166,7 @@ class MetropolisChain final : public Chain {
       const int n = int(std::min(samples.size() - first, std::size_t(lanes_of<F>)));
       for (int k = 0; k < n; ++k) set_lane(sample, k, samples[first + std::size_t(k)]);
       draw_bootstrap(point, sample);
-      const Contribution<F> c = evaluate(point, counts);
+      const Contribution<F> c = evaluate.independent(point, counts);
       for (int k = 0; k < n; ++k) brightness_[samples[first + std::size_t(k)]] = lane(c.brightness, k);
       deposit_broken(c, M(lane_index<F>() < U(std::uint32_t(n))));
     }
@@ -188,27 +198,34 @@ class MetropolisChain final : public Chain {
     return std::uint32_t(std::min(at, cumulative_.end() - 1) - cumulative_.begin());
   }
 
+  float brightness_at(std::uint32_t sample) const {
+    return float(cumulative_[sample] - (sample == 0 ? 0.0 : cumulative_[sample - 1]));
+  }
+
   static U chain_numbers(const Cell& cell, int pack) {
     return lane_index<F>() + U(std::uint32_t(cell.number * chains_per_cell + pack * lanes_of<F>));
   }
 
-  void start_chains(const Cell& cell, PathFunction<F, Accel>& evaluate, RayCounts& counts) {
+  void start_chains(const Cell& cell, Function& evaluate, RayCounts& counts) {
     for (int pack = 0; pack < packs_per_cell; ++pack) {
       const U chains = chain_numbers(cell, pack);
       U seeds(0u);
       for (int k = 0; k < lanes_of<F>; ++k) set_lane(seeds, k, seed_of(lane(chains, k)));
-      MarkovChains<F> started{new_point(), {}};
+      MarkovChains<F> started{new_point(evaluate), {}};
       draw_bootstrap(started.point, seeds);
-      started.value = evaluate(started.point, counts);
+      F brightness(0.0f);
+      for (int k = 0; k < lanes_of<F>; ++k) set_lane(brightness, k, brightness_at(lane(seeds, k)));
+      const F u = random_.fork(U(purpose::strategies)).fork(chains).at(U(0u));
+      started.value = evaluate.start(started.point, brightness, u, counts);
       chains_[std::size_t(cell.number)].packs.push_back(std::move(started));
     }
   }
 
   void walk(const ChainStep& step, const Cell& cell, RayCounts& counts) {
-    PathFunction<F, Accel> evaluate = path_function();
+    Function evaluate = make_function();
     if (step.frame == 0) start_chains(cell, evaluate, counts);
     CellChains& own = chains_[std::size_t(cell.number)];
-    SamplePoint<F> proposal = new_point();
+    SamplePoint<F> proposal = new_point(evaluate);
     const float largest = settings_.largest_move;
     const MutationSizes sizes{settings_.large_step, largest / 16, largest};
     // A step stands for the mean brightness over all paths, and a frame has about one for each pixel.
@@ -254,7 +271,10 @@ class MetropolisChain final : public Chain {
     for_each_lane(M((c.brightness > F(0.0f)) & (amount > F(0.0f))), [&](int k) {
       Rgb light = c.light[std::size_t(k)];
       for (float& channel : light.c) channel *= lane(factor, k);
-      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light);
+      if (lane(c.splatted, k))
+        scene_.camera.for_each_place(lane(c.raster, k), [&](Vec2f place) { plane_.add(place, light); });
+      else
+        plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light);
     });
     deposit_broken(c, M(true));
   }
@@ -277,7 +297,7 @@ class MetropolisChain final : public Chain {
   const Scene& scene_;
   const Accel& accel_;
   const MetropolisSettings& settings_;
-  const PathSettings& path_;
+  const typename Function::Settings& paths_;
   const ChainPass pass_;
   const int cells_across_, cells_down_;
   const RandomStream<F> random_;  // of the pass
@@ -290,15 +310,68 @@ class MetropolisChain final : public Chain {
   std::vector<Features> features_;
 };
 
+// How bright independent paths are, by the number of events and by strategy: the squared mean of the roots, which few
+// bright paths do not determine.
+template <class Function>
+StrategyChoice pilot(const Scene& scene, const Accel& accel, const StrategyPaths& paths, const PixelBounds& picture) {
+  constexpr int packs = 1024 / lanes_of<F>;  // for each number of events
+  const ChainPass pass{picture, {}};
+  const SplatPlane plane(picture, scene.filter);
+  Function evaluate(scene, accel, paths, pass, plane);
+  SamplePoint<F> point{std::vector<float>(evaluate.dimensions() * lanes_of<F>), {}};
+  std::vector<std::vector<double>> brightness;
+  RayCounts counts;
+  for (int events = 0; events < StrategyChoice::piloted_events; ++events) {
+    if (paths.paths.max_depth && events > *paths.paths.max_depth) break;
+    const int strategies = StrategyChoice::count(events);
+    std::vector<double> sums(std::size_t(strategies), 0.0);
+    for (int i = 0; i < packs; ++i) {
+      ChosenStrategy<F> chosen{U(0u), U(0u), F(1.0f)};
+      const U number = lane_index<F>() + U(std::uint32_t((events * packs + i) * lanes_of<F>));
+      for (int k = 0; k < lanes_of<F>; ++k) {
+        const std::uint32_t s = std::uint32_t(i * lanes_of<F> + k) % std::uint32_t(strategies);
+        set_lane(chosen.light_vertices, k, s);
+        set_lane(chosen.eye_vertices, k, std::uint32_t(events) + 2 - s);
+      }
+      point.beyond = RandomStream<F>(U(0x13198a2eu), number);
+      for (std::size_t d = 0; d < evaluate.dimensions(); ++d)
+        put_numbers(point, d, point.beyond.at(U(std::uint32_t(d))));
+      const Contribution<F> c = evaluate.evaluate(point, chosen, counts);
+      for (int k = 0; k < lanes_of<F>; ++k)
+        sums[lane(chosen.light_vertices, k)] += std::sqrt(double(lane(c.brightness, k)));
+    }
+    for (double& sum : sums) sum = sum * sum;
+    brightness.push_back(std::move(sums));
+  }
+  return {brightness, paths.paths.max_depth};
+}
+
 }  // namespace
 
 MetropolisIntegrator::MetropolisIntegrator(const Scene& scene, const Accel& accel, const MetropolisSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings) {
-  path_.max_depth = settings.max_depth, path_.roulette_depth = settings.roulette_depth;
+  path_.max_depth = settings.max_depth, path_.roulette_depth = settings.depth_before_roulette();
+  if (settings.strategies == MetropolisStrategies::path) return;
+  if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  light_media_ = light_media(scene, accel);
+  strategies_.paths.max_depth = settings.max_depth, strategies_.paths.roulette_depth = settings.depth_before_roulette();
+  strategies_.by_power = by_power_ ? &*by_power_ : nullptr;
+  strategies_.light_media = light_media_ ? &*light_media_ : nullptr;
+  strategies_.one_sided = has_one_sided_surfaces(scene);
+  const PixelBounds picture{0, 0, std::max(settings.width, 1), std::max(settings.height, 1)};
+  strategies_.choice = scene.media.empty()
+                           ? pilot<StrategyFunction<F, Accel, false>>(scene, accel, strategies_, picture)
+                           : pilot<StrategyFunction<F, Accel, true>>(scene, accel, strategies_, picture);
 }
 
 std::unique_ptr<Chain> MetropolisIntegrator::begin(const ChainPass& pass) const {
-  return std::make_unique<MetropolisChain>(scene_, accel_, settings_, path_, pass);
+  const auto make = [&]<class Function>(const typename Function::Settings& paths) -> std::unique_ptr<Chain> {
+    return std::make_unique<MetropolisChain<Function>>(scene_, accel_, settings_, paths, pass);
+  };
+  if (settings_.strategies == MetropolisStrategies::path)
+    return make.template operator()<PathFunction<F, Accel>>(path_);
+  if (scene_.media.empty()) return make.template operator()<StrategyFunction<F, Accel, false>>(strategies_);
+  return make.template operator()<StrategyFunction<F, Accel, true>>(strategies_);
 }
 
 }  // namespace montelux

@@ -1,9 +1,11 @@
 // Metropolis light transport in primary sample space (Kelemen, Szirmay-Kalos, Antal and Csonka 2002): Markov chains on
-// the random numbers of camera paths, whose stationary distribution is the brightness of the paths.
+// the random numbers of paths, whose stationary distribution is the brightness of the paths. These are camera paths, or
+// pairs of subpaths that one strategy of bidirectional path tracing joins (Hachisuka, Kaplanyan and Dachsbacher 2014).
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
 #include "integrator/metropolis/settings.h"
+#include "integrator/metropolis/strategy_paths.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -26,7 +28,10 @@ class MetropolisIntegrator final : public CoupledIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   const MetropolisSettings settings_;
-  PathSettings path_;  // of the paths
+  PathSettings path_;                      // of the paths, where these are those of `path`; else:
+  std::optional<AliasTable> by_power_;     // none: there is no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
+  StrategyPaths strategies_;
 };
 
 }  // namespace montelux

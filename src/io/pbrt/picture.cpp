@@ -70,6 +70,8 @@ IntegratorDesc integrator_of(const StatedIntegrator& s, const Entity& entity, Re
   if (!s.cosine_directions) settings.emplace_back("cossample", "off");
   if (s.photons > 0) settings.emplace_back("photons", std::to_string(s.photons));
   if (s.radius) settings.emplace_back("radius", shortest(*s.radius));
+  // Pairs of subpaths, as in pbrt.
+  if (s.name == "metropolis") settings.emplace_back("strategies", "bdpt");
   if (s.large_step) settings.emplace_back("large-step", shortest(*s.large_step));
   if (!s.sample_lights) integrator.name = "naive";
   if (s.light_sampler == StatedLightSampler::exhaustive)

@@ -69,6 +69,8 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "bdpt:mis=balance,roulette-depth=0",
                                          "metropolis",
                                          "metropolis:large-step=0.9,bootstrap=2,roulette-depth=0",
+                                         "metropolis:strategies=bdpt",
+                                         "metropolis:strategies=bdpt,large-step=0.8,roulette-depth=0",
                                          "restir-di:radius=3",
                                          "restir-di:weights=pairwise,radius=3",
                                          "restir-di:weights=unbiased,temporal=off,rounds=2,radius=2,power-candidates=2",

@@ -292,7 +292,7 @@ struct PassesOnce : StrategyWeights {
 TEST(BidirectionalInMedia, agrees_with_path_in_a_foggy_room_and_planted_faults_are_found) {
   const TestScene scene(foggy_room());
   const PassMeans path = measured(scene, "path", 32, 60, 1);
-  for (const char* way : {"bdpt", "bdpt:mis=balance", "vcm:radius=0.02,photons=1024"}) {
+  for (const char* way : {"bdpt", "bdpt:mis=balance", "vcm:radius=0.02,photons=1024", "metropolis:strategies=bdpt"}) {
     const Comparison c = compared(measured(scene, way, 16, 40, 2), path);
     EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
   }
@@ -324,9 +324,12 @@ TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
 TEST(Bidirectional, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string most = ":maxdepth=" + std::to_string(depth);
-    const Comparison c = compared(measured(scene, "bdpt" + most, 16, 40, 2), measured(scene, "path" + most, 16, 60, 1));
-    EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
+    const std::string most = "maxdepth=" + std::to_string(depth);
+    const PassMeans path = measured(scene, "path:" + most, 16, 60, 1);
+    for (const std::string way : {"bdpt:", "metropolis:strategies=bdpt,"}) {
+      const Comparison c = compared(measured(scene, way + most, 16, 40, 2), path);
+      EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
+    }
   }
   EXPECT_TRUE(
       compared(measured(scene, "bdpt:maxdepth=2", 16, 40, 2), measured(scene, "path:maxdepth=3", 16, 60, 1)).differ());

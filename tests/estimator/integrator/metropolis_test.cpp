@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "integrator/metropolis/markov_chains.h"
+#include "integrator/metropolis/strategy_function.h"
 #include "pass_means.h"
 #include "render_scenes.h"
 #include "statistics.h"
@@ -21,6 +23,9 @@ using U = Uint<F>;
 // Four pixels by the first number. Red 12 u^11 of the second number is bright in few places, green 2 u over the third,
 // blue is dark but in a twentieth of the fourth: each integrates to 1 over a pixel.
 struct KnownFunction {
+  void propose(SamplePoint<F>& to, const SamplePoint<F>& from, const StepOfNumbers<F>& step) const {
+    for (std::size_t d = 0; d < 4; ++d) put_numbers(to, d, step.moved(from, d));
+  }
   Contribution<F> operator()(const SamplePoint<F>& point, RayCounts&) const {
     Contribution<F> c;
     c.x = U(0u), c.y = U(0u);
@@ -171,40 +176,202 @@ TEST(Metropolis, agrees_with_path_in_a_room_and_would_show_a_fault) {
   const auto measured = [&](const std::string& way, int per_pass, int passes, std::uint32_t seed) {
     return measure_passes(scene, scene.integrator(way), per_pass, passes, seed);
   };
-  PassMeans path = measured("path", 64, 60, 1), chains = measured("metropolis", 32, 500, 2);
-  EXPECT_EQ(path.non_finite + chains.non_finite, 0u);
-  const auto smallest_p = [&] {
-    double smallest = 1;
-    const auto test = [&](const std::vector<double>& a, const std::vector<double>& b) {
-      smallest = std::min(smallest, welch_test(summarize(a), summarize(b)).p_value);
+  const PassMeans path = measured("path", 64, 60, 1);
+  for (const char* way : {"metropolis", "metropolis:strategies=bdpt"}) {
+    PassMeans chains = measured(way, 32, 500, 2);
+    EXPECT_EQ(path.non_finite + chains.non_finite, 0u);
+    const auto smallest_p = [&] {
+      double smallest = 1;
+      const auto test = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        smallest = std::min(smallest, welch_test(summarize(a), summarize(b)).p_value);
+      };
+      for (std::size_t i = 0; i < path.values.size(); ++i) test(path.values[i], chains.values[i]);
+      for (std::size_t i = 0; i < path.colours.size(); ++i) test(path.colours[i], chains.colours[i]);
+      return smallest;
     };
-    for (std::size_t i = 0; i < path.values.size(); ++i) test(path.values[i], chains.values[i]);
-    for (std::size_t i = 0; i < path.colours.size(); ++i) test(path.colours[i], chains.colours[i]);
-    return smallest;
-  };
-  const double level = sidak_level(family_level, double(path.values.size() + path.colours.size()));
-  EXPECT_GE(smallest_p(), level);
-  // Three percent too bright.
-  for (auto& values : chains.values)
-    for (double& value : values) value *= 1.03;
-  for (auto& values : chains.colours)
-    for (double& value : values) value *= 1.03;
-  EXPECT_LT(smallest_p(), level);
+    const double level = sidak_level(family_level, double(path.values.size() + path.colours.size()));
+    EXPECT_GE(smallest_p(), level) << way;
+    // Three percent too bright.
+    for (auto& values : chains.values)
+      for (double& value : values) value *= 1.03;
+    for (auto& values : chains.colours)
+      for (double& value : values) value *= 1.03;
+    EXPECT_LT(smallest_p(), level) << way;
+  }
 }
 
 TEST(Metropolis, is_the_same_bits_for_any_number_of_threads) {
   const TestScene scene(room);
-  const auto film = [&](int threads) {
-    const ChosenIntegrator chosen = scene.integrator("metropolis");
-    RenderSettings settings = scene.settings(PointSetKind::blue_noise, {8, 2}, 5);
-    settings.threads = threads;
-    RenderObserver silent;
-    return render(chosen.any(), settings, silent).film;
-  };
-  const Film one = film(1), three = film(3);
-  for (int y = 0; y < 24; ++y)
-    for (int x = 0; x < 24; ++x)
-      for (int c = 0; c < 3; ++c) EXPECT_EQ(one.pixel(x, y).mean[c], three.pixel(x, y).mean[c]) << x << ", " << y;
+  for (const char* way : {"metropolis", "metropolis:strategies=bdpt"}) {
+    const auto film = [&](int threads) {
+      const ChosenIntegrator chosen = scene.integrator(way);
+      RenderSettings settings = scene.settings(PointSetKind::blue_noise, {8, 2}, 5);
+      settings.threads = threads;
+      RenderObserver silent;
+      return render(chosen.any(), settings, silent).film;
+    };
+    const Film one = film(1), three = film(3);
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 24; ++x)
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(one.pixel(x, y).mean[c], three.pixel(x, y).mean[c]) << x << ", " << y;
+  }
+}
+
+// ---- strategies of pairs of subpaths
+
+// Of a pilot over three numbers of events, or over sixteen, beyond which it continues.
+StrategyChoice short_choice() { return {{{2}, {1, 0, 3}, {0, 5, 0, 1}}, 2}; }
+StrategyChoice endless_choice() {
+  std::vector<std::vector<double>> brightness;
+  for (int k = 0; k < StrategyChoice::piloted_events; ++k)
+    brightness.emplace_back(std::size_t(StrategyChoice::count(k)), std::pow(0.7, k) / StrategyChoice::count(k));
+  return {brightness, {}};
+}
+
+TEST(StrategyChoice, chooses_by_the_probabilities_that_it_states) {
+  for (const StrategyChoice& choice : {short_choice(), endless_choice()}) {
+    // Each number of events takes an interval of one number, each strategy one of the other: so frequencies over even
+    // numbers are the probabilities, except for the cells at the ends of intervals.
+    constexpr int n = 4096;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, float>> found;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < 512; j += lanes_of<F>) {
+        const auto c =
+            choice.choose<F>(F((float(i) + 0.5f) / n), (to_float(lane_index<F>()) + float(j) + 0.5f) / 512.0f);
+        for (int k = 0; k < lanes_of<F>; ++k) {
+          auto& [frequency, p] = found[{lane(c.light_vertices, k), lane(c.eye_vertices, k)}];
+          frequency += 1.0 / (n * 512), p = lane(c.probability, k);
+        }
+      }
+    double sum = 0;
+    for (const auto& [strategy, value] : found) {
+      const auto& [frequency, p] = value;
+      EXPECT_NEAR(frequency, double(p), 1.0 / n + 1.0 / 512 * p * StrategyChoice::count(14))
+          << strategy.first << ", " << strategy.second;
+      sum += double(p);
+    }
+    EXPECT_NEAR(sum, 1, 2e-3);
+  }
+}
+
+TEST(StrategyChoice, finds_the_numbers_of_a_strategy) {
+  const RandomStream<F> random(U(3u), lane_index<F>());
+  for (const StrategyChoice& choice : {short_choice(), endless_choice()}) {
+    const int longest = choice.longest(F(1.0f - 0x1p-24f)) == 2 ? 2 : 24;
+    for (int events = 0; events <= longest; ++events)
+      for (int s = 0; s < StrategyChoice::count(events); ++s) {
+        const U light{std::uint32_t(s)}, eye{std::uint32_t(events + 2 - s)};
+        const std::uint32_t at = std::uint32_t(2 * (100 * events + s));
+        const auto [u, v] = choice.numbers_for<F>(light, eye, random.at(U(at)), random.at(U(at + 1)));
+        const auto chosen = choice.choose<F>(u, v);
+        EXPECT_TRUE(all(chosen.light_vertices == light)) << events << ", " << s;
+        EXPECT_TRUE(all(chosen.eye_vertices == eye)) << events << ", " << s;
+      }
+  }
+}
+
+// The function of the room's chains, as the integrator has it.
+struct RoomStrategies {
+  explicit RoomStrategies(const TestScene& s)
+      : by_power(s.scene().lights.by_power()),
+        paths{{}, &by_power, nullptr, false, endless_choice()},
+        pass{{0, 0, 24, 24}, {}},
+        plane(pass.bounds, s.scene().filter),
+        evaluate(s.scene(), s.accel(), paths, pass, plane),
+        point{std::vector<float>(evaluate.dimensions() * lanes_of<F>), {}} {}
+  void draw(std::uint32_t number) {
+    point.beyond = RandomStream<F>(U(17u), lane_index<F>() + U(number * lanes_of<F>));
+    for (std::size_t d = 0; d < evaluate.dimensions(); ++d) put_numbers(point, d, point.beyond.at(U(std::uint32_t(d))));
+  }
+
+  AliasTable by_power;
+  StrategyPaths paths;
+  ChainPass pass;
+  SplatPlane plane;
+  StrategyFunction<F, Accel, false> evaluate;
+  SamplePoint<F> point;
+  RayCounts counts;
+};
+
+// What all strategies find with a pair of subpaths is what bdpt does; one that is chosen and weighted by its
+// probability has the same mean.
+TEST(Strategies, have_together_the_light_of_the_pair) {
+  const TestScene scene(room);
+  RoomStrategies f(scene);
+  int found = 0;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    f.draw(i);
+    const F pair = f.evaluate.independent(f.point, f.counts).brightness;
+    F sum(0.0f), without_lens(0.0f);
+    for (int events = 0; events < 40; ++events)
+      for (int s = 0; s < StrategyChoice::count(events); ++s) {
+        const ChosenStrategy<F> chosen{U(std::uint32_t(s)), U(std::uint32_t(events + 2 - s)), F(1.0f)};
+        const F b = f.evaluate.evaluate(f.point, chosen, f.counts).brightness;
+        sum += b;
+        if (events + 2 - s > 1) without_lens += b;
+      }
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      EXPECT_NEAR(lane(sum, k), lane(pair, k), 1e-4f * lane(pair, k)) << i << ", " << k;
+      found += lane(without_lens, k) < 0.99f * lane(pair, k);
+    }
+  }
+  EXPECT_GT(found, 100);  // the strategy that meets the lens is missed
+}
+
+TEST(Strategies, that_are_chosen_have_the_mean_of_all_and_a_wrong_probability_is_found) {
+  const TestScene scene(room);
+  RoomStrategies f(scene);
+  std::vector<double> pairs, chosen, faulty;
+  for (std::uint32_t i = 0; i < 30000; ++i) {
+    f.draw(i);
+    const F pair = f.evaluate.independent(f.point, f.counts).brightness;
+    f.draw(100000 + i);
+    const Contribution<F> one = f.evaluate(f.point, f.counts);
+    double all = 0, some = 0;
+    for (int k = 0; k < lanes_of<F>; ++k) all += double(lane(pair, k)), some += double(lane(one.brightness, k));
+    pairs.push_back(all), chosen.push_back(some);
+    // The strategy that samples a light counts 1.3 times.
+    const auto strategy = f.paths.choice->choose<F>(numbers_at(f.point, f.evaluate.dimensions() - 1),
+                                                    numbers_at(f.point, f.evaluate.dimensions() - 2));
+    for (int k = 0; k < lanes_of<F>; ++k)
+      if (lane(strategy.light_vertices, k) == 1) some += 0.3 * double(lane(one.brightness, k));
+    faulty.push_back(some);
+  }
+  EXPECT_GE(welch_test(summarize(pairs), summarize(chosen)).p_value, family_level);
+  EXPECT_LT(welch_test(summarize(pairs), summarize(faulty)).p_value, family_level);
+}
+
+// A start takes each strategy in proportion to what it finds.
+TEST(Strategies, start_in_proportion_to_brightness) {
+  const TestScene scene(room);
+  RoomStrategies f(scene);
+  constexpr int n = 256;
+  int strategies = 0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    f.draw(i);
+    const SamplePoint<F> drawn = f.point;
+    const F pair = f.evaluate.independent(f.point, f.counts).brightness;
+    std::array<std::map<std::uint32_t, int>, lanes_of<F>> taken;
+    for (int j = 0; j < n; ++j) {
+      f.point = drawn;
+      const Contribution<F> start = f.evaluate.start(f.point, pair, F((float(j) + 0.5f) / n), f.counts);
+      const auto chosen = f.paths.choice->choose<F>(numbers_at(f.point, f.evaluate.dimensions() - 1),
+                                                    numbers_at(f.point, f.evaluate.dimensions() - 2));
+      for (int k = 0; k < lanes_of<F>; ++k) {
+        EXPECT_EQ(lane(start.brightness, k) > 0, lane(pair, k) > 0);
+        ++taken[std::size_t(k)][lane(chosen.light_vertices, k) * 1000 + lane(chosen.eye_vertices, k)];
+      }
+    }
+    for (int k = 0; k < lanes_of<F>; ++k)
+      for (const auto& [strategy, count] : taken[std::size_t(k)]) {
+        if (!(lane(pair, k) > 0)) continue;
+        const ChosenStrategy<F> chosen{U(strategy / 1000), U(strategy % 1000), F(1.0f)};
+        const float found = lane(f.evaluate.evaluate(drawn, chosen, f.counts).brightness, k);
+        EXPECT_NEAR(count, n * double(found) / double(lane(pair, k)), 1.1) << strategy;
+        ++strategies;
+      }
+  }
+  EXPECT_GT(strategies, 100);
 }
 
 // ---- how the chains move

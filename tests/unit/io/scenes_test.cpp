@@ -183,6 +183,14 @@ LightSource "point" "spectrum I" "stdillum-D65"
   expect_same(*first.scene, *second.scene);
 }
 
+TEST(Integrators, of_mlt_vary_pairs_of_subpaths) {
+  const ReadResult read = read_pbrt_text("Integrator \"mlt\" \"float largestepprobability\" 0.5\nWorldBegin", ".");
+  ASSERT_TRUE(read.scene);
+  EXPECT_EQ(read.scene->integrator.name, "metropolis");
+  const std::vector<std::pair<std::string, std::string>> expected{{"strategies", "bdpt"}, {"large-step", "0.5"}};
+  EXPECT_EQ(read.scene->integrator.settings, expected);
+}
+
 // The picture of a text, and that of what the writer makes of it.
 TEST(Writing, keeps_the_picture_in_the_words_of_the_file) {
   const std::vector<std::string> texts{

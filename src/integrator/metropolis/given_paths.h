@@ -1,0 +1,50 @@
+// Paths from the camera by given numbers.
+#pragma once
+#include <span>
+#include <utility>
+
+#include "integrator/path/first_hits.h"
+#include "transport/numbers.h"
+
+namespace montelux {
+
+// One camera path a lane, which starts by given numbers.
+template <class F>
+struct GivenStart {
+  const TilePass& pass;
+  PathSite<F> site;
+  const RecordedNumbers<F>& numbers;
+  Mask<F> on, wants_sky;  // whose paths are wanted, and where they leave the scene at once their light
+};
+template <class F, class Rays>
+class GivenPaths {
+ public:
+  GivenPaths(const Scene& scene, const Rays& rays, const GivenStart<F>& given, std::span<PixelSample> out)
+      : scene_(scene), rays_(rays), given_(given), out_(out) {}
+
+  Mask<F> refill(PathState<F>& path, Mask<F> on) {
+    if (std::exchange(started_, true)) return on;
+    PathStart<F> start = start_of_path<F>(scene_, given_.pass, given_.site, given_.numbers);
+    start.slot = lane_index<F>();
+    const auto [found, hit] =
+        rays_.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, given_.on, RayUse::camera);
+    start.hit = hit;
+    const Mask<F> starts = found | (given_.on & Mask<F>(scene_.camera_medium != empty_space));
+    if (const Mask<F> left = given_.wants_sky & !starts; any(left)) {
+      const Spectrum<F> sky = scene_.lights.template escaped_radiance<F>(start.d, left) * start.weight;
+      for_each_lane(left, [&](int k) { out_[std::size_t(k)].radiance = to_rgb(lane(sky, k)); });
+    }
+    begin_paths(path, start, media_of<F>(scene_.media, Uint<F>(scene_.camera_medium)), starts);
+    return starts;
+  }
+  const RecordedNumbers<F>& numbers(const PathState<F>&) const { return given_.numbers; }
+
+ private:
+  const Scene& scene_;
+  const Rays& rays_;
+  const GivenStart<F> given_;
+  std::span<PixelSample> out_;
+  bool started_ = false;
+};
+
+}  // namespace montelux
