@@ -1,6 +1,7 @@
 #include "integrator/metropolis/integrator.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrator/metropolis/path_function.h"
 #include "integrator/metropolis/strategy_function.h"
@@ -190,10 +191,13 @@ class MetropolisChain final : public Chain {
     brightness_.clear(), brightness_.shrink_to_fit();
   }
 
-  // The bootstrap path at which a chain starts: by systematic resampling, in proportion to brightness.
-  std::uint32_t seed_of(std::uint32_t chain) const {
-    const double offset = double(lane(random_.fork(U(purpose::seeds)).at(U(0u)), 0));
-    const double place = (chain + offset) / double(chains_.size() * chains_per_cell) * total_;
+  // The bootstrap path at which chain k of a cell starts: by systematic resampling, in proportion to brightness. The
+  // chains of each cell are spread over all of the brightness: cells at the edges have fewer pixels and shorter chains,
+  // and would be biased towards the paths at which they start.
+  std::uint32_t seed_of(const Cell& cell, std::uint32_t k) const {
+    const double random = double(lane(random_.fork(U(purpose::seeds)).at(U(0u)), 0));
+    const double offset = random + double(cell.number) / double(chains_.size());
+    const double place = (k + offset - std::floor(offset)) / double(chains_per_cell) * total_;
     const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), place);
     return std::uint32_t(std::min(at, cumulative_.end() - 1) - cumulative_.begin());
   }
@@ -210,7 +214,7 @@ class MetropolisChain final : public Chain {
     for (int pack = 0; pack < packs_per_cell; ++pack) {
       const U chains = chain_numbers(cell, pack);
       U seeds(0u);
-      for (int k = 0; k < lanes_of<F>; ++k) set_lane(seeds, k, seed_of(lane(chains, k)));
+      for (int k = 0; k < lanes_of<F>; ++k) set_lane(seeds, k, seed_of(cell, std::uint32_t(pack * lanes_of<F> + k)));
       MarkovChains<F> started{new_point(evaluate), {}};
       draw_bootstrap(started.point, seeds);
       F brightness(0.0f);

@@ -391,6 +391,22 @@ std::string two_lamps(double left, double right) {
          lamp(left, "0 -1 1  0 1 1  -1 -1 1  -1 1 1") + lamp(right, "1 -1 1  1 1 1  0 -1 1  0 1 1");
 }
 
+// Chains of the cells at the edges are shorter than others. They must not start at other paths: chains that hardly mix
+// would show each part of the picture too bright or too dark.
+TEST(Metropolis, shows_each_part_of_a_picture_of_unequal_cells_as_bright_as_it_is) {
+  const TestScene scene(two_lamps(2, 0.5), ".", std::pair(48, 48));
+  for (const char* way : {"metropolis:large-step=0.05", "metropolis:strategies=bdpt,large-step=0.05"}) {
+    const PassMeans m = measure_passes(scene, scene.integrator(way), 2, 400, 7, {24, 8});
+    const double level = sidak_level(family_level, 12);
+    ASSERT_EQ(m.values.size(), 13u) << "the image and its blocks, two in each row";
+    for (std::size_t block = 1; block <= 12; ++block) {
+      const double truth = block % 2 == 1 ? 2 : 0.5;
+      EXPECT_GE(t_test(m.values[block], truth).p_value, level) << way << ", block " << block;
+      EXPECT_LT(t_test(m.values[block], 1.1 * truth).p_value, level) << way << ", block " << block;
+    }
+  }
+}
+
 MixingOfPasses mixing_of(const TestScene& scene, const std::string& way, PassPlan plan, int threads = 0) {
   const ChosenIntegrator chosen = scene.integrator(way);
   RenderSettings settings = scene.settings(PointSetKind::blue_noise, plan, 5);
