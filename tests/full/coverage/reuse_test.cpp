@@ -149,6 +149,7 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
         for (int frame = 0; frame < plan.samples_per_pass; ++frame) {
           RenderSettings s =
               scene.settings(PointSetKind::blue_noise, {1, plan.passes}, 1000 * seed + std::uint32_t(frame), 0);
+          s.plan.first_pass = frame * plan.passes;
           s.sequence.memories = &memories;
           const Film one = render(chosen.any(), s, silent).film;
           if (film)
