@@ -41,9 +41,9 @@ def main():
             command = [arguments.montelux, "render", scene, "--resolution", arguments.resolution, "--quiet", "--json", "--seed", seed,
                        "--threads", threads, "-o", file, *options]
             before = os.times()
-            told = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
+            stated = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
             after = os.times()
-            return told, read_pfm(file), after.children_user - before.children_user
+            return stated, read_pfm(file), after.children_user - before.children_user
 
         for scene in arguments.scenes:
             reference, true, seconds = run(scene, 1000001, "--spp", arguments.reference, threads=2)
@@ -51,9 +51,9 @@ def main():
             found = {}
             for seed in range(arguments.runs):
                 for way in "off", "on":
-                    told, image, seconds = run(scene, seed, "--spp", arguments.spp, "--adaptive", way)
+                    stated, image, seconds = run(scene, seed, "--spp", arguments.spp, "--adaptive", way)
                     error = max(relative_error(image, true) - reference["relative_mse"], 1e-30)
-                    found.setdefault(way, []).append((error, max(seconds - loading, 1e-3), told["samples"]))
+                    found.setdefault(way, []).append((error, max(seconds - loading, 1e-3), stated["samples"]))
             error, seconds, samples = ({way: sum(r[i] for r in runs) / len(runs) for way, runs in found.items()} for i in range(3))
             # The pilot takes a fortieth, which the count of the samples does not have.
             share = samples["on"] / samples["off"] + 1 / 40

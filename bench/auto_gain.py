@@ -39,9 +39,9 @@ def main():
             command = [arguments.montelux, "render", scene, "--resolution", arguments.resolution, "--quiet", "--json", "--seed", seed,
                        "--threads", arguments.threads, "-o", file, *options]
             before = os.times()
-            told = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
+            stated = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
             after = os.times()
-            return told, read_pfm(file), after.children_user - before.children_user
+            return stated, read_pfm(file), after.children_user - before.children_user
 
         for scene in arguments.scenes:
             reference, true, _ = run(scene, 1000001, "--time", arguments.reference_time, "--integrator", arguments.reference)
@@ -51,17 +51,17 @@ def main():
                 found, choices = {}, []
                 for seed in range(int(seeds)):
                     for way in "path", "auto":
-                        told, image, seconds = run(scene, seed, "--time", time, "--integrator", way)
+                        stated, image, seconds = run(scene, seed, "--time", time, "--integrator", way)
                         error = max(relative_error(image, true) - reference["relative_mse"], 1e-30)
                         found.setdefault(way, []).append((error, seconds - loading))
                         if way == "auto":
-                            choice = told["choice"]
+                            choice = stated["choice"]
                             best = choice["candidates"][0] if choice["candidates"] else {"integrator": "-", "efficiency": math.nan,
                                                                                         "interval": [math.nan, math.nan]}
                             choices.append("{} (of {} {:.3g}, {:.3g} to {:.3g}; {:.1f} %)".format(
                                 choice["integrator"], best["integrator"], best["efficiency"], *best["interval"], 100 * choice["pilots"]))
                         else:
-                            samples = told["passes"] * told["samples_per_pass"]
+                            samples = stated["passes"] * stated["samples_per_pass"]
                 error, seconds = ({way: sum(r[i] for r in runs) / len(runs) for way, runs in found.items()} for i in range(2))
                 gain = error["path"] / error["auto"] * seconds["path"] / seconds["auto"]
                 of_seeds = [p[0] * p[1] / (a[0] * a[1]) for p, a in zip(found["path"], found["auto"])]

@@ -68,22 +68,22 @@ def main():
             file = folder / f"{seed}.pfm"
             command = [arguments.montelux, "render", scene, "--resolution", arguments.resolution, "--quiet", "--json", "--seed", seed,
                        "--threads", threads, "-o", file, *options]
-            told = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
+            stated = json.loads(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
             image = read_pfm(file)
             file.unlink()
-            return told, image
+            return stated, image
 
         for scene in arguments.scenes:
             options = ["--target-error", target.text, "--spp", arguments.spp, *arguments.option]
             runs = list(pool.map(lambda seed: run(scene, seed, *options), range(arguments.runs)))
-            samples = [told["passes"] * told["samples_per_pass"] for told, image in runs]
+            samples = [stated["passes"] * stated["samples_per_pass"] for stated, image in runs]
             mean = sum(samples) / len(samples)
             length = arguments.reference_samples or int(arguments.reference * mean)
             reference, true = run(scene, 1000001, "--spp", length, threads=max(arguments.jobs, 1))
-            errors = [target.true_error(image, true, reference["relative_mse"]) for told, image in runs]
-            reached = [error for (told, image), error in zip(runs, errors) if told["target"]["reached"]]
+            errors = [target.true_error(image, true, reference["relative_mse"]) for stated, image in runs]
+            reached = [error for (stated, image), error in zip(runs, errors) if stated["target"]["reached"]]
             within = sum(error <= target.error for error in reached)
-            differences = [math.fsum(image) / math.fsum(true) - 1 for told, image in runs]
+            differences = [math.fsum(image) / math.fsum(true) - 1 for stated, image in runs]
             average = sum(differences) / len(differences)
             spread = math.sqrt(sum((d - average) ** 2 for d in differences) / max(len(differences) - 1, 1) / len(differences))
             of_reference = sum(reference["standard_error"]) / sum(reference["mean"])

@@ -104,11 +104,11 @@ Status check_files(const RenderArguments& arguments) {
 }
 
 std::string interruption_text(const RenderArguments& arguments, const Outcome& outcome) {
-  const std::string goes_on =
+  const std::string continues =
       arguments.checkpoint ? fmt::format("; montelux render --resume {} continues", *arguments.checkpoint) : "";
-  if (outcome.image.passes == 0) return "interrupted in the first pass; parts of the image are missing" + goes_on;
+  if (outcome.image.passes == 0) return "interrupted in the first pass; parts of the image are missing" + continues;
   return fmt::format("interrupted after {} passes; the image contains the finished passes{}", outcome.image.passes,
-                     goes_on);
+                     continues);
 }
 
 // One picture: written and told of. A frame that is interrupted is not written.

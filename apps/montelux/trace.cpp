@@ -90,7 +90,7 @@ void print_text(const SampleTrace& t) {
     print_contributions(t, i);
     if (v.continues)
       fmt::print("     on toward {}, {}{}\n", text_of(v.direction),
-                 v.density > 0 ? fmt::format("density {:.4g}", v.density) : std::string("straight or mirrored"),
+                 v.delta ? std::string("straight or mirrored") : fmt::format("density {:.4g}", v.density),
                  v.survival < 1 ? fmt::format(", survives with probability {:.3g}", v.survival) : "");
     else
       fmt::print("     ends here{}\n",
@@ -118,7 +118,7 @@ void print_json(const SampleTrace& t) {
                                 {"model", has_surface ? Json(name(v.model)) : Json()},
                                 {"throughput", json_of(v.throughput)},
                                 {"direction", v.continues ? json_of(v.direction) : Json()},
-                                {"density", v.continues && v.density > 0 ? Json(v.density) : Json()},
+                                {"density", v.continues && !v.delta ? Json(v.density) : Json()},
                                 {"survival", v.survival},
                                 {"continues", v.continues}});
   }

@@ -19,7 +19,7 @@ bool may_be_open_to_shadow_rays(const GeometryRow& row) {
   return row.alpha != 0 || (row.flags & GeometryRow::open_to_some_shadow_rays) != 0;
 }
 
-bool is_asked_of(const GeometryRow& row, RayUse use) {
+bool is_queried_by(const GeometryRow& row, RayUse use) {
   return use == RayUse::shadow ? may_be_open_to_shadow_rays(row) : row.alpha != 0;
 }
 
@@ -47,11 +47,11 @@ void reject_open(const RTCFilterFunctionNArguments* a) {
   const GeometryContext& context = context_of(a->geometryUserPtr);
   const GeometryRow& row = context.store->rows[context.row];
   const bool one_sided = use == RayUse::path && (row.flags & GeometryRow::one_sided) != 0;
-  const bool asks = is_asked_of(row, use);
+  const bool queries = is_queried_by(row, use);
   for (unsigned i = 0; i < a->N; ++i) {
     if (a->valid[i] == 0) continue;
     if (one_sided && is_of_camera(a->ray, a->N, i) && meets_back(row, a->ray, a->hit, a->N, i)) a->valid[i] = 0;
-    if (!asks || a->valid[i] == 0) continue;
+    if (!queries || a->valid[i] == 0) continue;
     Hit<float> hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
                    RTCHitN_v(a->hit, a->N, i),      context.row,
                    RTCHitN_primID(a->hit, a->N, i), instance_number(context, a->context->instID[0])};
@@ -124,7 +124,7 @@ void meet_shape(const GeometryContext& context, RTCRayN* rays, const int* valid,
   }
   if (query.count == 0) return;
   intersect(shape, std::span(query.rays).first(query.count), std::span(query.hits).first(query.count));
-  if (!is_asked_of(row, use)) return;
+  if (!is_queried_by(row, use)) return;
   for (std::size_t k = 0; k < query.count; ++k) {
     std::optional<ShapeHit>& found = query.hits[k];
     for (std::uint32_t passed = 0; found; ++passed) {
@@ -222,9 +222,9 @@ RTCGeometry make_geometry(RTCDevice device, const GeometryStore& store, const Ge
   rtcSetGeometryUserData(geometry, context);
   if (row.kind == GeometryKind::shape) return geometry;  // tested in their own functions
   const bool one_sided = (row.flags & GeometryRow::one_sided) != 0;
-  if (one_sided || is_asked_of(row, RayUse::path))
+  if (one_sided || is_queried_by(row, RayUse::path))
     rtcSetGeometryIntersectFilterFunction(geometry, reject_open<RayUse::path>);
-  if (is_asked_of(row, RayUse::shadow)) rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
+  if (is_queried_by(row, RayUse::shadow)) rtcSetGeometryOccludedFilterFunction(geometry, reject_open<RayUse::shadow>);
   if (row.flags & GeometryRow::invisible_to_shadow_rays) rtcSetGeometryOccludedFilterFunction(geometry, reject_all);
   return geometry;
 }

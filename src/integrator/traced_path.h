@@ -21,7 +21,8 @@ struct PathVertex {
   BsdfKind model{};                        // of a surface
   Rgb throughput;                          // of the path that arrives
   Vec3f direction;                         // in which the path continues
-  float density = 0;                       // of it, per steradian; 0: a delta
+  float density = 0;                       // of it, per steradian, where it is not that of a delta
+  bool delta = false;                      // the path went straight on, or scattered in a direction without a density
   float survival = 1;                      // the probability that roulette let the path survive
   bool continues = false;                  // else the path ends here
 };

@@ -30,7 +30,7 @@ inline constexpr std::array<std::uint32_t, halton_dimensions> halton_bases = [] 
 inline double scrambled_radical_inverse_double(std::uint32_t index, std::uint32_t base, std::uint32_t count,
                                                std::uint32_t key) {
   double value = 0, scale = 1;
-  for (std::uint64_t told_apart = 1; told_apart < count; told_apart *= base) {
+  for (std::uint64_t distinct = 1; distinct < count; distinct *= base) {
     const std::uint32_t digit = index % base;
     scale /= base;
     const std::uint64_t factor = 1u + (std::uint64_t(mix_bits(key)) * (base - 1u) >> 32);

@@ -139,8 +139,8 @@ class ReuseShares {
     F could = select(target > F(0.0f), confidence(0), F(0.0f));
     for (std::size_t i = 1; i < inputs_.size(); ++i) {
       const Mask<F> made = from == Uint<F>(std::uint32_t(i));
-      const Mask<F> asks = on & (confidence(i) > F(0.0f)) & !made;
-      const Mask<F> can = made | (target_at(i, y, asks) > F(0.0f));
+      const Mask<F> queries = on & (confidence(i) > F(0.0f)) & !made;
+      const Mask<F> can = made | (target_at(i, y, queries) > F(0.0f));
       could = could + select(can, confidence(i), F(0.0f));
     }
     return could;
@@ -186,7 +186,7 @@ template <class T, class F, class Domains, class Each = NoEach>
 Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> inputs, const Domains& domains,
                         RandomStream<F>& stream, Mask<F> on,
                         [[maybe_unused]] Each&& each = {}) requires ReuseDomains<Domains, T, F> {
-  constexpr bool tells = !std::is_same_v<std::remove_cvref_t<Each>, NoEach>;
+  constexpr bool reports = !std::is_same_v<std::remove_cvref_t<Each>, NoEach>;
   const ReuseShares<T, F, Domains> shares(weights, inputs, domains);
   const Reservoir<T, F>& first = inputs[0];
   WeightedReservoir<T, F> chosen;
@@ -197,7 +197,7 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
   const F own_share = shares.share_of_first(own);
   const F own_weight = select(own, usable_weight<F>(own_share * first.target * first.weight), F(0.0f));
   chosen.add(first.value, own_weight, stream.next());
-  if constexpr (tells) each.own(F(own_share * first.weight), Mask<F>(own_weight > F(0.0f)));
+  if constexpr (reports) each.own(F(own_share * first.weight), Mask<F>(own_weight > F(0.0f)));
   for (std::size_t i = 1; i < inputs.size(); ++i) {
     const F u = stream.next();
     const Reservoir<T, F>& input = inputs[i];
@@ -209,7 +209,7 @@ Reservoir<T, F> combine(ReuseWeights weights, std::span<const Reservoir<T, F>> i
     const F per_target = shares.share(i, image.value, own_target, image.target, counts) * input.weight * image.jacobian;
     const F w = select(counts, usable_weight<F>(per_target * image.target), F(0.0f));
     const Mask<F> taken = chosen.add(image.value, w, u);
-    if constexpr (tells) each.other(image, per_target, Mask<F>(w > F(0.0f)));
+    if constexpr (reports) each.other(image, per_target, Mask<F>(w > F(0.0f)));
     target = select(taken, image.target, target);
     from = select(taken, Uint<F>(std::uint32_t(i)), from);
   }

@@ -51,7 +51,7 @@ void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, con
   const std::size_t n = group.size();
   std::vector<Choice> choices(n);
   std::vector<ImageOf> images(n);
-  const auto asked = std::make_unique<Mask<F>[]>(n);
+  const auto queried = std::make_unique<Mask<F>[]>(n);
   F all = 0.0f;
   for (std::size_t k = 0; k < n; ++k) {
     group[k].confidence = usable_confidence(group[k].confidence);
@@ -63,11 +63,11 @@ void combine_group(std::span<Reservoir<T, F>> group, const Domains& domains, con
     if (!any(live)) continue;
     const F own = sample.confidence * sample.target;
     F sum = own;
-    for (std::size_t k = 0; k < n; ++k) asked[k] = live & (group[k].confidence > F(0.0f));
-    find_images<T, F>(domains, i, sample.value, std::span<const Mask<F>>(asked.get(), n), std::span<ImageOf>(images));
+    for (std::size_t k = 0; k < n; ++k) queried[k] = live & (group[k].confidence > F(0.0f));
+    find_images<T, F>(domains, i, sample.value, std::span<const Mask<F>>(queried.get(), n), std::span<ImageOf>(images));
     for (std::size_t k = 0; k < n; ++k) {
       if (k == i) images[k].target = sample.target, images[k].jacobian = F(1.0f);
-      images[k].target = select(asked[k] & (images[k].jacobian > F(0.0f)), images[k].target, F(0.0f));
+      images[k].target = select(queried[k] & (images[k].jacobian > F(0.0f)), images[k].target, F(0.0f));
       if (k != i)
         sum = sum +
               select(images[k].target > F(0.0f), group[k].confidence * images[k].target * images[k].jacobian, F(0.0f));

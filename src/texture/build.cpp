@@ -117,8 +117,8 @@ std::shared_ptr<const TexelImage> TextureBuilder::image(const std::string& file,
 // Nothing if the image cannot be read, which has been reported.
 std::optional<ImageTexture> TextureBuilder::build_image(const ImageTextureDesc& stated, const TextureDesc& texture) {
   const bool prefiltered = stated.filter == TextureFilter::trilinear || stated.filter == TextureFilter::ewa;
-  if (prefiltered && !told_of_filter_) {
-    told_of_filter_ = true;
+  if (prefiltered && !noted_filter_) {
+    noted_filter_ = true;
     const std::string name = stated.filter == TextureFilter::ewa ? "ewa" : "trilinear";
     diagnostics_.note(texture.where, "the texture filter " + name + " is replaced by bilinear at full resolution",
                       "the samples of a pixel average the texture without the bias of a prefilter");

@@ -70,7 +70,7 @@ class TextureBuilder {
   Names<Rgb> spectrum_names_;
   std::map<std::array<std::uint32_t, rgb_size>, SpectrumTextureId> spectrum_constants_;  // by the bits
   std::map<std::uint32_t, NumberTextureId> number_constants_;
-  bool told_of_filter_ = false;
+  bool noted_filter_ = false;
 };
 
 }  // namespace montelux

@@ -1,5 +1,6 @@
 // The plan of the numbers of a path: which coordinate of its sample point decides what, so that no two decisions share
-// one. There is one plan for paths from the camera, and one for paths from a light.
+// one. Streams are numbered, too, on their own: coordinate 4 and stream 4 have nothing in common. There is one plan for
+// paths from the camera, and one for paths from a light.
 #pragma once
 #include <cstdint>
 
@@ -24,19 +25,27 @@ inline constexpr std::uint32_t per_vertex = 10;
 // Interfaces are no vertices, but each segment between them has a distance and a stream of its own.
 inline constexpr std::uint32_t per_crossing = 1u << 20;
 
+// A fork of the stream of a vertex: for what a shadow ray meets.
+inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
+
+// Reuse between pixels: the direction of the first rough vertex, and the streams of a pixel. Crossings have no numbers
+// before the first vertex, so that these are free.
+inline constexpr std::uint32_t rough_direction = 1u << 29;  // 2
+inline constexpr std::uint32_t reuse = 1u << 30;            // a stream
+
 }  // namespace path_dimension
 
 namespace light_dimension {
 
 inline constexpr std::uint32_t point = 0;      // 2: on the light
 inline constexpr std::uint32_t direction = 2;  // 2: from there
-inline constexpr std::uint32_t lens = 4;       // 2: for the connection of the light itself
+inline constexpr std::uint32_t lens = 4;       // 2, and a stream: for the connection of the light itself
 inline constexpr std::uint32_t choice = 6;     // 1: of the light
 inline constexpr std::uint32_t time = 7;       // 1
 inline constexpr std::uint32_t first_vertex = 8;
 
 // Offsets within the numbers of one vertex.
-inline constexpr std::uint32_t vertex_lens = 0;       // 2
+inline constexpr std::uint32_t vertex_lens = 0;       // 2, and a stream
 inline constexpr std::uint32_t vertex_direction = 2;  // 2
 inline constexpr std::uint32_t lobe = 4;              // 1
 inline constexpr std::uint32_t roulette = 5;          // 1

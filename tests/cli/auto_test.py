@@ -11,19 +11,19 @@ class Auto(ProgramTest):
     def render_image(self, *arguments, scene=INDIRECT, resolution="64x48"):
         return self.run_program("render", scene, "--resolution", resolution, *arguments)
 
-    def told(self, *arguments, **options):
+    def stated(self, *arguments, **options):
         return json.loads(self.render_image("--integrator", "auto", *arguments, "--json", "--quiet", **options).stdout)
 
     def test_the_better_integrator_is_chosen_with_the_same_bytes_for_any_number_of_threads_and_after_a_stop(self):
         options, size = ["--target-error", "20%", "--spp", 20000, "--set", "among=restir-pt"], "160x120"
-        told = self.told(*options, "--threads", 1, "--checkpoint", "1.film", "-o", "1.exr", resolution=size)
-        choice = told["choice"]
+        stated = self.stated(*options, "--threads", 1, "--checkpoint", "1.film", "-o", "1.exr", resolution=size)
+        choice = stated["choice"]
         self.assertEqual(choice["integrator"], "restir-pt")
-        self.assertTrue(told["target"]["reached"])
+        self.assertTrue(stated["target"]["reached"])
         self.assertTrue(0 < choice["pilots"] <= 0.05)
         low, high = choice["candidates"][0]["interval"]
         self.assertTrue(1 < low < choice["candidates"][0]["efficiency"] < high)
-        again = self.told(*options, "--threads", 2, "-o", "2.exr", resolution=size)
+        again = self.stated(*options, "--threads", 2, "-o", "2.exr", resolution=size)
         self.assertEqual(again["choice"], choice)
         one, two = ((self.folder / f"{n}.exr").read_bytes() for n in (1, 2))
         self.assertTrue(one == two)
@@ -37,11 +37,11 @@ class Auto(ProgramTest):
             more = json.loads(self.run_program("render", "--resume", "1.film", *option, "--spp", 100, "--target-error", "15%", "--json",
                                                "--quiet", "-o", "c.pfm").stdout)
             self.assertEqual(more["choice"], choice)
-            self.assertGreater(more["passes"], told["passes"])
+            self.assertGreater(more["passes"], stated["passes"])
 
     def test_a_short_render_is_by_path_and_says_so(self):
-        told = self.told("--spp", 16, "-o", "a.pfm")
-        self.assertEqual((told["choice"]["integrator"], told["choice"]["pilots"]), ("path", 0))
+        stated = self.stated("--spp", 16, "-o", "a.pfm")
+        self.assertEqual((stated["choice"]["integrator"], stated["choice"]["pilots"]), ("path", 0))
         self.render_image("--spp", 16, "--integrator", "path", "--quiet", "-o", "b.pfm")
         self.assertTrue((self.folder / "a.pfm").read_bytes() == (self.folder / "b.pfm").read_bytes())
         result = self.render_image("--integrator", "auto", "--spp", 16, "-o", "a.pfm")
@@ -51,19 +51,19 @@ class Auto(ProgramTest):
     def test_candidates_can_do_what_options_require(self):
         for options in ["--layers", "bounces:1"], ["--adaptive", "on"]:
             with self.subTest(options=options):
-                told = self.told("--spp", 64, "--set", "among=restir-pt", *options, "-o", "a.exr")
-                self.assertEqual(told["choice"]["reason"], "no other integrator renders this image")
-        told = self.told("--spp", 16, "--set", "among=restir-pt", "-o", "a.exr", scene=ROOT / "scenes" / "media" / "glass.pbrt")
-        self.assertEqual(told["choice"]["reason"], "no other integrator renders this image")
-        told = self.told("--time", "1s", "--denoise", "-o", "a.exr")
-        self.assertIn("choice", told)
+                stated = self.stated("--spp", 64, "--set", "among=restir-pt", *options, "-o", "a.exr")
+                self.assertEqual(stated["choice"]["reason"], "no other integrator renders this image")
+        stated = self.stated("--spp", 16, "--set", "among=restir-pt", "-o", "a.exr", scene=ROOT / "scenes" / "media" / "glass.pbrt")
+        self.assertEqual(stated["choice"]["reason"], "no other integrator renders this image")
+        stated = self.stated("--time", "1s", "--denoise", "-o", "a.exr")
+        self.assertIn("choice", stated)
         frames = self.render_image("--integrator", "auto", "--frames", "0:1", "--spp", 8, "--json", "--quiet", "-o", "a.####.pfm").stdout
         self.assertEqual([json.loads(line)["choice"]["integrator"] for line in frames.splitlines()], ["path", "path"])
 
     def test_a_comparison_has_what_a_repeat_would_choose(self):
-        told = self.run_program("compare", INDIRECT, "--resolution", "32x24", "-a", "naive", "-b", "auto:sampler=halton", "--spp", 8, "--no-cache",
+        stated = self.run_program("compare", INDIRECT, "--resolution", "32x24", "-a", "naive", "-b", "auto:sampler=halton", "--spp", 8, "--no-cache",
                                 "--save", "a.json")
-        self.assertIn("auto b is path: the render is too short for pilots, which its time does not include", told.stdout + told.stderr)
+        self.assertIn("auto b is path: the render is too short for pilots, which its time does not include", stated.stdout + stated.stderr)
         self.assertIn("auto b=path:sampler=halton", (self.folder / "a.json").read_text())
         self.run_program("compare", "--resume", "a.json", "--repeats", 1)
 

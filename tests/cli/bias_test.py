@@ -19,33 +19,33 @@ class BiasTest(ProgramTest):
         super().setUp()
         (self.folder / "furnace.pbrt").write_text(FURNACE)
 
-    def told(self, *options):
+    def written(self, *options):
         return json.loads(self.run_program("render", "furnace.pbrt", "--spp", 64, "--quiet", "--json", "-o", "a.exr",
                                            "--integrator", *options).stdout)
 
     def test_light_beyond_the_depth_limit_is_that_of_the_series(self):
         for depth in 0, 2, 4:
-            told = self.told(f"path:maxdepth={depth}", "--measure-bias")
-            bias, beyond = told["measured_bias"], 0.5 ** depth
+            written = self.written(f"path:maxdepth={depth}", "--measure-bias")
+            bias, beyond = written["measured_bias"], 0.5 ** depth
             for mean, error in zip(bias["mean"], bias["standard_error"]):
                 self.assertLess(error, 0.05 * beyond)
                 self.assertAlmostEqual(mean, -beyond, delta=4 * error + 1e-5)
-            self.assertAlmostEqual(told["mean"][0] + beyond, 2, delta=0.01)
+            self.assertAlmostEqual(written["mean"][0] + beyond, 2, delta=0.01)
 
     def test_light_that_a_clamp_cuts(self):
-        told = self.told("path:maxcomponent=1.5", "--measure-bias", "--set", "maxdepth=none")
-        for mean, bias, error in zip(told["mean"], told["measured_bias"]["mean"], told["measured_bias"]["standard_error"]):
+        written = self.written("path:maxcomponent=1.5", "--measure-bias", "--set", "maxdepth=none")
+        for mean, bias, error in zip(written["mean"], written["measured_bias"]["mean"], written["measured_bias"]["standard_error"]):
             self.assertLess(bias, -0.1)
-            self.assertAlmostEqual(mean - bias, 2, delta=4 * error + 4 * told["standard_error"][0])
+            self.assertAlmostEqual(mean - bias, 2, delta=4 * error + 4 * written["standard_error"][0])
 
     def test_it_is_stated_and_has_the_same_bits_for_any_threads(self):
         options = ["path:maxdepth=1", "--measure-bias", "--threads"]
-        self.assertEqual(self.told(*options, 1)["measured_bias"], self.told(*options, 3)["measured_bias"])
+        self.assertEqual(self.written(*options, 1)["measured_bias"], self.written(*options, 3)["measured_bias"])
         said = self.run_program("info", "a.exr").stdout
         self.assertIn("maxdepth=1", said)
         self.assertIn("as measured", said)
-        compared = self.told("path:maxdepth=1", "--measure-bias", "-o", "a.pfm")
-        plain = self.told("path:maxdepth=1", "-o", "b.pfm")
+        compared = self.written("path:maxdepth=1", "--measure-bias", "-o", "a.pfm")
+        plain = self.written("path:maxdepth=1", "-o", "b.pfm")
         self.assertEqual((self.folder / "a.pfm").read_bytes(), (self.folder / "b.pfm").read_bytes())
         self.assertEqual(compared["mean"], plain["mean"])
         self.assertNotIn("measured_bias", plain)

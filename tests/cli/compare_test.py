@@ -108,7 +108,7 @@ class Compare(ProgramTest):
         self.assertEqual(more["clock"], "processor")
         self.assertEqual(more["methods"][0]["repeats"], 6)
 
-    def test_a_saved_comparison_goes_on(self):
+    def test_a_saved_comparison_continues(self):
         self.run_program("render", SCENE, "--resolution", "16x12", "--spp", 256, "-o", "truth.exr", "--quiet")
         common = ["-a", "path", "-b", "path:mis=balance", "--reference", "truth.exr", "--json", "--quiet"]
         whole = json.loads(self.compare(*common, repeats=6).stdout)
@@ -267,11 +267,11 @@ class Compare(ProgramTest):
         replaced = {"family": "sampler", "name": "zsobol", "by": "blue-noise"}
         result = self.run_program(*common, "--json", "--save", "run.json")
         resumed = self.run_program("compare", "--resume", "run.json", "--repeats", 1, "--json")
-        for told in json.loads(result.stdout)["methods"], json.loads(resumed.stdout)["methods"]:
-            self.assertEqual([m["missing_light"] for m in told], [[light], [light]])
+        for written in json.loads(result.stdout)["methods"], json.loads(resumed.stdout)["methods"]:
+            self.assertEqual([m["missing_light"] for m in written], [[light], [light]])
             # What a method chooses itself is not replaced.
-            self.assertEqual([m["replaced"] for m in told], [[replaced], []])
-            for method in told:
+            self.assertEqual([m["replaced"] for m in written], [[replaced], []])
+            for method in written:
                 self.assertEqual(len(method["left_out"]), 1)
                 self.assertIn("nonsense", method["left_out"][0])
         self.assertIn(f"path and path:mis=balance,sampler=sobol cannot find {light}", result.stderr)

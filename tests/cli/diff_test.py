@@ -12,13 +12,13 @@ class Diff(ProgramTest):
     def test_two_plain_pictures_have_the_errors_that_arithmetic_gives(self):
         write_pfm(self.folder / "a.pfm", 8, 6, (0.5, 0.5, 0.5))
         write_pfm(self.folder / "b.pfm", 8, 6, (0.6, 0.6, 0.6))
-        told = self.difference("a.pfm", "b.pfm", status=1)
-        self.assertAlmostEqual(told["mse"], 0.01, places=7)
-        self.assertAlmostEqual(told["relative_mse"], 0.01 / (0.36 + 0.01), places=7)
-        self.assertAlmostEqual(told["psnr"], 20, places=4)
-        self.assertAlmostEqual(told["mean_difference"], -0.1, places=6)
-        self.assertIsNone(told["welch"])
-        self.assertFalse(told["equal"])
+        stated = self.difference("a.pfm", "b.pfm", status=1)
+        self.assertAlmostEqual(stated["mse"], 0.01, places=7)
+        self.assertAlmostEqual(stated["relative_mse"], 0.01 / (0.36 + 0.01), places=7)
+        self.assertAlmostEqual(stated["psnr"], 20, places=4)
+        self.assertAlmostEqual(stated["mean_difference"], -0.1, places=6)
+        self.assertIsNone(stated["welch"])
+        self.assertFalse(stated["equal"])
 
     def test_error_bars_of_other_files_decide(self):
         write_pfm(self.folder / "a.pfm", 8, 8, (0.5, 0.5, 0.5))
@@ -28,13 +28,13 @@ class Diff(ProgramTest):
         bars = ["--stderr-a", "wide.pfm", "--stderr-b", "wide.pfm"]
         self.assertFalse(self.difference("a.pfm", "b.pfm", *bars, status=0)["differs"])
         narrow = [bar.replace("wide", "narrow") for bar in bars]
-        told = self.difference("a.pfm", "b.pfm", *narrow, status=1)
+        stated = self.difference("a.pfm", "b.pfm", *narrow, status=1)
         # 0.1 over sqrt(2) 0.01 in a pixel, and 8 times that in the mean of 64.
-        self.assertAlmostEqual(told["welch"]["pixels"]["t"], -7.0711, places=3)
-        self.assertAlmostEqual(told["welch"]["image"]["t"], -56.569, places=2)
+        self.assertAlmostEqual(stated["welch"]["pixels"]["t"], -7.0711, places=3)
+        self.assertAlmostEqual(stated["welch"]["image"]["t"], -56.569, places=2)
         # With one degree of freedom each, seven standard errors prove nothing in a pixel; the mean still tells.
-        told = self.difference("a.pfm", "b.pfm", *narrow, "--dof", "1", status=1)
-        self.assertFalse(told["welch"]["pixels"]["differs"])
+        stated = self.difference("a.pfm", "b.pfm", *narrow, "--dof", "1", status=1)
+        self.assertFalse(stated["welch"]["pixels"]["differs"])
 
     def test_trouble_is_status_2(self):
         write_pfm(self.folder / "a.pfm", 8, 6, (1, 1, 1))
@@ -44,7 +44,7 @@ class Diff(ProgramTest):
         (self.folder / "broken.exr").write_bytes(b"\x76\x2f\x31\x01 and nothing more")
         self.assertIn("broken.exr", self.run_program("diff", "a.pfm", "broken.exr", status=2).stderr)
 
-    def test_noise_is_told_from_a_difference(self):
+    def test_noise_differs_from_a_difference(self):
         darkened = self.folder / "dark.pbrt"
         darkened.write_text(SCENE.read_text().replace("[ 17 15 12 ]", "[ 16 14 11 ]"))
         self.render("--spp", "32", "--seed", "1", "-o", "a.exr")

@@ -78,17 +78,17 @@ class Display(ProgramTest):
             self.assertEqual(self.colors("direct.png"), self.colors("later.png"), integrator)
             self.assertGreater(len(set(self.colors("direct.png"))), 10, integrator)
 
-    def test_light_that_is_far_too_bright_is_exposed_automatically_and_told(self):
+    def test_light_that_is_far_too_bright_is_exposed_automatically_and_reported(self):
         bright = self.run_program("render", self.scene(power=54351), "--spp", "4", "-o", "out.exr", "-o", "out.png", "--json")
-        told = json.loads(bright.stdout)["display"]
-        self.assertTrue(told["automatic"])
-        self.assertLess(told["exposure"], -8)
-        self.assertIn(f"exposure {told['exposure']:.1f} EV, chosen automatically", bright.stderr)
+        written = json.loads(bright.stdout)["display"]
+        self.assertTrue(written["automatic"])
+        self.assertLess(written["exposure"], -8)
+        self.assertIn(f"exposure {written['exposure']:.1f} EV, chosen automatically", bright.stderr)
         lit = [max(color) for color in self.colors("out.png") if max(color) > 0]
         self.assertGreater(sum(20 < value < 250 for value in lit), 0.8 * len(lit))
         # The same bits by that number, by tonemap, and in another run.
         self.run_program("tonemap", "out.exr", "-o", "later.png")
-        self.run_program("tonemap", "out.exr", "-o", "stated.png", "--exposure", f"{told['exposure']:.1f}")
+        self.run_program("tonemap", "out.exr", "-o", "stated.png", "--exposure", f"{written['exposure']:.1f}")
         self.assertEqual(self.colors("out.png"), self.colors("later.png"))
         self.assertEqual(self.colors("out.png"), self.colors("stated.png"))
         # An exposure that is stated, by the user or by the scene, stays.
@@ -110,9 +110,9 @@ class Display(ProgramTest):
 
     def test_ranges_and_maps_are_options_of_tonemap(self):
         self.run_program("render", self.scene(), "--spp", "4", "-o", "out.exr")
-        told = json.loads(self.run_program("tonemap", "out.exr", "-o", "a.png", "--layer", "Z", "--range", "1:20",
+        written = json.loads(self.run_program("tonemap", "out.exr", "-o", "a.png", "--layer", "Z", "--range", "1:20",
                                            "--colormap", "magma", "--json").stdout)
-        self.assertEqual(told["display"], {"content": "distance", "exposure": None, "range": [1, 20],
+        self.assertEqual(written["display"], {"content": "distance", "exposure": None, "range": [1, 20],
                                            "colormap": "magma", "automatic": False})
         # Stated, auto is what data have by default; light is then shown by its range, and not by an exposure.
         for layer in "Z", "stderr", "P":
@@ -134,8 +134,8 @@ class Display(ProgramTest):
             self.assertIn(reason, result.stderr)
 
     def test_numbers_in_any_notation_percentages_and_single_frames(self):
-        told = json.loads(self.run_program("render", self.scene(), "--spp", "1e1", "--json", "-o", "a.png").stdout)
-        self.assertEqual(told["passes"] * told["samples_per_pass"], 10)
+        written = json.loads(self.run_program("render", self.scene(), "--spp", "1e1", "--json", "-o", "a.png").stdout)
+        self.assertEqual(written["passes"] * written["samples_per_pass"], 10)
         for wrong in "1.5", "1e-1", "0", "1e9", "ten", "-1":
             self.run_program("render", self.scene(), f"--spp={wrong}", status=2)
         for percent, size in ("50%", (20, 15)), ("12.5%", (5, 4)), ("0.001%", (1, 1)):
@@ -149,10 +149,10 @@ class Display(ProgramTest):
     def test_info_names_materials_and_textures(self):
         scene = self.scene()
         self.assertIn("red (diffuse)", self.run_program("info", scene).stdout)
-        told = json.loads(self.run_program("info", scene, "--json").stdout)
-        self.assertIn({"name": "red", "kind": "diffuse"}, told["material_list"])
-        self.assertEqual(told["texture_list"], [{"name": "checks", "kind": "checkerboard"}])
-        self.assertEqual(told["cameras"], [])
+        written = json.loads(self.run_program("info", scene, "--json").stdout)
+        self.assertIn({"name": "red", "kind": "diffuse"}, written["material_list"])
+        self.assertEqual(written["texture_list"], [{"name": "checks", "kind": "checkerboard"}])
+        self.assertEqual(written["cameras"], [])
 
     def test_info_names_cameras_and_animations_of_gltf(self):
         document = {
@@ -170,9 +170,9 @@ class Display(ProgramTest):
                             "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}
         scene = self.folder / "a.gltf"
         scene.write_text(json.dumps(document))
-        told = json.loads(self.run_program("info", scene, "--json").stdout)
-        self.assertEqual(told["cameras"], ["front", "side"])
-        self.assertEqual(told["animations"], [{"name": "slide", "seconds": 2.5}])
+        written = json.loads(self.run_program("info", scene, "--json").stdout)
+        self.assertEqual(written["cameras"], ["front", "side"])
+        self.assertEqual(written["animations"], [{"name": "slide", "seconds": 2.5}])
         text = self.run_program("info", scene).stdout
         self.assertIn("front, side", text)
         self.assertIn("slide (2.5", text)

@@ -57,9 +57,9 @@ class Films(ProgramTest):
             self.assertEqual(self.picture("--resume", "all.film", name="again.exr"), whole, order)
         # Merged step by step, too; and a part is another picture.
         self.run_program("merge", "c.film", "a.film", "-o", "ac.film")
-        told = json.loads(self.run_program("merge", "b.film", "ac.film", "-o", "all.exr", "--json").stdout)
+        stated = json.loads(self.run_program("merge", "b.film", "ac.film", "-o", "all.exr", "--json").stdout)
         self.assertEqual(self.bytes_of("all.exr"), whole)
-        self.assertEqual((told["passes"], told["samples"]), (8, 100 * 64 * 16))
+        self.assertEqual((stated["passes"], stated["samples"]), (8, 100 * 64 * 16))
         self.assertNotEqual(self.picture("--resume", "b.film", name="b.exr"), whole)
 
     def test_parts_keep_the_bias_that_they_measured(self):
@@ -72,38 +72,38 @@ class Films(ProgramTest):
         self.run_program("merge", "2.film", "0.film", "1.film", "-o", "all.film", "-o", "all.exr")
         self.assertEqual(self.bytes_of("all.exr"), whole)
         self.run_program("render", *plan, "--passes", "0:1", "--checkpoint", "begin.film")
-        told = json.loads(self.run_program("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr",
+        stated = json.loads(self.run_program("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr",
                                            "--json").stdout)
         self.assertEqual(self.bytes_of("all.exr"), whole)
-        self.assertEqual(told["measured_bias"]["passes"], 4)
-        self.assertEqual(len(told["measured_bias"]["mean"]), 3)
+        self.assertEqual(stated["measured_bias"]["passes"], 4)
+        self.assertEqual(len(stated["measured_bias"]["mean"]), 3)
         # One pass shows no spread, and other integrators measure nothing.
         for part in ["2.film", "--passes", "2:2"], ["0.film", "--passes", "0:0"]:
-            told = json.loads(self.run_program("render", *plan, *part[1:], "-o", "one.exr", "--json").stdout)
-            self.assertNotIn("measured_bias", told)
-        told = json.loads(self.run_program("render", *plan[:5], "--integrator", "path", "-o", "p.exr", "--json").stdout)
-        self.assertNotIn("measured_bias", told)
+            stated = json.loads(self.run_program("render", *plan, *part[1:], "-o", "one.exr", "--json").stdout)
+            self.assertNotIn("measured_bias", stated)
+        stated = json.loads(self.run_program("render", *plan[:5], "--integrator", "path", "-o", "p.exr", "--json").stdout)
+        self.assertNotIn("measured_bias", stated)
 
     def test_parts_keep_how_their_markov_chains_have_mixed(self):
         plan = [SCENE, "--resolution", "40x32", "--spp", "16", "--integrator", "metropolis", "--samples-per-pass", "4"]
-        told = lambda *arguments: json.loads(self.run_program(*arguments, "--json").stdout).get("mixing")
-        whole = told("render", *plan, "--threads", "1", "-o", "whole.exr")
+        stated = lambda *arguments: json.loads(self.run_program(*arguments, "--json").stdout).get("mixing")
+        whole = stated("render", *plan, "--threads", "1", "-o", "whole.exr")
         self.assertEqual(whole["steps"], 4 * 4 * 16 * (64 + 16))  # passes, frames, chains of a cell, their steps in it
         self.assertGreater(whole["effective_samples"], whole["chains"] / 2)
         for passes in "2:3", "0:0", "1:1":
             self.run_program("render", *plan, "--passes", passes, "--checkpoint", passes[0] + ".film")
         self.run_program("merge", "2.film", "0.film", "1.film", "-o", "all.film")
-        self.assertEqual(told("render", "--resume", "all.film", "-o", "all.exr"), whole)
+        self.assertEqual(stated("render", "--resume", "all.film", "-o", "all.exr"), whole)
         self.run_program("render", *plan, "--passes", "0:1", "--checkpoint", "begin.film")
-        self.assertEqual(told("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr"), whole)
-        self.assertIsNone(told("render", *plan[:5], "--integrator", "path", "-o", "p.exr"))
+        self.assertEqual(stated("render", "--resume", "begin.film", "--passes", "0:3", "-o", "all.exr"), whole)
+        self.assertIsNone(stated("render", *plan[:5], "--integrator", "path", "-o", "p.exr"))
 
-    def test_a_film_with_a_gap_is_filled_where_it_goes_on(self):
+    def test_a_film_with_a_gap_is_filled_where_it_continues(self):
         whole = self.picture(SCENE, *PLAN, name="whole.exr")
         self.run_program("merge", self.part(6, 7, "end.film"), self.part(0, 2, "begin.film"), "-o", "gap.film")
         self.assertEqual(self.picture("--resume", "gap.film", name="all.exr"), whole)
 
-    def test_an_interrupted_render_goes_on_to_the_same_bits(self):
+    def test_an_interrupted_render_continues_to_the_same_bits(self):
         plan = ["--resolution", "100x64", "--spp", "64", "--samples-per-pass", "2"]
         whole = self.picture(SCENE, *plan, name="whole.exr")
         film = self.folder / "room.film"
@@ -131,25 +131,25 @@ class Films(ProgramTest):
             out, err = process.communicate()
         self.assertEqual(process.returncode, 130)
         self.assertIn("montelux render --resume room.film continues", err)
-        told = json.loads(out)
-        self.assertEqual((told["film"], told["interrupted"]), ("room.film", True))
+        stated = json.loads(out)
+        self.assertEqual((stated["film"], stated["interrupted"]), ("room.film", True))
         # What was done is counted on: samples, rays and time.
         more = json.loads(self.run_program("render", "--resume", "room.film", "--spp", "2", "--json").stdout)
-        self.assertGreaterEqual(more["samples"], told["samples"])
-        self.assertLessEqual(more["samples"], told["samples"] + 60 * 40 * 2)
-        self.assertGreaterEqual(more["rays"], told["rays"])
+        self.assertGreaterEqual(more["samples"], stated["samples"])
+        self.assertLessEqual(more["samples"], stated["samples"] + 60 * 40 * 2)
+        self.assertGreaterEqual(more["rays"], stated["rays"])
         saved = json.loads(film.read_bytes().split(b"\n", 1)[0])
         self.assertGreaterEqual(more["seconds"], saved["seconds"])
 
-    def test_a_film_goes_on_to_more_samples(self):
+    def test_a_film_continues_to_more_samples(self):
         plan = ["--resolution", "60x40", "--samples-per-pass", "2"]
         whole = self.picture(SCENE, *plan, "--spp", "32", name="whole.exr")
         self.run_program("render", SCENE, *plan, "--spp", "10", "--checkpoint", "room.film")
         self.assertEqual(self.picture("--resume", "room.film", "--spp", "32", name="more.exr"), whole)
         # The same settings may be given again; a time adds to what there is.
-        told = json.loads(self.run_program("render", SCENE, *plan, "--resume", "room.film", "--time", "200ms",
+        stated = json.loads(self.run_program("render", SCENE, *plan, "--resume", "room.film", "--time", "200ms",
                                            "--checkpoint", "longer.film", "--json").stdout)
-        self.assertGreater(told["passes"], 5)
+        self.assertGreater(stated["passes"], 5)
         self.refused("render", "--resume", "longer.film", saying="longer.film was rendered within a time; --time says")
         # As far as there are passes, they are those of the render that was not interrupted.
         self.run_program("render", "--resume", "longer.film", "--spp", "10", "-o", "done.exr")

@@ -52,23 +52,23 @@ class Frames(ProgramTest):
         text = SCENE.replace("SHUTTER_OPEN", str(shutter_open)).replace("SHUTTER_CLOSE", str(shutter_close))
         (self.folder / name).write_text(text)
 
-    def told(self, *arguments):
+    def stated(self, *arguments):
         result = self.run_program("render", "slide.pbrt", "--json", "--no-progress", *arguments)
         return [json.loads(line) for line in result.stdout.splitlines()]
 
-    def expect_hidden(self, told, hidden, exposure):
+    def expect_hidden(self, stated, hidden, exposure):
         """The share of the picture that is hidden, of each frame, to five standard errors."""
-        for frame, share in zip(told, hidden, strict=True):
+        for frame, share in zip(stated, hidden, strict=True):
             self.assertGreater(frame["standard_error"][0], 0)
             self.assertAlmostEqual(frame["mean"][0], exposure * (1 - share), delta=5 * frame["standard_error"][0])
 
     def test_the_whole_time_falls_into_equal_frames(self):
         self.write_scene()
-        told = self.told("--frames", "10:13", "-o", "a.####.pfm")
-        self.assertEqual([t["frame"] for t in told], [10, 11, 12, 13])
-        self.assertEqual([t["shutter"] for t in told], [[0, 0.5], [0.5, 1], [1, 1.5], [1.5, 2]])
-        self.assertEqual([t["files"] for t in told], [[f"a.00{n}.pfm"] for n in (10, 11, 12, 13)])
-        self.expect_hidden(told, [1 / 8, 3 / 8, 5 / 8, 7 / 8], 2)
+        stated = self.stated("--frames", "10:13", "-o", "a.####.pfm")
+        self.assertEqual([t["frame"] for t in stated], [10, 11, 12, 13])
+        self.assertEqual([t["shutter"] for t in stated], [[0, 0.5], [0.5, 1], [1, 1.5], [1.5, 2]])
+        self.assertEqual([t["files"] for t in stated], [[f"a.00{n}.pfm"] for n in (10, 11, 12, 13)])
+        self.expect_hidden(stated, [1 / 8, 3 / 8, 5 / 8, 7 / 8], 2)
         # The picture is that of the moment: the square comes from the left.
         _, _, rows = read_pfm(self.folder / "a.0011.pfm")
         self.assertLess(rows[8][0], 0.01)
@@ -76,8 +76,8 @@ class Frames(ProgramTest):
 
     def test_a_part_of_the_frames_is_the_same_as_in_the_whole(self):
         self.write_scene(0, 1)
-        whole = self.told("--frames", "0:7", "-o", "whole.%03d.pfm")
-        part = self.told("--frames", "5:6/8", "-o", "part.#.pfm")
+        whole = self.stated("--frames", "0:7", "-o", "whole.%03d.pfm")
+        part = self.stated("--frames", "5:6/8", "-o", "part.#.pfm")
         self.assertEqual([t["shutter"] for t in part], [[1.25, 1.375], [1.5, 1.625]])
         self.assertEqual([t["seed"] for t in part], [t["seed"] for t in whole[5:7]])
         self.assertEqual(len({t["seed"] for t in whole}), 8)
@@ -88,16 +88,16 @@ class Frames(ProgramTest):
 
     def test_frames_a_unit_of_time_shift_the_shutter_of_the_scene(self):
         self.write_scene(0, 0.25)
-        told = self.told("--frames", "0:3", "--fps", "2", "-o", "a.pfm")
-        self.assertEqual([t["shutter"] for t in told], [[0, 0.25], [0.5, 0.75], [1, 1.25], [1.5, 1.75]])
-        self.expect_hidden(told, [1 / 16, 5 / 16, 9 / 16, 13 / 16], 0.25)
+        stated = self.stated("--frames", "0:3", "--fps", "2", "-o", "a.pfm")
+        self.assertEqual([t["shutter"] for t in stated], [[0, 0.25], [0.5, 0.75], [1, 1.25], [1.5, 1.75]])
+        self.expect_hidden(stated, [1 / 16, 5 / 16, 9 / 16, 13 / 16], 0.25)
         self.assertTrue((self.folder / "a.0002.pfm").is_file())
 
     def test_a_fault_in_the_shutter_would_show(self):
         # The same frame with a shutter that stays at its opening lies far outside of what is allowed above.
         self.write_scene()
         self.write_scene(0.5, 1, "open.pbrt")
-        frame = self.told("--frames", "0:3", "-o", "a.pfm")[1]
+        frame = self.stated("--frames", "0:3", "-o", "a.pfm")[1]
         wrong = 2 * (1 - 0.5 / 2)
         self.assertGreater(abs(frame["mean"][0] - wrong), 5 * frame["standard_error"][0])
         self.assertTrue(math.isfinite(frame["mean"][0]))
@@ -151,7 +151,7 @@ class Frames(ProgramTest):
 
     def test_the_shutter_does_not_change_the_brightness(self):
         self.write_scene()
-        whole = self.told("--frames", "0:0/1", "--spp", "256", "-o", "a.pfm")[0]
+        whole = self.stated("--frames", "0:0/1", "--spp", "256", "-o", "a.pfm")[0]
         half = json.loads(self.run_program("render", "slide.pbrt", "--json", "--quiet", "--spp", "256", "--shutter",
                                            "0.5:1.5", "-o", "a.pfm").stdout)
         # The panel slides evenly, so that the middle of its way is as bright as the whole.
@@ -162,21 +162,21 @@ class Frames(ProgramTest):
     def test_chains_go_on_from_frame_to_frame(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
         way = ["--integrator", "restir-di:chain=2,candidates=2", "--spp", "8"]
-        told = self.told("--frames", "0:2", *way, "-o", "on.#.pfm")
-        again = self.told("--frames", "0:2", *way, "--threads", "1", "-o", "again.#.pfm")
-        self.assertEqual([t["mean"] for t in told], [t["mean"] for t in again])
-        off = self.told("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
-        late = self.told("--frames", "2:2/3", *way, "-o", "late.#.pfm")
+        stated = self.stated("--frames", "0:2", *way, "-o", "on.#.pfm")
+        again = self.stated("--frames", "0:2", *way, "--threads", "1", "-o", "again.#.pfm")
+        self.assertEqual([t["mean"] for t in stated], [t["mean"] for t in again])
+        off = self.stated("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
+        late = self.stated("--frames", "2:2/3", *way, "-o", "late.#.pfm")
         # Nothing follows the last one. With four components of the spectrum, a pixel has 16 bytes more.
         sizes = [[16 * 16 * 4 * bytes_] * 2 + [0] for bytes_ in (324, 340)]
-        self.assertIn([t["history_bytes"] for t in told], sizes)
+        self.assertIn([t["history_bytes"] for t in stated], sizes)
         self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
         # The first frame has no history; what begins later has none either.
         same = [(self.folder / f"on.{n}.pfm").read_bytes() == (self.folder / f"off.{n}.pfm").read_bytes()
                 for n in range(3)]
         self.assertEqual(same, [True, False, False])
         self.assertEqual(late[0]["mean"], off[2]["mean"])
-        for on, other in zip(told, off, strict=True):
+        for on, other in zip(stated, off, strict=True):
             error = math.hypot(on["standard_error"][1], other["standard_error"][1])
             self.assertAlmostEqual(on["mean"][1], other["mean"][1], delta=5 * error)
 
@@ -187,14 +187,14 @@ class Frames(ProgramTest):
             self.assertIn(name, (self.folder / "a.1.exr").read_bytes())
         alone = self.run_program("render", "slide.pbrt", "--layers", "motion", status=2)
         self.assertIn("--frames", alone.stderr)
-        both = self.told("--frames", "0:0", "--spp", "1", "--layers", "motion,bounces:1", "-o", "b.#.exr")
+        both = self.stated("--frames", "0:0", "--spp", "1", "--layers", "motion,bounces:1", "-o", "b.#.exr")
         self.assertIn("bounce0", both[0]["layers"])
         self.assertIn(b"motion.X", (self.folder / "b.0.exr").read_bytes())
         self.run_program("render", "slide.pbrt", "--frames", "0:0", "--layers", "motion,errors", status=2)
 
     def test_a_budget_ends_every_picture(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
-        chains = self.told("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")
+        chains = self.stated("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")
         self.assertEqual([frame["history_bytes"] > 0 for frame in chains], [True, True, False])
         for frame in chains:
             self.assertGreaterEqual(frame["samples_per_pass"], 1)
@@ -226,7 +226,7 @@ class Frames(ProgramTest):
     def test_a_gltf_animation_is_rendered_at_its_own_rate_or_in_parts(self):
         clockwork = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
 
-        def told(*arguments):
+        def stated(*arguments):
             result = self.run_program("render", clockwork, "--resolution", "32x18", "--json", "--no-progress", *arguments)
             return [json.loads(line) for line in result.stdout.splitlines()], result.stderr
 
@@ -235,9 +235,9 @@ class Frames(ProgramTest):
                 "render", clockwork, "--resolution", "32x18", "--json", "--no-progress", "--quiet", "--spp", "4",
                 "--shutter", f"{time}:{time}", "--seed", seed, "-o", "still.pfm").stdout)
 
-        frames, _ = told("--frames", "11:13", "--spp", "4", "-o", "a.#.pfm")
+        frames, _ = stated("--frames", "11:13", "--spp", "4", "-o", "a.#.pfm")
         self.assertEqual([f["shutter"] for f in frames], [[n / 24, n / 24] for n in (11, 12, 13)])
-        parts, _ = told("--frames", "1:2/4", "--spp", "4", "-o", "b.#.pfm")
+        parts, _ = stated("--frames", "1:2/4", "--spp", "4", "-o", "b.#.pfm")
         self.assertEqual([f["shutter"] for f in parts], [[0.5, 0.5], [1, 1]])
         # A frame is the still picture of its moment, however the scene came to it.
         for frame in frames + parts:
@@ -247,28 +247,28 @@ class Frames(ProgramTest):
         other = still(0.9, frames[0]["seed"])
         self.assertGreater(abs(other["mean"][1] - frames[0]["mean"][1]), 2e-3 * other["mean"][1])
         # More frames than a scene has moments for are loaded part by part.
-        many, notes = told("--frames", "0:129", "--fps", "65", "--spp", "1", "-o", "c.#.pfm")
+        many, notes = stated("--frames", "0:129", "--fps", "65", "--spp", "1", "-o", "c.#.pfm")
         self.assertEqual(len(many), 130)
         self.assertIn("frames from 127 on", notes)
         # Exposures are shares of a frame, however many frames there are.
-        open_shutter, notes = told("--frames", "0:129/300", "--shutter", "0:1", "--spp", "1", "-o", "e.#.pfm")
+        open_shutter, notes = stated("--frames", "0:129/300", "--shutter", "0:1", "--spp", "1", "-o", "e.#.pfm")
         self.assertEqual(len(open_shutter), 130)
         self.assertIn("frames from 127 on", notes)
-        late, _ = told("--frames", "128:129", "--fps", "65", "--spp", "1", "-o", "d.#.pfm")
+        late, _ = stated("--frames", "128:129", "--fps", "65", "--spp", "1", "-o", "d.#.pfm")
         for a, b in zip(many[128]["mean"], late[0]["mean"], strict=True):
             self.assertAlmostEqual(a, b, delta=2e-3 * b)
 
     def test_a_gltf_animation_carries_histories_and_blurs(self):
         clockwork = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
 
-        def told(*arguments):
+        def stated(*arguments):
             result = self.run_program("render", clockwork, "--resolution", "32x18", "--json", "--no-progress", "--frames",
                                       "6:8", *arguments)
             return [json.loads(line) for line in result.stdout.splitlines()]
 
         for shutter in [], ["--shutter", "0:0.03"]:
-            reused = told(*shutter, "--integrator", "restir-di:chain=2,candidates=2", "--spp", "32", "-o", "a.#.pfm")
-            paths = told(*shutter, "--integrator", "path", "--spp", "128", "-o", "b.#.pfm")
+            reused = stated(*shutter, "--integrator", "restir-di:chain=2,candidates=2", "--spp", "32", "-o", "a.#.pfm")
+            paths = stated(*shutter, "--integrator", "path", "--spp", "128", "-o", "b.#.pfm")
             self.assertEqual([one["history_bytes"] > 0 for one in reused], [True, True, False])
             for one, other in zip(reused, paths, strict=True):
                 self.assertAlmostEqual(one["shutter"][1] - one["shutter"][0], 0.03 if shutter else 0)

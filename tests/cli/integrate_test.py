@@ -134,7 +134,7 @@ class Files(IntegrateTest):
         self.assertGreater(after["evaluations"], 1.05 * before["evaluations"])
         self.assertLess(after["seconds"] - before["seconds"], 2)
 
-    def test_an_interrupted_run_tells_what_it_has_and_goes_on_to_the_same_bits(self):
+    def test_an_interrupted_run_states_what_it_has_and_continues_to_the_same_bits(self):
         integral = ("exp(-x*y)", "--over", "x=0:1,y=0:2", "--method", "uniform:passes=4096", "--samples", "33554432")
         for delay in 0.1, 0.4, 1.6:  # until there is a result, on a slow machine
             process = self.start("integrate", *integral, "--save", "part.json", "--json")
@@ -235,7 +235,7 @@ class Mistakes(IntegrateTest):
         text = self.assert_refused(["4*sinn(x)", "--over", "x=0:1"], 'did you mean "sin"')
         self.assertIn("\n    4*sinn(x)\n      ^~~~\n", text)
 
-    def test_all_mistakes_are_told_together(self):
+    def test_all_mistakes_are_reported_together(self):
         text = self.assert_refused(["x + width", "--over", "x=0:1,y=3:2", "--method", "vegs", "--method", "qmc:pints=sobol"],
                                    'did you mean "vegas"', 'did you mean "points"', "not below")
         self.assertGreaterEqual(len(re.findall("error:", text)), 3)
@@ -254,7 +254,7 @@ class Mistakes(IntegrateTest):
             with self.subTest(option=option, value=value):
                 self.assert_refused(["x", "--over", "x=0:1", f"{option}={value}"], f"{option}: takes", f'found "{value}"')
 
-    def test_values_that_are_not_finite_are_counted_and_told(self):
+    def test_values_that_are_not_finite_are_counted_and_reported(self):
         run = self.integrate("x < 0.25 ? 1/0 : 1", "--over", "x=0:1", "--method", "uniform", "--samples", "1e5", "--json")
         r = json.loads(run.stdout)
         self.assertLess(abs(r["non_finite"] / r["evaluations"] - 0.25), 0.01)
@@ -308,13 +308,13 @@ class Doubts(IntegrateTest):
                 options = ["3", "--over", "x=0:1", "--samples", "1e5", "--method", method]
                 value, error = re.fullmatch(r"([\d.]+)\((\d+)\)", self.integrate(*options, "--quiet").stdout.strip()).groups()
                 unit = 10.0 ** -len(value.split(".")[1])
-                told = self.result(*options)
-                self.assertEqual(float(value), told["mean"])
+                stated = self.result(*options)
+                self.assertEqual(float(value), stated["mean"])
                 # Both are that of rounding: not below it, and to the digits that are shown the same.
-                self.assertGreater(told["standard_error"], 0)
-                self.assertEqual(round(told["standard_error"] / unit), int(error))
+                self.assertGreater(stated["standard_error"], 0)
+                self.assertEqual(round(stated["standard_error"] / unit), int(error))
                 table = self.integrate(*options, "--csv").stdout
-                self.assertEqual(float(next(csv.DictReader(io.StringIO(table)))["standard_error"]), told["standard_error"])
+                self.assertEqual(float(next(csv.DictReader(io.StringIO(table)))["standard_error"]), stated["standard_error"])
 
     def test_a_negative_value_before_the_two_dashes_is_what_is_complained_of(self):
         text = self.assert_refused(["--over", "x=0:1", "--samples", "-1", "--", "x"], "--samples: takes")

@@ -48,9 +48,9 @@ class Light(ProgramTest):
     def test_a_glass_ball_under_a_point_light_is_named_everywhere(self):
         scene = self.scene()
         for integrator in "path", "naive", "restir-di":
-            told, attributes, messages = self.rendered(scene, "--integrator", integrator)
-            self.assertEqual(told["missing_light"], ["light of point lights through smooth surfaces (dielectric)"])
-            self.assertEqual(attributes["montelux:missingLight"], told["missing_light"][0])
+            stated, attributes, messages = self.rendered(scene, "--integrator", integrator)
+            self.assertEqual(stated["missing_light"], ["light of point lights through smooth surfaces (dielectric)"])
+            self.assertEqual(attributes["montelux:missingLight"], stated["missing_light"][0])
             lines = [line for line in messages.splitlines() if "may be missing" in line]
             self.assertEqual(len(lines), 1, messages)
         text = self.run_program("render", scene, "--spp", "2", "--quiet", "-o", "out.exr").stdout
@@ -70,8 +70,8 @@ class Light(ProgramTest):
         write_pfm(self.folder / "slide.pfm", 4, 4, (1, 1, 1))
         for kind, light in lights.items():
             with self.subTest(light=kind):
-                told, _, _ = self.rendered(self.scene(world=light))
-                self.assertEqual(told["missing_light"], [f"light of {kind} lights through smooth surfaces (dielectric)"])
+                stated, _, _ = self.rendered(self.scene(world=light))
+                self.assertEqual(stated["missing_light"], [f"light of {kind} lights through smooth surfaces (dielectric)"])
         surfaces = {
             "thindielectric": 'Material "thindielectric"',
             "tinteddielectric": 'Material "tinteddielectric" "rgb tint" [ 0.9 0.5 0.1 ] "rgb absorption" [ 0.1 0.5 1 ]',
@@ -82,8 +82,8 @@ class Light(ProgramTest):
         }
         for kind, ball in surfaces.items():
             with self.subTest(surface=kind):
-                told, _, _ = self.rendered(self.scene(ball=ball))
-                self.assertEqual(told["missing_light"], [f"light of point lights through smooth surfaces ({kind})"])
+                stated, _, _ = self.rendered(self.scene(ball=ball))
+                self.assertEqual(stated["missing_light"], [f"light of point lights through smooth surfaces ({kind})"])
 
     def test_no_alarm_where_everything_is_found(self):
         area = ('AttributeBegin\nTranslate 0 4 0\nAreaLightSource "diffuse"\nShape "sphere" "float radius" [ 0.1 ]\n'
@@ -96,17 +96,17 @@ class Light(ProgramTest):
                 "looks away": dict(world=inside)
         }.items():
             with self.subTest(name):
-                told, attributes, messages = self.rendered(self.scene(**scene))
-                self.assertEqual(told["missing_light"], [])
+                stated, attributes, messages = self.rendered(self.scene(**scene))
+                self.assertEqual(stated["missing_light"], [])
                 self.assertEqual(attributes["montelux:missingLight"], "none")
                 self.assertNotIn("missing", messages)
         # A picture that does not show light lacks none.
         self.assertEqual(self.rendered(self.scene(), "--integrator", "normal")[0]["missing_light"], [])
 
     def test_first_light_lacks_nothing_and_replaces_nothing(self):
-        told, attributes, _ = self.rendered(SCENE, "--resolution", "32x24", "--integrator", "path")
+        stated, attributes, _ = self.rendered(SCENE, "--resolution", "32x24", "--integrator", "path")
         for key, name in ("missing_light", "missingLight"), ("left_out", "leftOut"):
-            self.assertEqual(told[key], [])
+            self.assertEqual(stated[key], [])
             self.assertEqual(attributes["montelux:" + name], "none")
 
     def test_directions_without_the_bsdf_lack_reflections_in_smooth_coats(self):
@@ -120,36 +120,36 @@ class Light(ProgramTest):
                              self.rendered(scene, "--integrator", way)[0]["missing_light"])
 
     def test_stand_ins_are_named(self):
-        for asked, by in ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
-            scene = self.scene(head=f'Integrator "{asked}"\nSampler "zsobol"', ball=MATT)
-            told, attributes, _ = self.rendered(scene)
-            self.assertIn({"family": "integrator", "name": asked, "by": by}, told["replaced"])
+        for requested, by in ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
+            scene = self.scene(head=f'Integrator "{requested}"\nSampler "zsobol"', ball=MATT)
+            stated, attributes, _ = self.rendered(scene)
+            self.assertIn({"family": "integrator", "name": requested, "by": by}, stated["replaced"])
             self.assertEqual(attributes["montelux:replaced"],
-                             f"integrator {asked} by {by}; sampler zsobol by blue-noise")
+                             f"integrator {requested} by {by}; sampler zsobol by blue-noise")
             # What the user chooses stands in for nothing.
-            told, attributes, _ = self.rendered(scene, "--integrator", "path", "--sampler", "sobol")
-            self.assertEqual(told["replaced"], [])
+            stated, attributes, _ = self.rendered(scene, "--integrator", "path", "--sampler", "sobol")
+            self.assertEqual(stated["replaced"], [])
             self.assertEqual(attributes["montelux:replaced"], "none")
-        told, attributes, _ = self.rendered(self.scene(ball=MATT))
+        stated, attributes, _ = self.rendered(self.scene(ball=MATT))
         self.assertEqual(attributes["montelux:replaced"], "none")
         self.assertIn("integrator lightpath by path",
                       self.run_program("info", self.scene(head='Integrator "lightpath"')).stdout)
 
     def test_bidirectional_path_tracing_is_what_a_file_states_in_media_too(self):
         scene = self.scene(head='Integrator "bdpt" "integer maxdepth" 4', ball=MATT)
-        told, attributes, _ = self.rendered(scene)
-        self.assertEqual((told["replaced"], attributes["montelux:replaced"]), ([], "none"))
+        stated, attributes, _ = self.rendered(scene)
+        self.assertEqual((stated["replaced"], attributes["montelux:replaced"]), ([], "none"))
         fog = self.scene(head='Integrator "bdpt"\nMakeNamedMedium "fog" "string type" "homogeneous"\n'
                               'MediumInterface "" "fog"', ball=MATT)
-        told, attributes, _ = self.rendered(fog)
-        self.assertEqual((told["replaced"], attributes["montelux:replaced"]), ([], "none"))
+        stated, attributes, _ = self.rendered(fog)
+        self.assertEqual((stated["replaced"], attributes["montelux:replaced"]), ([], "none"))
         self.assertTrue(attributes["montelux:integrator"].startswith("bdpt"), attributes["montelux:integrator"])
 
     def test_photons_stand_in_for_nothing_and_find_light_through_glass(self):
         scene = self.scene(head='Integrator "sppm" "integer photonsperiteration" 3000 "float radius" 0.25',
                            world=POINT, ball=GLASS)
-        told, attributes, messages = self.rendered(scene)
-        self.assertEqual((told["replaced"], told["missing_light"]), ([], []))
+        stated, attributes, messages = self.rendered(scene)
+        self.assertEqual((stated["replaced"], stated["missing_light"]), ([], []))
         self.assertEqual(attributes["montelux:missingLight"], "none")
         self.assertEqual(attributes["montelux:biasedOptions"], "radius=0.25")
         self.assertIn("photons are gathered within 0.25", messages)
@@ -162,25 +162,25 @@ class Light(ProgramTest):
         ball = MATT + '\nMediumInterface "smoke" ""\nShape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'
         scene = self.scene(world=smoke, ball=ball)
         self.run_program("render", scene, "--spp", "1", status=2)
-        told, attributes, messages = self.rendered(scene, "--lenient")
-        self.assertTrue(any("uniformgrid" in line for line in told["left_out"]), told)
-        self.assertTrue(any("nonsense" in line and "room.pbrt:" in line for line in told["left_out"]), told)
-        self.assertEqual(attributes["montelux:leftOut"], "; ".join(told["left_out"]))
+        stated, attributes, messages = self.rendered(scene, "--lenient")
+        self.assertTrue(any("uniformgrid" in line for line in stated["left_out"]), stated)
+        self.assertTrue(any("nonsense" in line and "room.pbrt:" in line for line in stated["left_out"]), stated)
+        self.assertEqual(attributes["montelux:leftOut"], "; ".join(stated["left_out"]))
         text = self.run_program("render", scene, "--spp", "1", "--lenient", "--quiet").stdout
         self.assertIn("left out", text)
         self.assertIn("left out", self.run_program("info", scene, "--lenient").stdout)
 
     def test_equal_omissions_are_counted(self):
         shapes = "\n".join(['Shape "sphere" "float radius" [ 0.5 ] "float nonsense" [ 1 ]'] * 70)
-        told, _, _ = self.rendered(self.scene(ball=MATT + "\n" + shapes), "--lenient")
-        self.assertEqual(len(told["left_out"]), 1, told["left_out"])
-        self.assertIn("70 times, first at room.pbrt:11:", told["left_out"][0])
+        stated, _, _ = self.rendered(self.scene(ball=MATT + "\n" + shapes), "--lenient")
+        self.assertEqual(len(stated["left_out"]), 1, stated["left_out"])
+        self.assertIn("70 times, first at room.pbrt:11:", stated["left_out"][0])
 
     def test_a_scene_without_light_warns(self):
         scene = self.scene(world="", ball=MATT)
-        told, _, messages = self.rendered(scene)
+        stated, _, messages = self.rendered(scene)
         self.assertIn("the scene has no light: the image is black", messages)
-        self.assertEqual(told["mean"], [0, 0, 0])
+        self.assertEqual(stated["mean"], [0, 0, 0])
         for integrator in "ao", "normal", "albedo", "depth":
             self.assertNotIn("no light", self.rendered(scene, "--integrator", integrator)[2])
 
@@ -194,12 +194,12 @@ class Light(ProgramTest):
         hidden = self.scene("hidden.pbrt", world='LightSource "point" "point3 from" [ 0 -4 0 ]', ball=MATT)
         for scene in self.scene(world="", ball=MATT), hidden:
             for options in [], ["--integrator", "restir-di"]:
-                told, attributes, _ = self.rendered(scene, "--spp", "8", *options)
-                self.assertEqual(told["mean"], [0, 0, 0])
-                self.assertGreaterEqual(told["passes"], 2)
-                self.assertEqual([told[key] for key in self.ERRORS], [None] * len(self.ERRORS))
-                self.assertEqual(told["standard_error"], [None] * 3)
-                self.assertFalse(told["error_bar"])
+                stated, attributes, _ = self.rendered(scene, "--spp", "8", *options)
+                self.assertEqual(stated["mean"], [0, 0, 0])
+                self.assertGreaterEqual(stated["passes"], 2)
+                self.assertEqual([stated[key] for key in self.ERRORS], [None] * len(self.ERRORS))
+                self.assertEqual(stated["standard_error"], [None] * 3)
+                self.assertFalse(stated["error_bar"])
                 self.assertEqual(attributes["montelux:errorBar"], "none: no sample found light")
                 self.assertFalse([name for name in self.header_names() if b"estimated" in name or b"StandardError" in name])
             text = self.run_program("render", scene, "--spp", "8", "-o", "out.exr").stdout
@@ -207,7 +207,7 @@ class Light(ProgramTest):
             self.assertNotIn("±", text)
             self.assertNotIn("95 %", text)
 
-    def test_an_error_of_zero_is_known_where_there_is_light_or_no_light_is_asked_for(self):
+    def test_an_error_of_zero_is_known_where_there_is_light_or_no_light_is_requested(self):
         # Nothing but the sky, of one radiance: no noise at all.
         sky = self.folder / "sky.pbrt"
         sky.write_text('Film "rgb" "integer xresolution" 8 "integer yresolution" 8\nPixelFilter "box"\nWorldBegin LightSource "infinite"\n')
@@ -215,10 +215,10 @@ class Light(ProgramTest):
         dark.write_text('Film "rgb" "integer xresolution" 8 "integer yresolution" 8\nWorldBegin\n')
         for scene, integrator in ((sky, "path"), (dark, "depth"), (dark, "normal"), (dark, "albedo"), (dark, "ao")):
             with self.subTest(integrator):
-                told, attributes, _ = self.rendered(scene, "--spp", "8", "--integrator", integrator)
-                self.assertEqual((told["mse"], told["relative_mse"], told["standard_error"]), (0, 0, [0, 0, 0]))
-                self.assertIsNotNone(told["interval_of_mean"])
-                self.assertEqual(attributes["montelux:errorBar"], f"over {told['passes']} independent passes")
+                stated, attributes, _ = self.rendered(scene, "--spp", "8", "--integrator", integrator)
+                self.assertEqual((stated["mse"], stated["relative_mse"], stated["standard_error"]), (0, 0, [0, 0, 0]))
+                self.assertIsNotNone(stated["interval_of_mean"])
+                self.assertEqual(attributes["montelux:errorBar"], f"over {stated['passes']} independent passes")
                 self.assertIn(b"montelux:estimatedRelativeMSE", self.header_names())
                 self.assertIn(b"montelux:meanStandardErrorR", self.header_names())
         # A single lit pixel is light.

@@ -56,14 +56,14 @@ class Options(ProgramTest):
         self.assert_refused(["render", SCENE, "--spp", "4", "--time", "1s"], "--spp", "--time")
         self.assert_refused(["render", SCENE, "--crop", "0,0,9999,5"], "crop")
 
-    def test_a_mistake_in_a_scene_is_told_with_its_place(self):
+    def test_a_mistake_in_a_scene_is_reported_with_its_place(self):
         (self.folder / "bad.pbrt").write_text('WorldBegin\nMaterial "difuse"\nShape "sphere"\n')
         for verb in "render", "info":
             self.assert_refused([verb, "bad.pbrt"], "bad.pbrt:2:", "error:", "diffuse")
         self.assertFalse((self.folder / "bad.exr").exists())
         self.assert_refused(["render", "none.pbrt"], "none.pbrt")
 
-    def test_info_tells_what_is_in_the_scene(self):
+    def test_info_states_what_is_in_the_scene(self):
         info = json.loads(self.run_program("info", SCENE, "--json", "--resolution", "80x60").stdout)
         self.assertEqual((info["triangles"], info["quadrics"]), (14, 3))
         self.assertEqual((info["width"], info["height"]), (80, 60))
@@ -92,7 +92,7 @@ class Options(ProgramTest):
         (self.folder / "bad.pbrt").write_bytes(mark + b"WorldBgin\n")
         self.assertIn("bad.pbrt:1:1: error", self.assert_refused(["info", "bad.pbrt"], "    WorldBgin\n    ^\n"))
 
-    def test_notes_of_a_kind_are_one_line_and_all_are_listed_if_asked_for(self):
+    def test_notes_of_a_kind_are_one_line_and_all_are_listed_if_requested(self):
         face = '"point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2  0 1 1  0 0 2 ]'
         (self.folder / "many.pbrt").write_text("WorldBegin LightSource \"infinite\"\n" +
                                                f'Shape "trianglemesh" {face}\n' * 60)
@@ -204,7 +204,7 @@ class EveryVerb(ProgramTest):
                 if isinstance(one, dict):
                     self.assertEqual(one.keys(), other.keys())
 
-    def test_errors_are_told_in_spite_of_quiet(self):
+    def test_errors_are_reported_in_spite_of_quiet(self):
         for command in (["render", "none.pbrt"], ["info", "none.pbrt"], ["diff", "none.exr", "none.exr"], ["list", "things"],
                         ["list", "materials", "things"], ["tonemap", "none.exr", "-o", "a.png"], ["merge", "none.json"],
                         ["integrate", "x"], ["lab", "list", "things"], ["compare", "none.pbrt", "-a", "path", "-b", "naive"]):

@@ -7,7 +7,7 @@ from program import ProgramTest
 
 class PictureInfoTest(ProgramTest):
     def test_a_rendered_image_states_how_it_was_made(self):
-        told = json.loads(self.render("--spp", 16, "--seed", 7, "--integrator", "path:maxdepth=3", "--layers", "intervals",
+        stated = json.loads(self.render("--spp", 16, "--seed", 7, "--integrator", "path:maxdepth=3", "--layers", "intervals",
                                       "-o", "a.exr", "--json", "--quiet").stdout)
         info = json.loads(self.run_program("info", "a.exr", "--json").stdout)
         self.assertTrue(info["rendered"])
@@ -18,9 +18,9 @@ class PictureInfoTest(ProgramTest):
         self.assertEqual(info["header"]["seed"], 7)
         self.assertEqual(info["interval_confidence"], 0.95)
         for key in ("mean", "standard_error", "relative_mse"):
-            self.assertEqual(info[key], told[key])
+            self.assertEqual(info[key], stated[key])
         for end in ("low", "high"):
-            for mine, theirs in zip(info["interval_of_mean"][end], told["interval_of_mean"][end]):
+            for mine, theirs in zip(info["interval_of_mean"][end], stated["interval_of_mean"][end]):
                 self.assertAlmostEqual(mine, theirs, delta=1e-9)
         said = self.run_program("info", "a.exr").stdout
         for words in ("64 x 48 pixels", "16 per pixel (8 passes of 2)", "seed 7", "maxdepth=3", "by how much was not measured",
@@ -28,8 +28,8 @@ class PictureInfoTest(ProgramTest):
             self.assertIn(words, said)
 
     def test_an_image_with_more_samples_in_some_pixels_states_their_mean(self):
-        told = json.loads(self.render("--spp", 96, "--adaptive", "on", "-o", "a.exr", "--json", "--quiet").stdout)
-        mean = told["samples"] / (64 * 48)
+        stated = json.loads(self.render("--spp", 96, "--adaptive", "on", "-o", "a.exr", "--json", "--quiet").stdout)
+        mean = stated["samples"] / (64 * 48)
         said = self.run_program("info", "a.exr").stdout
         self.assertRegex(said, r"samples   %.3g per pixel, from \d+ to \d+\n" % mean)
 

@@ -32,20 +32,20 @@ class Render(ProgramTest):
 
     def test_one_render_writes_many_files_and_one_json_object(self):
         result = self.render("--spp", "16", "--json", *(f"-oroom.{kind}" for kind in ("exr", "pfm", "png", "jpg", "hdr")))
-        told = json.loads(result.stdout)
-        for name in told["files"]:
+        written = json.loads(result.stdout)
+        for name in written["files"]:
             self.assertGreater((self.folder / name).stat().st_size, 0)
-        self.assertEqual(len(told["files"]), 5)
-        self.assertEqual(told["samples"], 64 * 48 * told["passes"] * told["samples_per_pass"])
-        self.assertEqual(told["passes"] * told["samples_per_pass"], 16)
-        self.assertEqual(told["non_finite"], 0)
-        self.assertGreater(told["rays"], told["samples"])
+        self.assertEqual(len(written["files"]), 5)
+        self.assertEqual(written["samples"], 64 * 48 * written["passes"] * written["samples_per_pass"])
+        self.assertEqual(written["passes"] * written["samples_per_pass"], 16)
+        self.assertEqual(written["non_finite"], 0)
+        self.assertGreater(written["rays"], written["samples"])
         # The stated mean is that of the picture.
         _, _, rows = read_pfm(self.folder / "room.pfm")
         for channel in range(3):
             mean = math.fsum(math.fsum(row[channel::3]) for row in rows) / (64 * 48)
-            self.assertAlmostEqual(told["mean"][channel], mean, delta=1e-5 * mean)
-            self.assertGreater(told["standard_error"][channel], 0)
+            self.assertAlmostEqual(written["mean"][channel], mean, delta=1e-5 * mean)
+            self.assertGreater(written["standard_error"][channel], 0)
 
     def test_the_default_file_has_the_name_of_the_scene(self):
         result = self.render("--spp", "1", "--quiet")
@@ -116,17 +116,17 @@ class Render(ProgramTest):
                     scene.write_text(self.EDGE.format(head=head, camera=camera, motion=motion, edge=edge))
                     result = self.run_program("render", scene, "--spp", "64", "--sampler", "independent", "--json", "-o",
                                               "edge.pfm")
-                    told = json.loads(result.stdout)
+                    written = json.loads(result.stdout)
                     row = list(read_pfm(self.folder / "edge.pfm")[2][4][::3])
                     if jitter:
-                        self.assertGreater(told["standard_error"][0], 0)
+                        self.assertGreater(written["standard_error"][0], 0)
                         self.assertTrue(0 < row[3] < 1, row)
-                        self.assertEqual(told["biased_options"], "none")
+                        self.assertEqual(written["biased_options"], "none")
                         self.assertNotIn("disablepixeljitter", result.stderr)
                     else:
-                        self.assertEqual(told["standard_error"], [0, 0, 0])
+                        self.assertEqual(written["standard_error"], [0, 0, 0])
                         self.assertEqual(row, [1, 1, 1, float(lit), 0, 0, 0, 0])
-                        self.assertEqual(told["biased_options"], "disablepixeljitter")
+                        self.assertEqual(written["biased_options"], "disablepixeljitter")
                         self.assertIn("disablepixeljitter of the scene): the picture is biased", result.stderr)
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_render(self):
@@ -143,11 +143,11 @@ class Render(ProgramTest):
     def test_time_ends_a_render(self):
         # The time includes the writing of the picture, the seconds of the render do not.
         start = time.monotonic()
-        told = json.loads(self.render("--time", "500ms", "--json").stdout)
+        written = json.loads(self.render("--time", "500ms", "--json").stdout)
         self.assertGreaterEqual(time.monotonic() - start, 0.4)
-        self.assertLess(told["seconds"], 2)  # units that are under way are completed, on a busy machine late
-        self.assertGreater(told["seconds"], 0)
-        self.assertFalse(told["interrupted"])
+        self.assertLess(written["seconds"], 2)  # units that are under way are completed, on a busy machine late
+        self.assertGreater(written["seconds"], 0)
+        self.assertFalse(written["interrupted"])
 
     def test_time_that_writing_takes_is_named_before_the_render(self):
         result = self.run_program("render", SCENE, "--resolution", "2000x2000", "--time", "1ms", "-o", "a.exr")
@@ -156,12 +156,12 @@ class Render(ProgramTest):
     def test_time_that_is_too_short_for_a_sample_of_each_pixel_gives_a_sparse_picture_that_says_so(self):
         result = self.run_program("render", SCENE, "--resolution", "1600x1200", "--time", "200ms", "--threads", 1, "--json",
                                   "-o", "room.pfm")
-        told = json.loads(result.stdout)
+        written = json.loads(result.stdout)
         self.assertIn("more than the time", result.stderr)
-        self.assertLess(told["sampled_pixels"], 0.6)
-        self.assertGreater(told["sampled_pixels"], 0)
-        self.assertLess(told["seconds"], 2)  # 4 s for one sample of every pixel, on a quick machine
-        self.assertIsNone(told["relative_mse"])
+        self.assertLess(written["sampled_pixels"], 0.6)
+        self.assertGreater(written["sampled_pixels"], 0)
+        self.assertLess(written["seconds"], 2)  # 4 s for one sample of every pixel, on a quick machine
+        self.assertIsNone(written["relative_mse"])
         self.assertEqual(self.run_program("render", SCENE, "--resolution", "1600x1200", "--time", "200ms", "--threads", 1,
                                           "--quiet", "-o", "quiet.pfm").stderr, "")
         # The picture has no holes: unsampled pixels repeat those that are sampled.
@@ -173,34 +173,34 @@ class Render(ProgramTest):
         for integrator in ("restir-di", "light"):
             result = self.run_program("render", SCENE, "--integrator", integrator, "--resolution", "1600x1200", "--time", "100ms",
                                       "--threads", 1, "--json", "-o", "room.pfm")
-            told = json.loads(result.stdout)
+            written = json.loads(result.stdout)
             self.assertRegex(result.stderr, r"more than the time: one pixel of each \d+ x \d+ is sampled")
-            self.assertLess(told["sampled_pixels"], 0.3)
-            self.assertGreater(told["sampled_pixels"], 0)
-            self.assertGreater(told["passes"], 0)
+            self.assertLess(written["sampled_pixels"], 0.3)
+            self.assertGreater(written["sampled_pixels"], 0)
+            self.assertGreater(written["passes"], 0)
 
     def test_the_interval_of_the_mean_is_students(self):
-        told = json.loads(self.render("--spp", "16", "--json").stdout)
-        self.assertEqual(told["passes"], 8)
-        interval = told["interval_of_mean"]
+        written = json.loads(self.render("--spp", "16", "--json").stdout)
+        self.assertEqual(written["passes"], 8)
+        interval = written["interval_of_mean"]
         self.assertEqual(interval["confidence"], 0.95)
         for channel in range(3):
-            width = 2.364624 * told["standard_error"][channel]  # t(0.975) of 7 degrees of freedom
-            self.assertAlmostEqual(interval["low"][channel], told["mean"][channel] - width, delta=1e-5 * width)
-            self.assertAlmostEqual(interval["high"][channel], told["mean"][channel] + width, delta=1e-5 * width)
+            width = 2.364624 * written["standard_error"][channel]  # t(0.975) of 7 degrees of freedom
+            self.assertAlmostEqual(interval["low"][channel], written["mean"][channel] - width, delta=1e-5 * width)
+            self.assertAlmostEqual(interval["high"][channel], written["mean"][channel] + width, delta=1e-5 * width)
         self.assertIsNone(json.loads(self.render("--spp", "1", "--json").stdout)["interval_of_mean"])
         self.assertIn("95 %", self.render("--spp", "16").stdout)
 
     def test_an_error_that_few_bright_samples_decide_has_a_range(self):
         result = self.render("--spp", "16")
         self.assertIn("few bright samples determine it", result.stdout)
-        told = json.loads(self.render("--spp", "16", "--json").stdout)
-        self.assertTrue(told["unsure_error"])
-        low, high = told["relative_mse_range"]
-        self.assertLess(low, told["relative_mse"])
-        self.assertGreater(high, told["relative_mse"])
+        written = json.loads(self.render("--spp", "16", "--json").stdout)
+        self.assertTrue(written["unsure_error"])
+        low, high = written["relative_mse_range"]
+        self.assertLess(low, written["relative_mse"])
+        self.assertGreater(high, written["relative_mse"])
         # Converged pictures of this size have 0.117 in the mean of seeds at these samples.
-        self.assertGreater(told["relative_mse"], 0.03)
+        self.assertGreater(written["relative_mse"], 0.03)
 
     def test_half_is_for_what_is_seen_and_not_for_errors_and_places(self):
         def types(name):
@@ -217,19 +217,19 @@ class Render(ProgramTest):
         half = {name for name, kind in types("a1.exr").items() if kind == 1}
         colors = {f"{layer}.{c}" for layer in ("albedo", "bounce0", "bounce1", "bounce_rest") for c in "RGB"}
         self.assertEqual(half, {*"RGBA", *colors, "N.X", "N.Y", "N.Z"})
-        told = json.loads(self.run_program("diff", "a1.exr", "a0.exr", "--json").stdout)
-        self.assertFalse(told["welch"]["differs"])
-        self.assertLess(told["relative_mse"], 1e-6)
+        written = json.loads(self.run_program("diff", "a1.exr", "a0.exr", "--json").stdout)
+        self.assertFalse(written["welch"]["differs"])
+        self.assertLess(written["relative_mse"], 1e-6)
 
     def test_layers_sum_to_the_picture(self):
-        told = json.loads(self.render("--spp", "8", "--layers", "bounces:2,light-groups,errors", "--json", "-o",
+        written = json.loads(self.render("--spp", "8", "--layers", "bounces:2,light-groups,errors", "--json", "-o",
                                       "room.exr").stdout)
         names = ["bounce0", "bounce1", "bounce2", "bounce_rest", "Combined_default"]
-        self.assertEqual(list(told["layers"]), names)
+        self.assertEqual(list(written["layers"]), names)
         for family in "bounce", "Combined":
             for channel in range(3):
-                total = sum(mean[channel] for name, mean in told["layers"].items() if name.startswith(family))
-                self.assertAlmostEqual(total, told["mean"][channel], delta=1e-12)
+                total = sum(mean[channel] for name, mean in written["layers"].items() if name.startswith(family))
+                self.assertAlmostEqual(total, written["mean"][channel], delta=1e-12)
         header = (self.folder / "room.exr").read_bytes()[:4096]
         for name in names:
             self.assertIn(f"{name}.R\0".encode(), header)
@@ -237,15 +237,15 @@ class Render(ProgramTest):
 
     def test_layers_of_strategies_sum_to_the_picture_and_are_kept_in_films(self):
         options = ["--layers", "strategies:1,alone,bounces:1", "--integrator", "vcm", "--samples-per-pass", "1"]
-        told = json.loads(self.render("--spp", "4", *options, "--json", "-o", "whole.exr").stdout)
+        written = json.loads(self.render("--spp", "4", *options, "--json", "-o", "whole.exr").stdout)
         connections = ["s0_t2", "s1_t1", "s0_t3", "s1_t2", "s2_t1"]
-        self.assertEqual(list(told["layers"]), [
+        self.assertEqual(list(written["layers"]), [
             "bounce0", "bounce1", "bounce_rest", *(f"strategy_{name}" for name in connections), "merging_s2_t2",
             "strategy_rest", *(f"alone_{name}" for name in connections), "alone_merging_s2_t2"])
         for channel in range(3):
-            total = sum(mean[channel] for name, mean in told["layers"].items() if name.startswith(("strategy", "merging")))
-            self.assertAlmostEqual(total, told["mean"][channel], delta=1e-12)
-            self.assertEqual(told["layers"]["strategy_s0_t2"], told["layers"]["bounce0"])
+            total = sum(mean[channel] for name, mean in written["layers"].items() if name.startswith(("strategy", "merging")))
+            self.assertAlmostEqual(total, written["mean"][channel], delta=1e-12)
+            self.assertEqual(written["layers"]["strategy_s0_t2"], written["layers"]["bounce0"])
         self.render("--spp", "2", *options, "--checkpoint", "part.film", "-o", "part.exr")
         self.run_program("render", "--resume", "part.film", "--spp", "4", "-o", "resumed.exr")
         for name in "whole.exr", "resumed.exr":
@@ -316,14 +316,14 @@ class Signals(ProgramTest):
         return b"montelux:" + name in (self.folder / "early.exr").read_bytes()[:20000]
 
     def test_the_error_is_not_known_before_every_pixel_has_two_passes(self):
-        told = json.loads(self.interrupted_after(0.6, "--json"))
+        written = json.loads(self.interrupted_after(0.6, "--json"))
         # The second pass is cut: some pixels have two samples, others one.
-        self.assertTrue(900 * 700 < told["samples"] < 2 * 900 * 700, told["samples"])
-        self.assertEqual(told["passes"], 1)
+        self.assertTrue(900 * 700 < written["samples"] < 2 * 900 * 700, written["samples"])
+        self.assertEqual(written["passes"], 1)
         for key in "mse", "relative_mse", "relative_mse_range", "tail_index", "interval_of_mean":
-            self.assertIsNone(told[key], key)
-        self.assertEqual(told["standard_error"], [None, None, None])
-        self.assertEqual((told["unsure_error"], told["error_bar"]), (False, False))
+            self.assertIsNone(written[key], key)
+        self.assertEqual(written["standard_error"], [None, None, None])
+        self.assertEqual((written["unsure_error"], written["error_bar"]), (False, False))
         for name in b"estimatedMSE", b"estimatedRelativeMSE", b"unsureError", b"meanStandardError":
             self.assertFalse(self.header_has(name), name)
         self.assertTrue(self.header_has(b"errorBar"))

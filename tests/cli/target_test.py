@@ -6,18 +6,18 @@ from program import ProgramTest, read_pfm
 
 
 class Target(ProgramTest):
-    def told(self, *arguments, **options):
+    def stated(self, *arguments, **options):
         return json.loads(self.render("--json", "--quiet", *arguments, **options).stdout)
 
     def test_the_render_ends_at_the_error_with_the_same_bytes_for_any_number_of_threads(self):
         for target in "12%", "pixels:25%@90%", "mean:0.5%":
             with self.subTest(target=target):
-                told = [self.told("--target-error", target, "--spp", 4096, "--threads", n, "-o", f"{n}.exr")
+                stated = [self.stated("--target-error", target, "--spp", 4096, "--threads", n, "-o", f"{n}.exr")
                         for n in (1, 2)]
-                result = told[0]["target"]
+                result = stated[0]["target"]
                 self.assertTrue(result["reached"])
                 self.assertEqual((result["request"], result["confidence"], result["unbiased"]), (target, 0.95, False))
-                self.assertLess(told[0]["passes"] * told[0]["samples_per_pass"], 4096)
+                self.assertLess(stated[0]["passes"] * stated[0]["samples_per_pass"], 4096)
                 self.assertLess(result["error"], result["bound"])
                 one, two = ((self.folder / f"{n}.exr").read_bytes() for n in (1, 2))
                 self.assertEqual(one, two)
@@ -27,42 +27,42 @@ class Target(ProgramTest):
         result = self.render("--target-error", "4%", "--spp", 64, "-o", "a.pfm").stdout
         self.assertRegex(result, r"target   4% not reached: with 95 % confidence the error is at most [\d.]+ %")
         self.assertRegex(result, r"it takes about [\d.]+ k? ?\([^)]*\) samples per pixel more, ")
-        target = self.told("--target-error", "4%", "--spp", 64, "-o", "a.pfm")["target"]
+        target = self.stated("--target-error", "4%", "--spp", 64, "-o", "a.pfm")["target"]
         self.assertFalse(target["reached"])
         self.assertGreater(target["bound"], 0.04)
         low, high = target["samples_needed_range"]
         self.assertTrue(0 < low < target["samples_needed"] < high)
         # As many do.
-        more = self.told("--target-error", "4%", "--spp", 65536, "-o", "a.pfm")
+        more = self.stated("--target-error", "4%", "--spp", 65536, "-o", "a.pfm")
         samples = more["passes"] * more["samples_per_pass"] - 64
         self.assertTrue(more["target"]["reached"])
         self.assertTrue(low / 1.6 < samples < high * 1.6, f"{samples} {low} {high}")
 
     def test_a_time_may_be_the_most(self):
-        told = self.told("--target-error", "0.1%", "--time", "700ms", "-o", "a.pfm")
-        self.assertFalse(told["target"]["reached"])
-        self.assertGreater(told["target"]["seconds_needed"], 0)
-        self.assertLess(told["seconds"], 5)
+        stated = self.stated("--target-error", "0.1%", "--time", "700ms", "-o", "a.pfm")
+        self.assertFalse(stated["target"]["reached"])
+        self.assertGreater(stated["target"]["seconds_needed"], 0)
+        self.assertLess(stated["seconds"], 5)
 
     def test_a_film_is_continued_to_its_error(self):
         whole = ["--target-error", "12%", "--spp", 4096]
-        told = self.told(*whole, "--checkpoint", "whole.film", "-o", "whole.pfm")
-        k = told["samples_per_pass"]
+        stated = self.stated(*whole, "--checkpoint", "whole.film", "-o", "whole.pfm")
+        k = stated["samples_per_pass"]
         # The most samples end it at first.
-        self.told("--target-error", "12%", "--spp", 5 * k, "--samples-per-pass", k, "--checkpoint", "a.film", "-o", "a.pfm")
+        self.stated("--target-error", "12%", "--spp", 5 * k, "--samples-per-pass", k, "--checkpoint", "a.film", "-o", "a.pfm")
         result = json.loads(self.run_program("render", "--resume", "a.film", "--json", "--quiet", "-o", "b.pfm").stdout)
         self.assertTrue(result["target"]["reached"])
-        self.assertEqual(result["passes"], told["passes"])
+        self.assertEqual(result["passes"], stated["passes"])
         self.assertEqual(read_pfm(self.folder / "whole.pfm"), read_pfm(self.folder / "b.pfm"))
 
     def test_an_unbiased_render_has_other_samples_than_those_that_decide(self):
-        told = self.told("--target-error", "12%", "--unbiased", "--spp", 4096, "--checkpoint", "a.film", "-o", "a.pfm")
-        self.assertTrue(told["target"]["unbiased"])
+        stated = self.stated("--target-error", "12%", "--unbiased", "--spp", 4096, "--checkpoint", "a.film", "-o", "a.pfm")
+        self.assertTrue(stated["target"]["unbiased"])
         # The image is that of as many samples without any target.
-        self.told("--spp", told["passes"] * told["samples_per_pass"], "--samples-per-pass", told["samples_per_pass"], "-o", "b.pfm")
+        self.stated("--spp", stated["passes"] * stated["samples_per_pass"], "--samples-per-pass", stated["samples_per_pass"], "-o", "b.pfm")
         self.assertEqual(read_pfm(self.folder / "a.pfm"), read_pfm(self.folder / "b.pfm"))
         again = json.loads(self.run_program("render", "--resume", "a.film", "--json", "--quiet", "-o", "c.pfm").stdout)
-        self.assertEqual((again["passes"], again["target"]), (told["passes"], {**told["target"], **{
+        self.assertEqual((again["passes"], again["target"]), (stated["passes"], {**stated["target"], **{
             key: again["target"][key] for key in ("seconds_needed", "seconds_needed_range")}}))
         self.assertEqual(read_pfm(self.folder / "a.pfm"), read_pfm(self.folder / "c.pfm"))
 
@@ -74,18 +74,18 @@ class Target(ProgramTest):
             self.assertTrue(frame["target"]["reached"])
 
     def test_chains_end_at_the_error(self):
-        told = self.told("--target-error", "15%", "--integrator", "restir-di:chain=4", "--spp", 4096, "-o", "a.pfm")
-        self.assertTrue(told["target"]["reached"])
-        self.assertLess(told["passes"] * told["samples_per_pass"], 4096)
+        stated = self.stated("--target-error", "15%", "--integrator", "restir-di:chain=4", "--spp", 4096, "-o", "a.pfm")
+        self.assertTrue(stated["target"]["reached"])
+        self.assertLess(stated["passes"] * stated["samples_per_pass"], 4096)
 
     def test_adaptive_tiles_have_different_samples_and_the_same_bytes_for_any_number_of_threads(self):
         for options in (["--spp", 128], ["--target-error", "12%"], ["--target-error", "15%", "--unbiased"]):
             with self.subTest(options=options):
-                told = [self.told(*options, "--adaptive", "on", "--threads", n, "-o", f"{n}.exr") for n in (1, 2)]
+                stated = [self.stated(*options, "--adaptive", "on", "--threads", n, "-o", f"{n}.exr") for n in (1, 2)]
                 one, two = ((self.folder / f"{n}.exr").read_bytes() for n in (1, 2))
                 self.assertEqual(one, two)
                 # More than those of the tile with the fewest passes.
-                self.assertGreater(told[0]["samples"], 64 * 48 * told[0]["passes"] * told[0]["samples_per_pass"])
+                self.assertGreater(stated[0]["samples"], 64 * 48 * stated[0]["passes"] * stated[0]["samples_per_pass"])
         self.run_program("tonemap", "1.exr", "-o", "samples.png", "--layer", "samples")
 
     def test_renders_that_cannot_be_adaptive_are_refused(self):

@@ -91,7 +91,7 @@ class Setup(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertIn("g++-12", log)
 
-    def test_a_system_without_apt_is_told_what_is_missing_and_goes_on(self):
+    def test_a_system_without_apt_is_reported_what_is_missing_and_continues(self):
         status, output, log = self.run_tool()
         self.assertEqual((status, log), (0, ""), output)
         self.assertIn("missing: cmake", output)

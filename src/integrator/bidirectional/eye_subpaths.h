@@ -10,7 +10,7 @@
 namespace montelux {
 
 // Of the stream of a vertex of the eye's subpath: for the connections with a light, and with a vertex from the lights.
-inline constexpr std::uint32_t light_stream = 0x1b873593u, connection_stream = 0x3c6ef372u;
+inline constexpr std::uint32_t connection_stream = 0x3c6ef372u;
 
 // Subpaths, one a lane, by the same plan of numbers as `path`. The strategies of each: it meets a light; a vertex is
 // connected with a point of a light; a vertex is connected with each vertex of the pixel's own subpath from the lights,
@@ -226,7 +226,7 @@ class EyeSubpaths {
     const Spectrum<F> light = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
     const M queries = view.valid & (max_component(light) > F(0.0f));
     if (!any(queries)) return;
-    const Arriving seen = arriving(at, view.wi, view.distance, queries, light_stream);
+    const Arriving seen = arriving(at, view.wi, view.distance, queries, path_dimension::shadow_stream);
     if (!any(seen.on)) return;
     const BothDensities<F> both = densities(at, at.bsdf.frame.to_local(view.wi), value.density, seen.on);
     const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, seen.on},

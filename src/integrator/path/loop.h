@@ -16,9 +16,6 @@
 
 namespace montelux {
 
-// Of the stream of a vertex; it differs from the streams of materials, whose numbers are small.
-inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
-
 // Before its first event a path has gathered what it saw directly, and nothing else.
 template <class F>
 FirstSight<F> first_sight(const PathState<F>& path, const SurfaceHit<F>& x, const Spectrum<F>& albedo) {
@@ -242,7 +239,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       M arrives = shadow;
       if constexpr (in_media)
         direct *= transmittance(scene, rays, ray, v.media_toward(light.wi), shadow,
-                                context.random.fork(U(shadow_stream)), counts.shadow);
+                                context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
       else
         arrives = unblocked<F>(rays, ray, shadow, counts.shadow);
       gather_light(path, arrives, direct, tally, [&] {
@@ -291,8 +288,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     path.by_delta = select(continues, select(next.delta, U(1u), U(0u)), path.by_delta);
 
     if constexpr (requires { Tally::records_vertices; })
-      tally.visit(VertexVisit<F>{v.x, v.bsdf, arriving, wi, select(by_delta(path), F(0.0f), path.density.value), chance,
-                                 on, passes, v.in_medium, moves});
+      tally.visit(VertexVisit<F>{v.x, v.bsdf, arriving, wi, path.density.value, chance, M(passes | by_delta(path)), on,
+                                 passes, v.in_medium, moves});
 
     // The next vertex, or the sky. In media a ray that meets no surface may still scatter.
     path.o = v.origin_toward(wi), path.d = wi;

@@ -14,7 +14,7 @@ struct VertexVisit {
   const Spectrum<F>& throughput;
   const Vec3<F>& direction;
   F density, survival;
-  Mask<F> on, passes, in_medium, continues;
+  Mask<F> delta, on, passes, in_medium, continues;
 };
 
 // A tally of a single path.
@@ -42,7 +42,7 @@ class PathRecorder {
       path_.vertices.push_back({is_medium ? medium : lane_of_mask(v.passes, k) ? interface : surface,
                                 lane(v.x.point.p, k), normal, lane(v.x.distance, k), lane(v.x.object, k),
                                 lane(v.x.material, k), BsdfKind(lane(v.bsdf.kind, k)), to_rgb(lane(v.throughput, k)), lane(v.direction, k),
-                                lane(v.density, k), lane(v.survival, k), lane_of_mask(v.continues, k)});
+                                lane(v.density, k), lane_of_mask(v.delta, k), lane(v.survival, k), lane_of_mask(v.continues, k)});
     });
   }
 

@@ -156,10 +156,11 @@ class RadiosityChain final : public Chain {
     PathState<F> path{};
     for (M on = first_hits.refill(path, M(false)); any(on); on = first_hits.refill(path, M(false))) {
       const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
-      const U first = U(path_dimension::first_vertex);
-      const NextVertex<F> at = first_vertex<F>(shared_.scene, shared_.accel, path, on, sampler.stream(first), counts);
-      const DiffusePoint point =
-          diffuse_point(shared_, {path.o, path.d, path.hit.t}, path.hit, sampler.stream(first + U(1u)), on);
+      const U first = U(path_dimension::first_vertex), own = U(path_dimension::own);
+      const NextVertex<F> at =
+          first_vertex<F>(shared_.scene, shared_.accel, path, on, sampler.stream(first + own), counts);
+      const DiffusePoint point = diffuse_point(shared_, {path.o, path.d, path.hit.t}, path.hit,
+                                               sampler.stream(first + own + U(path_dimension::per_vertex)), on);
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
       if (shared_.settings.gather)
         leaves =

@@ -70,7 +70,7 @@ class ReuseChain final : public Chain {
   std::vector<ReuseVertex<float>>& vertices(int frame) { return vertices_[std::size_t(frame) & 1]; }
 
   RandomStream<F> stream(int frame, const LanePixels<F>& at, std::uint32_t purpose) const {
-    return at.stream(pass_.points, frame, restir_stream::dimension, purpose);
+    return at.stream(pass_.points, frame, path_dimension::reuse, purpose);
   }
   LanePixels<F> gather(int frame, const PixelBounds& tile, std::uint32_t& next) {
     return gather_pixels<F>(pass_.bounds, tile, next,
@@ -263,7 +263,7 @@ class ReuseChain final : public Chain {
   PixelGroups groups_at(const ChainStep& step, const PixelBounds& tile) {
     const auto number = [&](int x, int y, std::uint32_t which) {
       return Sampler<float>(pass_.points, std::uint32_t(x), std::uint32_t(y), std::uint32_t(step.frame))
-          .stream(restir_stream::dimension)
+          .stream(path_dimension::reuse)
           .fork(restir_stream::spatial + std::uint32_t(step.stage))
           .at(which);
     };
@@ -289,7 +289,7 @@ class ReuseChain final : public Chain {
       set_lane(ys, int(k), std::uint32_t(pass_.bounds.y0) + pixel / width);
     }
     return Sampler<F>(pass_.points, xs, ys, U(std::uint32_t(step.frame)))
-        .stream(U(restir_stream::dimension))
+        .stream(U(path_dimension::reuse))
         .fork(U(restir_stream::groups + std::uint32_t(step.stage)));
   }
 

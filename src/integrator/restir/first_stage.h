@@ -26,8 +26,6 @@ struct RestirScene {
 
 // The streams of one pixel in one frame.
 namespace restir_stream {
-inline constexpr std::uint32_t dimension = 1u << 30;  // of the sampler
-inline constexpr std::uint32_t direction = 1u << 29;  // of the sampler, beyond all vertices: of a rough vertex
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
 }  // namespace restir_stream
 
@@ -96,7 +94,7 @@ class FirstStage {
     const M rough = scatters & !bsdf.is_delta;
     path.throughput = select(on, path.throughput * v.media.along_wo().left(x.distance), path.throughput);
     path.media = select_media<F>(on, v.media.along_wo(), path.media);
-    const RandomStream<F> numbers = sampler.stream(U(restir_stream::dimension));
+    const RandomStream<F> numbers = sampler.stream(U(path_dimension::reuse));
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
     const BsdfSample<F> next = leave(v, sampler, dimension, path_numbers, scatters);
     if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
@@ -168,7 +166,7 @@ class FirstStage {
   BsdfSample<F> leave(const Vertex<F>& v, const Sampler<F>& sampler, U dimension, const RandomStream<F>& path_numbers,
                       M on) const {
     const M smooth = v.bsdf.is_delta;
-    const U place = select(smooth, dimension, U(restir_stream::direction));
+    const U place = select(smooth, dimension, U(path_dimension::rough_direction));
     const Vec2<F> u = sampler.get2(place + U(path_dimension::direction));
     const Vec3<F> own{sampler.get1(place + U(path_dimension::lobe)), u.x, u.y};
     if (!reuses_paths()) return sample<F>(v.bsdf.lanes(on), v.wo, own, v.context);

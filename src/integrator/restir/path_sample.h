@@ -78,10 +78,10 @@ PathEvent<F> event_at(const ReuseVertex<F>& vertex, const BsdfSample<F>& next, M
   const Mask<F> valid = on & next.valid, spread = valid & !next.delta, delta = valid & next.delta;
   const BsdfValue<F> value = vertex.scattered(wi, spread);
   const F density = select(spread, value.density.value, F(0.0f));
-  const Mask<F> has_density = density > F(0.0f), goes_on = delta | has_density;
+  const Mask<F> has_density = density > F(0.0f), continues = delta | has_density;
   const Spectrum<F> weight = select(has_density, value.f_cos * (1.0f / select(has_density, density, F(1.0f))),
                                     select(delta, next.weight, gray(F(0.0f))));
-  return {wi, select(spread, value.f_cos, gray(F(0.0f))), {density}, weight, next.eta_scale, goes_on, delta};
+  return {wi, select(spread, value.f_cos, gray(F(0.0f))), {density}, weight, next.eta_scale, continues, delta};
 }
 
 // Whether two pixels may share the surface to which a path is joined: both lobes, as wide as they are at the distance

@@ -52,7 +52,7 @@ SourceLocation Element::where() const {
 
 std::string Element::once(std::string_view message) const {
   std::string text = (pointer_.empty() ? std::string("the document") : pointer_) + ": " + std::string(message);
-  return source_->told.insert(text).second ? text : std::string();
+  return source_->reported.insert(text).second ? text : std::string();
 }
 
 void Element::error(std::string_view message, std::string hint) const {

@@ -15,8 +15,8 @@ namespace montelux::gltf {
 struct Source {
   Reporter& report;
   std::shared_ptr<const std::string> file;
-  bool has_lines = true;            // false: the JSON is part of a binary file
-  std::set<std::string> told = {};  // messages so far, so that nothing is reported twice
+  bool has_lines = true;                // false: the JSON is part of a binary file
+  std::set<std::string> reported = {};  // messages so far, so that nothing is reported twice
 };
 
 // The largest integer that JSON represents exactly.

@@ -147,7 +147,7 @@ class PrimitiveReader {
     if (!skin && targets.empty()) drop_degenerate_faces(*mesh);
     if (mesh->triangles.empty()) return {};
     Primitive whole{std::move(mesh), material, std::move(skin), std::move(targets), false, element};
-    return traits.parts_mirrored ? parted(std::move(whole)) : std::vector<Primitive>{std::move(whole)};
+    return traits.parts_mirrored ? split_by_side(std::move(whole)) : std::vector<Primitive>{std::move(whole)};
   }
 
  private:
@@ -159,7 +159,7 @@ class PrimitiveReader {
     for (std::size_t i = 0; i < uvs->count; ++i) mesh.uvs.push_back({uvs->at(i)[0], 1 - uvs->at(i)[1]});
   }
 
-  static std::vector<Primitive> parted(Primitive whole) {
+  static std::vector<Primitive> split_by_side(Primitive whole) {
     const Mesh& mesh = *whole.mesh;
     if (mesh.uvs.empty()) return {std::move(whole)};
     std::array<std::vector<std::uint32_t>, 2> sides;

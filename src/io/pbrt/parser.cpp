@@ -247,7 +247,7 @@ bool Parser::numbers(std::span<double> values) {
 // from it.
 bool Parser::is_in_world(bool wanted) {
   if (in_world_ == wanted) return true;
-  if (!std::exchange(told_of_world_, true))
+  if (!std::exchange(warned_of_world_, true))
     report_.error(here(), std::string(directive_.text) + " must stand " + (wanted ? "after" : "before") + " WorldBegin",
                   "further misplaced directives are not reported");
   return false;

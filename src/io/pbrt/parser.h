@@ -175,7 +175,7 @@ class Parser {
   Lexer* lexer_ = nullptr;
   Token directive_;  // the current one
   bool in_world_ = false;
-  bool told_of_world_ = false;
+  bool warned_of_world_ = false;
   std::vector<std::filesystem::path> open_files_;
   int files_read_ = 0;
   std::set<Family> options_stated_;

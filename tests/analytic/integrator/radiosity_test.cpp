@@ -50,7 +50,7 @@ TEST(Radiosity, finds_closed_forms_of_even_irradiance_whatever_the_elements) {
   }
 }
 
-TEST(Radiosity, is_told_from_a_closed_form_that_is_three_percent_off) {
+TEST(Radiosity, differs_from_a_closed_form_that_is_three_percent_off) {
   const double level = sidak_level(family_level, 3.0 * double(even_scenes.size()));
   int rejected = 0;
   for (const std::string& scene : even_scenes)

@@ -321,7 +321,7 @@ TEST(EmittedRays, have_densities_of_integral_one_and_one_percent_more_is_found) 
   }
 }
 
-TEST(EmittedRays, state_the_densities_that_are_asked_for_of_a_ray) {
+TEST(EmittedRays, state_the_densities_that_are_requested_of_a_ray) {
   for (const EmissionCase& c : all_emission_cases()) {
     SCOPED_TRACE(c.name);
     RandomStream<float> r(3, 4);

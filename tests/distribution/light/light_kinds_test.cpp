@@ -14,7 +14,7 @@ Vec2f drawn(const LightCase& c, RandomStream<float>& r) {
   return c.chart(is_infinite(c.kind) ? s.wi : c.reference + s.wi * s.distance);
 }
 
-TEST(LightKinds, all_have_a_case_save_those_of_which_no_ray_tells) {
+TEST(LightKinds, all_have_a_case_save_those_that_no_ray_shows) {
   for (std::size_t k = 0; k < light_kind_names.size(); ++k)
     EXPECT_EQ(light_cases(LightKind(k)).empty(), is_delta(LightKind(k))) << light_kind_names[k];
 }

@@ -157,7 +157,7 @@ void expect_same(const ComparisonState& a, const ComparisonState& b) {
   }
 }
 
-TEST(Comparison, that_goes_on_from_a_file_is_the_same_bits_as_one_that_never_stopped) {
+TEST(Comparison, that_continues_from_a_file_is_the_same_bits_as_one_that_never_stopped) {
   const LayeredNoise noise;
   const auto both = compared_methods(noise);
   ComparisonState whole = begin_comparison(both, exact_one(), settings(6));
@@ -256,7 +256,7 @@ TEST(Comparison, refuses_files_that_nobody_would_have_saved) {
   std::filesystem::remove(file), std::filesystem::remove(scene);
 }
 
-TEST(Comparison, ends_the_round_in_which_it_was_stopped_before_it_goes_on) {
+TEST(Comparison, ends_the_round_in_which_it_was_stopped_before_it_continues) {
   const LayeredNoise noise;
   const auto both = compared_methods(noise);
   ComparisonState whole = begin_comparison(both, exact_one(), settings(3)),

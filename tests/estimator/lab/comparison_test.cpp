@@ -272,7 +272,7 @@ ComparisonResult comparison_of_warm_frames(bool warm_up_counts) {
                         {});
 }
 
-TEST(Comparison, leaves_the_time_of_warm_up_out_if_told_to) {
+TEST(Comparison, leaves_the_time_of_warm_up_out_if_requested) {
   const ComparisonResult r = comparison_of_warm_frames(false);
   const double frame = 1024e-9 * 32 * 32;
   for (const Repeat& repeat : r.methods[1].repeats) {
@@ -395,11 +395,11 @@ TEST(Comparison, takes_the_reference_s_own_noise_off) {
               1e-6);
 }
 
-TEST(Comparison, stops_when_told) {
+TEST(Comparison, stops_when_requested) {
   const Noise one(1, 0.5f);
-  std::atomic<int> asked{0};
+  std::atomic<int> requested{0};
   ComparisonWatch watch;
-  watch.stop = [&] { return ++asked > 3; };
+  watch.stop = [&] { return ++requested > 3; };
   const ComparisonResult r =
       run_comparison({compared_method("a", one), compared_method("b", one)}, exact(1), settings(16, 50), watch);
   EXPECT_TRUE(r.interrupted);

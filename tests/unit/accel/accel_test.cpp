@@ -395,7 +395,7 @@ TYPED_TEST(AccelFor, an_alpha_mask_cuts_holes_and_sees_the_hit_it_decides) {
 }
 
 // A ball's two sides, each of which may be open.
-TYPED_TEST(AccelFor, is_asked_for_both_sides_of_a_ball) {
+TYPED_TEST(AccelFor, is_requested_both_sides_of_a_ball) {
   StoreBuilder builder;
   builder.shape(Sphere{translate(0, 0, 5)});
   builder.shape(Sphere{translate(5, 0, 5)});

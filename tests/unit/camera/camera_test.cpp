@@ -147,7 +147,7 @@ TEST(SphereSquare, the_sphere_map_keeps_areas_and_inverts) {
   EXPECT_NEAR(xxyy / (n * n), 1.0 / 15, 1e-5);
 }
 
-TEST(SphereSquare, the_sphere_map_goes_on_across_its_edges) {
+TEST(SphereSquare, the_sphere_map_continues_across_its_edges) {
   const float e = 1e-4f;
   for (float t : {0.1f, 0.37f, 0.5f, 0.8f}) {
     for (Vec2f out : {Vec2f{-e, t}, Vec2f{1 + e, t}, Vec2f{t, -e}, Vec2f{t, 1 + e}}) {

@@ -30,7 +30,7 @@ struct ToPlane {
 
 TEST(ShadowRay, ends_before_the_surface_that_it_aims_at_however_far_its_origin_was_moved) {
   RandomStream<float> random(17, 0);
-  int parallel_ends_behind = 0, asked = 0;
+  int parallel_ends_behind = 0, requested = 0;
   for (int i = 0; i < 20000; ++i) {
     ToPlane c;
     c.p = {random.next(), random.next(), random.next()};
@@ -40,12 +40,12 @@ TEST(ShadowRay, ends_before_the_surface_that_it_aims_at_however_far_its_origin_w
     c.error = {error, error, error};
     // Not along the plane, where rounding decides.
     if (std::abs(dot(c.way(), c.normal)) < 0.3f) continue;
-    ++asked;
+    ++requested;
     EXPECT_TRUE(c.ends_before(c.shadow())) << i;
     parallel_ends_behind += !c.ends_before(c.parallel());
   }
-  EXPECT_GT(asked, 10000);
-  EXPECT_GT(parallel_ends_behind, asked / 4);
+  EXPECT_GT(requested, 10000);
+  EXPECT_GT(parallel_ends_behind, requested / 4);
 }
 
 TEST(ShadowRay, toward_what_is_beyond_the_scene_keeps_its_direction) {

@@ -95,7 +95,7 @@ TEST(DisplayOfLayers, shows_an_even_amount_in_one_colour_and_zero_at_the_bottom)
   EXPECT_EQ(shown.values[9], 0x44);
 }
 
-TEST(DisplayOfLayers, takes_the_range_and_the_map_that_are_asked_for) {
+TEST(DisplayOfLayers, takes_the_range_and_the_map_that_are_requested) {
   const PixelBuffer depth = row_of({"Y"}, {1, 2, 3});
   DisplayRequest request;
   request.range = ValueRange{1, 3}, request.no_map = true;

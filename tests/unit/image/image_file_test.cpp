@@ -126,7 +126,7 @@ TEST_F(ImageFile, date_is_that_of_the_environment_or_absent) {
   EXPECT_EQ(*date, (Attribute{"capDate", "1970:01:02 00:00:00"}));
 }
 
-TEST_F(ImageFile, png_bytes_are_decoded_as_srgb_or_as_asked) {
+TEST_F(ImageFile, png_bytes_are_decoded_as_srgb_or_as_requested) {
   DisplayImage picture{2, 1, 3, {0, 128, 255, 64, 10, 200}};
   ASSERT_TRUE(write_image(folder / "a.png", picture));
   Result<Image> srgb = read_image(folder / "a.png");

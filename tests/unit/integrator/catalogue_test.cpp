@@ -146,19 +146,19 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_TRUE(scene.integrator("restir-di:weights=naive,temporal=off,rounds=0").biases.empty());
 }
 
-// Surfaces that are there for some rays only: what a ray has passed by chance must not be asked by chance again.
+// Surfaces that are there for some rays only: what a ray has passed by chance must not be requested by chance again.
 TEST(IntegratorCatalogue, takes_visibility_into_targets_where_surfaces_are_half_there) {
   const std::string ball = "Shape \"sphere\" \"float radius\" [ 0.1 ]";
   const TestScene whole(std::string(room) + ball + "\n"), half(std::string(room) + ball + " \"float alpha\" [ 0.5 ]\n");
-  const auto is_told = [](const TestScene& scene, const char* text) {
+  const auto is_reported = [](const TestScene& scene, const char* text) {
     return std::ranges::any_of(scene.integrator(text).notes, [](const std::string& note) {
       return note.find("visibility-reuse is on") != std::string::npos;
     });
   };
-  EXPECT_TRUE(is_told(half, "restir-di:visibility-reuse=off"));
-  EXPECT_FALSE(is_told(half, "restir-di:visibility-reuse=off,bsdf=off"));
-  EXPECT_FALSE(is_told(half, "restir-di"));
-  EXPECT_FALSE(is_told(whole, "restir-di:visibility-reuse=off"));
+  EXPECT_TRUE(is_reported(half, "restir-di:visibility-reuse=off"));
+  EXPECT_FALSE(is_reported(half, "restir-di:visibility-reuse=off,bsdf=off"));
+  EXPECT_FALSE(is_reported(half, "restir-di"));
+  EXPECT_FALSE(is_reported(whole, "restir-di:visibility-reuse=off"));
 }
 
 RestirSettings reuse_settings(const EntitySpec& spec, const std::string& settings) {

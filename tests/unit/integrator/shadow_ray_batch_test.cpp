@@ -30,7 +30,7 @@ void expect_the_same_answers(std::size_t count_of_packs) {
   std::vector<Ray<F>> ways(count_of_packs);
   const auto open = std::make_unique<Mask<F>[]>(count_of_packs), expected = std::make_unique<Mask<F>[]>(count_of_packs);
   std::vector<int> sizes, unused;
-  std::uint64_t asked = 0;
+  std::uint64_t requested = 0;
   for (std::size_t i = 0; i < count_of_packs; ++i) {
     Uint<F> on(0u);
     for (int k = 0; k < int(lanes_of<F>); ++k) {
@@ -40,7 +40,7 @@ void expect_the_same_answers(std::size_t count_of_packs) {
       if ((i + std::size_t(k)) % 4 != 1) set_lane(on, k, 1u);
     }
     open[i] = on != Uint<F>(0u);
-    asked += std::uint64_t(count(open[i]));
+    requested += std::uint64_t(count(open[i]));
     expected[i] = open[i] & !NumberedRays{&unused}.occluded<F>(ways[i], open[i]);
   }
   RayCounts counts;
@@ -51,11 +51,11 @@ void expect_the_same_answers(std::size_t count_of_packs) {
     EXPECT_EQ(bits(open[i]), bits(expected[i])) << i;
     hidden += count(expected[i]);
   }
-  EXPECT_GT(hidden, int(asked) / 3);
-  EXPECT_LT(hidden, int(asked));
+  EXPECT_GT(hidden, int(requested) / 3);
+  EXPECT_LT(hidden, int(requested));
   // Every ray once, in packs that are full except the last one.
-  EXPECT_EQ(counts.shadow, asked);
-  EXPECT_EQ(sizes.size(), (asked + lanes_of<F> - 1) / lanes_of<F>);
+  EXPECT_EQ(counts.shadow, requested);
+  EXPECT_EQ(sizes.size(), (requested + lanes_of<F> - 1) / lanes_of<F>);
 }
 
 TEST(ShadowRayBatch, rays_have_the_answers_that_they_have_one_by_one) {

@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheTables, Parameters,
                          });
 
 // The planted fault: a table takes a parameter that nothing reads.
-TEST(Parameter, that_nothing_reads_is_told) {
+TEST(Parameter, that_nothing_reads_is_reported) {
   ReadResult read = read_pbrt_text("WorldBegin Shape \"sphere\" LightSource \"point\"", ".");
   ASSERT_TRUE(read.scene);
   const SourceLocation where{std::make_shared<const std::string>("room.pbrt"), 7, 9};
@@ -178,7 +178,7 @@ TEST(Parameter, that_nothing_reads_is_told) {
 }
 
 // A parameter that has an effect only with another one.
-TEST(Parameter, that_has_an_effect_only_in_a_case_is_told_in_the_others) {
+TEST(Parameter, that_has_an_effect_only_in_a_case_is_reported_in_the_others) {
   const auto warnings = [](const std::string& parameters) {
     const ReadResult read =
         read_pbrt_text("WorldBegin AreaLightSource \"diffuse\" " + parameters + " Shape \"sphere\"", ".");

@@ -112,7 +112,7 @@ TEST(Domain, points_go_back_to_the_cube) {
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(back[i], u[i], 1e-12) << i;
 }
 
-TEST(Domain, a_mistake_is_told_with_its_place) {
+TEST(Domain, a_mistake_is_reported_with_its_place) {
   struct Case {
     std::string text;
     std::size_t position, length;
@@ -145,7 +145,7 @@ TEST(Domain, a_mistake_is_told_with_its_place) {
   }
 }
 
-TEST(Domain, all_mistakes_are_told_together) {
+TEST(Domain, all_mistakes_are_reported_together) {
   EXPECT_EQ(parse_domain({"x=0:w,y=2:1,z=0:1", "dsk", "disk:radius=0"}).mistakes.size(), 4u);
   EXPECT_EQ(parse_domain({"x=0:1", "disk"}).mistakes.size(), 1u);
   EXPECT_EQ(parse_domain({"cube:dimension=40", "t=0:1", "simplex:dimension=30"}).mistakes.size(), 1u);

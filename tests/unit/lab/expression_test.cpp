@@ -108,7 +108,7 @@ TEST(Expression, it_knows_what_it_depends_on) {
   EXPECT_TRUE(compile("y", xyz).expression->uses(1));
 }
 
-TEST(Expression, a_mistake_is_told_with_its_place) {
+TEST(Expression, a_mistake_is_reported_with_its_place) {
   struct Case {
     std::string text;
     std::size_t position, length;
@@ -144,7 +144,7 @@ TEST(Expression, a_mistake_is_told_with_its_place) {
   }
 }
 
-TEST(Expression, all_unknown_names_are_told_together) {
+TEST(Expression, all_unknown_names_are_reported_together) {
   const std::vector<TextMistake> found = mistakes("sinn(x) + cosh2(y) * (w");
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].position, 0u);

@@ -44,7 +44,7 @@ TEST(Integrate, the_bits_are_the_same_for_any_number_of_threads) {
   EXPECT_EQ(one.variance_of_one_sample, many.variance_of_one_sample);
 }
 
-TEST(Integrate, a_saved_state_goes_on_where_it_was) {
+TEST(Integrate, a_saved_state_continues_where_it_was) {
   const Method method = method_named("uniform");
   const IntegralResult half = integrate(cubic(), method, {.samples = 40000});
   const IntegralState loaded = state_from_json(to_json(half.state));
@@ -105,7 +105,7 @@ TEST(Integrate, auto_says_that_a_constant_has_nothing_to_adapt_to) {
   EXPECT_NEAR(r.mean, 3.0, 1e-14);
 }
 
-TEST(Integrate, every_method_goes_on_from_its_saved_state_as_if_it_had_not_stopped) {
+TEST(Integrate, every_method_continues_from_its_saved_state_as_if_it_had_not_stopped) {
   for (const char* text : one_of_each) {
     const IntegralResult first = integrate(peak(), method_named(text), {.samples = 1u << 14});
     const IntegralState loaded = state_from_json(to_json(first.state));
@@ -243,17 +243,17 @@ TEST(Budget, a_target_stops_the_run_and_a_budget_that_ends_first_is_said) {
   EXPECT_LE(ended.evaluations, 10000u);
 }
 
-TEST(Budget, a_run_stops_at_its_time_and_when_it_is_told_to) {
+TEST(Budget, a_run_stops_at_its_time_and_when_it_is_requested) {
   const IntegralResult timed = integrate(peak(), method_named("auto"), {.seconds = 0.05});
   EXPECT_EQ(timed.stopped_because, StopReason::seconds);
   EXPECT_GT(timed.evaluations, 10000u);
-  int asked = 0;
+  int requested = 0;
   const IntegralResult stopped = integrate(peak(), method_named("uniform"), {.samples = std::uint64_t(1) << 40},
-                                           {.stop = [&] { return ++asked > 300; }});
+                                           {.stop = [&] { return ++requested > 300; }});
   EXPECT_EQ(stopped.stopped_because, StopReason::stopped);
 }
 
-TEST(Methods, what_a_method_lacks_is_told) {
+TEST(Methods, what_a_method_lacks_is_reported) {
   const Problem bare{.integrand = {1, pointwise([](const double* x) { return x[0]; })}};
   for (const char* text : {"control", "importance", "mis"})
     EXPECT_THROW(integrate(bare, method_named(text), {.samples = 100}), std::invalid_argument) << text;
@@ -267,7 +267,7 @@ TEST(Methods, every_name_is_read_and_written_back) {
   EXPECT_EQ(to_text(method_named("mis:heuristic=max")), "mis:heuristic=maximum");
 }
 
-TEST(Methods, wrong_names_and_values_are_told) {
+TEST(Methods, wrong_names_and_values_are_reported) {
   for (const char* text : {"unifrom", "qmc(points=sobl)", "qmc(baker=maybe)", "ris(candidates=0)",
                            "vegas(points=sobol)", "qmc(points=sobol"}) {
     EXPECT_FALSE(parse_method(text)) << text;

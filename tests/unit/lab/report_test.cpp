@@ -77,7 +77,7 @@ TEST(ReportJson, writes_what_is_not_finite_as_null) {
   EXPECT_EQ(json.find("inf"), std::string::npos);
 }
 
-TEST(ReportJson, carries_pictures_only_where_asked) {
+TEST(ReportJson, carries_pictures_only_where_requested) {
   EXPECT_NE(to_json(small_set(), true).find("data:image/png;base64,iVBOR"), std::string::npos);
   EXPECT_EQ(to_json(small_set(), false).find("base64"), std::string::npos);
 }

@@ -90,7 +90,7 @@ TEST(Statement, the_part_that_a_density_misses_is_measured) {
   EXPECT_LT(std::abs(missed.value - 1.0 / 16), 5 * missed.standard_error);
 }
 
-TEST(Statement, mistakes_of_all_parts_are_told_together) {
+TEST(Statement, mistakes_of_all_parts_are_reported_together) {
   IntegralStatement s{.integrand = "4*sinn(x)", .over = {"x=0:1"}};
   s.densities = {"2*y", "2*x, inverze=sqrt(u)", "2*x, inverse=sqrt(v)", "2*x, sampling=tabel"};
   s.control = "x +", s.control_integral = "y";

@@ -106,7 +106,7 @@ TEST(BuildMaterial, reflectance_of_a_metal_is_met_at_normal_incidence) {
   EXPECT_NEAR(s.weight[2], 0.9999, 1e-5);
 }
 
-TEST(BuildMaterial, roughness_is_remapped_unless_told_not_to) {
+TEST(BuildMaterial, roughness_is_remapped_unless_reported_not_to) {
   Workshop shop;
   DielectricDesc glass;
   glass.facets.roughness = 0.25f;

@@ -101,7 +101,7 @@ TEST(CubePoints, a_grid_has_one_point_in_each_box) {
   EXPECT_EQ(seen.size(), n);
 }
 
-TEST(CubePoints, grids_of_any_size_have_no_more_boxes_than_asked) {
+TEST(CubePoints, grids_of_any_size_have_no_more_boxes_than_requested) {
   for (std::size_t d : {1, 2, 3, 10, 64})
     for (std::uint64_t most : {1u, 2u, 7u, 100u, 4097u}) {
       const GridShape shape = GridShape::of(d, most);

@@ -199,8 +199,8 @@ TEST(Chains, end_in_time) {
   RenderSettings s = scene().settings(PointSetKind::independent, {}, 1, 2);
   RenderObserver silent;
   // By a clock that the machine's load does not move: whole chains are planned where there is time for them.
-  std::atomic<int> asked{0};
-  s.clock = [&asked] { return 1e-5 * ++asked; };
+  std::atomic<int> requested{0};
+  s.clock = [&requested] { return 1e-5 * ++requested; };
   s.plan = plan_for_time(chosen.any(), s, 0.3, silent).plan;
   EXPECT_EQ(s.plan.samples_per_pass, 4);
   s.clock = {};

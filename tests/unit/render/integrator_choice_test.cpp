@@ -154,13 +154,13 @@ TEST(IntegratorChoice, sees_that_the_pilot_of_the_first_candidate_lacks_light) {
   constexpr float chance = 1e-7f;
   const Noise first({[](float u, int, int) { return u < chance ? 0.8f / chance : 0.2f + 0.01f * u; }}),
       other(uniform(0.5, 3));
-  int chosen = 0, told = 0;
+  int chosen = 0, observed = 0;
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     const IntegratorChoice choice = choose(first, other, settings_for(400, seed));
-    chosen += choice.chosen == 1, told += choice.reason == ChoiceReason::more_light;
+    chosen += choice.chosen == 1, observed += choice.reason == ChoiceReason::more_light;
   }
   EXPECT_GE(chosen, 9);
-  EXPECT_GE(told, 9);
+  EXPECT_GE(observed, 9);
 }
 
 // A candidate whose noise is small, except for rare samples without bound: no pilot tells its error.

@@ -127,7 +127,7 @@ TEST(Render, seeds_and_passes_give_other_bits) {
   EXPECT_FALSE(same_bits(one, scene().render(PointSetKind::padded_sobol, {2, 4}, 5).film));
 }
 
-TEST(Render, a_render_that_goes_on_adds_the_passes_that_were_to_come) {
+TEST(Render, a_render_that_continues_adds_the_passes_that_were_to_come) {
   const PathTracer tracer = scene().tracer();
   RenderObserver silent;
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, 3}, 5);
@@ -405,7 +405,7 @@ TEST(Render, a_request_to_stop_is_heard_while_the_speed_is_measured) {
   EXPECT_LT(slow.calls(), 6);  // of the six tiles
 }
 
-TEST(Render, plans_take_the_samples_asked_for_in_passes_of_a_power_of_two) {
+TEST(Render, plans_take_the_samples_requested_in_passes_of_a_power_of_two) {
   for (const NamedPointSet& set : point_set_names)
     for (int samples : {1, 2, 7, 16, 64, 100, 256, 1000, 4096, 100000}) {
       const PassPlan plan = plan_passes(samples, set.kind);
