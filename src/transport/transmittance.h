@@ -1,4 +1,4 @@
-// How much light gets from one point to another: the media on the way, and whatever stands in it.
+// Transmittance between two points, through media and past surfaces.
 #pragma once
 #include <utility>
 

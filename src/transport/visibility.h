@@ -1,4 +1,4 @@
-// Whether anything stands between two points.
+// Visibility between two points.
 #pragma once
 #include <cstdint>
 

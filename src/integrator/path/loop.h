@@ -1,4 +1,4 @@
-// The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
+// The path loop: the whole estimator, for one path (F = float) and for a pack of them.
 #pragma once
 #include "integrator/features.h"
 #include "integrator/manifold/chain_light.h"
@@ -19,7 +19,7 @@ namespace montelux {
 // Of the stream of a vertex; it differs from the streams of materials, whose numbers are small.
 inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
 
-// Before its first event a path has gathered what it saw directly, and nothing else.
+// Before its first event the radiance of a path contains only directly visible light.
 template <class F>
 FirstSight<F> first_sight(const PathState<F>& path, const SurfaceHit<F>& x, const Spectrum<F>& albedo) {
   return {x.point, x.object, path.d, length(x.point.p - path.p), path.radiance, albedo};
@@ -78,7 +78,7 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       });
 }
 
-// Light that a path gathers. `origin()` tells the tally where it comes from.
+// Adds light to a path. `origin()` returns the LightOrigin for the tally.
 template <class F, class Tally, class Origin>
 MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum<F>& light,
                                   [[maybe_unused]] Tally& tally, [[maybe_unused]] Origin origin) {
