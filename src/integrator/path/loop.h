@@ -116,8 +116,8 @@ MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const Tile
 }
 
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
-// off as long as there are paths left, and gives the lanes that are on. `rays` answers trace and occluded as Accel
-// does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings state.
+// off as long as there are paths left, and gives the lanes that are on. `rays` has trace() and occluded() as
+// Accel does; benchmarks and tests pass others. `lights` are the scene's, chosen as the settings state.
 // `in_media`: the scene has participating media; without it they cost nothing.
 template <class F, bool in_media = false, class Rays, class Source, class Tally>
 RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
