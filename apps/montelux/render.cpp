@@ -111,7 +111,7 @@ std::string interruption_text(const RenderArguments& arguments, const Outcome& o
                      continues);
 }
 
-// One picture: written and told of. A frame that is interrupted is not written.
+// Writes one picture and reports it. A frame that is interrupted is not written.
 int finish_picture(const RenderArguments& arguments, const Result<Rendering>& rendering, const StopSignals& signals) {
   if (!rendering) return complain(rendering.error());
 

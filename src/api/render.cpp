@@ -42,7 +42,7 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan
   return film;
 }
 
-// Saves the snapshots of a film in a file, and tells the user about the first failure.
+// Saves the snapshots of a film in a file, and reports the first failure to the user.
 class Checkpoint {
  public:
   Checkpoint(const FilmCheckpoint& checkpoint, const SavedFilm& film, RenderObserver& observer)

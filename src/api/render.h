@@ -112,7 +112,7 @@ struct Rendering {
   std::vector<std::string> left_out{};          // by a lenient reading, as SceneInfo has it
   Content content = Content::light;             // what the colours hold
   bool has_own_exposure = false;                // the scene states one
-  bool found_no_light = false;                  // a picture of light, and every sample is zero: nothing tells its error
+  bool found_no_light = false;                  // every sample of a picture of light is zero: no error can be estimated
   Status saved{Done{}};                         // of the checkpoint's last writing
   std::optional<DenoisedLayers> denoised{};     // if requested and possible
   std::optional<PixelIntervals> intervals{};    // likewise

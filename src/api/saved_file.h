@@ -19,7 +19,7 @@
 namespace montelux {
 
 struct SavedFormat {
-  std::string_view name;    // as it stands in the file
+  std::string_view name;    // as written in the file
   int version;              // that is written
   std::string_view writer;  // the command that writes it
   std::string_view what;    // for messages: "comparison"

@@ -22,8 +22,8 @@ double upper_factor(const ErrorTarget& target, double by_chance, double constant
   return std::exp(std::hypot(normal_quantile(1 - wrong * spent) * by_chance, normal_quantile(1 - wrong) * constant));
 }
 
-// Whether rare bright samples determine the error, so that its chance cannot be told from this film either. Where every
-// pixel has many bright samples, a few pixels with most of the error, as at the edge of a lamp, are known well.
+// Whether rare bright samples determine the error, so that this film cannot show how uncertain it is either. Where
+// every pixel has many bright samples, a few pixels with most of the error, as at the edge of a lamp, are known well.
 bool is_unsure(const ErrorEstimate& error) {
   constexpr double few_pixels = 16, small_share = 0.1;
   const bool has_tail = error.tail_index < 1 || error.effective_pixels < std::min(few_pixels, double(error.pixels) / 8);

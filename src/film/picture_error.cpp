@@ -92,8 +92,8 @@ Belief belief_of(const Excess& e, const Agreement& agreement) {
   const double surely = std::clamp((e.significance() - 1.2) / 1.5, 0.0, 1.0);
   Belief belief;
   if (e.is_emission()) {
-    // An emitter that covers a part of the pixel. The agreement of halves tells how probable it is that a half is
-    // bright if the other one is; the expectation is that of a bright sample times twice as much, for there are two
+    // An emitter that covers a part of the pixel. The agreement of halves shows how probable it is that a half is
+    // bright if the other one is; the expectation is that of a bright sample times twice as much, since there are two
     // halves.
     const double both = agreement(e, 0.25);
     belief.share = std::clamp(2.0 * 2 * both / (1 + both), 0.0, 1.0);

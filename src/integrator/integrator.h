@@ -22,8 +22,8 @@ class StopQuery {
   virtual bool stop_requested() const = 0;
 };
 
-// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Only coupled integrators ask
-// for a single one of them.
+// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Only the frames of coupled
+// integrators and traced paths request a single sample.
 struct TilePass {
   PixelBounds tile;
   PointSet points;
@@ -73,8 +73,8 @@ class PixelIntegrator {
 // ---- pixels that share samples
 // ---------------------------------------------------------------------------------------
 
-// What a chain has learned by its end, for a chain of the next picture of a sequence. Only the integrator that left it
-// can read it.
+// State passed to the chain of the same number in the next picture of a sequence. Opaque outside the integrator that
+// wrote it.
 class ChainMemory {
  public:
   virtual ~ChainMemory() = default;
@@ -113,7 +113,7 @@ class Chain {
   virtual RayCounts run_layers(const ChainStep&, const PixelBounds&, std::span<PixelSample>, std::span<ExactRgb>) {
     throw std::logic_error("this integrator has no layers");
   }
-  // What it leaves after so many whole frames, the last that were run; that ends it. Null where nothing continues.
+  // Ends the chain after `frames` complete frames and returns its state. Null if the integrator passes none on.
   virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
   // How much the picture of the frames so far differs in the mean from unbiased samples that were taken for comparison
   // at some of its samples. None where nothing was compared. Only while no step runs.
@@ -128,7 +128,7 @@ class Chain {
 class CoupledIntegrator {
  public:
   virtual ~CoupledIntegrator() = default;
-  // Frames that a chain should have; frames before those that only teach and are not shown; stages of each frame.
+  // Frames that a chain should have; warm-up frames before those, which are not shown; stages of each frame.
   virtual int frames() const = 0;
   virtual int warm_up() const = 0;
   virtual int stages() const = 0;

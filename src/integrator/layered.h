@@ -7,9 +7,9 @@
 
 namespace montelux {
 
-// What a pixel integrator of type `Kind` answers, once it has
+// Implements PixelIntegrator for an integrator of type `Kind` that has
 //   template <class Tally> RayCounts trace_with(const TilePass&, std::span<PixelSample> out, Tally&) const
-// that finds the samples of `out` cleared. Its header declares the instance extern, and its source file makes it.
+// which finds the samples of `out` cleared. Its header declares the instance extern, and its source file makes it.
 template <class Kind>
 class LayeredIntegrator : public PixelIntegrator {
  public:

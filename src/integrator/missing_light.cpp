@@ -116,7 +116,7 @@ DeltaCaustics delta_caustics(const Scene& scene, const Accel& accel, int chain_l
   std::set<BsdfKind> surfaces;
   for (std::uint32_t i = 0; i < (kinds.empty() ? longest_search : usual_walks); ++i) {
     RandomStream<float> random = all.fork(i);
-    // Every light has its turn, and a target of its own each time.
+    // The lights take turns; each walk has a target of its own.
     const LightId light = lights[i % lights.size()];
     const Vec3f target = targets.point(random);
     if (const auto chain = follow_light(scene, accel, light, target, random, is_missing))

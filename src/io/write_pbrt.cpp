@@ -106,7 +106,7 @@ class Writer {
   std::string write() {
     write_options();
     text_ += "WorldBegin\n";
-    // What the camera stands in is stated by each shape again.
+    // Resets the medium of the camera: each shape states its own media.
     if (has_camera_medium()) text_ += "MediumInterface \"\" \"\"\n";
     for (const TextureDesc& texture : scene_.textures) write_texture(texture);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) write_material(i);

@@ -6,8 +6,8 @@
 namespace montelux {
 
 // Sums of realisations and of their squares, without rounding: realisations may be added, and sums merged, in any order
-// and grouping, and the moments are the same bits. Whoever holds it knows the number of realisations, which many of
-// them share. Realisations are below ExactSum::largest in absolute value and are cut to its grid.
+// and grouping, and the moments are the same bits. The number of realisations is stored by the owner, because many of
+// these objects share it. Realisations are below ExactSum::largest in absolute value and are cut to its grid.
 class ExactMoments {
  public:
   void add(double x) {

@@ -37,8 +37,8 @@ struct Interval {
 };
 
 // The estimate of an expectation, by channel (red, green, blue). It is the mean over passes: independent, identically
-// distributed realisations of the picture, so that the spread over them tells the error, however the samples within a
-// pass depend on each other.
+// distributed realisations of the picture, so that the spread over them measures the error, however the samples within
+// a pass depend on each other.
 struct Estimate {
   std::array<double, 3> mean{};            // radiance, W/(m^2 sr), unless the integrator computes something else
   std::array<double, 3> standard_error{};  // of `mean`; infinite where it is not known: below two passes, or no light

@@ -60,7 +60,7 @@ class Scene {
   MaterialId add_material(Model material);
   // A participating medium ("homogeneous"); its coefficients are per unit of length of the world.
   MediumId add_medium(Model medium);
-  // The medium in which the camera stands; default: empty space.
+  // The medium around the camera; default: empty space.
   void set_camera_medium(std::optional<MediumId> medium);
   // Of numbers or of colours, by what its values are.
   TextureId add_texture(TextureKind kind, Model texture, const Transform& texture_to_world = {});

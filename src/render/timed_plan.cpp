@@ -91,7 +91,7 @@ class ChainMeasurement {
       // inaccurate as they are, and too little time for a cell would be worse than too much.
       const double difference = std::max(seconds - least, 0.0) + accuracy * seconds;
       chain.cell = std::min(difference / (cells - cells_of_least), seconds / cells);
-      // Something else has slowed down the one before: it tells nothing.
+      // Something else has slowed down the measurement before, so it is not used.
       if (seconds < (1 - accuracy) * least) chain.cell = seconds / cells;
       chain.fixed = seconds - chain.cell * cells;
       if (seconds < least) cells_of_least = cells, least = seconds;

@@ -149,7 +149,7 @@ struct SceneDesc {
   std::vector<TextureDesc> textures;
   std::vector<MaterialDesc> materials;  // number 0 is the default material (diffuse)
   std::vector<MediumDesc> media;
-  std::optional<MediumDescId> camera_medium;  // in which the camera stands
+  std::optional<MediumDescId> camera_medium;  // around the camera
   std::vector<LightDesc> lights;
   std::vector<ShapeDesc> shapes;
   std::vector<ObjectDesc> objects;

@@ -13,8 +13,8 @@ struct MetLight {
   Mask<F> on;
   F passing = F(1.0f);  // probability of no event on the way, as MediumSet::mean_passing
 };
-// A weight of light that is met depends on the density with which light sampling would have found it; it may ask for
-// the light, too.
+// The weight of light that a ray meets depends on the density with which light sampling would have found it; the weight
+// may also take the light as an argument.
 template <class F, class Weight>
 MONTELUX_INLINE F weight_of_met(const Weight& weight, const Density<SolidAngle, F>& density, const MetLight<F>& met) {
   if constexpr (requires { weight(density, met); })

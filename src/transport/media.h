@@ -60,7 +60,7 @@ class Boundary {
   }
 
   // The media around a path that arrives along d. A path that arrives from within a body was in it, even where no
-  // boundary was crossed: the camera may stand in water.
+  // boundary was crossed: the camera may be in water.
   MONTELUX_INLINE Media<F> before(const Media<F>& media, const Vec3<F>& d) const {
     if (!is_any_) return media;
     const Mask<F> unseen = bounds_ & (dot(outward_, d) > F(0.0f)) & !is_black(within_) & !equal(within_, media.here) &

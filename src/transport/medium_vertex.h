@@ -19,7 +19,7 @@ MONTELUX_INLINE void put_medium_vertex(Mask<F> on, const Vec3<F>& o, const Vec3<
   x.bounds_media = x.bounds_media & !on;
 }
 
-// How it scatters, as far as it is no question of direction: the frame is that of the world.
+// The direction-independent part of its scattering. The frame is that of the world.
 template <class F>
 MONTELUX_INLINE void put_medium_scattering(Mask<F> on, SurfaceScattering<F>& s) {
   const F one(1.0f), none(0.0f);

@@ -14,7 +14,7 @@ struct NextVertex : Vertex<F> {
   Mask<F> found;
   F distance;         // from the ray's origin
   Spectrum<F> light;  // emitted toward the origin by the surface, by interfaces on the way and by the sky, weighted
-  Spectrum<F> left;   // the weight of the way: what the media leave at the origin of light that the vertex sends there
+  Spectrum<F> left;   // transmittance from the vertex to the ray's origin; in media the weights of sampled distances
   F passing;          // probability of no event before the vertex, as MediumSet::mean_passing
 };
 

@@ -5,8 +5,8 @@
 
 namespace montelux {
 
-// A point of a surface and how it scatters. The random numbers of the model are kept, too, so that whoever queries it
-// finds one function.
+// A point of a surface and how it scatters. The random numbers of the model are stored, too, so that every query
+// evaluates the same BSDF.
 template <class F>
 struct StoredSurface {
   Vec3<F> p, ng;

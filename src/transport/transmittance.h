@@ -1,4 +1,4 @@
-// How much light gets from one point to another: the media on the way, and whatever stands in it.
+// Transmittance between two points, through media and past surfaces.
 #pragma once
 #include <utility>
 
@@ -17,7 +17,7 @@ struct Transmitted {
 
 // Along rays of shadow_ray() that start in `media`, up to the point that they aim at: nothing is left where a surface
 // scatters on the way; interfaces are crossed, and the media behind them absorb as they do. `random` decides for
-// surfaces that are interfaces at times. `rays` answers trace as Accel does; counts the rays that it takes. `first_use`
+// surfaces that are interfaces at times. `rays` has trace() as Accel does; counts the rays that it takes. `first_use`
 // is that of the ray up to its first surface.
 template <class F, bool with_passing = true, class Rays>
 Transmitted<F> transmitted(const Scene& scene, const Rays& rays, Ray<F> ray, Media<F> media, Mask<F> on,

@@ -1,4 +1,4 @@
-// Whether anything stands between two points.
+// Visibility between two points.
 #pragma once
 #include <cstdint>
 
@@ -7,8 +7,8 @@
 
 namespace montelux {
 
-// The lanes of `on` in which no surface blocks the ray. Adds the rays that are traced to `traced`. `rays` answers
-// occluded as Accel does.
+// The lanes of `on` in which no surface blocks the ray. Adds the rays that are traced to `traced`. `rays` has
+// occluded() as Accel does.
 template <class F, class Rays>
 MONTELUX_INLINE Mask<F> unblocked(const Rays& rays, const Ray<F>& ray, Mask<F> on, std::uint64_t& traced) {
   if (!any(on)) return on;

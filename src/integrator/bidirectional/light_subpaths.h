@@ -11,7 +11,7 @@
 
 namespace montelux {
 
-// All that the paths of a frame share. `Rays` answers as Accel does.
+// All that the paths of a frame share. `Rays` has the interface of Accel.
 //
 // Each pixel has a pair of subpaths, by the numbers of its points, and all strategies are wanted of all pairs. A frame
 // with other pairs hides what stands below `every_strategy`.

@@ -29,8 +29,8 @@ inline bool has_one_sided_surfaces(const Scene& scene) {
   return false;
 }
 
-// What the paths of a frame send to the lens; `rays` answers as Accel does. `in_media`: the scene has participating
-// media. `Plane` is a SplatPlane, or keeps the splat of each lane by record(raster, light, on).
+// What the paths of a frame send to the lens; `rays` has the interface of Accel. `in_media`: the scene has
+// participating media. `Plane` is a SplatPlane, or keeps the splat of each lane by record(raster, light, on).
 template <class F, class Rays, bool in_media = false, class Plane = SplatPlane>
 class LensSplats {
  public:

@@ -10,8 +10,8 @@
 
 namespace montelux {
 
-// A surface that bounds media states those on its sides. Any other light stands in the medium in which a straight line
-// from the camera ends there, by the boundaries that it crosses: as a path from the camera would find it.
+// A surface that bounds media states those on its sides. The medium around any other light follows from the boundaries
+// that a straight line from the camera to the light crosses: as a path from the camera would find it.
 class LightMedia {
  public:
   LightMedia(const Scene& scene, const Accel& accel);

@@ -1,5 +1,5 @@
 // Paths that start at lights, for one path (F = float) and for a pack of them: shared by all integrators that follow
-// light. What happens at the vertices is the business of a sink.
+// light. A sink defines what happens at each vertex.
 #pragma once
 #include "integrator/first_vertex.h"
 #include "integrator/light_paths/light_media.h"

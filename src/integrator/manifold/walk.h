@@ -14,8 +14,8 @@ struct DeltaLight {
   Vec3d place{};  // of a distant light the unit direction toward it
 };
 
-// How far the last ray of a chain misses a light, about as an angle at the last vertex: zero, with the first direction
-// of the chain on the same side, where it meets the light.
+// How far the last ray of a chain misses a light: for small misses the angle at the last vertex, and zero if the ray
+// meets the light.
 struct ChainMiss {
   std::array<double, 2> miss{};                     // orthogonal to the direction of the light
   std::array<std::array<double, 2>, 2> jacobian{};  // of miss[i] with respect to parameter j of the chain

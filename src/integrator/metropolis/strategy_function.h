@@ -92,8 +92,8 @@ class StrategyFunction {
         out_(std::size_t(lanes_of<F>)) {}
 
   std::size_t dimensions() const { return eye_dimensions() + light_dimensions() + 2; }
-  // Small steps keep the number of events. So of all chains those numbers move that the longest path may need: which
-  // these are is the same for a step and for its return.
+  // Small steps keep the number of events. Every chain of the pack therefore mutates the numbers that the longest path
+  // of the pack may need: these are the same for a step and for its reverse.
   void propose(SamplePoint<F>& to, const SamplePoint<F>& from, const StepOfNumbers<F>& step) const {
     to.values = from.values;
     const std::size_t lights = eye_dimensions(), strategy = strategy_dimension();

@@ -17,7 +17,7 @@ namespace montelux {
 template <class F>
 class FirstHits {
  public:
-  // `rays` answers trace as Accel does.
+  // `rays` has trace() as Accel does.
   template <class Rays, class Tally>
   FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out, Tally& tally);
   template <class Rays>
@@ -42,7 +42,7 @@ class FirstHits {
   std::uint64_t rays_ = 0;
 };
 
-// A callback of arrive() for light that the camera sees directly.
+// The sink of first_vertex() for light that the camera sees directly: adds it to the tally.
 template <class F, class Tally>
 auto seen_directly([[maybe_unused]] const PathState<F>& path, [[maybe_unused]] Tally& tally) {
   return [&]([[maybe_unused]] Mask<F> on, [[maybe_unused]] const Spectrum<F>& light,

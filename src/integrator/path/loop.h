@@ -1,4 +1,4 @@
-// The path loop: the whole estimator on a page, for one path (F = float) and for a pack of them.
+// The path loop: the whole estimator, for one path (F = float) and for a pack of them.
 #pragma once
 #include "integrator/features.h"
 #include "integrator/manifold/chain_light.h"
@@ -16,7 +16,7 @@
 
 namespace montelux {
 
-// Before its first event a path has gathered what it saw directly, and nothing else.
+// Before its first event the radiance of a path contains only directly visible light.
 template <class F>
 FirstSight<F> first_sight(const PathState<F>& path, const SurfaceHit<F>& x, const Spectrum<F>& albedo) {
   return {x.point, x.object, path.d, length(x.point.p - path.p), path.radiance, albedo};
@@ -75,7 +75,7 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       });
 }
 
-// Light that a path gathers. `origin()` tells the tally where it comes from.
+// Adds light to a path. `origin()` returns the LightOrigin for the tally.
 template <class F, class Tally, class Origin>
 MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum<F>& light,
                                   [[maybe_unused]] Tally& tally, [[maybe_unused]] Origin origin) {
@@ -113,8 +113,8 @@ MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const Tile
 }
 
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
-// off as long as there are paths left, and gives the lanes that are on. `rays` answers trace and occluded as Accel
-// does; benchmarks and tests give others. `lights` are the scene's, chosen as the settings state.
+// off as long as there are paths left, and gives the lanes that are on. `rays` has trace() and occluded() as
+// Accel does; benchmarks and tests pass others. `lights` are the scene's, chosen as the settings state.
 // `in_media`: the scene has participating media; without it they cost nothing.
 template <class F, bool in_media = false, class Rays, class Source, class Tally>
 RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,

@@ -38,8 +38,8 @@ template <class F>
 MONTELUX_INLINE F roulette_throughput(const PathState<F>& path) {
   return max_component(path.throughput) * path.eta_scale;
 }
-// The survival probability by throughput. The root spares paths that are dim now and may still find a bright place:
-// less noise for the same rays.
+// The survival probability by throughput. The square root keeps more of the dim paths, which may still reach bright
+// regions: less noise for the same rays.
 template <class F>
 MONTELUX_INLINE F survival_by_throughput(const PathState<F>& path) {
   return min(safe_sqrt(roulette_throughput(path)), F(max_survival));

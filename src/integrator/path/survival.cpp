@@ -122,10 +122,10 @@ SurvivalMap survival_from(std::span<const PilotPath> paths, const PilotBlocks& b
     const double scale = std::sqrt(sums.cost / double(paths.size()) / variance);
     for (std::size_t c = 0; c < cells; ++c) {
       const Remainder& all = sums.everywhere[c % SurvivalMap::depths];
-      // Where the pilot saw no light ahead it knows nothing: the throughput itself decides.
+      // Where the pilot found no light ahead there is nothing to estimate from: the throughput itself decides.
       factors[c] = 1;
       if (!(all.weight > 0 && all.squares > 0)) continue;
-      // A block that few paths of the pilot told of leans on the whole picture, as if by 16 more paths.
+      // A block with few pilot paths is shrunk toward the whole picture, as if by 16 more paths.
       const double lean = 16 / all.paths;
       Remainder here = sums.at[c];
       here.add({lean * all.weight, lean * all.squares, lean * all.paths, lean * all.cost});

@@ -32,7 +32,7 @@ class PhotonSink {
     });
   }
   void broken(F, const PathSite<F>&, M on) { broken_ += std::uint64_t(count(on)); }
-  // Paths whose flux became a number that is none.
+  // Paths ended because their flux was not finite.
   std::uint64_t broken() const { return broken_; }
 
  private:

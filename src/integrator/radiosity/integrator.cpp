@@ -29,7 +29,6 @@ struct Radiosity {
 using Irradiance = std::vector<Spectrum<float>>;
 std::size_t side_of_element(std::uint32_t element, bool behind) { return 2 * std::size_t(element) + (behind ? 1 : 0); }
 
-// The numbers of one ray of an element, or of one pixel.
 // A surface point, the side from which it is looked at, and how that reflects.
 struct DiffusePoint {
   SurfaceHit<F> x;

@@ -77,7 +77,7 @@ class ReuseChain final : public Chain {
                             [&](std::size_t pixel) { return vertices(frame)[pixel].exists != 0; });
   }
 
-  // What FirstStage tells.
+  // Receives the results of FirstStage.
   struct FirstStageSink {
     ReuseChain& chain;
     int frame;

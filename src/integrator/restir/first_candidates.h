@@ -31,12 +31,12 @@ MONTELUX_INLINE Candidate<F> select(Mask<F> m, const Candidate<F>& a, const Cand
 // BSDF meets, then result().
 //
 // A point's share is its technique's number of samples times density over that of all (Veach and Guibas 1995), so its
-// resampling weight is target / sum of these products, whoever drew it. The BSDF draws only what is open to the vertex,
-// so a point on a light must have the whole of its share where something is in the way, or other pixels that see it
-// would find too little light there. The visibility of the point that the lights' own techniques choose among
-// themselves is therefore tested before it competes with the BSDF's. Lights with a place and those beyond the scene
-// have a stream each, and each is tested by itself: where a sun is hidden, a pixel would otherwise find nothing but the
-// sun.
+// resampling weight is target / sum of these products, whichever technique drew it. The BSDF draws only what is open to
+// the vertex, so a point on a light must have the whole of its share where something is in the way, or other pixels
+// that see it would find too little light there. The visibility of the point that the lights' own techniques choose
+// among themselves is therefore tested before it competes with the BSDF's. Lights with a place and those beyond the
+// scene have a stream each, and each is tested by itself: where a sun is hidden, a pixel would otherwise find nothing
+// but the sun.
 template <class F, class Rays>
 class FirstCandidates {
  public:

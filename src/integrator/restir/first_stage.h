@@ -109,7 +109,7 @@ class FirstStage {
       candidates.draw_lights(stream, rough);
     }
 
-    // Scatter; roulette, save where other pixels will scatter with the same numbers.
+    // Scatter; no roulette where other pixels replay these numbers.
     M continues = scatters & next.valid;
     const M broken = continues & !is_finite(max_component(next.weight));
     if (any(broken)) path.radiance += select(broken, path.throughput * next.weight, gray(F(0.0f)));
@@ -136,7 +136,7 @@ class FirstStage {
     const auto [found, hit] = shared_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
     path.hit = hit;
 
-    // What the direction of the BSDF met joins the candidates; what lies behind is the path's own.
+    // Light that the direction of the BSDF meets joins the candidates; light scattered there belongs to the path.
     if (any(offers)) offer(candidates, path, offers & found, offers & !found, numbers.fork(U(restir_stream::met)));
     if (any(rough)) keep(path, {vertex, origin}, candidates, rough);
     const M counts_next = lives & next.delta;

@@ -30,7 +30,7 @@ struct ReuseMemory final : ChainMemory {
   }
 };
 
-// The moment of the picture before that answers to a moment of this one: at the same share of the exposure.
+// The time in the previous picture at the same fraction of the exposure.
 inline float earlier_moment(float time, const Shutter& now, const Shutter& before) {
   const float exposed = now.close - now.open;
   const float share = exposed > 0 ? std::clamp((time - now.open) / exposed, 0.0f, 1.0f) : 0.0f;

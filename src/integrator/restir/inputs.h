@@ -24,7 +24,7 @@ struct ReuseInputs {
 
   ReuseInputs(std::size_t count, bool with_paths) : vertices(count), lights(count), paths(with_paths ? count : 0) {}
 
-  // Input i is there in no lane; finite numbers stand in for it.
+  // Input i exists in no lane; finite numbers replace it.
   void clear(std::size_t i) {
     vertices[i] = vertices[0], lights[i] = lights[0];
     if (!paths.empty()) paths[i] = paths[0];

@@ -276,7 +276,7 @@ class PathCandidates {
     return lives_on(numbers, continues);
   }
 
-  // Roulette spares what is scattered again: other pixels would have to play with other throughputs.
+  // No roulette on replayed events: throughputs differ between pixels.
   M lives_on(const EventNumbers<F>& numbers, M on) {
     PathWalk<F>& w = walk_;
     const M kept = (w.joined != U(0u)) | (w.events > U(std::uint32_t(shared_.reuse.max_replayed) + 1));

@@ -157,7 +157,7 @@ struct PathDomains {
  private:
   Spectrum<F> contribution_at(int to, const PathSample<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& first = vertices[std::size_t(to)];
-    // Where surfaces move, a path of another moment is none of this one.
+    // Where surfaces move, a path with a different time cannot be shifted.
     const Mask<F> fits = on & ((value.time == first.time) | Mask<F>(!shared.scene.geometry.moves())) &
                          (first.events + value.events <= Uint<F>(shared.max_events));
     if (!any(fits)) return gray(F(0.0f));

@@ -11,8 +11,8 @@ inline std::size_t pixel_number(const PixelBounds& picture, int x, int y) {
   return std::size_t(y - picture.y0) * std::size_t(picture.width()) + std::size_t(x - picture.x0);
 }
 
-// Calls f(number of a pixel in the picture, number in the tile, how many) for the rows of the tile, whose pixels stand
-// together in both.
+// Calls f(number of the first pixel in the picture, its number in the tile, number of pixels) for each row of the tile.
+// The pixels of a row have consecutive numbers in both.
 template <class Function>
 void for_each_row(const PixelBounds& picture, const PixelBounds& tile, Function f) {
   for (int y = tile.y0; y < tile.y1; ++y)

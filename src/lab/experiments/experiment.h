@@ -26,8 +26,8 @@ struct Check {
   bool to_reject = false;
 };
 
-// What stands in texts, captions and claims is the same in every run: the documentation prints it. Numbers belong into
-// figures, tables and statistics.
+// Texts, captions and claims are the same in every run: the documentation prints them. Numbers belong in figures,
+// tables and statistics.
 struct Findings {
   std::vector<Section> sections;
   std::vector<Check> checks;

@@ -31,7 +31,7 @@ Chosen choose(double (*target)(double), std::uint32_t candidates, RandomStream<f
 
 enum class Combination { naive, counted, balance };
 
-// The two choices are resampled for the own target; how their weights are shared is what tells the combinations apart.
+// The two choices are resampled for the own target; the combinations differ in how their weights are shared.
 double combine(Combination combination, std::uint32_t own, std::uint32_t others, RandomStream<float>& stream) {
   const std::array<Chosen, 2> chosen{choose(own_target, own, stream), choose(neighbour_target, others, stream)};
   const std::array<double, 2> counts{double(own), double(others)};

@@ -221,8 +221,8 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
   return {sums, flat || !(plain > rounding) ? 1.0 : plain / mapped, flat};
 }
 
-// The first step sees the integrand by uniform points and has many of them, so that it finds what lies far apart. Of
-// the others the later ones know better and get more.
+// The first step sees the integrand by uniform points and has many of them, so that it finds peaks that are far apart.
+// Of the other steps, later ones have a better map and get more points.
 constexpr std::array<double, MapTraining::steps> step_shares{0.4, 0.031, 0.047, 0.07, 0.105, 0.158, 0.236, 0.353};
 
 // A power of two: the edges of the bins, where the map is not smooth, are then also edges of the strata of a Sobol'

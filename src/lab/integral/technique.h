@@ -1,4 +1,4 @@
-// What a method of integration does in one pass. The engine runs passes, adds them up, and knows nothing else of it.
+// What a method of integration does in one pass. The engine only runs passes and adds them up.
 #pragma once
 #include <memory>
 

@@ -4,7 +4,8 @@
 
 namespace montelux::lab {
 
-// The HTML with `page_data_mark` where the JSON belongs; empty where it was not built, and then `why` tells the reason.
+// The HTML with `page_data_mark` where the JSON belongs; empty where it was not built, and then `why` states the
+// reason.
 struct Page {
   std::string_view html, why;
 };

@@ -86,7 +86,7 @@ struct PictureComparison {
 
 // ---- the rest -------------------------------------------------------------------------------------------------------
 
-// A paragraph. Formulas stand in dollars, code in backticks.
+// A paragraph. Formulas are enclosed in dollars, code in backticks.
 struct Text {
   std::string text;
 };

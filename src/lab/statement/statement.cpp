@@ -65,7 +65,7 @@ class Reader {
     for (const DomainMistake& m : parsed.mistakes) complain("--over", m.text, m.mistake);
     if (parsed.domain)
       domain_ = std::make_shared<const Domain>(std::move(*parsed.domain));
-    else  // still, what is wrong whatever the variables should be told now
+    else  // report now what is wrong for any variables
       for (const TextMistake& m : compile(statement_.integrand, {}).mistakes)
         if (!m.message.starts_with("unknown name")) complain("the integrand", statement_.integrand, m);
   }
