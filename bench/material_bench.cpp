@@ -42,6 +42,19 @@ BsdfRow bench_row(BsdfKind kind) {
     case BsdfKind::phong:
       put(PhongSlots::diffuse, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f, 30});
       break;
+    case BsdfKind::metallic_roughness:
+    case BsdfKind::coated_metallic_roughness:
+      put(MetallicRoughnessSlots::base, {0.5f, 0.5f, 0.5f});
+      put(MetallicRoughnessSlots::metallic, {0.5f, 0.3f, 1});
+      put(MetallicRoughnessSlots::specular_color, {1, 1, 1});
+      put(MetallicRoughnessSlots::reflected, {0.04f});
+      if (kind == BsdfKind::metallic_roughness) break;
+      put(CoatedMetallicRoughnessSlots::grain_x, {1, 0, 1, 0, 1, 0.1f, 1, 0, 0, 1});
+      break;
+    case BsdfKind::tinted_dielectric:
+      put(TintedDielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
+      put(TintedDielectricSlots::tint, {1, 1, 1});
+      break;
   }
   return row;
 }
