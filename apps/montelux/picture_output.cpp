@@ -187,7 +187,7 @@ void print_mixing(const MixingFigures& mixing) {
     if (share) accepted += fmt::format("{}{:.3g} % of {}", accepted.empty() ? "" : " and ", 100 * *share, steps);
   };
   add(mixing.large_acceptance(), "large"), add(mixing.small_acceptance(), "small");
-  fmt::print("chains   {} with {:.4g} steps each; accepted {} steps\n", mixing.chains,
+  fmt::print("mixing   {} Markov chains with {:.4g} steps each; accepted {} steps\n", mixing.chains,
              double(mixing.steps) / double(mixing.chains), accepted);
   if (const auto time = mixing.autocorrelation_time())
     fmt::print("         autocorrelation {:.3g} steps: {} steps are worth {} independent ones\n", *time,

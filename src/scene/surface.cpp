@@ -65,10 +65,10 @@ struct TimeStep {
   Uint<F> first;  // index of the preceding time
   F fraction;     // of the interval to the next
 };
-// `moments` >= 2. The kernel uses the same operations.
+// `keys` >= 2. The kernel uses the same operations.
 template <class F>
-TimeStep<F> time_step(F time, Uint<F> moments) {
-  const F steps = to_float(Uint<F>(moments - Uint<F>(1u)));
+TimeStep<F> time_step(F time, Uint<F> keys) {
+  const F steps = to_float(Uint<F>(keys - Uint<F>(1u)));
   const F scaled = time * steps;
   const F first = min(max(floor(scaled), F(0.0f)), steps - F(1.0f));
   return {to_uint(first), scaled - first};

@@ -29,7 +29,8 @@ class EyeSubpaths {
 
   // One subpath from each pixel of a tile.
   RayCounts run(const PixelBounds& tile, std::span<PixelSample> out) {
-    const TilePass pass{tile, frame_.pass.points, frame_.pass.shutter, frame_.frame, frame_.moment, frame_.pass.grid};
+    const TilePass pass{tile,         frame_.pass.points,    frame_.pass.shutter,
+                        frame_.frame, frame_.shutter_sample, frame_.pass.grid};
     tile_ = tile;
     FirstHits<F> first_hits =
         tally_ ? FirstHits<F>(scene_, frame_.rays, pass, out, *tally_) : FirstHits<F>(scene_, frame_.rays, pass, out);

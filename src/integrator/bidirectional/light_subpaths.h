@@ -22,7 +22,8 @@ struct BidirectionalFrame {
   const AliasTable* by_power;  // null: there is no light
   const ChainPass& pass;
   std::uint32_t frame;
-  std::optional<float> moment;  // in [0, 1), of the exposure: of all paths; else each pair of subpaths has its own
+  std::optional<float>
+      shutter_sample;  // in [0, 1), of the exposure: of all paths; else each pair of subpaths has its own
   BidirectionalPaths paths;
   Weights weights;
   bool one_sided;  // some surface is not there for camera rays that meet its back
@@ -55,8 +56,8 @@ struct BidirectionalFrame {
   PointSet light_points() const { return photon_points(pass.points, int(frame), light_path_count); }
   // The time of a path from a light is that of the pixel's path from the eye.
   template <class F>
-  F moment_of(const PathSite<F>& site) const {
-    if (moment) return F(*moment);
+  F shutter_sample_of(const PathSite<F>& site) const {
+    if (shutter_sample) return F(*shutter_sample);
     Uint<F> x(0u), y(0u);
     const PixelBounds& b = pass.bounds;
     for (int k = 0; k < lanes_of<F>; ++k) {
@@ -139,7 +140,7 @@ class LightSubpathSink {
         scale_(frame.scene.imaging_ratio / frame.light_paths()),
         lens_(frame.scene, frame.rays, frame.one_sided, frame.plane, counts) {}
 
-  F moment(const PathSite<F>& site) const { return frame_.template moment_of<F>(site); }
+  F shutter_sample(const PathSite<F>& site) const { return frame_.template shutter_sample_of<F>(site); }
 
   void leave(const LightPathStart<F, Numbers>& s, M on) {
     light_ = select(on, s.choice.index, light_);

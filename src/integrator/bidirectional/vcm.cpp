@@ -79,7 +79,7 @@ class VcmChain final : public Chain {
             by_power_ ? &*by_power_ : nullptr,
             pass_,
             std::uint32_t(frame),
-            shared_moment(scene_, pass_, frame),
+            shared_shutter_sample(scene_, pass_, frame),
             settings_.paths,
             StrategyWeights(settings_.paths.mis == BidirectionalMis::power, merges, settings_.paths.connect),
             one_sided_,

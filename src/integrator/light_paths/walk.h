@@ -16,9 +16,9 @@ struct LightWalkScene {
   const AliasTable& by_power;
   Points points;
   Shutter shutter;
-  std::optional<float> moment;   // in [0, 1), of the exposure: of all paths; else each has its own
-  std::optional<int> max_depth;  // scattering events, that of the last vertex included
-  int roulette_depth;            // scattering events before roulette
+  std::optional<float> shutter_sample;  // in [0, 1), of the exposure: of all paths; else each has its own
+  std::optional<int> max_depth;         // scattering events, that of the last vertex included
+  int roulette_depth;                   // scattering events before roulette
   Densities densities = Densities::may_be_estimates;
   const LightMedia* light_media = nullptr;  // of a walk in media
 };
@@ -100,7 +100,7 @@ MONTELUX_INLINE F adjoint_correction(const LightPathVertex<F, Numbers>& v, const
 //   void visit(LightPathVertex, Query, BsdfValue, on)
 //   void scatter(LightPathVertex, BsdfSample, on)   optional: the path continues
 //   Mask<F> follows(LightPathVertex, BsdfSample, on)   optional: the lanes whose paths may continue
-//   F moment(PathSite)                          optional, where surfaces move: of each path, in the exposure
+//   F shutter_sample(PathSite)                    optional, where surfaces move: of each path, in the exposure
 //   void broken(F value, PathSite, on)          a flux that is not a number, whose path ends
 // `Correction` is AdjointCorrection, but in tests that plant a fault. `in_media`: the scene has participating media.
 template <class F, class Rays, class Sink, class Correction = AdjointCorrection, bool in_media = false,
@@ -153,9 +153,9 @@ class LightWalk {
     LightPathState<F> state;
     M valid;
   };
-  F moment_of(const PathSite<F>& site, const Numbers& numbers) const {
-    if constexpr (requires { sink_.moment(site); }) return sink_.moment(site);
-    return shared_.moment ? F(*shared_.moment) : numbers.get1(U(light_dimension::time));
+  F shutter_sample_of(const PathSite<F>& site, const Numbers& numbers) const {
+    if constexpr (requires { sink_.shutter_sample(site); }) return sink_.shutter_sample(site);
+    return shared_.shutter_sample ? F(*shared_.shutter_sample) : numbers.get1(U(light_dimension::time));
   }
   // A ray from a light.
   Start start(const PathSite<F>& site, M on) {
@@ -164,7 +164,7 @@ class LightWalk {
     const LightEmission<F> e = scene_.lights.template emit<F>(choice.index, numbers.get2(U(light_dimension::point)),
                                                               numbers.get2(U(light_dimension::direction)), on);
     F time = 0.0f;
-    if (scene_.moves()) time = shared_.shutter.time(moment_of(site, numbers));
+    if (scene_.moves()) time = shared_.shutter.time(shutter_sample_of(site, numbers));
     const Spectrum<F> flux = e.flux * (F(1.0f) / choice.mass.value);
     sink_.leave(LightPathStart<F, Numbers>{choice, e, numbers, time, site}, M(on & e.valid));
 

@@ -48,7 +48,7 @@ struct PairFrame : BidirectionalFrame<Rays, StrategyWeights, SplatRecord<F>> {
   GivenLightNumbers<F> light_points() const { return {light}; }
   void add_broken(const F& value, M on) const { broken = select(on, value, broken); }
   template <class>
-  F moment_of(const PathSite<F>&) const {
+  F shutter_sample_of(const PathSite<F>&) const {
     return eye.get1(U(path_dimension::time));
   }
 };

@@ -80,8 +80,8 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathS
   F time = 0.0f;
   if (scene.moves()) {
     const F drawn = scene.pixel_centres ? F(0.5f) : numbers.get1(Uint<F>(path_dimension::time));
-    const F moment = pass.moment ? F(*pass.moment) : drawn;
-    time = pass.shutter.value_or(scene.shutter).time(moment);
+    const F shutter_sample = pass.shutter_sample ? F(*pass.shutter_sample) : drawn;
+    time = pass.shutter.value_or(scene.shutter).time(shutter_sample);
   }
   CameraRay<F> camera = scene.camera.generate(raster, on_lens, time);
   PathStart<F> state;

@@ -26,13 +26,14 @@ inline std::uint32_t light_paths(int setting, int pixels) {
 
 // The photons of one set of light paths.
 struct PhotonSet {
-  int number = 0;                 // sets of different numbers have different paths
-  float radius = 0;               // within which photons are looked up
-  std::optional<float> moment{};  // in [0, 1), of the exposure; none: each path has its own
+  int number = 0;                         // sets of different numbers have different paths
+  float radius = 0;                       // within which photons are looked up
+  std::optional<float> shutter_sample{};  // in [0, 1), of the exposure; none: each path has its own
 };
 
-// Photons are of one moment: where surfaces move, a frame has one, spread over the exposure as the samples of a pixel.
-inline std::optional<float> shared_moment(const Scene& scene, const ChainPass& pass, int frame) {
+// All photons of a frame have one time where surfaces move. The times of the frames are spread over the exposure as
+// the samples of a pixel are.
+inline std::optional<float> shared_shutter_sample(const Scene& scene, const ChainPass& pass, int frame) {
   if (!scene.moves()) return std::nullopt;
   return Sampler<float>(pass.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
 }
@@ -95,7 +96,7 @@ class PhotonFilling {
                                     *by_power_,
                                     photon_points(pass_.points, set.number, paths_.count),
                                     pass_.shutter.value_or(scene_.shutter),
-                                    set.moment,
+                                    set.shutter_sample,
                                     paths_.max_depth,
                                     paths_.roulette_depth};
     const auto follow = [&](auto sink) {

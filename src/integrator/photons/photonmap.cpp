@@ -37,16 +37,17 @@ class PhotonMapChain final : public Chain {
   }
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    const std::optional<float> moment = shared_moment(scene_, pass_, step.frame);
+    const std::optional<float> shutter_sample = shared_shutter_sample(scene_, pass_, step.frame);
     if (step.stage < Photons::stages) {
       RayCounts counts;
-      if (step.frame > 0 && !moment) return counts;
-      counts += global_.run({2 * step.frame, settings_.radius, moment}, step.stage, tile);
-      if (caustics_) counts += caustics_->run({2 * step.frame + 1, settings_.caustic_radius, moment}, step.stage, tile);
+      if (step.frame > 0 && !shutter_sample) return counts;
+      counts += global_.run({2 * step.frame, settings_.radius, shutter_sample}, step.stage, tile);
+      if (caustics_)
+        counts += caustics_->run({2 * step.frame + 1, settings_.caustic_radius, shutter_sample}, step.stage, tile);
       return counts;
     }
     const PhotonLookup global = lookup(global_);
-    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), moment, pass_.grid};
+    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), shutter_sample, pass_.grid};
     PhotonGathering<F, Accel> gathering(scene_, accel_, settings_.gathering(), caustics_ ? lookup(*caustics_) : global,
                                         caustics_ ? std::optional(global) : std::nullopt);
     const RayCounts counts = gathering.run(pass, out);

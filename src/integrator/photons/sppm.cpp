@@ -26,11 +26,11 @@ class SppmChain final : public Chain {
 
   RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     const PhotonSet set{step.frame, float(sppm_radius(settings_.radius, settings_.alpha, step.frame)),
-                        shared_moment(scene_, pass_, step.frame)};
+                        shared_shutter_sample(scene_, pass_, step.frame)};
     if (step.stage < Photons::stages) return photons_.run(set, step.stage, tile);
     const RayCounts counts =
         PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(), PhotonLookup(photons_.map(), settings_.kernel))
-            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.moment, pass_.grid}, out);
+            .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.shutter_sample, pass_.grid}, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
     if (is_first && photons_.take_broken()) show_broken(out);
     return counts;

@@ -54,14 +54,14 @@ class ReuseChain final : public Chain {
  private:
   const RestirSettings& settings() const { return shared_.settings; }
   bool reuses_paths() const { return settings().indirect.on; }
-  // For the next picture: of another moment, where surfaces move.
+  // For the next picture: of another time, where surfaces move.
   bool keeps_paths() const { return reuses_paths() && !shared_.scene.geometry.moves(); }
   bool in_groups() const { return settings().groups && settings().rounds > 0; }
   Shutter shutter() const { return pass_.shutter.value_or(shared_.scene.shutter); }
 
-  // Paths are of one moment: where surfaces move, all pixels of a frame look at the same one, or they could share none.
-  // Each frame has a moment of its own, spread over the exposure as the samples of a pixel are.
-  std::optional<float> moment(int frame) const {
+  // Paths that are shared have the same time: where surfaces move, all pixels of a frame have one. The times of the
+  // frames are spread over the exposure as the samples of a pixel are.
+  std::optional<float> shutter_sample(int frame) const {
     if (!reuses_paths() || !shared_.scene.geometry.moves()) return std::nullopt;
     return Sampler<float>(pass_.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
   }
@@ -110,7 +110,7 @@ class ReuseChain final : public Chain {
   // Every pixel by itself.
   RayCounts find(int frame, const PixelBounds& tile) {
     std::vector<PixelSample> out(std::size_t(tile.area()));
-    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), moment(frame), pass_.grid};
+    const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), shutter_sample(frame), pass_.grid};
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
     });
@@ -126,11 +126,11 @@ class ReuseChain final : public Chain {
   // Which pixels of the picture before showed the points of the vertices. Behind mirrors and glass it is sought at the
   // pixel itself.
   void trace_back(const LanePixels<F>& at, const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin) {
-    F moment = vertex.time;
-    for_each_lane(
-        at.on, [&](int k) { set_lane(moment, k, earlier_moment(lane(vertex.time, k), shutter(), before_->shutter)); });
+    F time = vertex.time;
+    for_each_lane(at.on,
+                  [&](int k) { set_lane(time, k, earlier_time(lane(vertex.time, k), shutter(), before_->shutter)); });
     const M straight = at.on & origin.straight;
-    const EarlierPlace<F> then = earlier_place<F>(shared_.scene, origin, moment, straight);
+    const EarlierPlace<F> then = earlier_place<F>(shared_.scene, origin, time, straight);
     for_each_lane(at.on, [&](int k) {
       std::optional<std::size_t> pixel;
       const std::uint32_t object = lane(vertex.object, k);

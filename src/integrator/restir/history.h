@@ -31,7 +31,7 @@ struct ReuseMemory final : ChainMemory {
 };
 
 // The time in the previous picture at the same fraction of the exposure.
-inline float earlier_moment(float time, const Shutter& now, const Shutter& before) {
+inline float earlier_time(float time, const Shutter& now, const Shutter& before) {
   const float exposed = now.close - now.open;
   const float share = exposed > 0 ? std::clamp((time - now.open) / exposed, 0.0f, 1.0f) : 0.0f;
   return before.time(share);
@@ -46,16 +46,16 @@ struct VertexOrigin {
 };
 
 // Where the surface points of vertices were in the picture before: they move with their instance or with the form of
-// their mesh, and the camera of the earlier moment looks at them.
+// their mesh, and the camera of the earlier time looks at them.
 template <class F>
 struct EarlierPlace {
   Projection<F> place;
   Vec3<F> ng;
 };
 template <class F>
-EarlierPlace<F> earlier_place(const Scene& scene, const VertexOrigin<F>& origin, const F& moment, Mask<F> on) {
-  const SurfacePoint<F> then = surface_at<F>(scene.geometry, origin.ray, origin.hit, moment, on).point;
-  return {scene.camera.project(then.p, moment), then.ng};
+EarlierPlace<F> earlier_place(const Scene& scene, const VertexOrigin<F>& origin, const F& time, Mask<F> on) {
+  const SurfacePoint<F> then = surface_at<F>(scene.geometry, origin.ray, origin.hit, time, on).point;
+  return {scene.camera.project(then.p, time), then.ng};
 }
 
 // The surface whose history is looked for. The choice sees objects, normals and distances, never what was found there:

@@ -193,10 +193,11 @@ class PathCandidates {
     const Connection<F> to = connect(shared_.lights, vertex, draw.point, lit);
     lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_);
     if (!any(lit)) return;
-    const F density = draw.density.value * choice.mass.value;  // of the light point, in its measure
+    const Density<SolidAngle, F> density = choice.mass * draw.density;
     const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),
-                           weight_of_light_sample<F>(settings_.light_weights(), {density}, to.by_bsdf));
-    const Spectrum<F> estimate = to.value * (share / select(lit, density * to.geometry, F(1.0f)));
+                           weight_of_light_sample<F>(settings_.light_weights(), density, to.by_bsdf));
+    // The density of the light point, in its own measure, is that of the direction times the geometry.
+    const Spectrum<F> estimate = to.value * (share / select(lit, density.value * to.geometry, F(1.0f)));
 
     const M joined = lit & (w.joined != U(0u));
     const M joins = lit & !joined & may_join(leg, to.scattered.density);

@@ -47,7 +47,7 @@ struct Recursion {
     const LightSample<float> to =
         scene.lights.sample_light<float>(std::uint32_t(light), at.x.point.p, Vec3f{}, random.next2(), true);
     // From behind the light there is nothing to aim at, and the other direction has the whole hemisphere.
-    if (to.valid) sum += continued(at, to.wi, to.density.value, random, depth, throughput);
+    if (to.valid) sum += continued(at, to.wi, to.density, random, depth, throughput);
     const SeenPolygon seen = to.valid ? seen_from(at, light) : SeenPolygon{};
     const bool one_side = length_squared(at.bsdf.light_normal) > 0.5f;
     return sum + (one_side ? elsewhere(at, seen, random, depth, throughput)
@@ -62,7 +62,7 @@ struct Recursion {
     const Frame<float> frame = Frame<float>::from_normal(at.bsdf.light_normal);
     for (int tries = 0; tries < 10000; ++tries) {
       const Vec3f wi = frame.to_world(sample_hemisphere(random.next2()));
-      if (seen.count == 0 || !covers(seen, wi)) return continued(at, wi, 1 / rest, random, depth, throughput);
+      if (seen.count == 0 || !covers(seen, wi)) return continued(at, wi, {1 / rest}, random, depth, throughput);
     }
     return gray(0.0f);
   }
@@ -73,12 +73,12 @@ struct Recursion {
   }
 
   // f cos / density x TracePath in the direction wi.
-  Spectrum<float> continued(const NextVertex<float>& at, const Vec3f& wi, float density, RandomStream<float>& random,
-                            int depth, const Spectrum<float>& throughput) const {
+  Spectrum<float> continued(const NextVertex<float>& at, const Vec3f& wi, Density<SolidAngle> density,
+                            RandomStream<float>& random, int depth, const Spectrum<float>& throughput) const {
     BsdfContext<float> context = at.context;
     context.random = own_stream(random);
     const BsdfValue<float> value = evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(wi), context);
-    return next_call(at, wi, value.f_cos * (1 / density), random, depth, throughput);
+    return next_call(at, wi, value.f_cos * (1 / density.value), random, depth, throughput);
   }
 
   // A direction by the BSDF; none where it is one of `taken`, which another term serves.

@@ -45,12 +45,12 @@ void SceneBuilder::read_animation_and_time() {
   const std::optional<Animation> animation = read_animation(document_, tree_, options_.animation);
   const AnimationTime time{0, animation ? animation->end : 0};
   const AnimationWindow window = options_.window ? options_.window(time) : AnimationWindow{};
-  moments_ = moments_of(document_, tree_, animation, window);
-  scene_.transforms_start = moments_.start, scene_.transforms_end = moments_.end;
+  key_poses_ = key_poses_of(document_, tree_, animation, window);
+  scene_.transforms_start = key_poses_.start, scene_.transforms_end = key_poses_.end;
   scene_.shutter = std::pair{0.0, 0.0};
   scene_.frame_rate = time.frame_rate;
   scene_.whole_time = std::pair{time.start, time.end};
-  scene_.frames_held = moments_.frames_held;
+  scene_.frames_held = key_poses_.frames_held;
 }
 
 void SceneBuilder::read_meshes() {
@@ -73,15 +73,15 @@ void SceneBuilder::report_moves(const Element& where, std::string_view what) {
 std::optional<SceneBuilder::Placing> SceneBuilder::placing_of(std::size_t node) {
   const Element& element = tree_.nodes[node].element;
   const std::string name = shown_name(tree_.nodes[node], node);
-  const auto first = from_matrix(moments_.world.front()[node]);
+  const auto first = from_matrix(key_poses_.world.front()[node]);
   if (!first) {
     element.warning(name + " has a scale of zero: it is not shown");
     return std::nullopt;
   }
   Placing placing{*first, {}, first->swaps_handedness()};
-  if (!moments_.moves(node)) return placing;
-  for (std::size_t k = 1; k < moments_.count(); ++k) {
-    const auto next = from_matrix(moments_.world[k][node]);
+  if (!key_poses_.moves(node)) return placing;
+  for (std::size_t k = 1; k < key_poses_.count(); ++k) {
+    const auto next = from_matrix(key_poses_.world[k][node]);
     if (!next || next->swaps_handedness() != placing.mirrored) {
       element.tolerable(name + " is mirrored during its motion, or its scale becomes zero",
                         "lenient reading leaves it at its start");
@@ -149,8 +149,8 @@ const Skin* SceneBuilder::skin_of(const Node& node, const Primitive& primitive) 
   return &*place->second;
 }
 
-const std::vector<double>& SceneBuilder::weights_of(std::size_t node, std::size_t moment) {
-  const std::vector<double>& own = moments_.weights[moment][node];
+const std::vector<double>& SceneBuilder::weights_of(std::size_t node, std::size_t key) {
+  const std::vector<double>& own = key_poses_.weights[key][node];
   return own.empty() ? meshes_[*tree_.nodes[node].mesh].weights : own;
 }
 
@@ -159,17 +159,17 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   const Node& n = tree_.nodes[node];
   const Skin* skin = skin_of(n, primitive);
   if (n.skin && primitive.skin && !skin) return;
-  const std::size_t bytes = moments_.count() * primitive.mesh->positions.size() * 2 * sizeof(Vec3f);
+  const std::size_t bytes = key_poses_.count() * primitive.mesh->positions.size() * 2 * sizeof(Vec3f);
   if (bytes > max_pose_bytes) {
     primitive.where.error(
-        "takes more than 8 GiB in the " + std::to_string(moments_.count()) + " poses of its deformation",
+        "takes more than 8 GiB in the " + std::to_string(key_poses_.count()) + " poses of its deformation",
         "render fewer frames at once");
     return;
   }
   auto mesh = std::make_shared<Mesh>(*primitive.mesh);
   bool changes = false;
-  for (std::size_t k = 0; k < moments_.count(); ++k) {
-    const auto& world = moments_.world[k];
+  for (std::size_t k = 0; k < key_poses_.count(); ++k) {
+    const auto& world = key_poses_.world[k];
     MeshPose pose = pose_of(primitive, {weights_of(node, k), skin, world, world[node]});
     for (const Vec3f& p : pose.positions) bounds_ = join(bounds_, p);
     if (k == 0) {
@@ -183,7 +183,7 @@ void SceneBuilder::place_deforming(std::size_t node, const Primitive& primitive)
   if (!changes || shines(primitive)) mesh->later.clear();
   drop_degenerate_faces(*mesh);
   if (mesh->triangles.empty()) return;
-  const Transform placed(moments_.world.front()[node], Matrix4{});
+  const Transform placed(key_poses_.world.front()[node], Matrix4{});
   const bool mirrored = !skin && placed.swaps_handedness();
   ShapeDesc shape = shape_of(primitive, mirrored);
   shape.reverse_orientation = mirrored;  // the winding refers to the mesh's own space
@@ -232,8 +232,8 @@ void SceneBuilder::place_lights() {
   for (std::size_t i : tree_.shown) {
     const Node& node = tree_.nodes[i];
     if (!node.light) continue;
-    if (moments_.moves(i)) report_moves(node.element, "a light");
-    if (std::optional<LightDesc> light = light_of(document_, *node.light, moments_.world.front()[i]))
+    if (key_poses_.moves(i)) report_moves(node.element, "a light");
+    if (std::optional<LightDesc> light = light_of(document_, *node.light, key_poses_.world.front()[i]))
       scene_.lights.push_back(*std::move(light));
   }
   if (options_.environment) return;
@@ -256,10 +256,10 @@ void SceneBuilder::place_camera() {
     return;
   }
   const std::size_t camera = *tree_.nodes[*node].camera;
-  state_camera(document_, camera, moments_.world.front()[*node], scene_);
-  if (!moments_.moves(*node)) return;
-  for (std::size_t k = 1; k < moments_.count(); ++k)
-    if (const auto placed = from_matrix(camera_to_world(document_, camera, moments_.world[k][*node])))
+  state_camera(document_, camera, key_poses_.world.front()[*node], scene_);
+  if (!key_poses_.moves(*node)) return;
+  for (std::size_t k = 1; k < key_poses_.count(); ++k)
+    if (const auto placed = from_matrix(camera_to_world(document_, camera, key_poses_.world[k][*node])))
       scene_.world_to_camera_later.push_back(placed->inverted());
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 #include "geometry/bounds.h"
 #include "io/gltf/deform.h"
+#include "io/gltf/key_poses.h"
 #include "io/gltf/materials.h"
 #include "io/gltf/meshes.h"
-#include "io/gltf/moments.h"
 #include "io/read_result.h"
 
 namespace montelux::gltf {
@@ -35,7 +35,7 @@ class SceneBuilder {
   std::optional<ObjectDescId> object_of(std::size_t mesh, bool mirrored);
   ShapeDesc shape_of(const Primitive& primitive, bool mirrored);
   const Skin* skin_of(const Node& node, const Primitive& primitive);
-  const std::vector<double>& weights_of(std::size_t node, std::size_t moment);
+  const std::vector<double>& weights_of(std::size_t node, std::size_t key);
   // Emitters must not move: an error, or with lenient reading they stay as they are at the first time.
   void report_moves(const Element& where, std::string_view what);
   void place_lights();
@@ -49,7 +49,7 @@ class SceneBuilder {
   const ReadOptions& options_;
   SceneDesc scene_;
   NodeTree tree_;
-  Moments moments_;
+  KeyPoses key_poses_;
   MaterialReader materials_;
   std::map<std::size_t, MeshUse> meshes_;                                        // those that are shown
   std::map<std::size_t, std::size_t> times_used_;                                // how many nodes show a mesh

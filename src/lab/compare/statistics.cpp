@@ -7,20 +7,18 @@
 
 #include "lab/statement/value_text.h"
 #include "mc/confidence.h"
+#include "mc/moments.h"
 
 namespace montelux::lab {
 
 Measured measured(const std::vector<double>& all, double confidence) {
-  std::vector<double> values = all;
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  Moments moments;
+  for (double v : all) moments.add(v);  // leaves out what is not finite
+  const double n = double(moments.count), infinite = std::numeric_limits<double>::infinity();
   Measured m;
-  m.count = int(values.size());
-  const double n = double(values.size()), infinite = std::numeric_limits<double>::infinity();
-  for (double v : values) m.mean += v / n;
-  if (values.size() < 2) return {m.mean, -infinite, infinite, infinite, m.count};
-  double squares = 0;
-  for (double v : values) squares += (v - m.mean) * (v - m.mean);
-  m.standard_error = std::sqrt(squares / (n - 1) / n);
+  m.count = int(moments.count), m.mean = moments.mean;
+  if (moments.count < 2) return {m.mean, -infinite, infinite, infinite, m.count};
+  m.standard_error = moments.standard_error();
   const double half = student_t_quantile(0.5 + 0.5 * confidence, n - 1) * m.standard_error;
   m.low = m.mean - half, m.high = m.mean + half;
   return m;

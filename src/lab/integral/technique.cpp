@@ -8,6 +8,7 @@
 #include "lab/integral/sampled.h"
 #include "lab/integral/weighted.h"
 #include "lab/integral/whole_pass.h"
+#include "mc/moments.h"
 
 namespace montelux::lab {
 namespace {
@@ -53,11 +54,12 @@ double squares_about(std::span<const double> x, double centre) {
   return total_of(sum) + rest;
 }
 
-// Squared deviations of two sets together from their common mean (Chan et al. 1979).
+// Squared deviations of two sets together from their common mean.
 double merged_m2(double n, double sum_n, double m2_n, double k, double sum_k, double m2_k) {
   if (n == 0 || k == 0) return m2_n + m2_k;
-  const double distance = sum_k / k - sum_n / n;
-  return m2_n + m2_k + distance * distance * n * k / (n + k);
+  Moments both{std::uint64_t(n), 0, sum_n / n, m2_n};
+  both.merge({std::uint64_t(k), 0, sum_k / k, m2_k});
+  return both.m2;
 }
 
 }  // namespace

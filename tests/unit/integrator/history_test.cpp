@@ -229,10 +229,10 @@ TEST(History, behind_a_mirror_is_that_of_the_pixel_itself) {
 
 TEST(Motion, of_a_shutter_goes_to_the_same_share_of_the_exposure) {
   const Shutter before{0.2f, 0.4f}, after{0.6f, 0.7f};
-  EXPECT_NEAR(earlier_moment(0.6f, after, before), 0.2f, 1e-6f);
-  EXPECT_NEAR(earlier_moment(0.675f, after, before), 0.35f, 1e-6f);
-  EXPECT_NEAR(earlier_moment(0.7f, after, {0.5f, 0.5f}), 0.5f, 1e-6f);
-  EXPECT_NEAR(earlier_moment(0.6f, {0.6f, 0.6f}, before), 0.2f, 1e-6f);
+  EXPECT_NEAR(earlier_time(0.6f, after, before), 0.2f, 1e-6f);
+  EXPECT_NEAR(earlier_time(0.675f, after, before), 0.35f, 1e-6f);
+  EXPECT_NEAR(earlier_time(0.7f, after, {0.5f, 0.5f}), 0.5f, 1e-6f);
+  EXPECT_NEAR(earlier_time(0.6f, {0.6f, 0.6f}, before), 0.2f, 1e-6f);
 }
 
 }  // namespace

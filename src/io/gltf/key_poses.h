@@ -8,7 +8,7 @@
 namespace montelux::gltf {
 
 // Matrices and weights at times evenly spaced from start to end. Only one time: nothing moves.
-struct Moments {
+struct KeyPoses {
   double start = 0, end = 0;                              // s
   std::vector<std::vector<Matrix4>> world;                // of the nodes, by time
   std::vector<std::vector<std::vector<double>>> weights;  // of the nodes' morph targets, by time
@@ -23,7 +23,7 @@ struct Moments {
 // to approximate rotations to 1.3e-5 of the distance from the axis, and positions and weights to a thousandth of their
 // path; at most 129 in all. If these do not approximate rotations to 7.6e-5, or are too few for the frames, the scene
 // contains fewer frames than requested; if not even one is possible, that is an error.
-Moments moments_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
-                   const AnimationWindow& window);
+KeyPoses key_poses_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
+                      const AnimationWindow& window);
 
 }  // namespace montelux::gltf

@@ -1,4 +1,4 @@
-#include "io/gltf/moments.h"
+#include "io/gltf/key_poses.h"
 
 #include <algorithm>
 #include <bit>
@@ -67,28 +67,28 @@ class WayError {
 double place_of(const Matrix4& m, std::size_t i) { return m.m[i][3]; }
 double off_between(double a, double b, double t, double there) { return std::abs((1 - t) * a + t * b - there); }
 
-ChordErrors chord_errors(const NodeTree& tree, const Moments& moments, const std::optional<Animation>& animation) {
+ChordErrors chord_errors(const NodeTree& tree, const KeyPoses& poses, const std::optional<Animation>& animation) {
   // With few steps, the motion may return to its chord within one.
-  const std::size_t steps = moments.count() - 1, nodes = tree.nodes.size();
+  const std::size_t steps = poses.count() - 1, nodes = tree.nodes.size();
   const int parts = steps <= 16 ? 8 : 2;
-  const double step = (moments.end - moments.start) / double(steps);
+  const double step = (poses.end - poses.start) / double(steps);
   ChordErrors errors{std::vector<double>(steps), 0, 0};
   double largest = 0;
   std::vector<WayError> ways(nodes), weights(nodes);
   for (std::size_t k = 0; k < steps; ++k)
     for (int part = 1; part <= parts; ++part) {
-      const double t = double(part) / parts;  // the last one is the next moment
-      const Pose there = pose_at(tree, animation, moments.start + (double(k) + t) * step);
+      const double t = double(part) / parts;  // the last one is the next key pose
+      const Pose there = pose_at(tree, animation, poses.start + (double(k) + t) * step);
       for (std::size_t i = 0; i < nodes; ++i) {
-        const Matrix4 &start = moments.world[0][i], &a = moments.world[k][i], &b = moments.world[k + 1][i];
+        const Matrix4 &start = poses.world[0][i], &a = poses.world[k][i], &b = poses.world[k + 1][i];
         const double turn = off_the_chord(a, b, t, there.world[i]);
         errors.turns[k] = std::max(errors.turns[k], turn);
         if (turn > largest) largest = turn, errors.node = i;
         for (std::size_t j = 0; j < 3; ++j)
           ways[i].add_sample(std::abs(place_of(there.world[i], j) - place_of(start, j)),
                              off_between(place_of(a, j), place_of(b, j), t, place_of(there.world[i], j)));
-        const auto &w = there.weights[i], &first = moments.weights[0][i], &before = moments.weights[k][i],
-                   &after = moments.weights[k + 1][i];
+        const auto &w = there.weights[i], &first = poses.weights[0][i], &before = poses.weights[k][i],
+                   &after = poses.weights[k + 1][i];
         for (std::size_t j = 0; j < w.size(); ++j)
           weights[i].add_sample(std::abs(w[j] - first[j]), off_between(before[j], after[j], t, w[j]));
       }
@@ -98,13 +98,13 @@ ChordErrors chord_errors(const NodeTree& tree, const Moments& moments, const std
   return errors;
 }
 
-void fill(Moments& moments, const NodeTree& tree, const std::optional<Animation>& animation, int steps) {
-  moments.world.clear(), moments.weights.clear();
+void fill(KeyPoses& poses, const NodeTree& tree, const std::optional<Animation>& animation, int steps) {
+  poses.world.clear(), poses.weights.clear();
   for (int k = 0; k <= steps; ++k) {
-    const double time = moments.start + (moments.end - moments.start) * k / steps;
+    const double time = poses.start + (poses.end - poses.start) * k / steps;
     Pose pose = pose_at(tree, animation, time);
-    moments.world.push_back(std::move(pose.world));
-    moments.weights.push_back(std::move(pose.weights));
+    poses.world.push_back(std::move(pose.world));
+    poses.weights.push_back(std::move(pose.weights));
   }
 }
 
@@ -120,13 +120,13 @@ std::vector<double> largest_turns(const ChordErrors& errors, std::size_t n, cons
 
 // Reports the intervals between times that not even this many chords approximate.
 std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
-                           const Moments& moments, const ChordErrors& errors, int max_chords) {
+                           const KeyPoses& poses, const ChordErrors& errors, int max_chords) {
   std::vector<bool> result(errors.turns.size(), false);
-  const double step = (moments.end - moments.start) / double(errors.turns.size());
+  const double step = (poses.end - poses.start) / double(errors.turns.size());
   bool is_reported = false;
   for (std::size_t k = 0; k < result.size(); ++k) {
     if (errors.turns[k] <= tolerance) continue;
-    Moments fine{moments.start + double(k) * step, moments.start + double(k + 1) * step, {}, {}};
+    KeyPoses fine{poses.start + double(k) * step, poses.start + double(k + 1) * step, {}, {}};
     fill(fine, tree, animation, max_chords);
     const ChordErrors off = chord_errors(tree, fine, animation);
     const double turn = std::ranges::max(off.turns);
@@ -158,34 +158,34 @@ int longest_part(const std::vector<double>& turns, int chords, int least) {
 
 }  // namespace
 
-bool Moments::moves(std::size_t node) const {
+bool KeyPoses::moves(std::size_t node) const {
   return std::any_of(world.begin(), world.end(), [&](const auto& w) { return !(w[node] == world.front()[node]); });
 }
-bool Moments::morphs(std::size_t node) const {
+bool KeyPoses::morphs(std::size_t node) const {
   return std::any_of(weights.begin(), weights.end(), [&](const auto& w) { return w[node] != weights.front()[node]; });
 }
 
-Moments moments_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
-                   const AnimationWindow& window) {
-  Moments moments{window.start, window.end, {}, {}};
+KeyPoses key_poses_of(Document& document, const NodeTree& tree, const std::optional<Animation>& animation,
+                      const AnimationWindow& window) {
+  KeyPoses poses{window.start, window.end, {}, {}};
   if (!animation || !(window.end > window.start)) {
     Pose pose = pose_at(tree, animation, window.start);
-    moments.end = moments.start;
-    moments.world.push_back(std::move(pose.world)), moments.weights.push_back(std::move(pose.weights));
-    return moments;
+    poses.end = poses.start;
+    poses.world.push_back(std::move(pose.world)), poses.weights.push_back(std::move(pose.weights));
+    return poses;
   }
   const int intervals = std::max(window.intervals, 1);
   const double exposure = std::clamp(window.exposure, 0.0, 1e6);
   // The first n intervals, with equal numbers of chords.
   const auto take = [&](int n, int chords) {
-    moments.end = window.start + (window.end - window.start) * n / intervals;
-    moments.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
-    fill(moments, tree, animation, n * chords);
+    poses.end = window.start + (window.end - window.start) * n / intervals;
+    poses.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
+    fill(poses, tree, animation, n * chords);
   };
   const int most = std::min(intervals, max_steps);
   if (!window.open) {
     take(most, 1);
-    return moments;
+    return poses;
   }
   // The times of the first frames, if all are too many; the rest becomes another scene. The minimum is one frame.
   const int least = std::min(most, 1 + int(std::ceil(exposure - 1e-9)));
@@ -197,17 +197,17 @@ Moments moments_of(Document& document, const NodeTree& tree, const std::optional
   for (int n = most;;) {
     int chords = 1;
     take(n, chords);
-    ChordErrors errors = chord_errors(tree, moments, animation);
-    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, moments, errors, max_steps / least);
+    ChordErrors errors = chord_errors(tree, poses, animation);
+    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, poses, errors, max_steps / least);
     const auto turns = [&] { return largest_turns(errors, std::size_t(n), is_given_up); };
     const auto is_rough = [&] { return std::ranges::max(turns()) > aim || errors.way > aim_of_ways; };
     while (2 * chords * n <= max_steps && is_rough()) {
       chords *= 2;
       take(n, chords);
-      errors = chord_errors(tree, moments, animation);
+      errors = chord_errors(tree, poses, animation);
     }
     const std::vector<double> all = turns();
-    if (std::ranges::max(all) <= tolerance || n <= least) return moments;
+    if (std::ranges::max(all) <= tolerance || n <= least) return poses;
     n = longest_part(all, chords, least);
   }
 }
