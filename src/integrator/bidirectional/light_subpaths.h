@@ -14,7 +14,7 @@ namespace montelux {
 // All that the paths of a frame share. `Rays` has the interface of Accel.
 //
 // Each pixel has a pair of subpaths, by the numbers of its points, and all strategies are wanted of all pairs. A frame
-// with other pairs hides what stands below `every_strategy`.
+// with other pairs hides `every_strategy` and the members after it.
 template <class Rays, class Weights = StrategyWeights, class Plane = SplatPlane>
 struct BidirectionalFrame {
   const Scene& scene;
@@ -22,8 +22,8 @@ struct BidirectionalFrame {
   const AliasTable* by_power;  // null: there is no light
   const ChainPass& pass;
   std::uint32_t frame;
-  std::optional<float>
-      shutter_sample;  // in [0, 1), of the exposure: of all paths; else each pair of subpaths has its own
+  // In [0, 1), of the exposure: of all paths; else each pair of subpaths has its own.
+  std::optional<float> shutter_sample;
   BidirectionalPaths paths;
   Weights weights;
   bool one_sided;  // some surface is not there for camera rays that meet its back
