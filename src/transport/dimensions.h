@@ -25,7 +25,8 @@ inline constexpr std::uint32_t per_vertex = 10;
 // Interfaces are no vertices, but each segment between them has a distance and a stream of its own.
 inline constexpr std::uint32_t per_crossing = 1u << 20;
 
-// A fork of the stream of a vertex: for what a shadow ray meets.
+// A fork of the stream of a vertex, for what a shadow ray meets: unlike the forks of materials, whose numbers are
+// small.
 inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
 
 // Reuse between pixels: the direction of the first rough vertex, and the streams of a pixel. Crossings have no numbers

@@ -1,6 +1,7 @@
 """montelux trace: one sample of a pixel, traced again."""
 import array
 import json
+import math
 import unittest
 
 from program import SCENE, ProgramTest
@@ -12,6 +13,18 @@ LookAt 0 0 5  0 0 0  0 1 0
 Camera "perspective" "float fov" 30
 WorldBegin
 LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 0 0 ]
+"""
+
+# The camera looks at a mirror, in which it sees a matt wall behind itself.
+MIRROR = """Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+LookAt 0 0 2  0 0 0  0 1 0
+Camera "perspective" "float fov" 30
+WorldBegin
+LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 0 3 1 ]
+Material "conductor" "float roughness" 0
+Shape "bilinearmesh" "point3 P" [ -9 -9 0  9 -9 0  -9 9 0  9 9 0 ]
+Material "diffuse"
+Shape "bilinearmesh" "point3 P" [ -9 -9 5  9 -9 5  -9 9 5  9 9 5 ]
 """
 
 
@@ -69,6 +82,18 @@ class Trace(ProgramTest):
         text = self.run_program("trace", SCENE, "--resolution", "8x6", "--pixel", "4,3", "--spp", "4").stdout
         for word in "radiance", "camera", "throughput", "ends here":
             self.assertIn(word, text)
+
+    def test_a_direction_has_a_density_except_that_of_a_mirror(self):
+        scene = self.folder / "mirror.pbrt"
+        scene.write_text(MIRROR)
+        command = scene, "--pixel", "1,2", "--spp", "4", "--integrator", "path:roulette=off,maxdepth=3"
+        mirror, wall = self.traced(*command)["vertices"][:2]
+        self.assertEqual((mirror["model"], mirror["density"]), ("conductor", None))
+        self.assertEqual(wall["model"], "diffuse")
+        cosine = abs(sum(n * w for n, w in zip(wall["normal"], wall["direction"])))
+        self.assertAlmostEqual(wall["density"], cosine / math.pi, delta=1e-4)
+        text = self.run_program("trace", *command).stdout
+        self.assertEqual(text.count("straight or mirrored"), text.count("conductor"))
 
     def test_mistakes_are_named(self):
         for options, words in ((["--pixel", "900,0"], "outside"), (["--pixel", "1"], "two whole numbers"),

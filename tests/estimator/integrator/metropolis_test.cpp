@@ -346,7 +346,7 @@ TEST(Strategies, start_in_proportion_to_brightness) {
   const TestScene scene(room);
   RoomStrategies f(scene);
   constexpr int n = 256;
-  int strategies = 0;
+  int strategies = 0, uneven = 0;
   for (std::uint32_t i = 0; i < 4; ++i) {
     f.draw(i);
     const SamplePoint<F> drawn = f.point;
@@ -369,9 +369,11 @@ TEST(Strategies, start_in_proportion_to_brightness) {
         const float found = lane(f.evaluate.evaluate(drawn, chosen, f.counts).brightness, k);
         EXPECT_NEAR(count, n * double(found) / double(lane(pair, k)), 1.1) << strategy;
         ++strategies;
+        uneven += std::abs(count - double(n) / double(taken[std::size_t(k)].size())) > 1.1;
       }
   }
   EXPECT_GT(strategies, 100);
+  EXPECT_GT(uneven, strategies / 2) << "an even choice would be found";
 }
 
 // ---- how the chains move
