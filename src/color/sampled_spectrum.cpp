@@ -74,8 +74,8 @@ double photometric_scale(const SampledSpectrum& emission) {
   return y > 0.0 ? 1.0 / y : 0.0;
 }
 
-Rgb to_rgb_reflectance(const SampledSpectrum& reflectance) {
-  SampledSpectrum light = standard_d65();
+// Of a reflectance under this light, relative to a perfect white.
+static Rgb seen_under(const SampledSpectrum& light, const SampledSpectrum& reflectance) {
   Xyz white, seen;
   for_each_nanometre([&](double w, const Xyz& matching) {
     double power = light.at(w), reflected = power * reflectance.at(w);
@@ -83,8 +83,24 @@ Rgb to_rgb_reflectance(const SampledSpectrum& reflectance) {
     seen = {seen.x + reflected * matching.x, seen.y + reflected * matching.y, seen.z + reflected * matching.z};
   });
   Rgb color = to_srgb(seen), perfect = to_srgb(white);
-  for (int i = 0; i < 3; ++i) color.c[i] = std::clamp(color.c[i] / perfect.c[i], 0.0f, 1.0f);
+  for (int i = 0; i < 3; ++i) color.c[i] /= perfect.c[i];
   return color;
+}
+
+Rgb to_rgb_reflectance(const SampledSpectrum& reflectance) {
+  return per_component([](float x) { return std::clamp(x, 0.0f, 1.0f); }, seen_under(standard_d65(), reflectance));
+}
+
+std::vector<Rgb> reflectance_weights(const std::vector<double>& wavelengths) {
+  const SampledSpectrum light = standard_d65();
+  SampledSpectrum one{wavelengths, std::vector<double>(wavelengths.size())};
+  std::vector<Rgb> weights;
+  for (double& value : one.values) {
+    value = 1;
+    weights.push_back(seen_under(light, one));
+    value = 0;
+  }
+  return weights;
 }
 
 Rgb to_rgb_unbounded(const SampledSpectrum& spectrum) {

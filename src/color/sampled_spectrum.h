@@ -54,6 +54,11 @@ double photometric_scale(const SampledSpectrum& emission);
 // (1, 1, 1). Clamped to [0, 1].
 Rgb to_rgb_reflectance(const SampledSpectrum& reflectance);
 
+// The same for a surface that is measured at these wavelengths (nm, strictly increasing), as a weight for each value:
+// the colour is the sum of weights times values. Neither clamped nor limited to values in [0, 1], so that colours
+// outside the sRGB gamut have negative components.
+std::vector<Rgb> reflectance_weights(const std::vector<double>& wavelengths);
+
 // Means over the bands of red, green and blue for quantities without an upper bound, such as absorption coefficients or
 // indices of refraction: the weight of a wavelength is the positive part of the primary's response under D65, so that a
 // constant maps to itself and no component is negative unless the spectrum is. Beyond the samples the end values hold.

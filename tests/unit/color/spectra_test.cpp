@@ -219,5 +219,26 @@ TEST(SampledSpectrum, gray_reflectances_are_gray_and_saturated_ones_stay_in_rang
   EXPECT_LT(laser.c[0], 0.0f);
 }
 
+// The sum of weights and values, for a spectrum that is linear between samples.
+TEST(ReflectanceWeights, give_the_colour_of_the_reflectance) {
+  std::vector<double> wavelengths, values;
+  for (double w = 360; w <= 1000; w += 20) wavelengths.push_back(w), values.push_back(0.5 + 0.3 * std::sin(0.02 * w));
+  const std::vector<Rgb> weights = reflectance_weights(wavelengths);
+  ASSERT_EQ(weights.size(), wavelengths.size());
+  const auto colour = [&](auto value) {
+    Rgb sum{};
+    for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * float(value(i));
+    return sum;
+  };
+  const Rgb expected = to_rgb_reflectance({wavelengths, values}),
+            found = colour([&](std::size_t i) { return values[i]; }), white = colour([](std::size_t) { return 3; }),
+            shifted = colour([&](std::size_t i) { return values[i > 0 ? i - 1 : 0]; });
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(found.c[c], expected.c[c], 1e-5f);
+    EXPECT_NEAR(white.c[c], 3, 1e-5f);  // values above one are kept
+  }
+  EXPECT_GT(std::abs(shifted.c[0] - expected.c[0]), 0.01f);
+}
+
 }  // namespace
 }  // namespace montelux
