@@ -5,9 +5,26 @@
 #include <vector>
 
 #include "material/material.h"
+#include "material/measured_table.h"
 
 namespace montelux {
 namespace {
+
+// A table of the usual size for an isotropic surface.
+const MeasuredTable& bench_table() {
+  static const MeasuredTable table = [] {
+    const GridSize grid{32, 32};
+    MeasuredData data;
+    for (int i = 0; i < 8; ++i) data.elevations.push_back(0.2f * float(i));
+    data.azimuths = {0};
+    data.ndf_size = data.sigma_size = data.vndf_size = data.value_size = grid;
+    data.ndf.assign(grid.points(), 0.3f), data.sigma.assign(grid.points(), 0.8f);
+    data.vndf.assign(8 * grid.points(), 1), data.luminance = data.vndf;
+    data.values.assign(3 * 8 * grid.points(), 0.5f);
+    return MeasuredTable(std::move(data));
+  }();
+  return table;
+}
 
 // Rough where the model can be; a middling grey.
 BsdfRow bench_row(BsdfKind kind) {
@@ -54,6 +71,9 @@ BsdfRow bench_row(BsdfKind kind) {
     case BsdfKind::tinted_dielectric:
       put(TintedDielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
       put(TintedDielectricSlots::tint, {1, 1, 1});
+      break;
+    case BsdfKind::measured:
+      put_address(&bench_table(), row.v + MeasuredSlots::table);
       break;
   }
   return row;

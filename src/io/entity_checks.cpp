@@ -65,6 +65,8 @@ void check_material(const Entity& material, Reporter& report) {
     else
       counted<std::string>(material, "materials", 2, report);
   }
+  if (material.type == "measured" && !p.find("filename"))
+    report.error(material.where, "material 'measured' needs 'filename', its table");
   for (std::string_view name : {"normalscale", "coatnormalscale"}) counted<float>(material, name, 2, report);
   bool is_conductor = material.type == "conductor" || material.type == "coatedconductor";
   if (!is_conductor || !p.find("reflectance")) return;

@@ -1,5 +1,7 @@
 #include "material/bound_material.h"
 
+#include "material/measured_table.h"
+
 namespace montelux {
 
 namespace {
@@ -46,6 +48,8 @@ bool uses_parameters(const Material& material) {
     case BsdfKind::coated_conductor:
       return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y] ||
              v[CoatedConductorSlots::conductor_alpha_x] != v[CoatedConductorSlots::conductor_alpha_y];
+    case BsdfKind::measured:
+      return material.table && !material.table->is_isotropic();
     default:
       return false;
   }

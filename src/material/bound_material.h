@@ -10,6 +10,8 @@
 
 namespace montelux {
 
+class MeasuredTable;
+
 // How the value of a texture is converted to a number of a row.
 enum class RowEncoding : std::uint8_t {
   plain,
@@ -42,6 +44,7 @@ struct Material {
   BsdfRow row;
   std::vector<RowBinding> bindings;
   std::optional<Mixture> mixture;
+  std::shared_ptr<const MeasuredTable> table;  // whose address is in the row
   std::shared_ptr<const TexelImage> normal_map;
   std::optional<SpectrumTextureId> normal_texture;       // instead of the image
   Vec2f normal_scale{1, 1};                              // factors of x and y of the mapped normal

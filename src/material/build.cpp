@@ -206,6 +206,16 @@ class ModelBuilder {
     if (m.coat_normals.texture) b_.material().coat_normal_texture = inputs_.textures.spectrum(*m.coat_normals.texture);
     b_.material().coat_normal_scale = {m.coat_normals.scale[0], m.coat_normals.scale[1]};
   }
+  void operator()(const MeasuredDesc& m) {
+    Material& material = b_.material();
+    material.kind = BsdfKind::measured;
+    if (m.file.empty()) {
+      inputs_.diagnostics.error(where_, "a measured material needs the file of its table");
+      return;
+    }
+    material.table = inputs_.measured(m.file, where_);
+    put_address(material.table.get(), material.row.v + MeasuredSlots::table);
+  }
   void operator()(const InterfaceDesc&) { b_.material().is_interface = true; }
   void operator()(const MixDesc& m) {
     if (m.materials.size() != 2) {

@@ -17,6 +17,8 @@ struct MaterialInputs {
   std::function<Rgb(const SpectrumValue&)> unbounded;  // an index or an absorption
   std::function<float(const SpectrumValue&)> index;    // one index of refraction for all wavelengths
   std::function<std::optional<std::uint32_t>(const std::string&)> material;  // number of a named material
+  // The table of a file; null if it cannot be read, which has been reported.
+  std::function<std::shared_ptr<const MeasuredTable>(const std::string& file, const SourceLocation& where)> measured;
   Diagnostics& diagnostics;
 };
 

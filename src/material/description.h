@@ -158,9 +158,16 @@ struct DiffuseTransmissionDesc {
   bool operator==(const DiffuseTransmissionDesc&) const = default;
 };
 
-using MaterialModel = std::variant<DiffuseDesc, CoatedDiffuseDesc, CoatedConductorDesc, ConductorDesc, PhongDesc,
-                                   MetallicRoughnessDesc, CoatedMetallicRoughnessDesc, MixDesc, InterfaceDesc,
-                                   DielectricDesc, TintedDielectricDesc, ThinDielectricDesc, DiffuseTransmissionDesc>;
+// A tabulated reflection, of both sides alike.
+struct MeasuredDesc {
+  std::string file{};  // *.bsdf of the RGL material database
+  bool operator==(const MeasuredDesc&) const = default;
+};
+
+using MaterialModel =
+    std::variant<DiffuseDesc, CoatedDiffuseDesc, CoatedConductorDesc, ConductorDesc, PhongDesc, MetallicRoughnessDesc,
+                 CoatedMetallicRoughnessDesc, MixDesc, InterfaceDesc, DielectricDesc, TintedDielectricDesc,
+                 ThinDielectricDesc, DiffuseTransmissionDesc, MeasuredDesc>;
 
 struct MaterialDesc {
   std::string name{};  // empty if it was stated in place

@@ -11,6 +11,7 @@
 #include "material/dielectric.h"
 #include "material/diffuse.h"
 #include "material/diffuse_transmission.h"
+#include "material/measured.h"
 #include "material/metallic_roughness.h"
 #include "material/phong.h"
 #include "material/thin_dielectric.h"
@@ -30,15 +31,16 @@ enum class BsdfKind : std::uint32_t {
   phong,
   metallic_roughness,
   coated_metallic_roughness,
-  tinted_dielectric
+  tinted_dielectric,
+  measured
 };
 
 template <class F>
-using BsdfModels =
-    std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>, DiffuseTransmission<F>,
-               ThinDielectric<F>, Phong<F>, MetallicRoughness<F>, CoatedMetallicRoughness<F>, TintedDielectric<F>>;
+using BsdfModels = std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>,
+                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>, MetallicRoughness<F>,
+                              CoatedMetallicRoughness<F>, TintedDielectric<F>, Measured<F>>;
 inline constexpr std::size_t bsdf_kind_count = std::tuple_size_v<BsdfModels<float>>;
-static_assert(bsdf_kind_count == std::size_t(BsdfKind::tinted_dielectric) + 1);
+static_assert(bsdf_kind_count == std::size_t(BsdfKind::measured) + 1);
 
 template <BsdfKind kind, class F>
 using BsdfOf = std::tuple_element_t<std::size_t(kind), BsdfModels<F>>;

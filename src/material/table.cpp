@@ -252,6 +252,14 @@ Model<S> diffuse_transmission() {
   return model("diffusetransmission", "Lambertian reflection and transmission", M{}, fields);
 }
 
+Model<S> measured() {
+  Fields<S> fields;
+  fields.words("filename", of(&MeasuredDesc::file), "file of the table, *.bsdf of the RGL material database");
+  common(fields);
+  return model("measured", "a tabulated reflection (Dupuy and Jakob 2018), the same on both sides", MeasuredDesc{},
+               fields);
+}
+
 // ---- materials that are not supported yet ---------------------------------------------------------------------------
 
 const std::vector<ParameterType> number_map{number, texture}, spectrum_map{spectrum, texture};
@@ -293,8 +301,6 @@ Model<S> subsurface() {
                 {"vroughness", number_map, "roughness along v; default that of both", 0, most},
                 {"remaproughness", {boolean}, "roughness is perceptual: alpha is its square root; default true"}});
 }
-
-Model<S> measured() { return later("measured", "a tabulated BRDF", {{"filename", {string}, "the table"}}); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "material/build.h"
+#include "material/measured_file.h"
 #include "medium/build.h"
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
@@ -69,6 +70,7 @@ class Preparation {
   GeometryStore make_geometry(const std::vector<Material>& materials, LightSetBuilder& lights);
   LightInputs light_inputs();
   std::shared_ptr<const LightImage> light_image(const std::string& file, const SourceLocation& where);
+  std::shared_ptr<const MeasuredTable> measured_table(const std::string& file, const SourceLocation& where);
   std::optional<std::uint32_t> alpha_of(const ShapeDesc& shape);
 
   const SceneDesc& desc_;
@@ -76,8 +78,9 @@ class Preparation {
   PictureSettings picture_;
   std::unique_ptr<TextureSet> textures_;
   TextureBuilder texture_builder_;
-  std::map<std::string, std::shared_ptr<const LightImage>> light_images_;  // by file
-  std::vector<std::uint32_t> medium_numbers_;                              // of the description's media, in the scene
+  std::map<std::string, std::shared_ptr<const LightImage>> light_images_;        // by file
+  std::map<std::string, std::shared_ptr<const MeasuredTable>> measured_tables_;  // by path
+  std::vector<std::uint32_t> medium_numbers_;  // of the description's media, in the scene
   Bounds3 bounds_;
 };
 
@@ -85,21 +88,35 @@ std::vector<Material> Preparation::make_materials() {
   std::map<std::string, std::uint32_t> numbers;
   for (std::size_t i = 0; i < desc_.materials.size(); ++i)
     if (!desc_.materials[i].name.empty()) numbers[desc_.materials[i].name] = std::uint32_t(i);
-  MaterialInputs inputs{texture_builder_,
-                        metal_rgb,
-                        unbounded_rgb,
-                        index_of_refraction,
-                        [&](const std::string& name) -> std::optional<std::uint32_t> {
-                          auto found = numbers.find(name);
-                          if (found == numbers.end()) return std::nullopt;
-                          return found->second;
-                        },
-                        diagnostics_};
+  MaterialInputs inputs{
+      texture_builder_,
+      metal_rgb,
+      unbounded_rgb,
+      index_of_refraction,
+      [&](const std::string& name) -> std::optional<std::uint32_t> {
+        auto found = numbers.find(name);
+        if (found == numbers.end()) return std::nullopt;
+        return found->second;
+      },
+      [&](const std::string& file, const SourceLocation& where) { return measured_table(file, where); },
+      diagnostics_};
   std::vector<Material> materials;
   for (const MaterialDesc& material : desc_.materials) materials.push_back(build_material(material, inputs));
   if (materials.empty()) materials.push_back(build_material({}, inputs));
   break_mixture_cycles(materials);
   return materials;
+}
+
+std::shared_ptr<const MeasuredTable> Preparation::measured_table(const std::string& file, const SourceLocation& where) {
+  const std::filesystem::path path = (std::filesystem::path(desc_.folder) / file).lexically_normal();
+  auto [place, is_new] = measured_tables_.try_emplace(path.string());
+  if (!is_new) return place->second;
+  Result<MeasuredTable> table = read_measured_table(path);
+  if (table)
+    place->second = std::make_shared<const MeasuredTable>(std::move(table).value());
+  else
+    diagnostics_.error(where, table.error());
+  return place->second;
 }
 
 // A medium that a lenient reading has left out is empty space.

@@ -36,6 +36,7 @@ bool is_smooth(const Material& material) {
     case BsdfKind::diffuse:
     case BsdfKind::diffuse_transmission:
     case BsdfKind::phong:
+    case BsdfKind::measured:
       break;
   }
   return false;

@@ -17,6 +17,8 @@
 #include "api/saved_film.h"
 #include "gltf_files.h"
 #include "io/ply.h"
+#include "material/measured_file.h"
+#include "measured_files.h"
 
 namespace montelux::fuzz {
 namespace {
@@ -142,6 +144,28 @@ void run_ply(const std::string& input, const fs::path&) {
   if (!mesh) return;
   for (std::uint32_t index : mesh->triangles) require(index < mesh->positions.size(), "an index beyond the vertices");
   for (std::uint32_t index : mesh->quads) require(index < mesh->positions.size(), "an index beyond the vertices");
+}
+
+Examples table_examples(const fs::path&) {
+  const test::ClosedLobe lobe{0.3, 0.5, {0.2, 0.3, 0.4}, {0.5, 0.4, 0.3}};
+  test::Tabulation spectral{.elevations = 2, .facets = 3, .values = 2};
+  spectral.wavelengths = {400, 500, 700}, spectral.spectrum = [](double w) { return w / 1000; };
+  return {test::measured_file(lobe, {.elevations = 2, .azimuths = 3, .facets = 3, .values = 2}),
+          test::measured_file(lobe, spectral)};
+}
+
+void run_table(const std::string& input, const fs::path&) {
+  Result<MeasuredData> data = read_measured_data(input);
+  if (!data) return require(!data.error().empty(), "a table is refused and nothing says why");
+  const MeasuredTable table(std::move(data).value());
+  for (const Vec3f wo : {Vec3f{0, 0, 1}, Vec3f{0.6f, 0, 0.8f}, Vec3f{0, -1, 1e-6f}})
+    for (const Vec2f u : {Vec2f{0, 0}, Vec2f{0.3f, 0.7f}, Vec2f{one_minus_epsilon, 0.5f}}) {
+      const Vec3f wi = table.sample(wo, u).wi;
+      require(std::abs(length(wi) - 1) < 1e-3f, "a direction is not unit");
+      if (!(wi.z > 0)) continue;
+      const BsdfValue<float> value = table.evaluate(wo, wi);
+      require(is_finite(max_component(value.f_cos)) && is_finite(value.density.value), "a value is not finite");
+    }
 }
 
 // The ending of the file is its first line, so that the same damage is read by every format.
@@ -367,7 +391,7 @@ void run_options(const std::string& input, const fs::path&) {
   require(bool(chosen), "options are taken, and no verb is chosen");
 }
 
-constexpr std::array<Kind, 10> all_kinds{{
+constexpr std::array<Kind, 11> all_kinds{{
     {"pbrt", "scenes in pbrt's format, loaded and rendered", pbrt_examples,
      [](const std::string& input, const fs::path& folder) { run_scene(written(folder / "scene.pbrt", input)); }},
     {"gltf", "glTF as text, loaded and rendered", gltf_examples,
@@ -375,6 +399,7 @@ constexpr std::array<Kind, 10> all_kinds{{
     {"glb", "binary glTF, loaded and rendered", glb_examples,
      [](const std::string& input, const fs::path& folder) { run_scene(written(folder / "scene.glb", input)); }},
     {"ply", "meshes", ply_examples, run_ply},
+    {"table", "tables of measured materials, looked up", table_examples, run_table},
     {"picture", "pictures of every format, read and compared", picture_examples, run_picture},
     {"integral", "saved integrals", integral_examples, run_integral_file},
     {"formula", "formulas and domains of integrals, integrated", formula_examples, run_formula},

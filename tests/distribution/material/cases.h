@@ -5,6 +5,8 @@
 
 #include "material/internal_reflectance.h"
 #include "material/material.h"
+#include "material/measured_file.h"
+#include "measured_files.h"
 
 namespace montelux::test {
 
@@ -228,6 +230,29 @@ struct CasesOf<BsdfKind::coated_conductor> {
             coated_conductor_case("smooth coat, scattering medium, smooth base",
                                   {.thickness = 0.4f, .g = 0.3f, .albedo = 0.7f}, 0, 0),
             coated_conductor_case("smooth coat, smooth base", {}, 0, 0)};
+  }
+};
+
+// Interpolation is not reciprocal. The tables live as long as the program.
+template <>
+struct CasesOf<BsdfKind::measured> {
+  static std::vector<BsdfCase> all() {
+    static const std::vector<MeasuredTable> tables = [] {
+      std::vector<MeasuredTable> made;
+      const auto add = [&](const ClosedLobe& lobe, const Tabulation& t) {
+        made.emplace_back(std::move(read_measured_data(measured_file(lobe, t))).value());
+      };
+      add({0.7, 0.7, {0.8, 0.5, 0.2}, {}}, {.facets = 24, .values = 16});
+      add({0.3, 0.3, {0.1, 0.2, 0.05}, {0.6, 0.4, 0.3}}, {});
+      add({0.25, 0.5, {0.1, 0.1, 0.1}, {0.7, 0.5, 0.3}}, {.azimuths = 7, .parts = 4});
+      return made;
+    }();
+    std::vector<BsdfCase> cases{{"matte", {}}, {"glossy", {}}, {"brushed", {}}};
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      put_address(&tables[i], cases[i].row.v + MeasuredSlots::table);
+      cases[i].reciprocal = false;
+    }
+    return cases;
   }
 };
 

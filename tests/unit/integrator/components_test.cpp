@@ -6,7 +6,9 @@
 #include <cstring>
 
 #include "integrator/path/loop.h"
+#include "measured_files.h"
 #include "render_scenes.h"
+#include "temporary_folder.h"
 
 namespace montelux {
 namespace {
@@ -46,6 +48,7 @@ Camera "perspective" "float fov" [ 40 ]
       "\"diffusetransmission\" " + rgb("reflectance", 0.4) + rgb("transmittance", 0.3),
       "\"phong\" " + rgb("kd", 0.3) + rgb("ks", 0.4),
       "\"metallicroughness\" " + rgb("basecolor", 0.6) + rgb("specularcolor", 0.8) + "\"float metallic\" [ 0.4 ]",
+      "\"measured\" \"string filename\" [ \"table.bsdf\" ]",
       "\"coatedmetallicroughness\" " + rgb("basecolor", 0.5) + "\"float anisotropy\" [ 0.5 ]",
   };
   int i = 0;
@@ -75,6 +78,14 @@ struct Watch {
   void finish(int, std::uint32_t, PixelSample&) {}
 };
 
+// A folder with the table of a measured material of these channels.
+class Folder : public TemporaryFolder {
+ public:
+  explicit Folder(const std::array<double, 3>& channels) {
+    write("table.bsdf", measured_file({0.4, 0.4, {}, channels}, {.elevations = 3, .facets = 9, .values = 5}));
+  }
+};
+
 template <class F, class Expected>
 void expect_of_all_light(const TestScene& scene, Expected expected) {
   const PictureSettings& picture = scene.picture();
@@ -90,14 +101,16 @@ void expect_of_all_light(const TestScene& scene, Expected expected) {
 }
 
 TEST(Components, stay_equal_along_a_path_where_everything_is_grey) {
-  const TestScene scene(scene_of([](double x) { return fmt::format("{} {} {}", x, x, x); }));
+  const Folder folder({0.6, 0.6, 0.6});
+  const TestScene scene(scene_of([](double x) { return fmt::format("{} {} {}", x, x, x); }), folder.path());
   const auto grey = [](const Spectrum<float>& x) { return gray(x.c[0]); };
   expect_of_all_light<float>(scene, grey);
   expect_of_all_light<NativeFloats>(scene, grey);
 }
 
 TEST(Components, beyond_blue_stay_equal_to_green) {
-  const TestScene scene(scene_of([](double x) { return fmt::format("{} {} {}", x, 0.8 * x, 0.5 * x); }));
+  const Folder folder({0.6, 0.5, 0.3});
+  const TestScene scene(scene_of([](double x) { return fmt::format("{} {} {}", x, 0.8 * x, 0.5 * x); }), folder.path());
   const auto second_green = [](const Spectrum<float>& x) { return from_rgb(to_rgb(x)); };
   expect_of_all_light<float>(scene, second_green);
   expect_of_all_light<NativeFloats>(scene, second_green);

@@ -136,6 +136,11 @@ void each_field(DiffuseTransmissionDesc& x, const Visit& visit) {
   each_of(visit, reflected, transmitted, scale);
 }
 template <class Visit>
+void each_field(MeasuredDesc& x, const Visit& visit) {
+  auto& [file] = x;
+  each_of(visit, file);
+}
+template <class Visit>
 void each_field(MaterialDesc& x, const Visit& visit) {
   auto& [name, model, normal_file, normals, displacement, where] = x;
   std::visit([&](auto& m) { each_field(m, visit); }, model);
@@ -161,10 +166,11 @@ MakeNamedMaterial "a" "string type" "diffuse" MakeNamedMaterial "b" "string type
   return scene;
 }
 
-// What every model begins with; a mixture needs its materials.
+// What every model begins with; a mixture needs its materials, a measured one its table.
 MaterialDesc beginning(std::string_view name) {
   MaterialDesc material = material_models().initial(name);
   if (auto* mix = std::get_if<MixDesc>(&material.model)) mix->materials = {"a", "b"};
+  if (auto* measured = std::get_if<MeasuredDesc>(&material.model)) measured->file = "table.bsdf";
   return material;
 }
 
@@ -173,6 +179,7 @@ class Materials : public testing::TestWithParam<std::string_view> {};
 TEST_P(Materials, are_read_again_as_they_were_written) {
   TemporaryFolder folder;
   folder.write("normals.pfm", "PF\n2 2\n-1.0\n" + std::string(2 * 2 * 3 * 4, '\0'));
+  folder.write("table.bsdf", "tensor_file");
   const MaterialDesc initial = beginning(GetParam());
   std::set<std::string> written{write_pbrt(scene_with(initial, folder.path()))};
   int fields = 0, changes = 0;

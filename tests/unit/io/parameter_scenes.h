@@ -10,6 +10,7 @@
 #include "api/render.h"
 #include "io/checks.h"
 #include "io/pbrt/parameters.h"
+#include "measured_files.h"
 #include "temporary_folder.h"
 
 namespace montelux::test {
@@ -27,6 +28,8 @@ inline void write_files(const TemporaryFolder& folder) {
     image.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   folder.write("image.pfm", image);
+  folder.write("table.bsdf",
+               measured_file({0.5, 0.5, {0.6, 0.4, 0.2}, {}}, {.elevations = 3, .facets = 5, .values = 4}));
 }
 
 // The values of parameters that not just any value is right for, by their names; after a colon: of one entity.
@@ -35,6 +38,7 @@ inline const std::map<std::string, std::string, std::less<>>& values() {
       {"filename", "\"image.pfm\""},
       {"plymesh:filename", "\"mesh.ply\""},
       {"plymesh:filename1", "\"mesh.ply\""},
+      {"measured:filename", "\"table.bsdf\""},
       {"normalmap", "\"image.pfm\""},
       {"emissionfilename", "\"image.pfm\""},
       {"lensfile", "\"image.pfm\""},
@@ -107,6 +111,7 @@ inline std::vector<std::string> needs(Family family, const std::string& type) {
   if (family == Family::texture && type == "imagemap") return {"\"string filename\" \"image.pfm\""};
   if (family == Family::light && type == "projection") return {"\"string filename\" \"image.pfm\""};
   if (family == Family::material && type == "mix") return {"\"string materials\" [ \"a\" \"b\" ]"};
+  if (family == Family::material && type == "measured") return {"\"string filename\" \"table.bsdf\""};
   if (family != Family::shape) return {};
   if (type == "plymesh") return {"\"string filename\" \"mesh.ply\""};
   if (type == "trianglemesh") return {"\"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]"};

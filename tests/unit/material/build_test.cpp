@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "material/measured_table.h"
 #include "material/table.h"
 
 namespace montelux {
@@ -24,7 +25,23 @@ struct Workshop {
       [](const SpectrumValue& value) { return std::get<RgbValue>(value).rgb; },
       [](const SpectrumValue&) { return 1.52f; },
       [](const std::string& name) { return name == "known" ? std::optional<std::uint32_t>(7) : std::nullopt; },
+      [this](const std::string& file, const SourceLocation& where) -> std::shared_ptr<const MeasuredTable> {
+        if (file == "table.bsdf") return table;
+        diagnostics.error(where, "no table");
+        return nullptr;
+      },
       diagnostics};
+  std::shared_ptr<const MeasuredTable> table = table_of({0});
+
+  // A table for these azimuths.
+  static std::shared_ptr<const MeasuredTable> table_of(std::vector<float> azimuths) {
+    const std::size_t numbers = 4 * azimuths.size();
+    MeasuredData data;
+    data.elevations = {0}, data.azimuths = std::move(azimuths), data.ndf = data.sigma = {1};
+    data.vndf_size = data.value_size = {2, 2};
+    data.vndf.assign(numbers, 1), data.luminance.assign(numbers, 1), data.values.assign(3 * numbers, 1);
+    return std::make_shared<const MeasuredTable>(std::move(data));
+  }
 
   Material build(const MaterialDesc& desc) { return build_material(desc, inputs); }
   Material build(MaterialModel model) {
@@ -47,7 +64,9 @@ TEST(BuildMaterial, every_model_of_the_list_is_built_under_its_own_name) {
   for (std::size_t i = 0; i < bsdf_kind_count; ++i) {
     Workshop shop;
     const auto kind = BsdfKind(i);
-    const Material m = shop.build(material_models().initial(name(kind)));
+    MaterialDesc desc = material_models().initial(name(kind));
+    if (auto* measured = std::get_if<MeasuredDesc>(&desc.model)) measured->file = "table.bsdf";
+    const Material m = shop.build(desc);
     EXPECT_EQ(m.kind, kind) << name(kind);
     EXPECT_TRUE(m.is_plain()) << name(kind);
     EXPECT_TRUE(shop.diagnostics.all().empty()) << name(kind);
@@ -176,6 +195,20 @@ TEST(BuildMaterial, mix_names_its_children_and_reports_unknown_ones) {
   EXPECT_EQ(shop.textures.constant(m.mixture->amount), 0.25f);
   EXPECT_EQ(shop.diagnostics.errors(), 1);
   shop.build(MixDesc{{"known"}, 0.25f});
+  EXPECT_EQ(shop.diagnostics.errors(), 2);
+}
+
+TEST(BuildMaterial, measured_owns_the_table_whose_address_is_in_its_row) {
+  Workshop shop;
+  const Material m = shop.build(MeasuredDesc{"table.bsdf"});
+  EXPECT_EQ(m.table, shop.table);
+  EXPECT_EQ(address_in<MeasuredTable>(m.row.v + MeasuredSlots::table), shop.table.get());
+  EXPECT_FALSE(uses_parameters(m));
+  shop.table = Workshop::table_of({-3, 0, 3});
+  EXPECT_TRUE(uses_parameters(shop.build(MeasuredDesc{"table.bsdf"})));
+  EXPECT_EQ(shop.build(MeasuredDesc{}).table, nullptr);
+  EXPECT_EQ(shop.diagnostics.errors(), 1);
+  EXPECT_EQ(shop.build(MeasuredDesc{"other.bsdf"}).table, nullptr);
   EXPECT_EQ(shop.diagnostics.errors(), 2);
 }
 
