@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "integrator/integrator.h"
-#include "integrator/path/path_state.h"
 #include "transport/dimensions.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 

@@ -3,9 +3,9 @@
 #include <span>
 
 #include "image/pixel_sample.h"
-#include "integrator/path/path_state.h"
 #include "material/bsdf.h"
 #include "scene/surface.h"
+#include "transport/path_state.h"
 #include "transport/vertex.h"
 
 namespace montelux {

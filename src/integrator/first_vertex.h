@@ -3,9 +3,9 @@
 #include "integrator/features.h"
 #include "integrator/integrator.h"
 #include "integrator/path/first_hits.h"
-#include "integrator/path/path_state.h"
 #include "transport/next_vertex.h"
 #include "transport/numbers.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 
@@ -14,8 +14,8 @@ namespace montelux {
 template <class F, class Rays, class Sink = NoSink>
 NextVertex<F> first_vertex(const Scene& scene, const Rays& rays, const PathState<F>& path, Mask<F> on,
                            const RandomStream<F>& random, RayCounts& counts, Sink sink = {}) {
-  return follow_ray<F>(scene, rays, free_point(path.o), {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-                       random, counts.scattered, FullWeight{}, sink);
+  return follow_ray<F>(scene, rays, free_point(path.o), ray_of(path), path.hit, on, random, counts.scattered,
+                       FullWeight{}, sink);
 }
 
 // Writes what it shows to the feature layers.

@@ -4,8 +4,7 @@
 #include "integrator/first_vertex.h"
 #include "integrator/photons/lookup.h"
 #include "mc/roulette.h"
-#include "transport/transmittance.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -54,12 +53,6 @@ class EyeSubpaths {
     const NextVertex<F>& at;
     M rough;
   };
-  // What reaches the vertex of the light from one point, and the probability of passing the media on the way.
-  struct Arriving {
-    Spectrum<F> left;
-    F passing;
-    M on;
-  };
 
   F weight_of_hit(const PathState<F>& path, Density<SolidAngle, F> sampled, const MetLight<F>& met) const {
     const M seen = path.depth == U(0u);
@@ -94,9 +87,9 @@ class EyeSubpaths {
                               {path.depth, number, technique, U(0u), false, share});
     };
     const auto follow = [&](const auto& distances) {
-      return follow_ray<F>(
-          scene_, frame_.rays, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-          sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink, distances);
+      return follow_ray<F>(scene_, frame_.rays, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
+                           sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink,
+                           distances);
     };
     NextVertex<F> at = [&] {
       if constexpr (in_media)
@@ -140,31 +133,20 @@ class EyeSubpaths {
     // Scatter; roulette.
     M moves = scatters & next.valid;
     if constexpr (!Frame::every_strategy) moves = moves & frame_.continues_from_eye(vertices, moves);
-    const M broken = moves & !is_finite(max_component(next.weight));
-    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
-    moves = moves & !broken;
-    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(moves, U(1u), U(0u));
+    moves = scatter_path(path, next, moves);
     const M plays = moves & (path.depth > U(std::uint32_t(frame_.paths.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
-                                          sampler.get1(dimension + U(path_dimension::roulette)));
-    moves = moves & survival.survives;
-    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
+    moves = survive_roulette(path, select(plays, survival_by_throughput(path), F(1.0f)),
+                             sampler.get1(dimension + U(path_dimension::roulette)), moves);
     const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
     const BothDensities<F> both = densities(at, next.wi, next.density, M(moves & !next.delta));
     const PartialWeights<F> onward =
         frame_.weights.scatter(weights_, both, area_cosine<F, in_media>(at, wi), next.delta);
     weights_ = select_weights(moves, onward, weights_);
     only_smooth_ = only_smooth_ & (next.delta | !moves);
-    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
-    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
-    path.o = at.origin_toward(wi), path.d = wi;
+    leave_vertex(path, at, wi, next, moves, M(false));
 
     // The next vertex, or the sky.
-    counts_.scattered += std::uint64_t(count(moves));
-    const auto [found, hit] = frame_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
-    path.hit = hit;
+    const M found = trace_path(path, frame_.rays, moves, counts_.scattered);
     if constexpr (!in_media)
       if (const M escapes = moves & !found & sees_next(vertices); any(escapes))
         path.radiance +=
@@ -208,16 +190,9 @@ class EyeSubpaths {
     if (!any(on)) return {forward, {F(0.0f)}, !at.in_medium};
     return {forward, evaluate_at<F, in_media>(scene_, at, wi, at.wo, at.context, on).density, !at.in_medium};
   }
-  // From a point at that distance along wi, where nothing is in between.
-  Arriving arriving(const NextVertex<F>& at, const Vec3<F>& wi, F distance, M on, std::uint32_t stream) {
-    const Ray<F> ray = at.shadow_ray_to(wi, distance);
-    if constexpr (in_media) {
-      const Transmitted<F> seen = transmitted(scene_, frame_.rays, ray, at.media_toward(wi), on,
-                                              at.context.random.fork(U(stream)), counts_.shadow);
-      return {seen.left, seen.passing, M(on & !is_black(seen.left))};
-    } else {
-      return {at.left_of_light(wi, distance), F(1.0f), unblocked<F>(frame_.rays, ray, on, counts_.shadow)};
-    }
+  Arriving<F> arriving(const NextVertex<F>& at, const Vec3<F>& wi, F distance, M on, std::uint32_t stream) {
+    return arriving_from<F, in_media>(scene_, frame_.rays, at, wi, distance, on, at.context.random.fork(U(stream)),
+                                      counts_.shadow);
   }
 
   // Next-event estimation.
@@ -227,7 +202,7 @@ class EyeSubpaths {
     const Spectrum<F> light = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
     const M queries = view.valid & (max_component(light) > F(0.0f));
     if (!any(queries)) return;
-    const Arriving seen = arriving(at, view.wi, view.distance, queries, path_dimension::shadow_stream);
+    const Arriving<F> seen = arriving(at, view.wi, view.distance, queries, path_dimension::shadow_stream);
     if (!any(seen.on)) return;
     const BothDensities<F> both = densities(at, at.bsdf.frame.to_local(view.wi), value.density, seen.on);
     const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, seen.on},
@@ -254,9 +229,7 @@ class EyeSubpaths {
   }
   void connect_vertex(PathState<F>& path, const Here& here, const LightVertex<F>& y, M on) {
     const NextVertex<F>& at = here.at;
-    const Vec3<F> way = y.p - at.x.point.p;
-    const F squared = max(length_squared(way), F(1e-30f)), distance = sqrt(squared);
-    const Vec3<F> wi = way * (F(1.0f) / distance);
+    const auto [wi, distance, squared] = line_to<F>(at.x.point.p, y.p);
     const Vec3<F> eye_wi = at.bsdf.frame.to_local(wi), light_wi = y.frame.to_local(-wi);
     BsdfContext<F> eye_context = at.context;
     eye_context.random = at.context.random.fork(U(connection_stream) + y.events);
@@ -275,7 +248,7 @@ class EyeSubpaths {
     const Spectrum<F> value = path.throughput * eye.f_cos * y.flux * light.f_cos * (correction / squared);
     on = on & (max_component(value) > F(0.0f));
     if (!any(on)) return;
-    const Arriving seen = arriving(at, wi, distance, on, connection_stream);
+    const Arriving<F> seen = arriving(at, wi, distance, on, connection_stream);
     on = seen.on;
     if (!any(on)) return;
     const BothDensities<F> at_eye = densities(at, eye_wi, eye.density, on);

@@ -6,7 +6,7 @@
 #include "integrator/path/first_hits.h"
 #include "integrator/resampled_light.h"
 #include "mc/hemisphere.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -71,11 +71,11 @@ struct DirectLight {
   BsdfValue<F> scattered(const Vec3<F>& wi, M on) const {
     return evaluate<F>(at.bsdf.lanes(on), at.wo, at.bsdf.frame.to_local(wi), at.context);
   }
-  // What is left of `light` behind what blocks the way.
+  // What arrives of light that comes along wi from that distance.
   Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on) const {
-    const M arrives =
-        unblocked<F>(rays, at.shadow_ray_to(wi, distance), on & (max_component(light) > F(0.0f)), counts.shadow);
-    return select(arrives, light, gray(F(0.0f)));
+    const Arriving<F> seen = arriving_from<F>(scene, rays, at, wi, distance, M(on & (max_component(light) > F(0.0f))),
+                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+    return select(seen.on, light * seen.left, gray(F(0.0f)));
   }
 
   // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
@@ -86,8 +86,7 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(light.wi, queries);
     F weight = F(1.0f) / light.density.value;
     if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density, value.density));
-    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    const Spectrum<F> contribution = arriving(light.wi, light.distance, value.f_cos * arrives * weight, queries);
+    const Spectrum<F> contribution = arriving(light.wi, light.distance, value.f_cos * light.radiance * weight, queries);
     record_sample(u_choice, contribution, queries);
     return contribution;
   }
@@ -99,9 +98,8 @@ struct DirectLight {
     const LightSample<F> light =
         draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), LightMeasure::solid_angle, on);
     const M queries = on & light.valid & light.delta;
-    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
     const Spectrum<F> contribution =
-        arriving(light.wi, light.distance, scattered(light.wi, queries).f_cos * arrives, queries);
+        arriving(light.wi, light.distance, scattered(light.wi, queries).f_cos * light.radiance, queries);
     record_sample(u_choice, contribution, queries);
     return contribution;
   }
@@ -160,9 +158,7 @@ struct DirectLight {
     const ResampledLight<F> chosen = resample_light<F>(
         settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
-        [&](const LightSample<F>& light, M queries) {
-          return scattered(light.wi, queries).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
-        });
+        [&](const LightSample<F>& light, M queries) { return scattered(light.wi, queries).f_cos * light.radiance; });
     const Spectrum<F> contribution = arriving(chosen.wi, chosen.distance, chosen.value, on);
     record_sample(chosen.u_choice, contribution, on & (max_component(contribution) > F(0.0f)));
     return contribution;

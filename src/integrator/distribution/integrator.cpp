@@ -6,7 +6,7 @@
 #include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "mc/roulette.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -68,10 +68,12 @@ struct Tree {
     const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     const float weight =
         light.delta ? 1.0f : power_weight(float(n.points), light.density, float(n.directions), value.density);
-    const Spectrum<float> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    const Spectrum<float> direct = value.f_cos * arrives * (weight / (light.density.value * float(n.points)));
+    Spectrum<float> direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
     if (!(max_component(direct) > 0)) return gray(0.0f);
-    if (!unblocked<F>(accel, at.shadow_ray_to(light.wi, light.distance), true, counts.shadow)) return gray(0.0f);
+    const Arriving<F> seen = arriving_from<F>(scene, accel, at, light.wi, light.distance, true,
+                                              at.context.random.fork(path_dimension::shadow_stream), counts.shadow);
+    if (!seen.on) return gray(0.0f);
+    direct *= seen.left;
     if constexpr (Tally::records)
       tally.template add<F>(
           true, direct * way.share,

@@ -7,7 +7,7 @@
 #include "integrator/path/first_hits.h"
 #include "mc/hemisphere.h"
 #include "parameter/fields.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -45,9 +45,9 @@ struct View {
                                numbers.get2(sample, path_dimension::light_point), at.found);
     const F cos = dot(light.wi, normal());
     const M queries = at.found & light.valid & (cos > F(0.0f));
-    const M lit = is_open(at.shadow_ray_to(light.wi, light.distance), queries);
-    const Spectrum<F> arrives = light.radiance * at.left_of_light(light.wi, light.distance);
-    return select(lit, arrives * (cos / light.density.value), gray(F(0.0f)));
+    const Arriving<F> seen = arriving_from<F>(scene, accel, at, light.wi, light.distance, queries,
+                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+    return select(seen.on, light.radiance * seen.left * (cos / light.density.value), gray(F(0.0f)));
   }
 
   Spectrum<F> albedo(std::uint32_t sample) const {

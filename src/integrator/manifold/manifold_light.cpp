@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "integrator/path/path_state.h"
 #include "mc/hemisphere.h"
 #include "scene/smoothness.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
+#include "transport/dimensions.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 
@@ -148,11 +149,14 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, std::uint32
   const LightSample<float> light = lights.sample_light<float>(number, last.p, {0, 0, 0}, {0.5f, 0.5f}, true);
   const double spread = std::abs(found->miss.determinant());
   if (!light.valid || !(spread > 1e-30)) return none;
-  Spectrum<float> arriving =
-      x.scattered(chain.w, true).f_cos * chain.left * light.radiance * last.media_toward(light.wi).left(light.distance);
+  Spectrum<float> arriving = x.scattered(chain.w, true).f_cos * chain.left * light.radiance;
   arriving = arriving * float(1 / (spread * double(chosen.mass.value)));
   if (!(max_component(arriving) > 0)) return none;
-  if (!unblocked<float>(tracer_.accel(), last.shadow_ray_to(light.wi, light.distance), true, rays)) return none;
+  const Arriving<float> seen =
+      arriving_from<float>(tracer_.scene(), tracer_.accel(), last, light.wi, light.distance, true,
+                           random.fork(Uint<float>(path_dimension::shadow_stream)), rays);
+  if (!seen.on) return none;
+  arriving *= seen.left;
   // Surfaces with an alpha mask may be open to this ray by chance, which is in the probability of the chain, but not in
   // its light: another ray, by the last digit, decides for that.
   if (tracer_.scene().geometry.has_half_open()) {

@@ -6,10 +6,10 @@
 
 #include "accel/accel.h"
 #include "integrator/integrator.h"
-#include "integrator/path/path_state.h"
 #include "integrator/tally.h"
 #include "scene/scene.h"
 #include "transport/numbers.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 

@@ -9,10 +9,9 @@
 #include "integrator/path/survival.h"
 #include "integrator/resampled_light.h"
 #include "mc/roulette.h"
+#include "transport/connection.h"
 #include "transport/light_met.h"
 #include "transport/numbers.h"
-#include "transport/transmittance.h"
-#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -48,18 +47,12 @@ struct LitVertex {
   RandomStream<F> random;
   Mask<F> on;
 };
-// How much a vertex scatters of light from one direction, and what the way to the light leaves of it.
-template <class F>
-struct ScatteredLight {
-  BsdfValue<F> value;
-  Spectrum<F> left;
-};
 
 // Next-event estimation by resampling. The density of what resampling chooses has no closed form, so the share that
 // BSDF sampling has in a light is decided by the density of the candidates, which is known wherever a path may meet
 // the light: the weights of the two sum to 1 in every direction, and resampling estimates the integral of its own share
 // without bias whatever that is (Veach and Guibas 1995; Talbot, Cline and Egbert 2005, sec. 3). evaluate(light, lanes)
-// gives a ScatteredLight.
+// gives the BsdfValue for light from there.
 template <class F, class Evaluate>
 ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& settings, const LitVertex<F>& at,
                                   Evaluate evaluate_light) {
@@ -67,11 +60,10 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       settings.candidates, at.random.fork(Uint<F>(resampling_stream)), at.on,
       [&](F u_choice, Vec2<F> u) { return lights.template sample<F>(at.p, at.light_normal, u_choice, u, at.on); },
       [&](const LightSample<F>& light, Mask<F> wanted) {
-        const ScatteredLight<F> scattered = evaluate_light(light, wanted);
-        const F share =
-            select(light.delta, F(1.0f),
-                   weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density));
-        return scattered.value.f_cos * light.radiance * scattered.left * share;
+        const BsdfValue<F> scattered = evaluate_light(light, wanted);
+        const F share = select(light.delta, F(1.0f),
+                               weight_of_light_sample(settings.light_weights(), light.density, scattered.density));
+        return scattered.f_cos * light.radiance * share;
       });
 }
 
@@ -169,8 +161,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       lanes.distance = way.distance;
     }
     lanes.scatters = lanes.on_surface & (may_scatter | M(scene.materials.has_interfaces()));
-    const Vertex<F> v(scene, {{path.o, path.d, F(ray_infinity), path.time}, path.hit, path.media}, lanes, context,
-                      InMedia<in_media>{});
+    const Vertex<F> v(scene, {ray_of(path), path.hit, path.media}, lanes, context, InMedia<in_media>{});
     // What the segment leaves of light; a medium that scatters is in the throughput already.
     const auto left_of = [&](const Media<F>& media, F distance) {
       if constexpr (!in_media) return media.left(distance);
@@ -219,30 +210,22 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         select(light.delta, F(1.0f), weight_of_light_sample(weights, light.density, scattered.toward_light.density));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
-    // In media the shadow ray finds the transmittance.
-    if constexpr (!in_media) direct *= v.left_of_light(light.wi, light.distance);
     M shadow = lit & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
-      const ResampledLight<F> chosen = resampled_light<F>(
-          lights, settings, {v.x.point.p, v.bsdf.light_normal, context.random, wants_light},
-          [&](const LightSample<F>& sample, M wanted) -> ScatteredLight<F> {
-            const BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
-            if constexpr (in_media) return {value, gray(F(1.0f))};
-            return {value, v.left_of_light(sample.wi, sample.distance)};
-          });
+      const ResampledLight<F> chosen =
+          resampled_light<F>(lights, settings, {v.x.point.p, v.bsdf.light_normal, context.random, wants_light},
+                             [&](const LightSample<F>& sample, M wanted) {
+                               return evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
+                             });
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
       light_choice = chosen.u_choice;
       shadow = wants_light & (max_component(direct) > F(0.0f));
     }
     if (any(shadow)) {
-      const Ray<F> ray = v.shadow_ray_to(light.wi, light.distance);
-      M arrives = shadow;
-      if constexpr (in_media)
-        direct *= transmittance(scene, rays, ray, v.media_toward(light.wi), shadow,
-                                context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
-      else
-        arrives = unblocked<F>(rays, ray, shadow, counts.shadow);
-      gather_light(path, arrives, direct, tally, [&] {
+      const Arriving<F> seen =
+          arriving_from<F, in_media, false>(scene, rays, v, light.wi, light.distance, shadow,
+                                            context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+      gather_light(path, seen.on, direct * seen.left, tally, [&] {
         // The choice is made once more: the same numbers give the same light.
         const U chosen = lights.template choose<F>(v.x.point.p, v.bsdf.light_normal, light_choice, wants_light).light;
         return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};
@@ -266,37 +249,20 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // Scatter; roulette.
     const BsdfSample<F>& next = scattered.next;
-    M continues = scatters & next.valid;
-    // A weight that is not a number ends the path and shows in the count of such samples.
-    const M broken = continues & !is_finite(max_component(next.weight));
-    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
-    continues = continues & !broken;
-    path.throughput = select(continues, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(continues, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(continues, U(1u), U(0u));
+    M continues = scatter_path(path, next, M(scatters & next.valid));
     if constexpr (requires { tally.scattered(path, continues); }) tally.scattered(path, continues);
     const M plays = continues & (path.depth > U(std::uint32_t(settings.roulette_depth)));
     const F chance = select(plays, survival_probability(settings, path), F(1.0f));
-    const Roulette<F> survival = roulette(chance, numbers.get1(dimension + U(path_dimension::roulette)));
-    continues = continues & survival.survives;
-    path.throughput = select(continues, path.throughput * survival.weight, path.throughput);
+    continues = survive_roulette(path, chance, numbers.get1(dimension + U(path_dimension::roulette)), continues);
     const Vec3<F> wi = select(passes, path.d, v.bsdf.frame.to_world(next.wi));
+    leave_vertex(path, v, wi, next, continues, passes);
     const M moves = continues | passes;
-    path.media = select_media<F>(moves, v.media_toward(wi), path.media);
-    path.p = select(continues, v.x.point.p, path.p), path.n = select(continues, v.bsdf.light_normal, path.n);
-    path.density.value = select(continues, next.density.value, path.density.value);
-    path.by_delta = select(continues, select(next.delta, U(1u), U(0u)), path.by_delta);
-
     if constexpr (requires { Tally::records_vertices; })
       tally.visit(VertexVisit<F>{v.x, v.bsdf, arriving, wi, path.density.value, chance, M(passes | by_delta(path)), on,
                                  passes, v.in_medium, moves});
 
     // The next vertex, or the sky. In media a ray that meets no surface may still scatter.
-    path.o = v.origin_toward(wi), path.d = wi;
-    path.crossings = path.crossings + select(passes, U(1u), U(0u));
-    counts.scattered += std::uint64_t(count(moves));
-    auto [found, hit] = rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
-    path.hit = hit;
+    const M found = trace_path(path, rays, moves, counts.scattered);
     if constexpr (!in_media) gather_sky(moves & !found, path.media.left(F(ray_infinity)));
     const M goes_far = in_media ? moves : found;
     finish(on & !goes_far);

@@ -6,7 +6,7 @@
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
 #include "integrator/photons/lookup.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -91,9 +91,9 @@ class PhotonGathering {
   // The surface that a path has met, with the light met on the way.
   template <class Weight>
   NextVertex<F> arrive(PathState<F>& path, M on, const Sampler<F>& numbers, Weight weight) {
-    const NextVertex<F> at = follow_ray<F>(
-        scene_, rays_, {path.p, path.n, path.media}, {path.o, path.d, F(ray_infinity), path.time}, path.hit, on,
-        numbers.stream(dimension_of(path) + U(path_dimension::own)), counts_.scattered, weight);
+    const NextVertex<F> at =
+        follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
+                      numbers.stream(dimension_of(path) + U(path_dimension::own)), counts_.scattered, weight);
     path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     return at;
@@ -120,32 +120,16 @@ class PhotonGathering {
     return map.template radiance<F>(at, context, rough, PhotonRules<F>{rules_.glossy, room});
   }
   // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface.
-  // A weight that is not a number ends the path and shows in the count of such samples.
   template <class Weight>
   M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves, const Sampler<F>& numbers,
           Weight weight) {
     const U dimension = dimension_of(path);
-    const M broken = moves & !is_finite(max_component(next.weight));
-    if (any(broken)) path.radiance += select(broken, next.weight, gray(F(0.0f)));
-    moves = moves & !broken;
-    path.throughput = select(moves, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(moves, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(moves, U(1u), U(0u));
+    moves = scatter_path(path, next, moves);
     const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
-    const Roulette<F> survival = roulette(select(plays, survival_by_throughput(path), F(1.0f)),
-                                          numbers.get1(dimension + U(path_dimension::roulette)));
-    moves = moves & survival.survives;
-    path.throughput = select(moves, path.throughput * survival.weight, path.throughput);
-    const Vec3<F> wi = at.bsdf.frame.to_world(next.wi);
-    path.media = select_media<F>(moves, at.media_toward(wi), path.media);
-    path.p = select(moves, at.x.point.p, path.p), path.n = select(moves, at.bsdf.light_normal, path.n);
-    path.density.value = select(moves, next.density.value, path.density.value);
-    path.by_delta = select(moves, select(next.delta, U(1u), U(0u)), path.by_delta);
-    path.o = at.origin_toward(wi), path.d = wi;
-
-    counts_.scattered += std::uint64_t(count(moves));
-    const auto [found, hit] = rays_.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
-    path.hit = hit;
+    moves = survive_roulette(path, select(plays, survival_by_throughput(path), F(1.0f)),
+                             numbers.get1(dimension + U(path_dimension::roulette)), moves);
+    leave_vertex(path, at, at.bsdf.frame.to_world(next.wi), next, moves, M(false));
+    const M found = trace_path(path, rays_, moves, counts_.scattered);
     if (const M escapes = moves & !found; any(escapes))
       path.radiance += path.throughput *
                        sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
@@ -197,12 +181,12 @@ class PhotonGathering {
   void add_direct(PathState<F>& path, const NextVertex<F>& at, const LightSample<F>& light, const BsdfValue<F>& value,
                   M queries) {
     const F share = select(light.delta, F(1.0f), weight_of_light_sample(mis_, light.density, value.density));
-    const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance *
-                               at.left_of_light(light.wi, light.distance) * (share / light.density.value);
+    const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density.value);
     const M shadow = queries & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
-    const M lit = unblocked<F>(rays_, at.shadow_ray_to(light.wi, light.distance), shadow, counts_.shadow);
-    path.radiance += select(lit, direct, gray(F(0.0f)));
+    const Arriving<F> seen = arriving_from<F>(scene_, rays_, at, light.wi, light.distance, shadow,
+                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts_.shadow);
+    path.radiance += select(seen.on, direct * seen.left, gray(F(0.0f)));
   }
 
   // Light that a gather ray meets counts before its first event alone, as direct light of the surface in view.

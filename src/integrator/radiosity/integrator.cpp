@@ -37,16 +37,9 @@ struct DiffusePoint {
 };
 
 DiffusePoint diffuse_point(const Radiosity& r, const Ray<F>& ray, const Hit<F>& hit, const RandomStream<F>& own, M on) {
-  const Vec3<F>& d = ray.d;
-  DiffusePoint at;
-  at.x = surface<F>(r.scene.geometry, ray, hit, on);
-  at.n = face_forward(at.x.point.ng, -d);
-  BsdfContext<F> context{TransportMode::radiance, own};
-  const SurfaceScattering<F> bsdf = r.scene.materials.scattering<F>(at.x, d, on, context.random);
-  const BsdfSample<F> out =
-      sample<F>(bsdf.lanes(on), bsdf.frame.to_local(-d), Vec3<F>{F(0.5f), F(0.5f), F(0.5f)}, context);
-  at.albedo = select(on & out.valid, out.weight, gray(F(0.0f)));
-  return at;
+  const Vertex<F> v(r.scene, {ray, hit, no_media<F>()}, {on, on}, {TransportMode::radiance, own});
+  const Vec3<F> middle{F(0.5f), F(0.5f), F(0.5f)};  // any direction has the same weight
+  return {v.x, face_forward(v.x.point.ng, -v.d), sampled_albedo<F>(v, middle, on)};
 }
 
 // The radiosity of the elements that were hit, by the albedo of the very points.
@@ -78,7 +71,7 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
   counts.scattered += std::uint64_t(count(on));
   const auto [found, hit] = r.accel.trace<F>({from, wi, F(ray_infinity)}, on);
   if (!any(found)) return sum;
-  const DiffusePoint other = diffuse_point(r, {from, wi, hit.t}, hit, numbers.stream(U(plan::own)), found);
+  const DiffusePoint other = diffuse_point(r, {from, wi, F(ray_infinity)}, hit, numbers.stream(U(plan::own)), found);
   return sum + select(found, reflected(r, known, other, hit, found), gray(F(0.0f)));
 }
 
@@ -158,7 +151,7 @@ class RadiosityChain final : public Chain {
       const U first = U(path_dimension::first_vertex), own = U(path_dimension::own);
       const NextVertex<F> at =
           first_vertex<F>(shared_.scene, shared_.accel, path, on, sampler.stream(first + own), counts);
-      const DiffusePoint point = diffuse_point(shared_, {path.o, path.d, path.hit.t}, path.hit,
+      const DiffusePoint point = diffuse_point(shared_, ray_of(path), path.hit,
                                                sampler.stream(first + own + U(path_dimension::per_vertex)), on);
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
       if (shared_.settings.gather)

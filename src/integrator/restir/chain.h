@@ -339,11 +339,12 @@ class ReuseChain final : public Chain {
             std::span<PixelSample> out, RayCounts& counts) const {
     const M lit = at.on & (reservoir.weight > F(0.0f));
     if (!any(lit)) return;
-    const Connection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
+    const LightConnection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
     const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
     // Where targets know what is in the way, the pixel sees whatever it holds.
     const M queries = lit & (way.target > F(0.0f));
-    const M open = settings().visibility_reuse ? queries : is_open<F>(shared_.rays, vertex, way, queries, counts);
+    const M open =
+        settings().visibility_reuse ? queries : is_open<F>(shared_.rays, vertex, way, queries, counts.shadow);
     add_light(light, at, open, out);
   }
   void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "image/pixel_sample.h"
-#include "integrator/path/path_state.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 

@@ -62,7 +62,7 @@ class FirstCandidates {
       const LightPointDraw<F> draw =
           lights_.bvh.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, queries);
       const Mask<F> good = queries & draw.valid;
-      const Connection<F> to = connect(lights_.bvh, vertex_, draw.point, good);
+      const LightConnection<F> to = connect(lights_.bvh, vertex_, draw.point, good);
       const F product = draw.density.value * products_of_choice(choice, is_power, good);
       const F w = weight(to, product, good);
       if (!has_beyond) {
@@ -122,11 +122,11 @@ class FirstCandidates {
   // What a stream of points on lights has chosen.
   struct StreamChoice {
     WeightedReservoir<Candidate<F>, F> chosen;
-    Connection<F> way{};
+    LightConnection<F> way{};
     F by_light = 0.0f;  // the products of its techniques
 
     StreamChoice() { chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f); }
-    void add(const LightPoint<F>& point, const Connection<F>& to, F product, F w, F u) {
+    void add(const LightPoint<F>& point, const LightConnection<F>& to, F product, F w, F u) {
       const Mask<F> taken = chosen.add({point, to.target}, w, u);
       way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
       way.by_bsdf.value = select(taken, to.by_bsdf.value, way.by_bsdf.value);
@@ -138,7 +138,7 @@ class FirstCandidates {
     const Mask<F> found = on & (winner.chosen.weight_sum > F(0.0f));
     F share = 1.0f;
     if (settings_.bsdf_candidate || settings_.visibility_reuse) {
-      const Mask<F> open = is_open<F>(rays_, vertex_, winner.way, found, counts_);
+      const Mask<F> open = is_open<F>(rays_, vertex_, winner.way, found, counts_.shadow);
       if (settings_.bsdf_candidate)
         share = select(open, balance_weight(winner.by_light, winner.way.by_bsdf.value), share);
       if (settings_.visibility_reuse) share = select(open, share, F(0.0f));
@@ -147,7 +147,7 @@ class FirstCandidates {
   }
   void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
     if (!any(on)) return;
-    const Connection<F> to = connect(lights_.bvh, vertex_, point, on);
+    const LightConnection<F> to = connect(lights_.bvh, vertex_, point, on);
     all_.add({point, to.target}, weight(to, product + to.by_bsdf.value, on), u);
   }
   // Numbers of samples times probabilities of the choice, over the lights' techniques.
@@ -162,7 +162,7 @@ class FirstCandidates {
     return sum;
   }
   // target / (sum of products), both in the point's own measure.
-  F weight(const Connection<F>& to, F products, Mask<F> on) {
+  F weight(const LightConnection<F>& to, F products, Mask<F> on) {
     const Mask<F> counts = on & (to.target > F(0.0f));
     const F w = to.target / (products * to.geometry);
     const Mask<F> known = is_finite(average(to.value)), weighs = is_finite(w);

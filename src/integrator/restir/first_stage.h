@@ -110,31 +110,15 @@ class FirstStage {
     }
 
     // Scatter; no roulette where other pixels replay these numbers.
-    M continues = scatters & next.valid;
-    const M broken = continues & !is_finite(max_component(next.weight));
-    if (any(broken)) path.radiance += select(broken, path.throughput * next.weight, gray(F(0.0f)));
-    continues = continues & !broken;
-    path.throughput = select(continues, path.throughput * next.weight, path.throughput);
-    path.eta_scale = select(continues, path.eta_scale * next.eta_scale, path.eta_scale);
-    path.depth = path.depth + select(continues, U(1u), U(0u));
+    const M continues = scatter_path(path, next, M(scatters & next.valid));
     const M plays = continues & (path.depth > U(std::uint32_t(shared_.settings.path.roulette_depth))) &
                     !(rough & M(reuses_paths()));
-    const Roulette<F> survival = roulette(select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
-                                          sampler.get1(dimension + U(path_dimension::roulette)));
-    const M lives = continues & survival.survives;
-    path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
+    const M lives = survive_roulette(path, select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
+                                     sampler.get1(dimension + U(path_dimension::roulette)), continues);
     const M offers = rough & continues & !next.delta & M(shared_.settings.bsdf_candidate);
-    const Vec3<F> wi = select(passes, path.d, bsdf.frame.to_world(next.wi));
-    path.media = select_media<F>(continues, v.media_toward(wi), path.media);
-    path.p = select(continues, x.point.p, path.p), path.n = select(continues, bsdf.light_normal, path.n);
-    path.density.value = select(continues, next.density.value, path.density.value);
-    path.by_delta = select(continues, select(next.delta, U(1u), U(0u)), path.by_delta);
-    path.o = v.origin_toward(wi), path.d = wi;
-    path.crossings = path.crossings + select(passes, U(1u), U(0u));
+    leave_vertex(path, v, select(passes, path.d, bsdf.frame.to_world(next.wi)), next, continues, passes);
     const M moves = passes | lives | offers;
-    counts_.scattered += std::uint64_t(count(moves));
-    const auto [found, hit] = shared_.rays.template trace<F>({path.o, path.d, F(ray_infinity), path.time}, moves);
-    path.hit = hit;
+    const M found = trace_path(path, shared_.rays, moves, counts_.scattered);
 
     // Light that the direction of the BSDF meets joins the candidates; light scattered there belongs to the path.
     if (any(offers)) offer(candidates, path, offers & found, offers & !found, numbers.fork(U(restir_stream::met)));
@@ -191,7 +175,7 @@ class FirstStage {
 
   // The emitters along the direction of the BSDF, through interfaces.
   void offer(Candidates& candidates, const PathState<F>& path, M found, M left, const RandomStream<F>& numbers) {
-    Segment<F> segment{{path.o, path.d, F(ray_infinity), path.time}, path.hit, path.media};
+    Segment<F> segment{ray_of(path), path.hit, path.media};
     for (std::uint32_t crossing = 0;; ++crossing) {
       const RandomStream<F> stream = numbers.fork(U(2 * crossing)), sky = numbers.fork(U(2 * crossing + 1));
       if (any(left)) candidates.add_sky(path.d, sky, left);

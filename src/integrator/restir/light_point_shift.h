@@ -25,13 +25,13 @@ struct LightPointDomains {
   RayCounts& counts;
 
   ShiftedLight<F> shift(int, const LightPoint<F>& value, Mask<F> on) const {
-    const Connection<F> way = seen_from(0, value, on);
+    const LightConnection<F> way = seen_from(0, value, on);
     return {{value, F(1.0f), way.target}, way.value};
   }
   F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
   // A surface sees what it has.
   ShiftedLight<F> own(int of, const LightPoint<F>& value, Mask<F> on) const {
-    const Connection<F> way = connect(lights, vertices[std::size_t(of)], value, on);
+    const LightConnection<F> way = connect(lights, vertices[std::size_t(of)], value, on);
     return {{value, F(1.0f), way.target}, way.value};
   }
   void images(int from, const LightPoint<F>& value, std::span<const Mask<F>> on,
@@ -39,7 +39,7 @@ struct LightPointDomains {
     std::vector<Ray<F>> ways(images.size());
     const auto open = std::make_unique<Mask<F>[]>(images.size());
     for (std::size_t k = 0; k < images.size(); ++k) {
-      const Connection<F> way = connect(lights, vertices[k], value, on[k]);
+      const LightConnection<F> way = connect(lights, vertices[k], value, on[k]);
       images[k] = {{value, F(1.0f), way.target}, way.value};
       open[k] = on[k] & (way.target > F(0.0f)) & Mask<F>(int(k) != from);
       ways[k] = vertices[k].shadow_ray_to(way.wi, way.distance);
@@ -51,11 +51,11 @@ struct LightPointDomains {
   }
 
  private:
-  Connection<F> seen_from(int to, const LightPoint<F>& value, Mask<F> on) const {
+  LightConnection<F> seen_from(int to, const LightPoint<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& vertex = vertices[std::size_t(to)];
-    Connection<F> way = connect(lights, vertex, value, on);
+    LightConnection<F> way = connect(lights, vertex, value, on);
     if (!sees) return way;
-    const Mask<F> open = is_open<F>(rays, vertex, way, on & (way.target > F(0.0f)), counts);
+    const Mask<F> open = is_open<F>(rays, vertex, way, on & (way.target > F(0.0f)), counts.shadow);
     way.target = select(open, way.target, F(0.0f));
     return way;
   }

@@ -174,7 +174,7 @@ class PathCandidates {
     sample.point = point;
     sample.contribution = select(met, contribution, sample.contribution);
     if (any(point_of_light)) {
-      const Connection<F> to = connect(shared_.lights, w.from, point, point_of_light);
+      const LightConnection<F> to = connect(shared_.lights, w.from, point, point_of_light);
       sample.contribution = select(point_of_light, w.before * to.value, sample.contribution);
     }
     // Scattered again, a delta would meet with all emitters on its way at once.
@@ -190,8 +190,8 @@ class PathCandidates {
     const LightPointDraw<F> draw = shared_.lights.template draw_light_point<F>(
         choice.light, vertex.p, vertex.light_normal, {own.at(U(1u)), own.at(U(2u))}, on & choice.valid);
     M lit = on & choice.valid & draw.valid;
-    const Connection<F> to = connect(shared_.lights, vertex, draw.point, lit);
-    lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_);
+    const LightConnection<F> to = connect(shared_.lights, vertex, draw.point, lit);
+    lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_.shadow);
     if (!any(lit)) return;
     const Density<SolidAngle, F> density = choice.mass * draw.density;
     const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),

@@ -98,16 +98,14 @@ class PathReplay {
 
   Spectrum<F> through_surface(M on) {
     const StoredSurface<F>& at = sample_.at;
-    const Vec3<F> way = at.p - vertex_.p;
-    const F squared = dot(way, way), distance = sqrt(squared);
-    M good = on & (squared > F(0.0f));
-    const Vec3<F> wi = way / select(good, distance, F(1.0f));
+    const auto [wi, distance, squared] = line_to<F>(vertex_.p, at.p);
+    M good = on & (squared > F(1e-30f));
     const BsdfValue<F> here = vertex_.scattered(wi, good);
     good = good & (here.density.value > F(0.0f)) & !may_join(here.density);
     const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
     const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density, good, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
-    const F geometry = abs(dot(at.ng, wi)) / select(good, squared, F(1.0f));
+    const F geometry = abs(dot(at.ng, wi)) / squared;
     const Spectrum<F> left = at.boundary().before(vertex_.media_toward(wi), wi).left(distance);
     const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * left * sample_.light * geometry;
     good = good & (average(light) > F(0.0f));
@@ -116,9 +114,9 @@ class PathReplay {
   }
 
   Spectrum<F> through_light(M on) {
-    const Connection<F> to = connect(shared_.lights, vertex_, sample_.point, on);
+    const LightConnection<F> to = connect(shared_.lights, vertex_, sample_.point, on);
     const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density);
-    return select(is_open<F>(shared_.rays, vertex_, to, good, counts_), weight_ * to.value, gray(F(0.0f)));
+    return select(is_open<F>(shared_.rays, vertex_, to, good, counts_.shadow), weight_ * to.value, gray(F(0.0f)));
   }
 
   const PathScene<Rays>& shared_;

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "integrator/path/path_state.h"
 #include "mc/reuse.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 

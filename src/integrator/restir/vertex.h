@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "integrator/integrator.h"
-#include "integrator/path/path_state.h"
 #include "mc/reuse.h"
-#include "transport/stored_vertex.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
+#include "transport/path_state.h"
 
 namespace montelux {
 
@@ -33,47 +32,5 @@ inline bool are_depths_similar(float a, float b) { return std::abs(a - b) < 0.1f
 
 template <class F>
 using LightReservoir = Reservoir<LightPoint<F>, F>;
-
-// A point of a light, joined to a vertex.
-template <class F>
-struct Connection {
-  Vec3<F> wi;
-  F distance;
-  Spectrum<F> value;  // what the vertex sends on if nothing is in the way, per unit of the light point's measure
-  F target;           // the mean of its components
-  F geometry;         // as LightPointView has it
-  // Of BSDF sampling for wi; 0 for a light that is a delta.
-  Density<SolidAngle, F> by_bsdf;
-  // Whatever the light is: how the vertex scatters it, and what would arrive along wi (of a delta light, its irradiance
-  // at normal incidence).
-  BsdfValue<F> scattered;
-  Spectrum<F> arriving;
-};
-
-template <class F>
-Connection<F> connect(const LightSet& lights, const ReuseVertex<F>& vertex, const LightPoint<F>& point, Mask<F> on) {
-  const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
-  // A surface that lies in its own plane sends itself nothing, and no technique finds it there; rounding may say
-  // otherwise, by next to nothing, and would be counted among those that could have made the sample.
-  const Mask<F> has_plane = point.sort <= Uint<F>(light_point::two_sided_surface);
-  const F rounding = dot(abs(point.n), (abs(vertex.p) + abs(point.p)) * F(0x1p-21f));
-  const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);
-  const Mask<F> queries = on & view.valid & !edge_on;
-  const BsdfValue<F> scattered = vertex.scattered(view.wi, queries);
-  const Spectrum<F> arriving = view.radiance * vertex.media_toward(view.wi).left(view.distance);
-  const Spectrum<F> value = select(queries, scattered.f_cos * arriving * view.geometry, gray(F(0.0f)));
-  const Mask<F> met = queries & (point.sort != Uint<F>(light_point::delta));
-  return {view.wi,       view.distance,
-          value,         usable_weight(average(value)),
-          view.geometry, {select(met, scattered.density.value, F(0.0f))},
-          scattered,     arriving};
-}
-
-// Where nothing is in the way.
-template <class F, class Rays>
-Mask<F> is_open(const Rays& rays, const ReuseVertex<F>& vertex, const Connection<F>& to, Mask<F> on,
-                RayCounts& counts) {
-  return unblocked<F>(rays, vertex.shadow_ray_to(to.wi, to.distance), on, counts.shadow);
-}
 
 }  // namespace montelux

@@ -8,7 +8,7 @@
 #include "integrator/tracepath/horizon.h"
 #include "mc/hemisphere.h"
 #include "mc/roulette.h"
-#include "transport/visibility.h"
+#include "transport/connection.h"
 
 namespace montelux {
 
@@ -117,8 +117,10 @@ struct Recursion {
     if (!light.valid || !light.delta) return gray(0.0f);
     const BsdfValue<float> value =
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
-    const bool arrives = unblocked<float>(accel, at.shadow_ray_to(light.wi, light.distance), true, counts.shadow);
-    return arrives ? value.f_cos * light.radiance * at.left_of_light(light.wi, light.distance) : gray(0.0f);
+    const Arriving<float> seen =
+        arriving_from<float>(scene, accel, at, light.wi, light.distance, true,
+                             at.context.random.fork(path_dimension::shadow_stream), counts.shadow);
+    return seen.on ? value.f_cos * light.radiance * seen.left : gray(0.0f);
   }
 
   SeenPolygon seen_from(const NextVertex<float>& at, LightId light) const {

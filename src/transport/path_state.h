@@ -1,7 +1,8 @@
-// All that a path carries from one vertex to the next, one path a lane.
+// All that a path from the eye carries from one vertex to the next, one path a lane, and the steps that change it
+// there.
 #pragma once
-#include <cstring>
-
+#include "accel/accel.h"
+#include "math/lane_words.h"
 #include "mc/roulette.h"
 #include "scene/geometry_store.h"
 #include "transport/media.h"
@@ -61,37 +62,6 @@ struct PathStart {
   Uint<F> slot;
 };
 
-// Copies one lane's worth of a struct that is made of 32-bit words alone into lane k, word by word.
-template <template <class> class S, class F>
-MONTELUX_INLINE void set_lane_words(S<F>& to_struct, int k, const S<float>& from_struct) {
-  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
-  auto* to = reinterpret_cast<char*>(&to_struct) + 4 * std::size_t(k);
-  const auto* from = reinterpret_cast<const char*>(&from_struct);
-  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w * lanes_of<F>, from + 4 * w, 4);
-}
-template <template <class> class S, class F>
-MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to_struct) {
-  auto* to = reinterpret_cast<char*>(&to_struct);
-  const auto* from = reinterpret_cast<const char*>(&from_struct) + 4 * std::size_t(k);
-  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
-}
-
-// Lane by lane a or b, word by word, for such a struct in a pack.
-template <template <class> class S, class F>
-MONTELUX_INLINE S<F> select_words(Mask<F> m, const S<F>& a, const S<F>& b) {
-  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
-  S<F> result = b;
-  auto* to = reinterpret_cast<char*>(&result);
-  const auto* from = reinterpret_cast<const char*>(&a);
-  for (std::size_t at = 0; at < sizeof(S<F>); at += sizeof(F)) {
-    Uint<F> x, y;
-    std::memcpy(&x, from + at, sizeof(F)), std::memcpy(&y, to + at, sizeof(F));
-    const Uint<F> chosen = select(m, x, y);
-    std::memcpy(to + at, &chosen, sizeof(F));
-  }
-  return result;
-}
-
 // Paths begin in the lanes `fresh`, where the starts stand.
 template <class F>
 MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, const Media<F>& media, Mask<F> fresh) {
@@ -112,6 +82,57 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.slot, start.slot);
+}
+
+// ---- from one vertex to the next, in this order: the path scatters, survives roulette, leaves, and is traced
+
+// The event that scatters the path joins its weights. One whose weight is not a number ends the path and shows in the
+// count of such samples. Returns the lanes that continue.
+template <class F>
+MONTELUX_INLINE Mask<F> scatter_path(PathState<F>& path, const BsdfSample<F>& event, Mask<F> on) {
+  const Mask<F> broken = on & !is_finite(max_component(event.weight));
+  if (any(broken)) path.radiance += select(broken, event.weight, gray(F(0.0f)));
+  const Mask<F> continues = on & !broken;
+  path.throughput = select(continues, path.throughput * event.weight, path.throughput);
+  path.eta_scale = select(continues, path.eta_scale * event.eta_scale, path.eta_scale);
+  path.depth = path.depth + select(continues, Uint<F>(1u), Uint<F>(0u));
+  return continues;
+}
+
+// Roulette with this chance to survive, decided by u. Returns the lanes that do.
+template <class F>
+MONTELUX_INLINE Mask<F> survive_roulette(PathState<F>& path, const F& chance, const F& u, Mask<F> on) {
+  const Roulette<F> survival = roulette(chance, u);
+  const Mask<F> lives = on & survival.survives;
+  path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
+  return lives;
+}
+
+// The path leaves the vertex v along the unit wi: scattered there by the event, or straight on through an interface.
+template <class F, class V>
+MONTELUX_INLINE void leave_vertex(PathState<F>& path, const V& v, const Vec3<F>& wi, const BsdfSample<F>& event,
+                                  Mask<F> scattered, Mask<F> passes) {
+  path.media = select_media<F>(scattered | passes, v.media_toward(wi), path.media);
+  path.p = select(scattered, v.x.point.p, path.p), path.n = select(scattered, v.bsdf.light_normal, path.n);
+  path.density.value = select(scattered, event.density.value, path.density.value);
+  path.by_delta = select(scattered, select(event.delta, Uint<F>(1u), Uint<F>(0u)), path.by_delta);
+  path.o = v.origin_toward(wi), path.d = wi;
+  path.crossings = path.crossings + select(passes, Uint<F>(1u), Uint<F>(0u));
+}
+
+// The ray along which the path leaves.
+template <class F>
+MONTELUX_INLINE Ray<F> ray_of(const PathState<F>& path) {
+  return {path.o, path.d, F(ray_infinity), path.time};
+}
+// Traces it to the next surface, whether that scatters or not. Returns the lanes that meet one. Adds the rays to
+// `traced`.
+template <class F, class Rays>
+MONTELUX_INLINE Mask<F> trace_path(PathState<F>& path, const Rays& rays, Mask<F> on, std::uint64_t& traced) {
+  traced += std::uint64_t(count(on));
+  const auto [found, hit] = rays.template trace<F>(ray_of(path), on);
+  path.hit = hit;
+  return found;
 }
 
 }  // namespace montelux

@@ -1,0 +1,40 @@
+// Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it.
+#pragma once
+#include <cstring>
+
+#include "math/lanes.h"
+
+namespace montelux {
+
+// Copies one lane's worth of a struct that is made of 32-bit words alone into lane k, word by word.
+template <template <class> class S, class F>
+MONTELUX_INLINE void set_lane_words(S<F>& to_struct, int k, const S<float>& from_struct) {
+  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
+  auto* to = reinterpret_cast<char*>(&to_struct) + 4 * std::size_t(k);
+  const auto* from = reinterpret_cast<const char*>(&from_struct);
+  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w * lanes_of<F>, from + 4 * w, 4);
+}
+template <template <class> class S, class F>
+MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to_struct) {
+  auto* to = reinterpret_cast<char*>(&to_struct);
+  const auto* from = reinterpret_cast<const char*>(&from_struct) + 4 * std::size_t(k);
+  for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
+}
+
+// Lane by lane a or b, word by word, for such a struct in a pack.
+template <template <class> class S, class F>
+MONTELUX_INLINE S<F> select_words(Mask<F> m, const S<F>& a, const S<F>& b) {
+  static_assert(sizeof(S<F>) == sizeof(S<float>) * lanes_of<F>);
+  S<F> result = b;
+  auto* to = reinterpret_cast<char*>(&result);
+  const auto* from = reinterpret_cast<const char*>(&a);
+  for (std::size_t at = 0; at < sizeof(S<F>); at += sizeof(F)) {
+    Uint<F> x, y;
+    std::memcpy(&x, from + at, sizeof(F)), std::memcpy(&y, to + at, sizeof(F));
+    const Uint<F> chosen = select(m, x, y);
+    std::memcpy(to + at, &chosen, sizeof(F));
+  }
+  return result;
+}
+
+}  // namespace montelux
