@@ -29,7 +29,7 @@ def render(settings, scene, way, seed):
     """The first and the last picture."""
     pattern = settings.folder / "picture.#.pfm"
     subprocess.run([settings.montelux, "render", scene, "--frames", f"0:{PICTURES - 1}/{PICTURES}", "--integrator",
-                    f"restir-di:chain=1,{way}", "--spp", str(CHAINS), "--seed", str(seed), "--quiet", "-o", pattern],
+                    f"restir-di:frames=1,{way}", "--spp", str(CHAINS), "--seed", str(seed), "--quiet", "-o", pattern],
                    check=True, stdout=subprocess.DEVNULL)
     return [read_pfm(settings.folder / f"picture.{k}.pfm") for k in (0, PICTURES - 1)]
 
@@ -63,7 +63,7 @@ def main():
     settings = parser.parse_args()
     settings.folder.mkdir(parents=True, exist_ok=True)
     subprocess.run([sys.executable, ROOT / "bench" / "scenes" / "make_reuse_scenes.py", settings.folder], check=True)
-    print("| scene | `restir-di:chain=1,...` | first | sixth | sixth, `carry=off` |\n| --- | --- | --- | --- | --- |")
+    print("| scene | `restir-di:frames=1,...` | first | sixth | sixth, `carry=off` |\n| --- | --- | --- | --- | --- |")
     for scene in SCENES:
         for way in WAYS:
             cells = []

@@ -108,7 +108,7 @@ struct Rung {
 struct Limits {
   int repeats = 8;
   double cap = 0.02;  // seconds of one run
-  std::uint64_t most = std::uint64_t(1) << 27;
+  std::uint64_t largest = std::uint64_t(1) << 27;
 };
 
 Rung measure(const Algorithm& algorithm, const Genz& g, std::uint64_t samples, const Limits& limits) {
@@ -128,7 +128,7 @@ Rung measure(const Algorithm& algorithm, const Genz& g, std::uint64_t samples, c
 
 std::vector<Rung> climb(const Algorithm& algorithm, const Genz& g, double target, const Limits& limits) {
   std::vector<Rung> rungs;
-  for (std::uint64_t n = 256; n <= limits.most; n *= 2) {
+  for (std::uint64_t n = 256; n <= limits.largest; n *= 2) {
     rungs.push_back(measure(algorithm, g, n, limits));
     if (rungs.back().error < target && rungs.size() > 1 && rungs[rungs.size() - 2].error < target) break;
     if (rungs.back().seconds > limits.cap) break;

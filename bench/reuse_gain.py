@@ -12,8 +12,8 @@ import sys
 from dataclasses import dataclass, field
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-WARM = "chain=1,warm-up=12"
-LEARNS = "temporal=on,chain=4,warm-up=2"  # a short past pays where all time counts: more would show the same again
+WARM = "frames=1,warm-up=12"
+LEARNS = "temporal=on,frames=4,warm-up=2"  # a short past pays where all time counts: more would show the same again
 
 
 @dataclass
@@ -36,10 +36,10 @@ class Comparison:
 
 
 REFERENCES = {
-    "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
+    "building-1": Reference("building.pbrt", "restir-di:maxdepth=1,frames=16", 1008),
     "building-5": Reference("building.pbrt", f"restir-pt:maxdepth=5,{LEARNS}", 400),
-    "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
-    "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,chain=16", 1008),
+    "terrace-1": Reference("terrace.pbrt", "restir-di:maxdepth=1,frames=16", 1008),
+    "gallery-1": Reference("gallery.pbrt", "restir-di:maxdepth=1,frames=16", 1008),
     "glossy": Reference("glossy-indirect.pbrt", f"restir-pt:{LEARNS}", 2048, options=["--resolution", "160x120"]),
     "ajar": Reference("veach-ajar.pbrt", f"restir-pt:{LEARNS}", 256, options=["--resolution", "320x180"]),
 }

@@ -34,7 +34,7 @@ constexpr const char* examples = R"(Examples:
   montelux compare room.pbrt -a path -b path:mis=balance -c naive --time 20s --repeats 12 -o report.html
   montelux compare room.pbrt -a old=path:sampler=halton -b new=path:sampler=blue-noise --reference truth.exr --json
   montelux compare room.pbrt -a path -b naive --set maxdepth=8 --measure mse
-  montelux compare room.pbrt -a path -b restir-di:chain=1,warm-up=12 --warm-frames --spp 4
+  montelux compare room.pbrt -a path -b restir-di:frames=1,warm-up=12 --warm-frames --spp 4
   montelux compare room.pbrt -a path -b naive --time 20s --save run.json
   montelux compare --resume run.json --time 60s --save run.json -o report.html
 

@@ -189,7 +189,7 @@ FramesOutcome render_part(const RenderArguments& all, const LoadedScene& scene, 
     const Result<Rendering> rendering =
         sequence->render({*one->render.seed, *one->render.shutter, before, frame == last}, observer);
     if (rendering->result.forgotten > 0 && !all.quiet && frame == first)
-      warn(fmt::format("histories are limited to {} in all: {} of {} chains start the next frame without a history",
+      warn(fmt::format("histories are limited to {} in all: {} of {} series start the next frame without a history",
                        count_text(double(rendering->history_bytes), "B"), rendering->result.forgotten,
                        rendering->result.film.image().passes));
     late += one->is_late(*rendering);
@@ -354,7 +354,7 @@ void add_sampling_options(CLI::App& verb, RenderOptions& render) {
       verb,
       {"--interactive-budget", "TIME",
        "each image within this time (33ms): as many passes of one sample as fit, or with restir-di frames of one "
-       "chain, which continues over --frames; at least one"},
+       "series, which continues over --frames; at least one"},
       into(render.budget, parse_time));
   verb.get_option("--interactive-budget")->excludes("--spp")->excludes("--time");
   add_option(
@@ -400,9 +400,9 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
 // "A" or "A:B".
 Result<PassRange> parse_passes(const std::string& text) {
   const std::size_t colon = text.find(':');
-  constexpr int most = (1 << 24) - 1;
-  const Result<int> first = parse_whole(text.substr(0, colon), 0, most);
-  const Result<int> last = colon == std::string::npos ? first : parse_whole(text.substr(colon + 1), 0, most);
+  constexpr int largest = (1 << 24) - 1;
+  const Result<int> first = parse_whole(text.substr(0, colon), 0, largest);
+  const Result<int> last = colon == std::string::npos ? first : parse_whole(text.substr(colon + 1), 0, largest);
   if (first && last && *first <= *last) return PassRange{*first, *last};
   return Failure{fmt::format("takes a range of passes A:B, from 0, with its last pass, as 0:3; found \"{}\"", text)};
 }

@@ -92,7 +92,7 @@ Status check_warm_up(const std::vector<lab::ComparedMethod>& compared_methods, c
     return c.integrator.coupled() && c.integrator.coupled()->warm_up() > 0;
   };
   if (!options.warm_frames || std::ranges::any_of(compared_methods, warms_up)) return Done{};
-  return Failure{"no method has warm-up frames; for example restir-di:chain=1,warm-up=12 has"};
+  return Failure{"no method has warm-up frames; for example restir-di:frames=1,warm-up=12 has"};
 }
 
 // Seconds of one repeat of one method; none if unknown.

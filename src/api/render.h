@@ -42,16 +42,16 @@ struct TargetRequest {
 };
 
 struct RenderOptions {
-  std::optional<int> samples;             // a pixel; default: what the file states
-  std::optional<double> seconds;          // instead of a number of samples; includes preparation and what follows
-  FilesToWrite files{};                   // `seconds` includes the time to encode them
-  std::optional<double> budget;           // seconds: whole frames of one chain, or passes of one sample, as many as fit
-  std::optional<TargetRequest> target;    // the samples that reach it; `samples` or `seconds` are then the most
-  bool adaptive = false;                  // more passes where they lower the error most
-  std::optional<std::uint32_t> seed;      // default: the file's
-  int threads = 0;                        // 0: all of the machine
-  std::optional<PixelBounds> crop;        // within the picture; default: the file's
-  std::optional<std::string> integrator;  // "path", "direct:strategy=ris"; default: the file's
+  std::optional<int> samples;           // a pixel; default: what the file states
+  std::optional<double> seconds;        // instead of a number of samples; includes preparation and what follows
+  FilesToWrite files{};                 // `seconds` includes the time to encode them
+  std::optional<double> budget;         // seconds: whole frames of one series, or passes of one sample, as many as fit
+  std::optional<TargetRequest> target;  // the samples that reach it; `samples` or `seconds` are then the most
+  bool adaptive = false;                // more passes where they lower the error most
+  std::optional<std::uint32_t> seed;    // default: the file's
+  int threads = 0;                      // 0: all of the machine
+  std::optional<PixelBounds> crop;      // within the picture; default: the file's
+  std::optional<std::string> integrator;                      // "path", "direct:strategy=ris"; default: the file's
   std::vector<std::pair<std::string, std::string>> settings;  // of the integrator: name, value as text
   std::optional<std::string> preset;                          // integrator and samples, by name; see preset_names()
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
@@ -101,7 +101,7 @@ struct Rendering {
   std::vector<std::string> notes;  // for the user: what was replaced by what
   PassPlan plan;
   std::optional<LayerPlan> layers;
-  std::size_t history_bytes = 0;                // that the chains of a sequence keep for the next picture
+  std::size_t history_bytes = 0;                // that the series of a sequence keep for the next picture
   std::optional<PixelBuffer> motion;            // to the picture before, as motion_vectors() has it
   ImageEstimate image;                          // the mean of the whole picture
   ErrorEstimate error;                          // of the pixels
@@ -134,7 +134,7 @@ struct SequencePicture {
 };
 
 // Pictures of one scene with the same options, one after the other: what an integrator prepares is prepared once, and
-// the state of its chains continues from each image to the next, where possible.
+// the state of its series continues from each image to the next, where possible.
 class PictureSequence {
  public:
   // Fails as render_scene() does. The scene must outlive it.

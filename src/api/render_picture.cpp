@@ -15,7 +15,7 @@ namespace montelux {
 
 namespace {
 
-// A frame of a chain does not begin if it is expected to end later than the time by this share of it.
+// A frame of a series does not begin if it is expected to end later than the time by this share of it.
 constexpr double max_lateness = 0.1;
 
 // The time of an image, from the making of its integrator to its files.

@@ -145,7 +145,7 @@ Status adjust_passes(const RenderOptions& options, const AnyIntegrator& integrat
     if (is_fixed(sampler) && !as_saved)
       return Failure{fmt::format("sampler {} takes all its samples in one pass, and has no others", name_of(sampler))};
     if (integrator.coupled() && *k > integrator.coupled()->frames())
-      return Failure{fmt::format("a pass is a chain of at most {} frames here; found {} samples a pass",
+      return Failure{fmt::format("a pass is a series of at most {} frames here; found {} samples a pass",
                                  integrator.coupled()->frames(), *k)};
     plan.samples_per_pass = *k, plan.passes = is_fixed(sampler) ? 1 : (samples + *k - 1) / *k;
   }

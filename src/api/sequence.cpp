@@ -9,7 +9,7 @@ namespace montelux {
 struct PictureSequence::State {
   const LoadedScene::Parts& parts;
   RenderPlan plan;
-  ChainMemories memories;
+  SeriesMemories memories;
 };
 
 PictureSequence::PictureSequence(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -6,12 +6,12 @@ namespace {
 
 using S = CameraDesc;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 
 Fields<S> shutter() {
   Fields<S> fields;
-  fields.number("shutteropen", &S::shutter_open, "time at which the shutter opens", -most, most);
-  fields.number("shutterclose", &S::shutter_close, "time at which the shutter closes", -most, most);
+  fields.number("shutteropen", &S::shutter_open, "time at which the shutter opens", -unlimited, unlimited);
+  fields.number("shutterclose", &S::shutter_close, "time at which the shutter closes", -unlimited, unlimited);
   return fields;
 }
 
@@ -19,18 +19,18 @@ Fields<S> lens() {
   Fields<S> fields;
   fields.optional("frameaspectratio", &S::aspect, "width over height; default that of the film", 1e-6, 1e6);
   fields.list<4>("screenwindow", &S::screen_window, "x0 x1 y0 y1 on the screen; default [-1, 1] on the shorter side",
-                 -most, most);
+                 -unlimited, unlimited);
   fields.choice<FovAxis>("fovaxis", &S::fov_axis,
                          "the axis of the field of view and of the default screen window: the shorter side, or always "
                          "the height (Montelux alone)",
                          {{"shorter", FovAxis::shorter}, {"y", FovAxis::y}});
-  fields.number("lensradius", &S::lens_radius, "radius of the aperture", 0, most);
-  fields.number("focaldistance", &S::focal_distance, "distance in focus", 1e-30, most);
+  fields.number("lensradius", &S::lens_radius, "radius of the aperture", 0, unlimited);
+  fields.number("focaldistance", &S::focal_distance, "distance in focus", 1e-30, unlimited);
   fields.integer("apertureblades", &S::aperture_blades,
                  "corners of the aperture, on the circle of lensradius; 0: a round one (Montelux alone)", 0, 64);
   fields.number("aperturerotation", &S::aperture_rotation,
-                "rotation of the first corner from the right of the image upward, in degrees (Montelux alone)", -most,
-                most);
+                "rotation of the first corner from the right of the image upward, in degrees (Montelux alone)",
+                -unlimited, unlimited);
   return fields;
 }
 
@@ -65,8 +65,8 @@ Model<S> realistic() {
   using enum ParameterType;
   Fields<S> fields;
   fields.other({"lensfile", {string}, "description of the lenses"});
-  fields.other({"aperturediameter", {number}, "in mm; default 1", 0, most});
-  fields.other({"focusdistance", {number}, "in m; default 10", 0, most});
+  fields.other({"aperturediameter", {number}, "in mm; default 1", 0, unlimited});
+  fields.other({"focusdistance", {number}, "in m; default 10", 0, unlimited});
   fields.other({"aperture", {string}, "shape of the aperture or an image of it; default circular"});
   return {"realistic", "a lens system traced lens by lens", initial(CameraKind::perspective), fields.append(shutter()),
           true,        name_of(CameraKind::perspective)};

@@ -36,7 +36,7 @@ class Branches {
 
  private:
   Sampler<F> sampler(std::uint32_t branch) const {
-    return Sampler<F>(set_, site_.x, site_.y, own_ ? U(branch) : site_.index);
+    return numbers_of<F>(set_, PathSite<F>{site_.x, site_.y, own_ ? U(branch) : site_.index});
   }
   U dimension(std::uint32_t what) const { return first_ + U(what); }
 

@@ -21,7 +21,7 @@ std::span<const EntitySpec> integrator_catalogue();
 // What only some integrators can do.
 enum class Ability : std::uint32_t {
   media = 1,   // cross participating media
-  layers = 2,  // PixelIntegrator::trace_layers, Chain::run_layers
+  layers = 2,  // PixelIntegrator::trace_layers, FrameSeries::run_layers
   paths = 4,   // PixelIntegrator::trace_path
   // What its pixels do rather than can: they share samples within a pass, so that their errors are correlated.
   shared_samples = 8,

@@ -46,24 +46,26 @@ class ClampedCoupledIntegrator final : public CoupledIntegrator {
   int frames() const override { return inner_->frames(); }
   int warm_up() const override { return inner_->warm_up(); }
   int stages() const override { return inner_->stages(); }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
-    return std::make_unique<ClampedChain>(inner_->begin(pass), inner_->stages() - 1, limit_);
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
+    return std::make_unique<ClampedSeries>(inner_->begin(pass), inner_->stages() - 1, limit_);
   }
 
  private:
-  class ClampedChain final : public Chain {
+  class ClampedSeries final : public FrameSeries {
    public:
-    ClampedChain(std::unique_ptr<Chain> inner, int last_stage, float limit)
+    ClampedSeries(std::unique_ptr<FrameSeries> inner, int last_stage, float limit)
         : inner_(std::move(inner)), last_stage_(last_stage), limit_(limit) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    std::optional<std::size_t> units(const SeriesStep& step) const override { return inner_->units(step); }
+    RayCounts run_unit(const SeriesStep& step, std::size_t unit) override { return inner_->run_unit(step, unit); }
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       const RayCounts counts = inner_->run(step, tile, out);
       if (step.stage == last_stage_) clamp_samples(out, limit_);
       return counts;
     }
-    std::unique_ptr<ChainMemory> remember(int frames) override { return inner_->remember(frames); }
+    std::unique_ptr<SeriesMemory> remember(int frames) override { return inner_->remember(frames); }
 
    private:
-    std::unique_ptr<Chain> inner_;
+    std::unique_ptr<FrameSeries> inner_;
     int last_stage_;
     float limit_;
   };

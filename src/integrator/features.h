@@ -25,9 +25,9 @@ void write_features(const FirstSight<F>& seen, const PathState<F>& path, Mask<F>
   const Vec3<F> normal = face_forward(seen.point.ns, -seen.d);
   const Spectrum<F> emission = seen.light * path.weight;
   for_each_lane(on, [&](int k) {
-    out[lane(path.slot, k)].features = {to_rgb(lane(emission, k)), to_rgb(lane(seen.albedo, k)), lane(normal, k),
-                                        lane(seen.point.p, k),     lane(seen.distance, k),       1.0f,
-                                        lane(seen.object, k)};
+    out[lane(path.output, k)].features = {to_rgb(lane(emission, k)), to_rgb(lane(seen.albedo, k)), lane(normal, k),
+                                          lane(seen.point.p, k),     lane(seen.distance, k),       1.0f,
+                                          lane(seen.object, k)};
   });
 }
 

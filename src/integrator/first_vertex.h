@@ -46,7 +46,7 @@ RayCounts write_first_vertices(const Scene& scene, const Rays& rays, const TileP
   for (;;) {
     const Mask<F> on = first_hits.refill(path, Mask<F>(false));
     if (!any(on)) return counts;
-    const Sampler<F> numbers(pass.points, path.x, path.y, path.index);
+    const auto numbers = numbers_of(pass.points, path);
     const NextVertex<F> at =
         first_vertex<F>(scene, rays, path, on, numbers.stream(first + U(path_dimension::own)), counts);
     write_features(at, numbers, path, out);

@@ -73,28 +73,28 @@ class PixelIntegrator {
 // ---- pixels that share samples
 // ---------------------------------------------------------------------------------------
 
-// State passed to the chain of the same number in the next picture of a sequence. Opaque outside the integrator that
+// State passed to the series of the same number in the next picture of a sequence. Opaque outside the integrator that
 // wrote it.
-class ChainMemory {
+class SeriesMemory {
  public:
-  virtual ~ChainMemory() = default;
+  virtual ~SeriesMemory() = default;
   virtual std::size_t bytes() const = 0;
 };
 
 // One pass of a coupled integrator: the pixels of the picture or of its crop. Every pixel takes one sample in each of
 // points.samples_per_pass frames. With a grid the pass is that of a smaller picture whose pixels are the cells: bounds
 // and tiles count cells, and a cell shows what the pixel shows that represents it.
-struct ChainPass {
+struct SeriesPass {
   PixelBounds bounds;
   PointSet points;
-  std::optional<Shutter> shutter{};             // instead of the scene's
-  std::shared_ptr<const ChainMemory> before{};  // of a chain of the picture before, on the same scene; null: none
-  std::optional<PixelGrid> grid{};              // as TilePass has it; only one with a stride above 1
-  const LayerPlan* layers = nullptr;            // must outlive the chain; null: there are none
+  std::optional<Shutter> shutter{};              // instead of the scene's
+  std::shared_ptr<const SeriesMemory> before{};  // of a series of the picture before, on the same scene; null: none
+  std::optional<PixelGrid> grid{};               // as TilePass has it; only one with a stride above 1
+  const LayerPlan* layers = nullptr;             // must outlive the series; null: there are none
 };
 
-// Where a chain is: frames follow one another, stages follow one another within a frame.
-struct ChainStep {
+// Where a series is: frames follow one another, stages follow one another within a frame.
+struct SeriesStep {
   int frame = 0, stage = 0;
 };
 
@@ -102,39 +102,54 @@ struct ChainStep {
 using MeanDifference = std::array<double, rgb_size>;
 
 // Frames that follow one another, each with what the ones before have learned, over all pixels. A step may begin when
-// the step before it is done over all tiles; the tiles of one step may be run by many threads at once.
-class Chain {
+// all units of the step before it are done; the units of one step may be run by many threads at once. They are the
+// tiles of the picture, or parts of what the step works on instead of pixels: light paths, cells of a hash grid,
+// elements, Markov chains.
+class FrameSeries {
  public:
-  virtual ~Chain() = default;
+  virtual ~FrameSeries() = default;
+  // How many units the step has, for run_unit(); none: its units are the tiles, for run().
+  virtual std::optional<std::size_t> units(const SeriesStep&) const { return std::nullopt; }
+  virtual RayCounts run_unit(const SeriesStep&, [[maybe_unused]] std::size_t unit) {
+    throw std::logic_error("the units of this step are tiles");
+  }
   // The last stage of a frame fills `out`, one sample for each pixel of the tile in row-major order: an unbiased
   // estimate. The other stages leave it alone. The tiles must be the same in all steps.
-  virtual RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
+  virtual RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) = 0;
   // The same of a pass with layers, whose last stage adds to sums as PixelIntegrator::trace_layers() does.
-  virtual RayCounts run_layers(const ChainStep&, const PixelBounds&, std::span<PixelSample>, std::span<ExactRgb>) {
+  virtual RayCounts run_layers(const SeriesStep&, const PixelBounds&, std::span<PixelSample>, std::span<ExactRgb>) {
     throw std::logic_error("this integrator has no layers");
   }
-  // Ends the chain after `frames` complete frames and returns its state. Null if the integrator passes none on.
-  virtual std::unique_ptr<ChainMemory> remember([[maybe_unused]] int frames) { return nullptr; }
+  // Ends the series after `frames` complete frames and returns its state. Null if the integrator passes none on.
+  virtual std::unique_ptr<SeriesMemory> remember([[maybe_unused]] int frames) { return nullptr; }
   // How much the picture of the frames so far differs in the mean from unbiased samples that were taken for comparison
   // at some of its samples. None where nothing was compared. Only while no step runs.
   virtual std::optional<MeanDifference> measured_bias() { return std::nullopt; }
+  // A whole step over a picture of one tile, by this thread.
+  RayCounts run_alone(const SeriesStep& step, const PixelBounds& picture, std::span<PixelSample> out) {
+    const std::optional<std::size_t> count = units(step);
+    if (!count) return run(step, picture, out);
+    RayCounts rays;
+    for (std::size_t unit = 0; unit < *count; ++unit) rays += run_unit(step, unit);
+    return rays;
+  }
   // How the Markov chains of the frames so far have mixed; none where there are none. Only while no step runs.
   virtual std::optional<MixingFigures> mixing() const { return std::nullopt; }
 };
 
-// Maps a pass to a chain of frames over the whole picture, whose mean over frames is the pass's picture: chains are
-// independent, frames of one chain are not. A pure function of the scene, the settings and the pass, whatever the tiles
-// and threads.
+// Maps a pass to a series of frames over the whole picture, whose mean over frames is the pass's picture: series are
+// independent, frames of one series are not. A pure function of the scene, the settings and the pass, whatever the
+// tiles and threads.
 class CoupledIntegrator {
  public:
   virtual ~CoupledIntegrator() = default;
-  // Frames that a chain should have; warm-up frames before those, which are not shown; stages of each frame.
+  // Frames that a series should have; warm-up frames before those, which are not shown; stages of each frame.
   virtual int frames() const = 0;
   virtual int warm_up() const = 0;
   virtual int stages() const = 0;
-  // Whether its chains have layers.
+  // Whether its series have layers.
   virtual bool has_layers() const { return false; }
-  virtual std::unique_ptr<Chain> begin(const ChainPass& pass) const = 0;
+  virtual std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const = 0;
 };
 
 // An integrator of either kind, which must outlive this.

@@ -99,13 +99,13 @@ class LayerTally {
   }
 
   // The sample of lane k is done. One that is not finite, or beyond what the sums can hold, is left out, and shows it.
-  void finish(int k, std::uint32_t slot, PixelSample& sample) {
+  void finish(int k, std::uint32_t output, PixelSample& sample) {
     const auto lane_sums = std::span(lanes_).subspan(std::size_t(k) * stride_, stride_);
     float& brightness = brightness_[std::size_t(k)];
     bool good = brightness < ExactSum::largest;
     for (float x : sample.radiance.c) good = good && x - x == 0.0f;
     if (good)
-      for (std::size_t i = 0; i < stride_; ++i) sums_[slot / samples_per_pixel_ * stride_ + i] += lane_sums[i];
+      for (std::size_t i = 0; i < stride_; ++i) sums_[output / samples_per_pixel_ * stride_ + i] += lane_sums[i];
     else
       sample.radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
     std::fill(lane_sums.begin(), lane_sums.end(), ExactRgb{});

@@ -130,9 +130,9 @@ class BodyReader {
  private:
   // A header must not state more than the bytes can contain.
   bool fits(const Element& element) {
-    std::size_t least = 0;
-    for (const Property& p : element.properties) least += Source::min_size(p.is_list ? p.count_type : p.type);
-    if (element.count == 0 || (least > 0 && element.count <= source_.left() / least)) return true;
+    std::size_t smallest = 0;
+    for (const Property& p : element.properties) smallest += Source::min_size(p.is_list ? p.count_type : p.type);
+    if (element.count == 0 || (smallest > 0 && element.count <= source_.left() / smallest)) return true;
     body_.problem = "it states " + std::to_string(element.count) + " of element '" + printable(element.name) +
                     "', more than its bytes can contain";
     return false;

@@ -29,4 +29,10 @@ struct EmissionDensities {
   Density<SolidAngle, F> direction;
 };
 
+// The numbers in [0, 1)^2 with which a ray is drawn.
+template <class F>
+struct EmissionNumbers {
+  Vec2<F> point, direction;
+};
+
 }  // namespace montelux

@@ -35,6 +35,8 @@ struct UniformInfinite {
     Vec3<F> wi = select(one_side, Frame<F>::from_normal(axis).to_world(sample_cosine_hemisphere(u)), sample_sphere(u));
     return {wi, gray(F(1.0f)), density(n, wi)};
   }
+  // The numbers that sample wi where no side matters.
+  static MONTELUX_INLINE Vec2<F> numbers(Vec3<F> wi) { return invert_sphere(wi); }
 };
 
 // A square equal-area image of the sphere (Clarberg 2008), rotated by the light's transform. Radiance is constant
@@ -50,12 +52,16 @@ struct ImageInfinite {
     Vec3<F> wi = normalize(transform.direction_to_world(sphere_from_square(s.p)));
     return {wi, texels(s.p, on), {s.density.value * inv_four_pi}};
   }
+  MONTELUX_INLINE Vec2<F> numbers(Vec3<F> wi) const { return distribution.invert(place_of(wi)); }
   MONTELUX_INLINE InfiniteSample<F> at(Vec3<F> wi, Mask<F> on) const {
-    Vec2<F> uv = inside_square(square_from_sphere(normalize(transform.direction_to_light(wi))));
+    Vec2<F> uv = place_of(wi);
     return {wi, texels(uv, on), {distribution.density(uv).value * inv_four_pi}};
   }
 
  private:
+  MONTELUX_INLINE Vec2<F> place_of(Vec3<F> wi) const {
+    return inside_square(square_from_sphere(normalize(transform.direction_to_light(wi))));
+  }
   MONTELUX_INLINE Spectrum<F> texels(Vec2<F> uv, Mask<F> on) const {
     Spectrum<F> r = gray(F(0.0f));
     for_each_lane(on, [&](int k) { set_lane(r, k, from_rgb(image.nearest(lane(uv, k)))); });

@@ -131,6 +131,10 @@ class LightSet {
   // the side of its surface that emits. p and n do not matter for other lights.
   template <class F>
   EmissionDensities<F> emission_densities(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec3<F> d, Mask<F> on) const;
+  // The inverse of emit(): the numbers with which it draws the ray along the unit d from p, where a light has a choice;
+  // elsewhere 0. n as above. Of a light without a place p is where the ray starts, on the disk.
+  template <class F>
+  EmissionNumbers<F> emission_numbers(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec3<F> d, Mask<F> on) const;
 
  private:
   template <class F>
@@ -166,6 +170,10 @@ class LightSet {
                                Mask<F> on) const;
   template <class F>
   Density<Area, F> beyond_position_density() const;
+  template <class F>
+  Vec2<F> point_emission_numbers(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const;
+  template <class F>
+  Vec2<F> beyond_place_numbers(Vec3<F> p, Vec3<F> d) const;
   // Calls f(light, lanes) once for each light among the lanes, and f(distribution, lanes) for each image.
   template <class F, class Function>
   void for_each_light(Uint<F> light, Mask<F> on, Function f) const;
@@ -202,5 +210,6 @@ static_assert(all_are_surface_emitters<float> && all_are_surface_emitters<Native
 
 #include "light/light_set_choice.h"
 #include "light/light_set_emission.h"
+#include "light/light_set_inversion.h"
 #include "light/light_set_points.h"
 #include "light/light_set_sampling.h"

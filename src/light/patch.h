@@ -42,6 +42,7 @@ struct ParallelogramEmitter {
   }
   MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return seen_from(from, site(u)); }
   MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const { return {point(u), n, parameters(u), site_density(p0)}; }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const { return place_in_plane(p, p0, e1, e2); }
   MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
   MONTELUX_INLINE Vec3<F> site_error() const { return rounding_of(abs(p0) + abs(e1) + abs(e2)); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
@@ -98,6 +99,7 @@ struct BilinearPatchEmitter {
     if (any(rows.has_image())) uv = bilinear(rows.vec2(uv00), rows.vec2(uv10), rows.vec2(uv01), rows.vec2(uv11), u);
     return {point(u), n, uv, {F(1.0f) / stretch}};
   }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const { return parameters(p); }
   MONTELUX_INLINE Density<Area, F> site_density(Vec3<F> p) const {
     return {F(1.0f) / length(scaled_normal(parameters(p)))};
   }

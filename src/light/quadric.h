@@ -34,6 +34,12 @@ struct DiskEmitter {
     Vec2<F> uv{u.y, (F(1.0f) - r) / max(F(1.0f) - hole, F(1e-6f))};
     return {p, n, uv, site_density(p)};
   }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const {
+    const Vec2<F> at = place_in_plane(p, rows.vec3(centre), rows.vec3(axis1), rows.vec3(axis2));
+    const F hole = rows.number(inner) * rows.number(inner);
+    return {(at.x * at.x + at.y * at.y - hole) / (F(1.0f) - hole),
+            azimuth_fraction(Vec3<F>{at.x, at.y, F(0.0f)}) / rows.number(turn)};
+  }
   MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
   MONTELUX_INLINE Vec3<F> site_error() const {
     return rounding_of(abs(rows.vec3(centre)) + abs(rows.vec3(axis1)) + abs(rows.vec3(axis2)));
@@ -80,6 +86,11 @@ struct QuadricEmitter {
     SinCos<F> angle = sin_cos_two_pi(u.y * rows.number(quadric_turn));
     Vec3<F> own{r * angle.cos, r * angle.sin, z};
     return at(rows.transform().point_to_world(own), own);
+  }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const {
+    const Vec3<F> own = rows.transform().point_to_light(p);
+    const F low = rows.number(quadric_low);
+    return {(own.z - low) / (rows.number(quadric_high) - low), azimuth_fraction(own) / rows.number(quadric_turn)};
   }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {
     const EmitterSite<F> s = at(p, rows.transform().point_to_light(p));
@@ -152,6 +163,7 @@ struct SphereEmitter {
   }
   MONTELUX_INLINE EmitterPoint<F> sample_by_area(Vec3<F> from, Vec2<F> u) const { return part.sample(from, u); }
   MONTELUX_INLINE EmitterSite<F> site(Vec2<F> u) const { return part.site(u); }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const { return part.site_numbers(p); }
   MONTELUX_INLINE Density<Area, F> site_density(Vec3<F> p) const { return part.site_density(p); }
   MONTELUX_INLINE Vec3<F> site_error() const { return part.site_error(); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {

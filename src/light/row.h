@@ -149,6 +149,7 @@ concept SurfaceEmitter = requires(const Emitter& e, Vec3<F> p, Vec2<F> u) {
   { e.sample(p, u) } -> std::same_as<EmitterPoint<F>>;
   { e.density(p, p, p) } -> std::same_as<Density<SolidAngle, F>>;
   { e.site(u) } -> std::same_as<EmitterSite<F>>;
+  { e.site_numbers(p) } -> std::same_as<Vec2<F>>;
   { e.site_density(p) } -> std::same_as<Density<Area, F>>;
   { e.site_error() } -> std::same_as<Vec3<F>>;
 };

@@ -32,6 +32,14 @@ MONTELUX_INLINE EmitterPoint<F> seen_from(Vec3<F> from, const EmitterSite<F>& s)
   return {s.p, s.n, s.uv, to_solid_angle(s.density, length_squared(s.p - from), dot(s.n, direction_to(from, s.p)))};
 }
 
+// The place of the point p of a plane, in fractions of two edges from a corner.
+template <class F>
+MONTELUX_INLINE Vec2<F> place_in_plane(Vec3<F> p, Vec3<F> corner, Vec3<F> e1, Vec3<F> e2) {
+  const Vec3<F> s = p - corner, axis = cross(e1, e2);
+  const F inverse = F(1.0f) / dot(axis, axis);
+  return {dot(cross(s, e2), axis) * inverse, dot(cross(e1, s), axis) * inverse};
+}
+
 // The intersection of the line from `from` along w with the plane of a corner and two edges, in fractions of the edges:
 // Cramer's rule.
 template <class F>

@@ -7,7 +7,7 @@ namespace {
 using enum ParameterType;
 using S = LightDesc;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 
 // The member of a light.
 template <class Light, class T>
@@ -18,18 +18,18 @@ Fields<S>::Place<T> of(T Light::*member) {
 template <class Light>
 void power(Fields<S>& fields) {
   fields.optional("power", of(&Light::power), "total power in watts to which the light is scaled; default: none", -1,
-                  most);
+                  unlimited);
 }
 
 template <class Light>
 void illuminance(Fields<S>& fields, const char* meaning) {
-  fields.optional("illuminance", of(&Light::illuminance), meaning, -1, most);
+  fields.optional("illuminance", of(&Light::illuminance), meaning, -1, unlimited);
 }
 
 // What all lights have.
 template <class Desc>
 void scale_and_group(Fields<Desc>& fields) {
-  fields.number("scale", &Desc::scale, "factor of the emission", 0, most);
+  fields.number("scale", &Desc::scale, "factor of the emission", 0, unlimited);
   fields.words("group", &Desc::group, "lights with the same name share a layer (--layers); default \"default\"");
 }
 
@@ -42,7 +42,7 @@ Model<S> model(std::string_view meaning, LightModel light, Fields<S> fields) {
 Model<S> point() {
   using L = PointLightDesc;
   Fields<S> fields;
-  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, unlimited);
   fields.vector("from", point3, of(&L::from), "position");
   power<L>(fields);
   return model("the same intensity in all directions", L{}, fields);
@@ -51,7 +51,7 @@ Model<S> point() {
 Model<S> spot() {
   using L = SpotLightDesc;
   Fields<S> fields;
-  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, unlimited);
   fields.vector("from", point3, of(&L::from), "position");
   fields.vector("to", point3, of(&L::to), "target point");
   fields.number("coneangle", of(&L::cone_angle), "half-angle in degrees", 1e-3, 180);
@@ -66,7 +66,7 @@ Model<S> spot() {
 Model<S> distant() {
   using L = DistantLightDesc;
   Fields<S> fields;
-  fields.spectrum("L", of(&L::irradiance), "radiance, which here is irradiance at normal incidence", 0, most);
+  fields.spectrum("L", of(&L::irradiance), "radiance, which here is irradiance at normal incidence", 0, unlimited);
   fields.vector("from", point3, of(&L::from), "the direction is from `from` to `to`");
   fields.vector("to", point3, of(&L::to), "see `from`");
   illuminance<L>(fields, "illuminance at normal incidence in lux to which the light is scaled; default: none");
@@ -76,7 +76,7 @@ Model<S> distant() {
 Model<S> goniometric() {
   using L = GoniometricLightDesc;
   Fields<S> fields;
-  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, most);
+  fields.spectrum("I", of(&L::intensity), "radiant intensity", 0, unlimited);
   fields.words("filename", of(&L::file), "square equal-area image; default constant");
   power<L>(fields);
   return model("an intensity by direction, given by an image", L{}, fields);
@@ -86,7 +86,7 @@ Model<S> projection() {
   using L = ProjectionLightDesc;
   Fields<S> fields;
   fields.words("filename", of(&L::file), "the slide");
-  fields.spectrum("I", of(&L::factor), "factor of the slide", 0, most);
+  fields.spectrum("I", of(&L::factor), "factor of the slide", 0, unlimited);
   fields.number("fov", of(&L::fov), "field of view of the shorter side in degrees", 1e-3, 179.99);
   power<L>(fields);
   return model("a slide projector along +z", L{}, fields);
@@ -95,7 +95,7 @@ Model<S> projection() {
 Model<S> infinite() {
   using L = InfiniteLightDesc;
   Fields<S> fields;
-  fields.spectrum("L", of(&L::radiance), "radiance", 0, most);
+  fields.spectrum("L", of(&L::radiance), "radiance", 0, unlimited);
   fields.words("filename", of(&L::file), "image of the sphere, instead of L");
   fields
       .choice<EnvironmentMapping>(
@@ -107,7 +107,8 @@ Model<S> infinite() {
            {"auto", EnvironmentMapping::automatic}})
       .only_if([](const S& light) { return !std::get<L>(light.model).file.empty(); });
   illuminance<L>(fields, "illuminance of the upward plane in lux to which the light is scaled; default: none");
-  ParameterSpec portal{"portal", {point3}, "four corners through which the light enters", -most, most, {}, true};
+  ParameterSpec portal{"portal", {point3}, "four corners through which the light enters", -unlimited, unlimited,
+                       {},       true};
   portal.later = true;
   fields.other(portal);
   return model("an environment", L{}, fields);
@@ -117,15 +118,18 @@ Model<AreaLightDesc> diffuse() {
   using L = AreaLightDesc;
   const auto has_image = [](const L& light) { return !light.file.empty(); };
   Fields<L> fields;
-  fields.spectrum("L", &L::radiance, "radiance", 0, most).only_if([](const L& light) { return light.file.empty(); });
+  fields.spectrum("L", &L::radiance, "radiance", 0, unlimited).only_if([](const L& light) {
+    return light.file.empty();
+  });
   fields.words("filename", &L::file, "image over (u, v), instead of L");
   fields
       .flag("localpower", &L::local_power,
             "triangles are chosen by the image's texels on them instead of by its mean (Montelux alone)")
       .only_if(has_image);
-  fields.spectrum("tint", &L::tint, "factor of the image (Montelux alone)", 0, most).only_if(has_image);
+  fields.spectrum("tint", &L::tint, "factor of the image (Montelux alone)", 0, unlimited).only_if(has_image);
   fields.flag("twosided", &L::two_sided, "emits on both sides");
-  fields.optional("power", &L::power, "total power in watts to which the light is scaled; default: none", -1, most);
+  fields.optional("power", &L::power, "total power in watts to which the light is scaled; default: none", -1,
+                  unlimited);
   scale_and_group(fields);
   return {"diffuse", "the same radiance in all directions", {}, std::move(fields)};
 }

@@ -47,6 +47,10 @@ struct TriangleEmitter {
     Vec2<F> b = sample_triangle(u);
     return {point(b), n, parameters(b), site_density(p0)};
   }
+  MONTELUX_INLINE Vec2<F> site_numbers(Vec3<F> p) const {
+    const Vec2<F> b = place_in_plane(p, p0, e1, e2);
+    return invert_triangle(Vec2<F>{clamp(b.x, 0.0f, 1.0f), clamp(b.y, 0.0f, F(1.0f) - clamp(b.x, 0.0f, 1.0f))});
+  }
   MONTELUX_INLINE Density<Area, F> site_density(Vec3<F>) const { return {F(1.0f) / rows.number(area)}; }
   MONTELUX_INLINE Vec3<F> site_error() const { return rounding_of(abs(p0) + abs(e1) + abs(e2)); }
   MONTELUX_INLINE Density<SolidAngle, F> density(Vec3<F> from, Vec3<F> p, Vec3<F> wi) const {

@@ -149,9 +149,9 @@ bool Motion::moves() const {
 }
 
 double Motion::angle() const {
-  double most = 2 * half_angle_;
-  for (const Motion& p : parts_) most = std::max(most, p.angle());
-  return most;
+  double largest = 2 * half_angle_;
+  for (const Motion& p : parts_) largest = std::max(largest, p.angle());
+  return largest;
 }
 
 Transform Motion::at(double t) const {

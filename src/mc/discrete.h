@@ -17,10 +17,10 @@ struct DiscreteSample {
 // The last i in [0, n) with ascending[base + i] <= x, in every lane; ascending[base] <= x. n may differ between lanes
 // and is at most `most`.
 template <class F>
-MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, Uint<F> n, std::uint32_t most, F x) {
+MONTELUX_INLINE Uint<F> find_interval(const float* ascending, Uint<F> base, Uint<F> n, std::uint32_t largest, F x) {
   using U = Uint<F>;
   U low = 0u;
-  for (std::uint32_t step = std::bit_floor(most); step != 0; step /= 2) {
+  for (std::uint32_t step = std::bit_floor(largest); step != 0; step /= 2) {
     U middle = low + U(step);
     U safe = min(middle, n - U(1u));
     Mask<F> go = (middle < n) & (gather(ascending, U(base + safe)) <= x);

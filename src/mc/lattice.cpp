@@ -73,11 +73,11 @@ std::vector<std::uint32_t> construct_lattice(const LatticeSearch& search) {
     for (const auto& e : errors)
       for (std::size_t m = 0; m < e.size(); ++m) best[m] = std::min(best[m], e[m]);
     std::size_t chosen = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       double worst = 0;
       for (std::size_t m = 0; m < best.size(); ++m) worst = std::max(worst, errors[c][m] / best[m]);
-      if (worst < least) least = worst, chosen = c;
+      if (worst < smallest) smallest = worst, chosen = c;
     }
     generator.push_back(candidates[chosen]);
     for (std::uint32_t i = 0; i < products.size(); ++i)

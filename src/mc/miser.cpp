@@ -16,12 +16,12 @@ struct Box {
 // Evaluates f at uniform points of a box in batches; calls use(points, values) on each, with points within the box.
 template <class Use>
 std::uint64_t sample_box(const CubeFunction& f, const Box& box, std::uint64_t samples, CubeKey key, Use use) {
-  constexpr std::size_t most = 256;
+  constexpr std::size_t largest = 256;
   const std::size_t dimension = box.low.size();
-  std::vector<double> points(dimension * most), values(most);
+  std::vector<double> points(dimension * largest), values(largest);
   std::uint64_t non_finite = 0;
   for (std::uint64_t done = 0; done < samples;) {
-    const std::size_t n = std::size_t(std::min<std::uint64_t>(most, samples - done));
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, samples - done));
     fill_independent(key, {dimension, done, n, points.data()});
     for (std::size_t d = 0; d < dimension; ++d)
       for (std::size_t i = 0; i < n; ++i) {
@@ -46,13 +46,13 @@ struct Cut {
 
 Cut choose_cut(const std::vector<Moments>& lower, const std::vector<Moments>& upper, double exponent) {
   Cut best;
-  double least = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();
   const double power = 1 / (1 + exponent);
   for (std::size_t d = 0; d < lower.size(); ++d) {
     if (lower[d].count < 2 || upper[d].count < 2) continue;
     const double l = std::pow(lower[d].variance(), power), u = std::pow(upper[d].variance(), power);
-    if (l + u < least) {
-      least = l + u;
+    if (l + u < smallest) {
+      smallest = l + u;
       best = {d, l + u > 0 ? std::clamp(l / (l + u), 0.05, 0.95) : 0.5};
     }
   }

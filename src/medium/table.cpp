@@ -8,7 +8,7 @@ namespace {
 
 using S = HomogeneousMediumDesc;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 
 Model<S> homogeneous() {
   NamedValues<std::string> presets;
@@ -16,12 +16,12 @@ Model<S> homogeneous() {
   Fields<S> fields;
   fields.choice<std::string>("preset", &S::preset, "measured coefficients, per millimetre", presets)
       .only_if([](const S& medium) { return !medium.absorption || !medium.scattering; });
-  fields.optional("sigma_a", &S::absorption, "absorption per unit of length; default the preset's", 0, most);
-  fields.optional("sigma_s", &S::scattering, "scattering per unit of length; default the preset's", 0, most);
-  fields.number("scale", &S::scale, "factor of both", 0, most);
+  fields.optional("sigma_a", &S::absorption, "absorption per unit of length; default the preset's", 0, unlimited);
+  fields.optional("sigma_s", &S::scattering, "scattering per unit of length; default the preset's", 0, unlimited);
+  fields.number("scale", &S::scale, "factor of both", 0, unlimited);
   fields.number("g", &S::mean_cosine, "mean cosine of the phase function of Henyey and Greenstein", -0.999, 0.999);
-  fields.spectrum("Le", &S::emission, "emitted radiance, times sigma_a per unit of length", 0, most);
-  fields.number("Lescale", &S::emission_scale, "factor of Le", 0, most).only_if([](const S& medium) {
+  fields.spectrum("Le", &S::emission, "emitted radiance, times sigma_a per unit of length", 0, unlimited);
+  fields.number("Lescale", &S::emission_scale, "factor of Le", 0, unlimited).only_if([](const S& medium) {
     return !(medium.emission == gray_value(0));
   });
   return {name_of(S{}), "the same everywhere", {}, std::move(fields)};

@@ -259,6 +259,11 @@ class Fields {
                      write});
     return *this;
   }
+  // The last row had this name before.
+  Fields& formerly(std::string_view name) {
+    rows_.back().spec.formerly = name;
+    return *this;
+  }
   // A row whose meaning states the default, since that is no value of its own, and that is read elsewhere.
   Fields& other(ParameterSpec row) {
     rows_.push_back({std::move(row), {}, [](const ParameterList&, S&) -> Status { return Done{}; }, {}});

@@ -19,6 +19,7 @@ struct ParameterSpec {
   std::vector<std::string_view> choices{};  // valid strings; empty: any
   bool array = false;                       // takes more than one value
   bool later = false;                       // known but not applied yet: a reader warns about it
+  std::string_view formerly{};              // an earlier name, which settings still accept; empty: none
 };
 
 // One name of a family. `later`: Montelux knows the name but does not support it yet.

@@ -21,7 +21,7 @@ struct BegunFilm {
 };
 
 // A film at one moment, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
-// passes of tiles, or whole chains.
+// passes of tiles, or whole series.
 struct FilmSnapshot {
   std::string tiles;
   int tile_side = 0;

@@ -30,7 +30,7 @@ PassPlan plan_passes(int samples, PointSetKind kind) {
 
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind) {
   if (!integrator.coupled()) return plan_passes(samples, kind);
-  const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / min_chains));
+  const int frames = std::min(integrator.coupled()->frames(), std::max(1, samples / min_series));
   return {frames, (std::max(samples, 1) + frames - 1) / frames};
 }
 

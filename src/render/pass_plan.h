@@ -29,10 +29,10 @@ inline constexpr int max_fixed_samples = 1 << 16;
 // The plan for at least `samples` samples per pixel. Passes are replicates: more of them make the error bar more
 // certain, fewer make each point set longer and the image better; docs/error-bars.md has the measurements.
 PassPlan plan_passes(int samples, PointSetKind kind);
-// The same for any integrator: a pass of a coupled one is a chain of at most its number of frames.
+// The same for any integrator: a pass of a coupled one is a series of at most its number of frames.
 PassPlan plan_passes(const AnyIntegrator& integrator, int samples, PointSetKind kind);
 
-// Fewer chains have no usable error bar.
-inline constexpr int min_chains = 4;
+// Fewer series have no usable error bar.
+inline constexpr int min_series = 4;
 
 }  // namespace montelux

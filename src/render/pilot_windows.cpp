@@ -48,11 +48,11 @@ RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& ima
   } else {
     const CoupledIntegrator& coupled = *integrator.coupled();
     const int frames = coupled.warm_up() + samples;
-    const std::unique_ptr<Chain> chain = coupled.begin({window, image.points(pass, frames), image.shutter});
+    const std::unique_ptr<FrameSeries> series = coupled.begin({window, image.points(pass, frames), image.shutter});
     std::vector<PixelSample> out(sums.size());
     for (int frame = 0; frame < frames; ++frame) {
       out.assign(out.size(), {});
-      for (int stage = 0; stage < coupled.stages(); ++stage) rays += chain->run({frame, stage}, window, out);
+      for (int stage = 0; stage < coupled.stages(); ++stage) rays += series->run_alone({frame, stage}, window, out);
       if (frame < coupled.warm_up()) continue;
       for (std::size_t i = 0; i < out.size(); ++i) sums[i].add(out[i]);
     }

@@ -12,13 +12,13 @@ namespace montelux {
 struct RenderState {
   double seconds = 0;        // since the render began
   double warm_up = 0;        // of these, the seconds of frames that are not shown
-  double next_frame = 0;     // between two frames of a chain: the expected seconds of the next one; otherwise 0
+  double next_frame = 0;     // between two frames of a series: the expected seconds of the next one; otherwise 0
   bool is_covered = false;   // every pixel has a sample, or one that is being taken
   bool is_complete = false;  // every pixel has a sample
   ErrorEstimate error{};     // of the film, by the last estimate; before two passes of every pixel it has no pixels
 };
 
-// Decides when a render stops. The render queries it after each unit of work (chains: after each frame) and several
+// Decides when a render stops. The render queries it after each unit of work (series: after each frame) and several
 // times a second, from several threads at once. A rule has no state: it depends only on the state of the render.
 class StoppingRule {
  public:
@@ -30,7 +30,7 @@ class StoppingRule {
   virtual double time_for_estimate(const RenderState& state) const;
 };
 
-// After so many seconds, as soon as every pixel has a sample. For chains also before a frame that is expected to end
+// After so many seconds, as soon as every pixel has a sample. For series also before a frame that is expected to end
 // `lateness` seconds after that.
 class TimeLimit final : public StoppingRule {
  public:
@@ -51,7 +51,7 @@ class TimeLimit final : public StoppingRule {
 };
 
 // Before so many seconds are over: a frame begins only if it is expected to end in time. There is always one frame. For
-// plans whose passes are synchronous, and for chains.
+// plans whose passes are synchronous, and for series.
 class TimeBudget final : public StoppingRule {
  public:
   // `ending`: the expected seconds from the last frame to the end of the render.

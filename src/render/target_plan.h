@@ -24,7 +24,7 @@ class Looks {
 
 // Passes over all tiles until a look shows the requested error. Depends only on the film, and so gives the same bits
 // for any number of threads; a film that is continued continues as if it had never stopped. Coupled integrators, whose
-// passes are chains, end by it as well.
+// passes are series, end by it as well.
 class TargetPlan final : public WorkPlan {
  public:
   explicit TargetPlan(const ErrorTarget& target) : target_(target), looks_(target) {}

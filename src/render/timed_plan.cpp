@@ -44,8 +44,8 @@ int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
   return int(std::clamp(samples, 64.0, double(settings.plan.max_unit_samples)));
 }
 
-// The time of a chain's first sample, as a function of the number of cells: a part of it may not depend on the pixels.
-struct ChainSeconds {
+// The time of a series's first sample, as a function of the number of cells: a part of it may not depend on the pixels.
+struct SeriesSeconds {
   double fixed = 0, cell = 0;
   double warm_up_share = 0;  // of the time, as far as it counts
   double of(double cells) const { return fixed + cell * cells; }
@@ -63,58 +63,59 @@ class AfterFrames final : public StoppingRule {
   double seconds_;
 };
 
-// Measures the first sample of a chain on two sets of cells, and on larger ones while that takes a small part of the
+// Measures the first sample of a series on two sets of cells, and on larger ones while that takes a small part of the
 // time.
-class ChainMeasurement {
+class SeriesMeasurement {
  public:
-  ChainMeasurement(const CoupledIntegrator& coupled, RenderSettings settings, const TimeLimit& limit,
-                   RenderObserver& observer)
+  SeriesMeasurement(const CoupledIntegrator& coupled, RenderSettings settings, const TimeLimit& limit,
+                    RenderObserver& observer)
       : coupled_(coupled), settings_(std::move(settings)), limit_(limit), observer_(observer) {
     // The frames of a long warm-up are like those after it: if they count, one of them is enough.
     const bool by_one = coupled.warm_up() > 1 && limit.warm_up_counts();
-    settings_.stop = std::make_shared<AfterFrames>(by_one ? 0 : most * limit.seconds());
+    settings_.stop = std::make_shared<AfterFrames>(by_one ? 0 : max_share * limit.seconds());
     if (limit.warm_up_counts()) warm_up_share_ = double(coupled.warm_up()) / (1 + coupled.warm_up());
   }
 
-  ChainSeconds run() {
+  SeriesSeconds run() {
     constexpr int first_cells = 32;
     const PixelBounds& bounds = settings_.image.bounds;
     int& stride = settings_.plan.stride;
     while (PixelGrid{bounds, 2 * stride}.cells().area() >= first_cells) stride *= 2;
     double cells = PixelGrid{bounds, stride}.cells().area(), seconds = shortest();
-    ChainSeconds chain{0, seconds / cells};
-    double cells_of_least = cells, least = seconds;
+    SeriesSeconds series{0, seconds / cells};
+    double cells_of_lowest = cells, lowest = seconds;
     while (stride > 1 && !observer_.stop_requested()) {
       stride /= 2;
       cells = PixelGrid{bounds, stride}.cells().area(), seconds = shortest();
       // What does not depend on the pixels is within the shortest measurement. Its difference from this one is as
       // inaccurate as they are, and too little time for a cell would be worse than too much.
-      const double difference = std::max(seconds - least, 0.0) + accuracy * seconds;
-      chain.cell = std::min(difference / (cells - cells_of_least), seconds / cells);
+      const double difference = std::max(seconds - lowest, 0.0) + accuracy * seconds;
+      series.cell = std::min(difference / (cells - cells_of_lowest), seconds / cells);
       // Something else has slowed down the measurement before, so it is not used.
-      if (seconds < (1 - accuracy) * least) chain.cell = seconds / cells;
-      chain.fixed = seconds - chain.cell * cells;
-      if (seconds < least) cells_of_least = cells, least = seconds;
-      if (seconds > enough * limit_.seconds() || used_ + chain.of(4 * cells) > most * limit_.seconds()) break;
+      if (seconds < (1 - accuracy) * lowest) series.cell = seconds / cells;
+      series.fixed = seconds - series.cell * cells;
+      if (seconds < lowest) cells_of_lowest = cells, lowest = seconds;
+      if (seconds > enough * limit_.seconds() || used_ + series.of(4 * cells) > max_share * limit_.seconds()) break;
     }
-    chain.warm_up_share = warm_up_share_;
-    return chain;
+    series.warm_up_share = warm_up_share_;
+    return series;
   }
 
  private:
   // Shares of the time: for all measurements; for one that is long enough. The accuracy of one, relative.
-  static constexpr double most = 0.2, enough = 0.03, accuracy = 0.05;
+  static constexpr double max_share = 0.2, enough = 0.03, accuracy = 0.05;
 
-  // The shortest time of a few chains if each is short, since other programs may interrupt one.
+  // The shortest time of a few series if each is short, since other programs may interrupt one.
   double shortest() {
     constexpr int tries = 3;
-    double least = measured();
-    for (int i = 1; i < tries && (i + 1) * least < 0.5 * most * limit_.seconds() && used_ < most * limit_.seconds();
+    double lowest = measured();
+    for (int i = 1;
+         i < tries && (i + 1) * lowest < 0.5 * max_share * limit_.seconds() && used_ < max_share * limit_.seconds();
          ++i)
-      least = std::min(least, measured());
-    return least;
+      lowest = std::min(lowest, measured());
+    return lowest;
   }
-  // Of a chain that takes too much of the time, only the first frames are measured.
+  // Of a series that takes too much of the time, only the first frames are measured.
   double measured() {
     const RenderResult result = render(coupled_, settings_, observer_);
     used_ += result.seconds;
@@ -132,17 +133,17 @@ class ChainMeasurement {
   const TimeLimit& limit_;
   RenderObserver& observer_;
   double used_ = 0;
-  double warm_up_share_ = 0;  // of the last chain that was measured
+  double warm_up_share_ = 0;  // of the last series that was measured
 };
 
-// The stride of a picture within the time: the smallest for which whole chains of one sample fill it to within a tenth,
+// The stride of a picture within the time: the smallest for which whole series of one sample fill it to within a tenth,
 // of the first few that leave room for one at all.
-int stride_within(const ChainSeconds& chain, const PixelBounds& bounds, double seconds) {
+int stride_within(const SeriesSeconds& series, const PixelBounds& bounds, double seconds) {
   constexpr double margin = 1.05, filled = 0.9;
   constexpr int largest = 64, tried = 4;
   int first = 0;
   for (int stride = 1; stride <= largest && (first == 0 || stride < first + tried); ++stride) {
-    const double one = margin * chain.of(PixelGrid{bounds, stride}.cells().area());
+    const double one = margin * series.of(PixelGrid{bounds, stride}.cells().area());
     if (one > seconds) continue;
     if (first == 0) first = stride;
     // A whole picture is worth more than the rest of the time.
@@ -151,13 +152,13 @@ int stride_within(const ChainSeconds& chain, const PixelBounds& bounds, double s
   if (first > 0) return first;
   // Too little time for any: what does not depend on the pixels takes it, and they should take little more.
   int stride = 1;
-  while (stride < largest && chain.cell * PixelGrid{bounds, stride}.cells().area() > 0.1 * chain.fixed) ++stride;
+  while (stride < largest && series.cell * PixelGrid{bounds, stride}.cells().area() > 0.1 * series.fixed) ++stride;
   return stride;
 }
 
-// For a coupled integrator of whose chains of one frame so many fit into the time.
-PassPlan plan_chains_for_time(const CoupledIntegrator& coupled, double warm_up_share, double affordable) {
-  const double frames = (affordable / min_chains - warm_up_share) / std::max(1 - warm_up_share, 1e-3);
+// For a coupled integrator of whose series of one frame so many fit into the time.
+PassPlan plan_series_for_time(const CoupledIntegrator& coupled, double warm_up_share, double affordable) {
+  const double frames = (affordable / min_series - warm_up_share) / std::max(1 - warm_up_share, 1e-3);
   return {int(std::clamp(frames, 1.0, double(coupled.frames()))), endless_passes};
 }
 
@@ -169,22 +170,22 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
   settings.plan = {1, 1, measured_pass};
   settings.stop = nullptr, settings.begun = nullptr, settings.keeping = {}, settings.sequence = {};
   StopAlone silent(observer);
-  const double most = is_fixed(settings.image.sampler) ? max_fixed_samples : 1e6;
+  const double max_share = is_fixed(settings.image.sampler) ? max_fixed_samples : 1e6;
   TimedPlan timed;
   const Stopwatch since_start(settings.clock);
   if (const CoupledIntegrator* coupled = integrator.coupled()) {
     const PixelBounds& bounds = settings.image.bounds;
-    const ChainSeconds chain = ChainMeasurement(*coupled, settings, limit, silent).run();
-    timed.sample_seconds = std::max(chain.of(bounds.area()), 1e-6);
-    const double affordable = std::min(limit.seconds() / timed.sample_seconds, most);
-    timed.plan = plan_chains_for_time(*coupled, chain.warm_up_share, affordable);
-    timed.plan.stride = stride_within(chain, bounds, limit.seconds() - since_start.seconds());
-    timed.first_seconds = chain.of(PixelGrid{bounds, timed.plan.stride}.cells().area());
+    const SeriesSeconds series = SeriesMeasurement(*coupled, settings, limit, silent).run();
+    timed.sample_seconds = std::max(series.of(bounds.area()), 1e-6);
+    const double affordable = std::min(limit.seconds() / timed.sample_seconds, max_share);
+    timed.plan = plan_series_for_time(*coupled, series.warm_up_share, affordable);
+    timed.plan.stride = stride_within(series, bounds, limit.seconds() - since_start.seconds());
+    timed.first_seconds = series.of(PixelGrid{bounds, timed.plan.stride}.cells().area());
     if (timed.plan.stride > 1) timed.plan.samples_per_pass = 1;
     return timed;
   }
   timed.sample_seconds = std::max(measure_sample(*integrator.pixel(), settings, limit.seconds(), silent), 1e-6);
-  const double affordable = std::min((limit.seconds() - since_start.seconds()) / timed.sample_seconds, most);
+  const double affordable = std::min((limit.seconds() - since_start.seconds()) / timed.sample_seconds, max_share);
   // The measurement is accurate to some percent, and the first pass is always completed.
   constexpr double margin = 1.05;
   int stride = 1;
@@ -198,8 +199,8 @@ TimedPlan plan_for_time(const AnyIntegrator& integrator, RenderSettings settings
 }
 
 PassPlan plan_for_budget(const AnyIntegrator& integrator) {
-  constexpr int longest_chain = 1024;
-  if (integrator.coupled()) return {longest_chain, 1};
+  constexpr int longest_series = 1024;
+  if (integrator.coupled()) return {longest_series, 1};
   PassPlan plan{1, endless_passes};
   plan.synchronous = true;
   return plan;

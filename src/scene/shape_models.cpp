@@ -7,7 +7,7 @@ namespace {
 using enum ParameterType;
 using S = ShapeDesc;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 constexpr double positive = 1e-30;
 
 // The member of a form.
@@ -17,8 +17,8 @@ Fields<S>::Place<T> of(T Form::*member) {
 }
 
 // A parameter that the readers take or that has no effect yet.
-ParameterSpec array(std::string_view name, ParameterType type, const char* meaning, double low = -most) {
-  return {name, {type}, meaning, low, most, {}, true};
+ParameterSpec array(std::string_view name, ParameterType type, const char* meaning, double low = -unlimited) {
+  return {name, {type}, meaning, low, unlimited, {}, true};
 }
 ParameterSpec later(ParameterSpec spec) {
   spec.later = true;
@@ -53,7 +53,7 @@ Model<S> ply() {
                            "files with the same vertices at later times, evenly spaced to the end of TransformTimes "
                            "(Montelux alone)");
   fields.other(later({"displacement", {number, texture}, "height of displacement; default none"}));
-  fields.other(later({"edgelength", {number}, "edge length of displaced triangles; default 1", positive, most}));
+  fields.other(later({"edgelength", {number}, "edge length of displaced triangles; default 1", positive, unlimited}));
   return model("plymesh", "triangles and quadrilaterals of a PLY file", MeshForm{}, fields);
 }
 
@@ -84,25 +84,25 @@ Fields<S>& sweep(Fields<S>& fields) {
 
 Model<S> sphere() {
   Fields<S> fields;
-  fields.number("radius", of(&SphereForm::radius), "of the whole sphere", positive, most);
-  fields.optional("zmin", of(&SphereForm::z_min), "default -radius", -most, most);
-  fields.optional("zmax", of(&SphereForm::z_max), "default radius", -most, most);
+  fields.number("radius", of(&SphereForm::radius), "of the whole sphere", positive, unlimited);
+  fields.optional("zmin", of(&SphereForm::z_min), "default -radius", -unlimited, unlimited);
+  fields.optional("zmax", of(&SphereForm::z_max), "default radius", -unlimited, unlimited);
   return model("sphere", "a sphere around the origin, or a part of it", SphereForm{}, sweep<SphereForm>(fields));
 }
 
 Model<S> disk() {
   Fields<S> fields;
-  fields.number("radius", of(&DiskForm::radius), "of its rim", positive, most);
-  fields.number("innerradius", of(&DiskForm::inner_radius), "of its hole", 0, most);
-  fields.number("height", of(&DiskForm::height), "its z", -most, most);
+  fields.number("radius", of(&DiskForm::radius), "of its rim", positive, unlimited);
+  fields.number("innerradius", of(&DiskForm::inner_radius), "of its hole", 0, unlimited);
+  fields.number("height", of(&DiskForm::height), "its z", -unlimited, unlimited);
   return model("disk", "a disk or ring orthogonal to the z axis", DiskForm{}, sweep<DiskForm>(fields));
 }
 
 Model<S> cylinder() {
   Fields<S> fields;
-  fields.number("radius", of(&CylinderForm::radius), "of the cylinder", positive, most);
-  fields.number("zmin", of(&CylinderForm::z_min), "its lower end", -most, most);
-  fields.number("zmax", of(&CylinderForm::z_max), "its upper end", -most, most);
+  fields.number("radius", of(&CylinderForm::radius), "of the cylinder", positive, unlimited);
+  fields.number("zmin", of(&CylinderForm::z_min), "its lower end", -unlimited, unlimited);
+  fields.number("zmax", of(&CylinderForm::z_max), "its upper end", -unlimited, unlimited);
   return model("cylinder", "an open cylinder around the z axis", CylinderForm{}, sweep<CylinderForm>(fields));
 }
 
@@ -116,12 +116,12 @@ Model<S> curve() {
   fields.choice<CurveType>(
       "type", of(&CurveDesc::type), "what is swept along the curve",
       {{"flat", CurveType::flat}, {"ribbon", CurveType::ribbon}, {"cylinder", CurveType::cylinder}});
-  fields.common({"width", {number}, "at both ends; default 1", 0, most}, [](float width, S& shape) {
+  fields.common({"width", {number}, "at both ends; default 1", 0, unlimited}, [](float width, S& shape) {
     CurveDesc& c = std::get<CurveDesc>(shape.form);
     c.width0 = c.width1 = width;
   });
-  fields.number("width0", of(&CurveDesc::width0), "at the start, instead of width", 0, most);
-  fields.number("width1", of(&CurveDesc::width1), "at the end, instead of width", 0, most);
+  fields.number("width0", of(&CurveDesc::width0), "at the start, instead of width", 0, unlimited);
+  fields.number("width1", of(&CurveDesc::width1), "at the end, instead of width", 0, unlimited);
   fields.other(later({"splitdepth", {integer}, "levels of splitting for the kernel; default 3", 0, 20}));
   return model("curve", "Bezier or B-spline curves of varying width", CurveDesc{}, fields);
 }

@@ -7,7 +7,7 @@ namespace {
 using enum ParameterType;
 using S = TextureDesc;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 
 // The member of a texture, or of a part of it.
 template <class Texture, class T>
@@ -52,13 +52,14 @@ void mapping(Fields<S>& fields) {
                             {"cylindrical", MappingKind::cylindrical},
                             {"planar", MappingKind::planar}})
       .only_if(is_planar_map);
-  fields.number("uscale", at(&M::u_scale), "factor of u", -most, most).only_if(is_scaled);
-  fields.number("vscale", at(&M::v_scale), "factor of v", -most, most).only_if(is_scaled);
-  fields.number("udelta", at(&M::u_delta), "added to u", -most, most).only_if(is_shifted);
-  fields.number("vdelta", at(&M::v_delta), "added to v", -most, most).only_if(is_shifted);
+  fields.number("uscale", at(&M::u_scale), "factor of u", -unlimited, unlimited).only_if(is_scaled);
+  fields.number("vscale", at(&M::v_scale), "factor of v", -unlimited, unlimited).only_if(is_scaled);
+  fields.number("udelta", at(&M::u_delta), "added to u", -unlimited, unlimited).only_if(is_shifted);
+  fields.number("vdelta", at(&M::v_delta), "added to v", -unlimited, unlimited).only_if(is_shifted);
   fields
       .list<6>("uvmatrix", at(&M::uv_matrix),
-               "a b c d e f: s = a u + b v + c, t = d u + e v + f, instead of the four (Montelux alone)", -most, most)
+               "a b c d e f: s = a u + b v + c, t = d u + e v + f, instead of the four (Montelux alone)", -unlimited,
+               unlimited)
       .only_if(is_of(MappingKind::uv));
   fields.vector("v1", vector3, at(&M::s_axis), "s axis of the planar mapping").only_if(is_of(MappingKind::planar));
   fields.vector("v2", vector3, at(&M::t_axis), "t axis of the planar mapping").only_if(is_of(MappingKind::planar));
@@ -68,32 +69,32 @@ void mapping(Fields<S>& fields) {
 
 Model<S> constant() {
   Fields<S> fields;
-  fields.input<ValueInput>("value", of(&ConstantTextureDesc::value), "", -most, most);
+  fields.input<ValueInput>("value", of(&ConstantTextureDesc::value), "", -unlimited, unlimited);
   return model("one value everywhere", ConstantTextureDesc{}, fields);
 }
 
 Model<S> scale() {
   using T = ScaleTextureDesc;
   Fields<S> fields;
-  fields.input<ValueInput>("tex", of(&T::texture), "", -most, most);
-  fields.input<NumberInput>("scale", of(&T::factor), "factor", -most, most);
+  fields.input<ValueInput>("tex", of(&T::texture), "", -unlimited, unlimited);
+  fields.input<NumberInput>("scale", of(&T::factor), "factor", -unlimited, unlimited);
   return model("the product of two textures", T{}, fields);
 }
 
 Model<S> mix() {
   using T = MixTextureDesc;
   Fields<S> fields;
-  fields.input<ValueInput>("tex1", of(&T::first), "", -most, most);
-  fields.input<ValueInput>("tex2", of(&T::second), "", -most, most);
-  fields.input<NumberInput>("amount", of(&T::amount), "share of tex2", -most, most);
+  fields.input<ValueInput>("tex1", of(&T::first), "", -unlimited, unlimited);
+  fields.input<ValueInput>("tex2", of(&T::second), "", -unlimited, unlimited);
+  fields.input<NumberInput>("amount", of(&T::amount), "share of tex2", -unlimited, unlimited);
   return model("interpolation between two textures", T{}, fields);
 }
 
 Model<S> threshold() {
   using T = ThresholdTextureDesc;
   Fields<S> fields;
-  fields.input<NumberInput>("tex", of(&T::texture), "", -most, most);
-  fields.number("edge", of(&T::edge), "", -most, most);
+  fields.input<NumberInput>("tex", of(&T::texture), "", -unlimited, unlimited);
+  fields.number("edge", of(&T::edge), "", -unlimited, unlimited);
   return model("1 where a texture is at least as large as a number, else 0 (numbers only; Montelux alone)", T{},
                fields);
 }
@@ -101,8 +102,8 @@ Model<S> threshold() {
 Model<S> direction_mix() {
   using T = DirectionMixTextureDesc;
   Fields<S> fields;
-  fields.input<ValueInput>("tex1", of(&T::along), "along dir", -most, most);
-  fields.input<ValueInput>("tex2", of(&T::across), "across dir", -most, most);
+  fields.input<ValueInput>("tex1", of(&T::along), "along dir", -unlimited, unlimited);
+  fields.input<ValueInput>("tex2", of(&T::across), "across dir", -unlimited, unlimited);
   fields.vector("dir", vector3, of(&T::direction), "direction");
   return model("interpolation by the angle of the normal", T{}, fields);
 }
@@ -137,15 +138,15 @@ Model<S> image() {
   fields.optional_choice<ImageChannel>(
       "channel", of(&T::channel), "for numbers; default alpha, or the mean if there is none (Montelux alone)",
       {{"r", ImageChannel::r}, {"g", ImageChannel::g}, {"b", ImageChannel::b}, {"a", ImageChannel::a}});
-  fields.spectrum("tint", of(&T::tint), "factor of spectra (Montelux alone)", 0, most);
-  fields.number("scale", of(&T::scale), "factor of the values", -most, most);
+  fields.spectrum("tint", of(&T::tint), "factor of spectra (Montelux alone)", 0, unlimited);
+  fields.number("scale", of(&T::scale), "factor of the values", -unlimited, unlimited);
   fields.flag("invert", of(&T::invert), "1 - value");
   fields.choice<TextureFilter>("filter", of(&T::filter), "interpolation",
                                {{"point", TextureFilter::point},
                                 {"bilinear", TextureFilter::bilinear},
                                 {"trilinear", TextureFilter::trilinear},
                                 {"ewa", TextureFilter::ewa}});
-  ParameterSpec anisotropy{"maxanisotropy", {number}, "for ewa; default 8", 0, most};
+  ParameterSpec anisotropy{"maxanisotropy", {number}, "for ewa; default 8", 0, unlimited};
   anisotropy.later = true;
   fields.other(anisotropy);
   fields.text(
@@ -168,8 +169,8 @@ Model<S> checkerboard() {
   using T = CheckerboardTextureDesc;
   Fields<S> fields;
   fields.integer("dimension", of(&T::dimension), "2 or 3", 2, 3);
-  fields.input<ValueInput>("tex1", of(&T::even), "", -most, most);
-  fields.input<ValueInput>("tex2", of(&T::odd), "", -most, most);
+  fields.input<ValueInput>("tex1", of(&T::even), "", -unlimited, unlimited);
+  fields.input<ValueInput>("tex2", of(&T::odd), "", -unlimited, unlimited);
   mapping<T>(fields);
   return model("checks of size 1", T{}, fields);
 }
@@ -177,10 +178,10 @@ Model<S> checkerboard() {
 Model<S> bilerp() {
   using T = BilerpTextureDesc;
   Fields<S> fields;
-  fields.input<ConstantInput>("v00", of(&T::v00), "", -most, most);
-  fields.input<ConstantInput>("v01", of(&T::v01), "", -most, most);
-  fields.input<ConstantInput>("v10", of(&T::v10), "", -most, most);
-  fields.input<ConstantInput>("v11", of(&T::v11), "", -most, most);
+  fields.input<ConstantInput>("v00", of(&T::v00), "", -unlimited, unlimited);
+  fields.input<ConstantInput>("v01", of(&T::v01), "", -unlimited, unlimited);
+  fields.input<ConstantInput>("v10", of(&T::v10), "", -unlimited, unlimited);
+  fields.input<ConstantInput>("v11", of(&T::v11), "", -unlimited, unlimited);
   mapping<T>(fields);
   return model("bilinear interpolation of four corner values", T{}, fields);
 }
@@ -188,8 +189,8 @@ Model<S> bilerp() {
 Model<S> dots() {
   using T = DotsTextureDesc;
   Fields<S> fields;
-  fields.input<ValueInput>("inside", of(&T::inside), "", -most, most);
-  fields.input<ValueInput>("outside", of(&T::outside), "", -most, most);
+  fields.input<ValueInput>("inside", of(&T::inside), "", -unlimited, unlimited);
+  fields.input<ValueInput>("outside", of(&T::outside), "", -unlimited, unlimited);
   mapping<T>(fields);
   return model("discs at random positions", T{}, fields);
 }
@@ -207,7 +208,7 @@ Model<S> ptex() {
 template <class Texture>
 void octaves(Fields<S>& fields) {
   fields.integer("octaves", of(&Texture::noise, &OctavesDesc::octaves), "octaves of noise", 1, 64);
-  fields.number("roughness", of(&Texture::noise, &OctavesDesc::roughness), "falloff of the octaves", 0, most);
+  fields.number("roughness", of(&Texture::noise, &OctavesDesc::roughness), "falloff of the octaves", 0, unlimited);
 }
 
 template <class Texture>
@@ -221,8 +222,8 @@ Model<S> marble() {
   using T = MarbleTextureDesc;
   Fields<S> fields;
   octaves<T>(fields);
-  fields.number("scale", of(&T::scale), "factor of space", -most, most);
-  fields.number("variation", of(&T::variation), "strength of the veins", -most, most);
+  fields.number("scale", of(&T::scale), "factor of space", -unlimited, unlimited);
+  fields.number("variation", of(&T::variation), "strength of the veins", -unlimited, unlimited);
   return model("veins of marble (spectra only)", T{}, fields);
 }
 

@@ -7,6 +7,9 @@
 
 namespace montelux {
 
+// The kind of a vertex in a medium, which is no BsdfKind: it scatters by the phase function of the medium around it.
+inline constexpr std::uint32_t in_medium_kind = 0xffffffffu;
+
 // The vertex at o + t d: a point without extent and without a side, that emits nothing by itself.
 template <class F>
 MONTELUX_INLINE void put_medium_vertex(Mask<F> on, const Vec3<F>& o, const Vec3<F>& d, F t, SurfaceHit<F>& x) {
@@ -23,7 +26,7 @@ MONTELUX_INLINE void put_medium_vertex(Mask<F> on, const Vec3<F>& o, const Vec3<
 template <class F>
 MONTELUX_INLINE void put_medium_scattering(Mask<F> on, SurfaceScattering<F>& s) {
   const F one(1.0f), none(0.0f);
-  s.kind = select(on, Uint<F>(std::uint32_t(BsdfKind::diffuse)), s.kind);
+  s.kind = select(on, Uint<F>(in_medium_kind), s.kind);
   s.frame = {select<F>(on, {one, none, none}, s.frame.s), select<F>(on, {none, one, none}, s.frame.t),
              select<F>(on, {none, none, one}, s.frame.n)};
   s.light_normal = select<F>(on, {none, none, none}, s.light_normal);

@@ -18,6 +18,17 @@ concept NumberSource = requires(const Source& source, Uint<F> dimension) {
 };
 static_assert(NumberSource<Sampler<float>, float>);
 
+// Which point of which pixel a path belongs to, in every lane.
+template <class F>
+struct PathSite {
+  Uint<F> x, y, index;
+};
+// The numbers of a path by a set of points.
+template <class F>
+MONTELUX_INLINE Sampler<F> numbers_of(const PointSet& points, const PathSite<F>& site) {
+  return Sampler<F>(points, site.x, site.y, site.index);
+}
+
 // A point of primary sample space (Kelemen et al. 2002): the first coordinates of the sample point are given, the
 // others and the streams belong to `beyond`.
 template <class F>

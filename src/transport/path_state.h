@@ -6,6 +6,7 @@
 #include "mc/roulette.h"
 #include "scene/geometry_store.h"
 #include "transport/media.h"
+#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -25,12 +26,22 @@ struct PathState {
   Uint<F> depth;                   // scattering events so far
   Uint<F> crossings;               // interfaces gone through so far
   Uint<F> x, y, index;             // pixel, and number of the sample there
-  Uint<F> slot;                    // where the result goes
+  Uint<F> output;                  // where the result goes
 };
 
 template <class F>
 MONTELUX_INLINE Mask<F> by_delta(const PathState<F>& path) {
   return path.by_delta != Uint<F>(0u);
+}
+
+template <class F>
+MONTELUX_INLINE PathSite<F> site_of(const PathState<F>& path) {
+  return {path.x, path.y, path.index};
+}
+// The numbers of the paths, from a source of them: numbers_of(source, site) gives those of one sample of a pixel.
+template <class F, class Source>
+MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const PathState<F>& path) {
+  return numbers_of(source, site_of(path));
 }
 
 // What is left of a path, for roulette: its throughput without the squared indices of refraction, which cancel on the
@@ -46,12 +57,6 @@ MONTELUX_INLINE F survival_by_throughput(const PathState<F>& path) {
   return min(safe_sqrt(roulette_throughput(path)), F(max_survival));
 }
 
-// Which point of which pixel a path belongs to, in every lane.
-template <class F>
-struct PathSite {
-  Uint<F> x, y, index;
-};
-
 // A path that has just met its first surface: what differs from path to path there.
 template <class F>
 struct PathStart {
@@ -59,7 +64,7 @@ struct PathStart {
   Hit<F> hit;
   F weight, time;
   Uint<F> x, y, index;
-  Uint<F> slot;
+  Uint<F> output;
 };
 
 // Paths begin in the lanes `fresh`, where the starts stand.
@@ -81,7 +86,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
   put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
-  put_one(path.index, start.index), put_one(path.slot, start.slot);
+  put_one(path.index, start.index), put_one(path.output, start.output);
 }
 
 // ---- from one vertex to the next, in this order: the path scatters, survives roulette, leaves, and is traced

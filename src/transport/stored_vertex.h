@@ -5,13 +5,13 @@
 
 namespace montelux {
 
-// A point of a surface and how it scatters. The random numbers of the model are stored, too, so that every query
-// evaluates the same BSDF.
+// A point of a surface, or of a medium, and how it scatters. The random numbers of the model are stored, too, so that
+// every query evaluates the same BSDF.
 template <class F>
 struct StoredSurface {
-  Vec3<F> p, ng;
+  Vec3<F> p, ng;  // ng is zero in a medium
   BsdfSlots<F> slots;
-  Uint<F> kind;  // of BsdfKind
+  Uint<F> kind;  // a BsdfKind, or in_medium_kind
   Frame<F> frame;
   RandomStream<F> random;
 
@@ -20,8 +20,7 @@ struct StoredSurface {
     return scattered_from_local(frame.to_local(wo), wi, on);
   }
   Boundary<F> boundary() const { return {kind, slots, ng, frame}; }
-  // A point of a medium has no normal.
-  Mask<F> in_medium() const { return length_squared(ng) == F(0.0f); }
+  Mask<F> in_medium() const { return kind == Uint<F>(in_medium_kind); }
 
  protected:
   BsdfValue<F> scattered_from_local(const Vec3<F>& wo, const Vec3<F>& wi, Mask<F> on) const {

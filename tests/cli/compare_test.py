@@ -71,7 +71,7 @@ class Compare(ProgramTest):
         self.assertTrue(all(method["attribution"] is None for method in without["methods"]))
 
     def test_the_time_of_warm_up_does_not_count_for_warm_frames(self):
-        methods = ["-a", "path", "-b", "restir-di:chain=1,warm-up=6"]
+        methods = ["-a", "path", "-b", "restir-di:frames=1,warm-up=6"]
         found = json.loads(self.compare(*methods, *STEADY, "--warm-frames", "--json").stdout)
         self.assertFalse(found["warm_up_counts"])
         path, frames = found["methods"]

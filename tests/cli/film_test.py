@@ -161,7 +161,7 @@ class Films(ProgramTest):
         self.refused("render", "--resume", "a.film", "--spp", "16", "-o", "x.exr",
                      saying="uniform-grid takes all its samples in one pass")
 
-    def test_chains_of_coupled_integrators_are_passes(self):
+    def test_series_of_coupled_integrators_are_passes(self):
         diffuse = ROOT / "scenes" / "analytic" / "rectangle-light.pbrt"
         for scene, way in (SCENE, "restir-di:warm-up=1"), (diffuse, "radiosity:elementsize=1"):
             with self.subTest(way=way):

@@ -159,9 +159,9 @@ class Frames(ProgramTest):
         self.assertLess(abs(whole["mean"][0] - half["mean"][0]), 4 * error)
         self.assertGreater(whole["mean"][0], 20 * error)
 
-    def test_chains_go_on_from_frame_to_frame(self):
+    def test_series_go_on_from_frame_to_frame(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
-        way = ["--integrator", "restir-di:chain=2,candidates=2", "--spp", "8"]
+        way = ["--integrator", "restir-di:frames=2,candidates=2", "--spp", "8"]
         stated = self.stated("--frames", "0:2", *way, "-o", "on.#.pfm")
         again = self.stated("--frames", "0:2", *way, "--threads", "1", "-o", "again.#.pfm")
         self.assertEqual([t["mean"] for t in stated], [t["mean"] for t in again])
@@ -194,9 +194,9 @@ class Frames(ProgramTest):
 
     def test_a_budget_ends_every_picture(self):
         (self.folder / "slide.pbrt").write_text(LIT_SCENE)
-        chains = self.stated("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")
-        self.assertEqual([frame["history_bytes"] > 0 for frame in chains], [True, True, False])
-        for frame in chains:
+        series = self.stated("--frames", "0:2", "--integrator", "restir-di", "--interactive-budget", "200ms")
+        self.assertEqual([frame["history_bytes"] > 0 for frame in series], [True, True, False])
+        for frame in series:
             self.assertGreaterEqual(frame["samples_per_pass"], 1)
             self.assertEqual((frame["passes"], frame["error_bar"], frame["budget"]), (1, False, 0.2))
             self.assertEqual(frame["standard_error"], [None] * 3)
@@ -267,7 +267,7 @@ class Frames(ProgramTest):
             return [json.loads(line) for line in result.stdout.splitlines()]
 
         for shutter in [], ["--shutter", "0:0.03"]:
-            reused = stated(*shutter, "--integrator", "restir-di:chain=2,candidates=2", "--spp", "32", "-o", "a.#.pfm")
+            reused = stated(*shutter, "--integrator", "restir-di:frames=2,candidates=2", "--spp", "32", "-o", "a.#.pfm")
             paths = stated(*shutter, "--integrator", "path", "--spp", "128", "-o", "b.#.pfm")
             self.assertEqual([one["history_bytes"] > 0 for one in reused], [True, True, False])
             for one, other in zip(reused, paths, strict=True):

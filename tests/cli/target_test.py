@@ -73,8 +73,8 @@ class Target(ProgramTest):
         for frame in frames:
             self.assertTrue(frame["target"]["reached"])
 
-    def test_chains_end_at_the_error(self):
-        stated = self.stated("--target-error", "15%", "--integrator", "restir-di:chain=4", "--spp", 4096, "-o", "a.pfm")
+    def test_series_end_at_the_error(self):
+        stated = self.stated("--target-error", "15%", "--integrator", "restir-di:frames=4", "--spp", 4096, "-o", "a.pfm")
         self.assertTrue(stated["target"]["reached"])
         self.assertLess(stated["passes"] * stated["samples_per_pass"], 4096)
 

@@ -155,8 +155,8 @@ inline double scrambled_net_variance(const std::function<double(double)>& g, con
   };
   double total = b.mean * b.mean * rest(a, m) + a.mean * a.mean * rest(b, m);
   for (int k = 0; k < levels; ++k) {
-    const int least = std::max(0, m - k);
-    double of_k = rest(b, std::min(least, levels - 1));
+    const int smallest = std::max(0, m - k);
+    double of_k = rest(b, std::min(smallest, levels - 1));
     if (m - 1 - k >= 0) of_k += 2 * b.at[std::size_t(m - 1 - k)];
     total += a.at[std::size_t(k)] * of_k;
   }

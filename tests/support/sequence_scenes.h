@@ -1,5 +1,5 @@
 // Short sequences with a camera and a thing that move, and how they are measured: picture by picture over independent
-// chains, each of which continues its own of the previous image.
+// series, each of which continues its own of the previous image.
 #pragma once
 #include "pass_means.h"
 #include "reuse_scenes.h"
@@ -54,11 +54,12 @@ AttributeEnd
                      slats, box_moves ? moving : "Translate 0.7 0.3 -0.5", max_depth);
 }
 
-// What is done to the memory of a chain before the next picture has it, for planted faults.
-using MemoryChange = std::function<std::shared_ptr<const ChainMemory>(std::shared_ptr<const ChainMemory>, int picture)>;
+// What is done to the memory of a series before the next picture has it, for planted faults.
+using MemoryChange =
+    std::function<std::shared_ptr<const SeriesMemory>(std::shared_ptr<const SeriesMemory>, int picture)>;
 
 struct SequencePlan {
-  int frames = 2;  // of a chain
+  int frames = 2;  // of a series
   int passes = 48;
   std::uint32_t seed = 1;
   BlockSize block{};
@@ -70,7 +71,7 @@ inline std::vector<PassMeans> measure_sequence(const TestScene& scene, const Cho
   std::vector<PassMeans> pictures(sequence_pictures);
   RenderObserver silent;
   for (int pass = 0; pass < plan.passes; ++pass) {
-    ChainMemories memories;
+    SeriesMemories memories;
     for (int picture = 0; picture < sequence_pictures; ++picture) {
       RenderSettings s =
           scene.settings(PointSetKind::blue_noise, {plan.frames, 1}, plan.seed * 1000 + std::uint32_t(picture), 0);

@@ -57,7 +57,7 @@ struct TestResult {
 // Pearson's test of counts against expected counts. Cells that expect fewer than `least` are pooled, smallest first; a
 // count where nothing is expected (below 1e-9 of the total) rejects outright. With fixed_total one degree is spent.
 inline TestResult chi_square_test(const std::vector<double>& observed, const std::vector<double>& expected,
-                                  bool fixed_total = true, double least = 5) {
+                                  bool fixed_total = true, double smallest = 5) {
   std::vector<std::size_t> order(expected.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
@@ -72,7 +72,7 @@ inline TestResult chi_square_test(const std::vector<double>& observed, const std
       note << observed[i] << " counts in cell " << i << " where " << expected[i] << " are expected";
       return {INFINITY, 1, 0, note.str()};
     }
-    if (expected[i] < least || (pooled_expected > 0 && pooled_expected < least)) {
+    if (expected[i] < smallest || (pooled_expected > 0 && pooled_expected < smallest)) {
       pooled_observed += observed[i], pooled_expected += expected[i];
     } else {
       add(observed[i], expected[i]);

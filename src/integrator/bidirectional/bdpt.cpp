@@ -10,12 +10,12 @@ namespace {
 
 // `in_media`: the scene has participating media.
 template <class F, bool in_media>
-class BdptChain final : public Chain {
+class BdptSeries final : public FrameSeries {
  public:
-  // What is referred to must outlive the chain.
-  BdptChain(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths,
-            const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
-            const ChainPass& pass)
+  // What is referred to must outlive the series.
+  BdptSeries(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths,
+             const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+             const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         paths_(paths),
@@ -29,10 +29,10 @@ class BdptChain final : public Chain {
         sums_(samples_.size() * stride_),
         light_of_path_(pass.layers ? samples_.size() : 0) {}
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     return run_layers(step, tile, out, {});
   }
-  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
                        std::span<ExactRgb> sums) override {
     if (step.stage == 0) return follow(step, tile);
     const auto row = std::size_t(tile.width());
@@ -50,7 +50,7 @@ class BdptChain final : public Chain {
   std::size_t pixel_number(int x, int y) const {
     return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
   }
-  RayCounts follow(const ChainStep& step, const PixelBounds& tile) {
+  RayCounts follow(const SeriesStep& step, const PixelBounds& tile) {
     using Frame = BidirectionalFrame<Accel>;
     const Frame frame{scene_,
                       accel_,
@@ -90,7 +90,7 @@ class BdptChain final : public Chain {
   const BidirectionalPaths& paths_;
   const std::optional<AliasTable>& by_power_;
   const std::optional<LightMedia>& light_media_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const bool one_sided_;
   SplatPlane plane_;
   std::vector<PixelSample> samples_;  // what the paths from the eye found in this frame
@@ -107,9 +107,9 @@ BdptIntegrator::BdptIntegrator(const Scene& scene, const Accel& accel, const Bid
   light_media_ = light_media(scene, accel);
 }
 
-std::unique_ptr<Chain> BdptIntegrator::begin(const ChainPass& pass) const {
-  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<Chain> {
-    return std::make_unique<BdptChain<F, in_media>>(scene_, accel_, paths_, by_power_, light_media_, pass);
+std::unique_ptr<FrameSeries> BdptIntegrator::begin(const SeriesPass& pass) const {
+  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
+    return std::make_unique<BdptSeries<F, in_media>>(scene_, accel_, paths_, by_power_, light_media_, pass);
   };
   const bool one = paths_.lanes == Lanes::one;
   if (!scene_.media.empty())

@@ -14,14 +14,14 @@ namespace montelux {
 // a plane of exact sums, then tiles read their pixels. So a frame is the same bits for any number of threads.
 class BdptIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains.
+  // Scene and accel must outlive the integrator, and the integrator its series.
   BdptIntegrator(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths);
 
   int frames() const override { return 16; }
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
   bool has_layers() const override { return true; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

@@ -155,9 +155,9 @@ class EyeSubpaths {
     const M ended = on & !(in_media ? moves : moves & found);
     const Spectrum<F> radiance = path.radiance * path.weight;
     for_each_lane(ended, [&](int k) {
-      PixelSample& sample = out[lane(path.slot, k)];
+      PixelSample& sample = out[lane(path.output, k)];
       sample.radiance = to_rgb(lane(radiance, k));
-      if (tally_) tally_->finish(k, lane(path.slot, k), sample);
+      if (tally_) tally_->finish(k, lane(path.output, k), sample);
     });
     return on & !ended;
   }
@@ -216,7 +216,7 @@ class EyeSubpaths {
 
   // Every vertex of the pixel's subpath from the lights.
   void connect_subpath(PathState<F>& path, const Here& here) {
-    U number = light_.template last_of<F>(path.slot, here.rough);
+    U number = light_.template last_of<F>(path.output, here.rough);
     for (M left = here.rough & (number != U(0u)); any(left); left = left & (number != U(0u))) {
       const LightVertex<F> y = light_.template get<F>(number - U(1u), left);
       M on = left;
@@ -271,8 +271,8 @@ class EyeSubpaths {
     U number(0u);
     const auto width = std::uint32_t(tile_.width());
     for_each_lane(on, [&](int k) {
-      const std::uint32_t slot = lane(path.slot, k);
-      set_lane(number, k, frame_.path_number(tile_.x0 + int(slot % width), tile_.y0 + int(slot / width)));
+      const std::uint32_t output = lane(path.output, k);
+      set_lane(number, k, frame_.path_number(tile_.x0 + int(output % width), tile_.y0 + int(output / width)));
     });
     return gather(frame_.light_of_path, number);
   }

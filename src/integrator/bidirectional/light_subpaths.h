@@ -20,7 +20,7 @@ struct BidirectionalFrame {
   const Scene& scene;
   const Rays& rays;
   const AliasTable* by_power;  // null: there is no light
-  const ChainPass& pass;
+  const SeriesPass& pass;
   std::uint32_t frame;
   // In [0, 1), of the exposure: of all paths; else each pair of subpaths has its own.
   std::optional<float> shutter_sample;
@@ -46,7 +46,7 @@ struct BidirectionalFrame {
   static constexpr bool every_strategy = true;
   template <class F>
   Sampler<F> eye_numbers(const PathState<F>& path) const {
-    return Sampler<F>(pass.points, path.x, path.y, path.index);
+    return numbers_of(pass.points, path);
   }
   // Light of a path from a light that is not a number shows in the first pixel of the picture.
   template <class F>
@@ -66,7 +66,7 @@ struct BidirectionalFrame {
       set_lane(x, k, std::uint32_t(grid.pixel_x(b.x0 + int(number % width))));
       set_lane(y, k, std::uint32_t(grid.pixel_y(b.y0 + int(number / width))));
     }
-    return Sampler<F>(pass.points, x, y, Uint<F>(frame)).get1(Uint<F>(path_dimension::time));
+    return numbers_of<F>(pass.points, PathSite<F>{x, y, Uint<F>(frame)}).get1(Uint<F>(path_dimension::time));
   }
 };
 

@@ -27,7 +27,7 @@ struct VcmSettings {
   float radius = 0;        // of the first frame; 0: by the pixels' footprints
   float alpha = 2.0f / 3;  // how much of the photons stays as the radius shrinks
   PhotonKernel kernel = PhotonKernel::epanechnikov;
-  int frames = 1024;  // of a chain, at most
+  int frames = 1024;  // of a series, at most
 };
 
 EntitySpec bdpt_spec();

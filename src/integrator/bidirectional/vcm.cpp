@@ -15,19 +15,19 @@ namespace {
 // makes a wide radius cost little where connections do as well, and is enough where they do not.
 constexpr float merging_share = 0.1f;
 
-std::uint32_t light_paths_of(const VcmSettings& settings, const ChainPass& pass) {
+std::uint32_t light_paths_of(const VcmSettings& settings, const SeriesPass& pass) {
   const int pixels = pass.bounds.area();
   return std::uint32_t(std::max(settings.photons > 0 ? settings.photons : min_photons, pixels));
 }
 
 // `in_media`: the scene has participating media.
 template <class F, bool in_media>
-class VcmChain final : public Chain {
+class VcmSeries final : public FrameSeries {
  public:
-  // What is referred to must outlive the chain.
-  VcmChain(const Scene& scene, const Accel& accel, const VcmSettings& settings,
-           const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
-           const ChainPass& pass)
+  // What is referred to must outlive the series.
+  VcmSeries(const Scene& scene, const Accel& accel, const VcmSettings& settings,
+            const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+            const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
@@ -36,41 +36,29 @@ class VcmChain final : public Chain {
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
         light_paths_(light_paths_of(settings, pass)),
-        map_(2 * std::size_t(light_paths_), std::size_t(pass.bounds.area()), true),
+        map_(2 * std::size_t(light_paths_), units_of_light_paths(light_paths_), true),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers),
         light_of_path_(pass.layers ? light_paths_ : 0) {}
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    return step.stage < PhotonMap::stages ? std::optional(map_.units(step.stage)) : std::nullopt;
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override {
+    return map_.run_unit(step.stage, unit, radius(step.frame), [&](std::vector<Photon>& box) {
+      return follow_light(frame_of(step.frame), light_path_part(unit, light_paths_), box);
+    });
+  }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     return run_layers(step, tile, out, {});
   }
-  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
                        std::span<ExactRgb> sums) override {
-    const std::size_t number = pixel_number(tile.x0, tile.y0);
-    const Frame frame = frame_of(step.frame);
-    switch (step.stage) {
-      case 0:
-        return follow_light(frame, tile);
-      case 1:
-        if (number == 0) map_.lay_out(radius(step.frame));
-        return {};
-      case 2:
-        map_.deal(number);
-        return {};
-      case 3:
-        for (int y = tile.y0; y < tile.y1; ++y)
-          map_.put_in_order(pixel_number(tile.x0, y), pixel_number(tile.x1, y), std::size_t(pass_.bounds.area()));
-        return {};
-      default:
-        return follow_eye(frame, tile, out, sums);
-    }
+    return follow_eye(frame_of(step.frame), tile, out, sums);
   }
 
  private:
   using Frame = BidirectionalFrame<Accel>;
 
-  std::size_t pixel_number(int x, int y) const {
-    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
-  }
   float radius(int frame) const { return float(sppm_radius(settings_.radius, settings_.alpha, frame)); }
   Frame frame_of(int frame) {
     const float r = radius(frame), merges = merging_share * pi * r * r * float(light_paths_);
@@ -91,11 +79,8 @@ class VcmChain final : public Chain {
             light_of_path_.empty() ? nullptr : light_of_path_.data()};
   }
 
-  RayCounts follow_light(const Frame& frame, const PixelBounds& tile) {
+  RayCounts follow_light(const Frame& frame, const LightPathPart& part, std::vector<Photon>& box) {
     RayCounts counts;
-    std::vector<Photon>& box = map_.box(pixel_number(tile.x0, tile.y0));
-    box.clear();
-    const LightPathShare share(pass_.bounds, tile, light_paths_);
     const float scale = 1 / float(light_paths_);
     const auto store = [&](const LightVertexView<F>& view, Mask<F> on) {
       const LightPathVertex<F>& v = view.vertex;
@@ -112,8 +97,7 @@ class VcmChain final : public Chain {
       });
     };
     follow_light_subpaths<F, AdjointCorrection, in_media>(
-        frame, share.count(), [&](std::uint32_t i) { return share[i]; }, Splatting::on, counts, store);
-    map_.count(box, radius(int(frame.frame)));
+        frame, part.count, [&](std::uint32_t i) { return part.first + i; }, Splatting::on, counts, store);
     return counts;
   }
 
@@ -137,7 +121,7 @@ class VcmChain final : public Chain {
   const VcmSettings& settings_;
   const std::optional<AliasTable>& by_power_;
   const std::optional<LightMedia>& light_media_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const bool one_sided_;
   const std::uint32_t light_paths_;
   PhotonMap map_;
@@ -153,9 +137,9 @@ VcmIntegrator::VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSe
   light_media_ = light_media(scene, accel);
 }
 
-std::unique_ptr<Chain> VcmIntegrator::begin(const ChainPass& pass) const {
-  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<Chain> {
-    return std::make_unique<VcmChain<F, in_media>>(scene_, accel_, settings_, by_power_, light_media_, pass);
+std::unique_ptr<FrameSeries> VcmIntegrator::begin(const SeriesPass& pass) const {
+  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
+    return std::make_unique<VcmSeries<F, in_media>>(scene_, accel_, settings_, by_power_, light_media_, pass);
   };
   const bool one = settings_.paths.lanes == Lanes::one;
   if (!scene_.media.empty())

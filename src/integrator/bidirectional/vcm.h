@@ -15,14 +15,14 @@ namespace montelux {
 // pixel's own one is followed again instead of being kept: the vertices of a whole picture would need gigabytes.
 class VcmIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains. Its radius is set.
+  // Scene and accel must outlive the integrator, and the integrator its series. Its radius is set.
   VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSettings& settings);
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
   int stages() const override { return 5; }
   bool has_layers() const override { return true; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

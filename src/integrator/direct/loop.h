@@ -178,7 +178,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
   for (;;) {
     const M on = first_hits.refill(path, M(false));
     if (!any(on)) return counts;
-    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass.points, path);
     const U first = U(path_dimension::first_vertex);
     const NextVertex<F> at = first_vertex<F>(scene, rays, path, on, sampler.stream(first + U(path_dimension::own)),
                                              counts, seen_directly(path, tally));
@@ -192,9 +192,9 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
       sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
     const Spectrum<F> reflected = select(at.found, at.left * sum * (1.0f / float(n)), gray(F(0.0f)));
     const Spectrum<F> radiance = (at.light + reflected) * path.weight;
-    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     if constexpr (Tally::records)
-      for_each_lane(on, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
+      for_each_lane(on, [&](int k) { tally.finish(k, lane(path.output, k), out[lane(path.output, k)]); });
 
     write_features(at, sampler, path, out);
   }

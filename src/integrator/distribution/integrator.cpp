@@ -135,7 +135,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
   PathState<F> path{};
   const U first = path_dimension::first_vertex;
   while (first_hits.refill(path, false)) {
-    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass.points, path);
     const NextVertex<F> at = first_vertex<F>(scene_, accel_, path, true, sampler.stream(first + path_dimension::own),
                                              counts, seen_directly(path, tally));
     Spectrum<float> radiance = at.light;
@@ -144,8 +144,8 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
       radiance += at.left * tree.reflected(at, 0, 0, {gray(1.0f), at.left * path.weight});
       write_features(at, sampler, path, out);
     }
-    out[path.slot].radiance = to_rgb(radiance * path.weight);
-    if constexpr (Tally::records) tally.finish(0, path.slot, out[path.slot]);
+    out[path.output].radiance = to_rgb(radiance * path.weight);
+    if constexpr (Tally::records) tally.finish(0, path.output, out[path.output]);
   }
   return counts;
 }

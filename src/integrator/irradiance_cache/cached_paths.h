@@ -23,7 +23,7 @@ class CachedPaths {
   using U = Uint<F>;
   using M = Mask<F>;
   // `slots`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
-  // `compared`: by slot, 1 where cached() keeps what the cache shows; empty: nowhere.
+  // `compared`: by output, 1 where cached() keeps what the cache shows; empty: nowhere.
   CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t slots, bool by_depth,
               std::span<const std::uint8_t> compared = {})
       : starts_(starts),
@@ -41,7 +41,7 @@ class CachedPaths {
   // For the path loop.
   M refill(PathState<F>& path, M on) { return starts_.refill(path, on); }
   // After the surface where the cache had a record a path only looks for emission, which is direct light there.
-  U deepest(const PathState<F>& path) const { return gather(deepest_.data(), path.slot); }
+  U deepest(const PathState<F>& path) const { return gather(deepest_.data(), path.output); }
 
   // Light that other surfaces send to a vertex and that it scatters toward the path.
   Spectrum<F> indirect_light(const PathState<F>& path, const Vertex<F>& v, M scatters) {
@@ -52,13 +52,13 @@ class CachedPaths {
       const F side = copysign(F(1.0f), v.wo.z);
       const Vec3<F> n = v.bsdf.frame.n * side;
       for_each_lane(diffuse, [&](int k) {
-        const std::uint32_t depth = lane(path.depth, k), slot = lane(path.slot, k);
+        const std::uint32_t depth = lane(path.depth, k), output = lane(path.output, k);
         const CacheQuery at = query(path, v, n, k);
         if (const auto found = cache_.irradiance(at)) {
           set_lane(irradiance, k, *found);
-          deepest_[slot] = depth + 1;
+          deepest_[output] = depth + 1;
           set_bit(known, k);
-        } else if (is_smooth_[slot] != 0) {
+        } else if (is_smooth_[output] != 0) {
           missed_.push_back(point_at(path, v, at, k));
         }
       });
@@ -69,7 +69,7 @@ class CachedPaths {
         irradiance = select(known, value.f_cos * irradiance, gray(F(0.0f)));
       }
     }
-    for_each_lane(scatters & !v.bsdf.is_delta, [&](int k) { is_smooth_[lane(path.slot, k)] = 0; });
+    for_each_lane(scatters & !v.bsdf.is_delta, [&](int k) { is_smooth_[lane(path.output, k)] = 0; });
     return irradiance;
   }
 
@@ -83,7 +83,7 @@ class CachedPaths {
   void keep(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, M on, const Spectrum<F>& irradiance,
             const Spectrum<F>& weight) {
     for_each_lane(on, [&](int k) {
-      if (compared_[lane(path.slot, k)] != 0)
+      if (compared_[lane(path.output, k)] != 0)
         cached_.push_back({point_at(path, v, query(path, v, n, k), k), lane(irradiance, k), lane(weight, k)});
     });
   }
@@ -104,8 +104,8 @@ class CachedPaths {
   const IrradianceCache& cache_;
   const bool by_depth_;
   const std::span<const std::uint8_t> compared_;
-  std::vector<std::uint32_t> deepest_;   // by slot: where the path ends
-  std::vector<std::uint8_t> is_smooth_;  // by slot: nothing rough so far
+  std::vector<std::uint32_t> deepest_;   // by output: where the path ends
+  std::vector<std::uint8_t> is_smooth_;  // by output: nothing rough so far
   std::vector<CachePoint> missed_;
   std::vector<CachedLight> cached_;
 };

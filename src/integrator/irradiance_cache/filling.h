@@ -16,22 +16,22 @@ class PixelStarts {
   struct Pixel {
     std::uint32_t x, y;
   };
-  // One path for each pixel, the sample `pass.only` of the pass; the pixel's place in the list is the path's slot.
+  // One path for each pixel, the sample `pass.only` of the pass; the pixel's place in the list is the path's output.
   template <class Rays>
   PixelStarts(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<const Pixel> pixels,
               RayCounts& counts)
       : media_(media_of<F>(scene.media, Uint<F>(scene.camera_medium))) {
     for (std::size_t first = 0; first < pixels.size(); first += lanes_of<F>) {
       PathSite<F> site{Uint<F>(0u), Uint<F>(0u), Uint<F>(pass.only.value_or(0))};
-      Uint<F> slot(0u);
+      Uint<F> output(0u);
       const int n = int(std::min(pixels.size() - first, std::size_t(lanes_of<F>)));
       for (int k = 0; k < n; ++k) {
         const Pixel& pixel = pixels[first + std::size_t(k)];
         set_lane(site.x, k, pixel.x), set_lane(site.y, k, pixel.y);
-        set_lane(slot, k, std::uint32_t(first) + std::uint32_t(k));
+        set_lane(output, k, std::uint32_t(first) + std::uint32_t(k));
       }
       PathStart<F> start = start_of_path<F>(scene, pass, site);
-      start.slot = slot;
+      start.output = output;
       counts.camera += std::uint64_t(n);
       const auto [found, hit] = rays.template trace<F>({start.o, start.d, F(ray_infinity), start.time},
                                                        lane_index<F>() < Uint<F>(std::uint32_t(n)), RayUse::camera);
@@ -65,19 +65,21 @@ inline PathSettings cached_path_settings(const IrradianceCacheSettings& settings
   return path;
 }
 
-// The cache of one chain. In the first frame, which is not shown, it is filled from coarse to fine: each level looks at
-// the pixels of a grid twice as dense as that before, and makes records where there are none yet. Later frames add
+// The cache of one series. In the first frame, which is not shown, it is filled from coarse to fine: each level looks
+// at the pixels of a grid twice as dense as that before, and makes records where there are none yet. Later frames add
 // records where the frame before had none.
 //
-// A level has four stages: points without a record are found, with the distances around them (find); one tile decides
-// which of them become records (thin); their hemispheres are sampled (compute); one tile adds them to the cache (add).
+// A level has four stages: points without a record are found, with the distances around them (find, over tiles); it is
+// decided which of them become records (thin, one unit); their hemispheres are sampled (compute, units of a few
+// records); they are added to the cache (add, one unit).
 template <class F, class Rays>
 class CacheFilling {
  public:
   static constexpr int levels = 5, stages_of_level = 4, stages = levels * stages_of_level;
+  static constexpr std::size_t records_per_unit = 4;
 
   // What is referred to must outlive this. The spacings of the settings are not zero.
-  CacheFilling(const Scene& scene, const Rays& rays, const IrradianceCacheSettings& settings, const ChainPass& pass)
+  CacheFilling(const Scene& scene, const Rays& rays, const IrradianceCacheSettings& settings, const SeriesPass& pass)
       : scene_(scene),
         rays_(rays),
         settings_(settings),
@@ -91,27 +93,33 @@ class CacheFilling {
         found_(std::size_t(pass.bounds.area())),
         missed_(std::size_t(pass.bounds.area())) {}
 
-  // Stage `stage` of the filling, over one tile.
-  RayCounts run(int frame, int stage, const PixelBounds& tile) {
-    const int level = stage / stages_of_level;
+  // The units of a stage of the filling; none: they are the tiles.
+  std::optional<std::size_t> units(int frame, int stage) const {
     // The few pixels of a sparse picture have hardly a record in common: their paths continue instead.
-    if (pass_.grid) return {};
-    if (frame > 0 && level + 1 < levels) return {};
-    const bool is_first = number_of(tile.x0, tile.y0) == 0;
-    RayCounts counts;
+    if (pass_.grid || (frame > 0 && level_of(stage) + 1 < levels)) return 0;
     switch (stage % stages_of_level) {
-      case 0:
-        find(frame, level, tile, counts);
-        break;
-      case 1:
-        if (is_first) thin();
-        break;
-      case 2:
-        compute(frame, tile, counts);
-        break;
+      case find_stage:
+        return std::nullopt;
+      case compute_stage:
+        return (chosen_.size() + records_per_unit - 1) / records_per_unit;
       default:
-        if (is_first) add();
+        return 1;
     }
+  }
+  RayCounts run_unit(int frame, int stage, std::size_t unit) {
+    RayCounts counts;
+    if (stage % stages_of_level == thin_stage)
+      thin();
+    else if (stage % stages_of_level == compute_stage)
+      compute(frame, unit, counts);
+    else
+      add();
+    return counts;
+  }
+  // The stage whose units are tiles.
+  RayCounts run(int frame, int stage, const PixelBounds& tile) {
+    RayCounts counts;
+    find(frame, level_of(stage), tile, counts);
     return counts;
   }
 
@@ -121,7 +129,7 @@ class CacheFilling {
   void miss(const PixelBounds& tile, std::vector<CachePoint> points) {
     missed_[number_of(tile.x0, tile.y0)] = std::move(points);
   }
-  const ChainPass& pass() const { return pass_; }
+  const SeriesPass& pass() const { return pass_; }
   // A frame's sample of the pixels of a tile. The first frame looks where the second one, the first that is shown,
   // will.
   TilePass request(int frame, const PixelBounds& tile) const {
@@ -129,8 +137,11 @@ class CacheFilling {
   }
 
  private:
+  static constexpr int find_stage = 0, thin_stage = 1, compute_stage = 2;
+  static int level_of(int stage) { return stage / stages_of_level; }
+
   // The points of the frames that are shown.
-  static ChainPass shown(ChainPass pass) {
+  static SeriesPass shown(SeriesPass pass) {
     pass.points.samples_per_pass = std::max(pass.points.samples_per_pass, 2u) - 1;
     return pass;
   }
@@ -190,14 +201,10 @@ class CacheFilling {
     for (std::vector<CachePoint>& tile : found_) tile.clear();
   }
 
-  // The records are dealt out to the pixels, so that any tiles share them.
-  void compute(int frame, const PixelBounds& tile, RayCounts& counts) {
+  void compute(int frame, std::size_t unit, RayCounts& counts) {
     HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, numbers(frame), counts);
-    const std::size_t all = chosen_.size(), pixels = std::size_t(pass_.bounds.area());
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      const std::size_t first = number_of(tile.x0, y) * all / pixels, last = number_of(tile.x1, y) * all / pixels;
-      for (std::size_t i = first; i < last; ++i) estimates_[i] = hemisphere.estimate(chosen_[i]);
-    }
+    const std::size_t first = unit * records_per_unit, end = std::min(first + records_per_unit, chosen_.size());
+    for (std::size_t i = first; i < end; ++i) estimates_[i] = hemisphere.estimate(chosen_[i]);
   }
 
   void add() {
@@ -217,7 +224,7 @@ class CacheFilling {
   const Rays& rays_;
   const IrradianceCacheSettings& settings_;
   const PathSettings path_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const std::uint32_t random_;  // of the pass
   const HemisphereStrata strata_;
   const CacheRules rules_;

@@ -87,8 +87,9 @@ class HemispherePaths {
         set_lane(row, k, float((first + k) / strata_.columns)),
             set_lane(column, k, float((first + k) % strata_.columns));
       }
-      start.x = U(at.x), start.y = U(at.y), start.index = select(on, cell, U(0u)), start.slot = start.index;
-      const Vec2<F> u = Sampler<F>(pass_.points, start.x, start.y, start.index).get2(U(path_dimension::film));
+      start.x = U(at.x), start.y = U(at.y), start.index = select(on, cell, U(0u)), start.output = start.index;
+      const Vec2<F> u =
+          numbers_of<F>(pass_.points, PathSite<F>{start.x, start.y, start.index}).get2(U(path_dimension::film));
       start.d = frame.to_world(strata_.template direction<F>(row, column, u));
       start.o = offset_origin(p, p_error, ng, start.d);
       start.weight = F(1.0f), start.time = F(at.time);
@@ -99,7 +100,7 @@ class HemispherePaths {
       begin_paths(path, start, media, on);
       path.p = p, path.depth = U(first_depth_);
       for_each_lane(found, [&](int k) {
-        distances_[lane(start.slot, k)] = lane(start.hit.t, k);
+        distances_[lane(start.output, k)] = lane(start.hit.t, k);
         get_lane_words(path, k, starts_.emplace_back());
       });
     }

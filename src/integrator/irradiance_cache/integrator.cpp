@@ -8,15 +8,21 @@ namespace montelux {
 namespace {
 
 template <class F>
-class IrradianceCacheChain final : public Chain {
+class IrradianceCacheSeries final : public FrameSeries {
  public:
   using Filling = CacheFilling<F, Accel>;
-  // What is referred to must outlive the chain.
-  IrradianceCacheChain(const Scene& scene, const Accel& accel, const IrradianceCacheSettings& settings,
-                       const ChainPass& pass)
+  // What is referred to must outlive the series.
+  IrradianceCacheSeries(const Scene& scene, const Accel& accel, const IrradianceCacheSettings& settings,
+                        const SeriesPass& pass)
       : scene_(scene), accel_(accel), settings_(settings), filling_(scene, accel, settings, pass) {}
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    return step.stage < Filling::stages ? filling_.units(step.frame, step.stage) : std::nullopt;
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override {
+    return filling_.run_unit(step.frame, step.stage, unit);
+  }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage < Filling::stages) return filling_.run(step.frame, step.stage, tile);
     if (step.frame == 0) return {};
     const TilePass pass = filling_.request(step.frame, tile);
@@ -49,10 +55,10 @@ class IrradianceCacheChain final : public Chain {
 
 int IrradianceCacheIntegrator::stages() const { return CacheFilling<float, Accel>::stages + 1; }
 
-std::unique_ptr<Chain> IrradianceCacheIntegrator::begin(const ChainPass& pass) const {
+std::unique_ptr<FrameSeries> IrradianceCacheIntegrator::begin(const SeriesPass& pass) const {
   if (settings_.lanes == Lanes::one)
-    return std::make_unique<IrradianceCacheChain<float>>(scene_, accel_, settings_, pass);
-  return std::make_unique<IrradianceCacheChain<NativeFloats>>(scene_, accel_, settings_, pass);
+    return std::make_unique<IrradianceCacheSeries<float>>(scene_, accel_, settings_, pass);
+  return std::make_unique<IrradianceCacheSeries<NativeFloats>>(scene_, accel_, settings_, pass);
 }
 
 }  // namespace montelux

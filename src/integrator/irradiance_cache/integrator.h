@@ -8,12 +8,12 @@
 
 namespace montelux {
 
-// A chain fills a cache of its own in its first frame, which is not shown. Every other frame follows a path from each
+// A series fills a cache of its own in its first frame, which is not shown. Every other frame follows a path from each
 // pixel as `path` does, to the first diffuse surface where the cache has a record; there it takes the indirect light
 // from the cache, and ends.
 class IrradianceCacheIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains. The spacings of the settings are not
+  // Scene and accel must outlive the integrator, and the integrator its series. The spacings of the settings are not
   // zero, and no surface moves.
   IrradianceCacheIntegrator(const Scene& scene, const Accel& accel, const IrradianceCacheSettings& settings)
       : scene_(scene), accel_(accel), settings_(settings) {}
@@ -21,7 +21,7 @@ class IrradianceCacheIntegrator final : public CoupledIntegrator {
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 1; }
   int stages() const override;
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

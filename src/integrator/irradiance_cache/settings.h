@@ -16,7 +16,7 @@ struct IrradianceCacheSettings {
   bool clamping = true;          // neighbours bound each other's distances
   int records = 1 << 18;         // at most
   float pairs = 0.001f;          // share of the samples that are compared with unbiased ones
-  int frames = 16;               // of a chain, at most
+  int frames = 16;               // of a series, at most
   int roulette_depth = 2;        // scattering events before roulette
   std::optional<int> max_depth;  // of scattering events; none: roulette alone ends paths
   Lanes lanes = Lanes::native;

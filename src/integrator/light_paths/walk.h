@@ -23,12 +23,6 @@ struct LightWalkScene {
   const LightMedia* light_media = nullptr;  // of a walk in media
 };
 
-// Those of a path in each lane.
-template <class F>
-Sampler<F> numbers_of(const PointSet& points, const PathSite<F>& site) {
-  return Sampler<F>(points, site.x, site.y, site.index);
-}
-
 // A path on its way, one a lane.
 template <class F>
 struct LightPathState {

@@ -6,12 +6,12 @@ namespace montelux {
 
 namespace {
 
-class LightTracingChain final : public Chain {
+class LightTracingSeries final : public FrameSeries {
  public:
-  // What `shared` refers to must outlive the chain.
-  LightTracingChain(const Scene& scene, const Accel& accel, const LightTracingSettings& settings,
-                    const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
-                    const ChainPass& pass)
+  // What `shared` refers to must outlive the series.
+  LightTracingSeries(const Scene& scene, const Accel& accel, const LightTracingSettings& settings,
+                     const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
+                     const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
@@ -21,10 +21,10 @@ class LightTracingChain final : public Chain {
         one_sided_(has_one_sided_surfaces(scene)),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers) {}
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     return run_layers(step, tile, out, {});
   }
-  RayCounts run_layers(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
                        std::span<ExactRgb> sums) override {
     if (step.stage == 0)
       return settings_.lanes == Lanes::one ? follow<float>(step, tile) : follow<NativeFloats>(step, tile);
@@ -34,7 +34,7 @@ class LightTracingChain final : public Chain {
 
  private:
   template <class F>
-  RayCounts follow(const ChainStep& step, const PixelBounds& tile) {
+  RayCounts follow(const SeriesStep& step, const PixelBounds& tile) {
     if (!by_power_) return {};
     const LightTracingScene<Accel> shared{scene_,     accel_, settings_,
                                           *by_power_, pass_,  std::uint32_t(step.frame),
@@ -48,7 +48,7 @@ class LightTracingChain final : public Chain {
   const LightTracingSettings& settings_;
   const std::optional<AliasTable>& by_power_;
   const std::optional<LightMedia>& light_media_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const bool one_sided_;
   SplatPlane plane_;
 };
@@ -70,8 +70,8 @@ Result<std::unique_ptr<LightTracer>> LightTracer::make(const Scene& scene, const
   return std::unique_ptr<LightTracer>(new LightTracer(scene, accel, settings));
 }
 
-std::unique_ptr<Chain> LightTracer::begin(const ChainPass& pass) const {
-  return std::make_unique<LightTracingChain>(scene_, accel_, settings_, by_power_, light_media_, pass);
+std::unique_ptr<FrameSeries> LightTracer::begin(const SeriesPass& pass) const {
+  return std::make_unique<LightTracingSeries>(scene_, accel_, settings_, by_power_, light_media_, pass);
 }
 
 }  // namespace montelux

@@ -16,7 +16,7 @@ namespace montelux {
 class LightTracer final : public CoupledIntegrator {
  public:
   // Fails where camera rays go through the centres of pixels alone, where no light path arrives. Scene and accel must
-  // outlive the integrator, and the integrator its chains.
+  // outlive the integrator, and the integrator its series.
   static Result<std::unique_ptr<LightTracer>> make(const Scene& scene, const Accel& accel,
                                                    const LightTracingSettings& settings);
 
@@ -24,7 +24,7 @@ class LightTracer final : public CoupledIntegrator {
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
   bool has_layers() const override { return true; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   LightTracer(const Scene& scene, const Accel& accel, const LightTracingSettings& settings);

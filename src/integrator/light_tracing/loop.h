@@ -14,7 +14,7 @@ struct LightTracingScene {
   const Rays& rays;
   const LightTracingSettings& settings;
   const AliasTable& by_power;
-  const ChainPass& pass;
+  const SeriesPass& pass;
   std::uint32_t frame;
   bool one_sided;  // some surface is not there for camera rays that meet its back
   SplatPlane& plane;

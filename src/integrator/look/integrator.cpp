@@ -91,7 +91,7 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
   for (;;) {
     const M on = first_hits.refill(path, M(false));
     if (!any(on)) return counts;
-    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass.points, path);
     const NextVertex<F> at =
         first_vertex<F>(scene_, accel_, path, on, sampler.stream(first + U(path_dimension::own)), counts);
     const Branches<F> numbers(pass, {path.x, path.y, path.index}, first, U(0u), n);
@@ -100,7 +100,7 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
     for (std::uint32_t i = 0; i < n; ++i) sum += view.value(i);
     const Spectrum<F> radiance =
         select(at.found, sum * (1.0f / float(n)), gray(F(beyond))) * (path.weight / scene_.imaging_ratio);
-    for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     write_features(at, view.albedo(0), path, at.found, out);
   }
 }

@@ -25,7 +25,7 @@ class GivenPaths {
   Mask<F> refill(PathState<F>& path, Mask<F> on) {
     if (std::exchange(started_, true)) return on;
     PathStart<F> start = start_of_path<F>(scene_, given_.pass, given_.site, given_.numbers);
-    start.slot = lane_index<F>();
+    start.output = lane_index<F>();
     const auto [found, hit] =
         rays_.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, given_.on, RayUse::camera);
     start.hit = hit;

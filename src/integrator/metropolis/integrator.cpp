@@ -21,7 +21,7 @@ constexpr int cell_side = 32, chains_per_cell = 16;
 constexpr int packs_per_cell = (chains_per_cell + lanes_of<F> - 1) / lanes_of<F>;
 
 // The stages of a frame; the first two do nothing after the first frame.
-constexpr int look_stage = 0, sum_stage = 1, walk_stage = 2, show_stage = 3;
+constexpr int draw_stage = 0, sum_stage = 1, walk_stage = 2, show_stage = 3;
 
 // What the streams of a pass decide.
 namespace purpose {
@@ -43,11 +43,11 @@ struct CellChains {
 
 // `Function`: PathFunction or StrategyFunction.
 template <class Function>
-class MetropolisChain final : public Chain {
+class MetropolisSeries final : public FrameSeries {
  public:
-  // What this refers to must outlive the chain.
-  MetropolisChain(const Scene& scene, const Accel& accel, const MetropolisSettings& settings,
-                  const typename Function::Settings& paths, const ChainPass& pass)
+  // What this refers to must outlive the series.
+  MetropolisSeries(const Scene& scene, const Accel& accel, const MetropolisSettings& settings,
+                   const typename Function::Settings& paths, const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
@@ -64,19 +64,24 @@ class MetropolisChain final : public Chain {
       steps_of_frame_ += std::uint64_t(steps_of(cell_at(cell))) * chains_per_cell;
   }
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  // The cells; one unit for the sum of what they have found.
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    if (step.stage == show_stage) return std::nullopt;
+    if (step.stage == walk_stage) return total_ > 0 ? chains_.size() : 0;
+    if (step.frame > 0) return 0;
+    return step.stage == sum_stage ? 1 : chains_.size();
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override {
     RayCounts counts;
-    if (step.stage == look_stage && step.frame == 0) {
-      for_each_cell(tile, [&](const Cell& cell) { draw_independent(cell, counts); });
-      look(tile, counts);
-    } else if (step.stage == sum_stage && step.frame == 0) {
-      // One of the tiles does it for all.
-      if (tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0) sum_brightness();
-    } else if (step.stage == walk_stage && total_ > 0) {
-      for_each_cell(tile, [&](const Cell& cell) { walk(step, cell, counts); });
-    } else if (step.stage == show_stage) {
-      show(tile, out);
-    }
+    if (step.stage == draw_stage) draw_independent(cell_at(int(unit)), counts);
+    if (step.stage == sum_stage) sum_brightness();
+    if (step.stage == walk_stage) walk(step, cell_at(int(unit)), counts);
+    return counts;
+  }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    RayCounts counts;
+    if (step.frame == 0) look(tile, counts);
+    show(tile, out);
     return counts;
   }
 
@@ -99,15 +104,6 @@ class MetropolisChain final : public Chain {
     const PixelBounds& b = pass_.bounds;
     const int x = b.x0 + number % cells_across_ * cell_side, y = b.y0 + number / cells_across_ * cell_side;
     return {number, {x, y, std::min(x + cell_side, b.x1), std::min(y + cell_side, b.y1)}};
-  }
-  // Those whose first pixel lies in the tile.
-  template <class Visit>
-  void for_each_cell(const PixelBounds& tile, Visit visit) const {
-    const auto next = [](int pixels) { return (pixels + cell_side - 1) / cell_side; };
-    const PixelBounds& b = pass_.bounds;
-    for (int row = next(tile.y0 - b.y0); row < next(tile.y1 - b.y0); ++row)
-      for (int column = next(tile.x0 - b.x0); column < next(tile.x1 - b.x0); ++column)
-        visit(cell_at(row * cells_across_ + column));
   }
   // Of each chain in a frame.
   static std::uint32_t steps_of(const Cell& cell) {
@@ -140,7 +136,7 @@ class MetropolisChain final : public Chain {
       set_lane(x, k, std::uint32_t(pass_.bounds.x0) + column), set_lane(y, k, std::uint32_t(pass_.bounds.y0) + row);
       set_lane(corner.x, k, float(column)), set_lane(corner.y, k, float(row));
     }
-    const Sampler<F> numbers(points, x, y, index);
+    const auto numbers = numbers_of<F>(points, PathSite<F>{x, y, index});
     const auto size = Vec2f{float(width), float(pass_.bounds.height())};
     const auto dimensions = std::uint32_t(point.values.size() / lanes_of<F>);
     for (std::uint32_t d = 0; d < dimensions; d += 2) {
@@ -225,7 +221,7 @@ class MetropolisChain final : public Chain {
     }
   }
 
-  void walk(const ChainStep& step, const Cell& cell, RayCounts& counts) {
+  void walk(const SeriesStep& step, const Cell& cell, RayCounts& counts) {
     Function evaluate = make_function();
     if (step.frame == 0) start_chains(cell, evaluate, counts);
     CellChains& own = chains_[std::size_t(cell.number)];
@@ -302,7 +298,7 @@ class MetropolisChain final : public Chain {
   const Accel& accel_;
   const MetropolisSettings& settings_;
   const typename Function::Settings& paths_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const int cells_across_, cells_down_;
   const RandomStream<F> random_;  // of the pass
   SplatPlane plane_;
@@ -319,7 +315,7 @@ class MetropolisChain final : public Chain {
 template <class Function>
 StrategyChoice pilot(const Scene& scene, const Accel& accel, const StrategyPaths& paths, const PixelBounds& picture) {
   constexpr int packs = 1024 / lanes_of<F>;  // for each number of events
-  const ChainPass pass{picture, {}};
+  const SeriesPass pass{picture, {}};
   const SplatPlane plane(picture, scene.filter);
   Function evaluate(scene, accel, paths, pass, plane);
   SamplePoint<F> point{std::vector<float>(evaluate.dimensions() * lanes_of<F>), {}};
@@ -368,9 +364,9 @@ MetropolisIntegrator::MetropolisIntegrator(const Scene& scene, const Accel& acce
                            : pilot<StrategyFunction<F, Accel, true>>(scene, accel, strategies_, picture);
 }
 
-std::unique_ptr<Chain> MetropolisIntegrator::begin(const ChainPass& pass) const {
-  const auto make = [&]<class Function>(const typename Function::Settings& paths) -> std::unique_ptr<Chain> {
-    return std::make_unique<MetropolisChain<Function>>(scene_, accel_, settings_, paths, pass);
+std::unique_ptr<FrameSeries> MetropolisIntegrator::begin(const SeriesPass& pass) const {
+  const auto make = [&]<class Function>(const typename Function::Settings& paths) -> std::unique_ptr<FrameSeries> {
+    return std::make_unique<MetropolisSeries<Function>>(scene_, accel_, settings_, paths, pass);
   };
   if (settings_.strategies == MetropolisStrategies::path)
     return make.template operator()<PathFunction<F, Accel>>(path_);

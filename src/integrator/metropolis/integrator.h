@@ -22,7 +22,7 @@ class MetropolisIntegrator final : public CoupledIntegrator {
   int frames() const override { return 16; }
   int warm_up() const override { return 0; }
   int stages() const override { return 4; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

@@ -14,7 +14,7 @@ class PathFunction {
   using U = Uint<F>;
   using Settings = PathSettings;
   // All must outlive this.
-  PathFunction(const Scene& scene, const Rays& rays, const PathSettings& settings, const ChainPass& pass)
+  PathFunction(const Scene& scene, const Rays& rays, const PathSettings& settings, const SeriesPass& pass)
       : scene_(scene),
         rays_(rays),
         settings_(settings),

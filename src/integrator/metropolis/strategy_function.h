@@ -80,12 +80,12 @@ class StrategyFunction {
   using M = Mask<F>;
   using Settings = StrategyPaths;
   // All must outlive this.
-  StrategyFunction(const Scene& scene, const Rays& rays, const StrategyPaths& settings, const ChainPass& pass,
+  StrategyFunction(const Scene& scene, const Rays& rays, const StrategyPaths& settings, const SeriesPass& pass,
                    const SplatPlane& plane)
       : scene_(scene),
         rays_(rays),
         settings_(settings),
-        chain_pass_(pass),
+        series_pass_(pass),
         pass_{pass.bounds, pass.points, pass.shutter, {}, {}, pass.grid},
         plane_(plane),
         values_(dimensions() * std::size_t(lanes_of<F>)),
@@ -193,14 +193,14 @@ class StrategyFunction {
           frame{{f.scene_,
                  f.rays_,
                  f.settings_.by_power,
-                 f.chain_pass_,
+                 f.series_pass_,
                  0u,
                  {},
                  f.settings_.paths,
                  StrategyWeights(f.settings_.paths.mis == BidirectionalMis::power),
                  f.settings_.one_sided,
                  splats,
-                 std::uint32_t(f.chain_pass_.bounds.area()),
+                 std::uint32_t(f.series_pass_.bounds.area()),
                  f.settings_.light_media},
                 eye,
                 light,
@@ -217,7 +217,7 @@ class StrategyFunction {
   Contribution<F> take_place(const SamplePoint<F>& point) {
     std::copy(point.values.begin(), point.values.end(), values_.begin());
     const std::span<float> film(values_.data() + path_dimension::film * lanes_of<F>, 2 * lanes_of<F>);
-    const PixelBounds& bounds = chain_pass_.bounds;
+    const PixelBounds& bounds = series_pass_.bounds;
     Contribution<F> c;
     c.x = take_pixel<F>(film.first(lanes_of<F>), bounds.x0, bounds.width());
     c.y = take_pixel<F>(film.last(lanes_of<F>), bounds.y0, bounds.height());
@@ -268,7 +268,7 @@ class StrategyFunction {
     for_each_lane(c.splatted, [&](int k) {
       const int x = std::clamp(int(std::floor(lane(c.raster.x, k))), b.x0, b.x1 - 1),
                 y = std::clamp(int(std::floor(lane(c.raster.y, k))), b.y0, b.y1 - 1);
-      const PixelBounds& cells = chain_pass_.bounds;
+      const PixelBounds& cells = series_pass_.bounds;
       set_lane(c.x, k, std::uint32_t(std::clamp(grid.cell_x(x), cells.x0, cells.x1 - 1)));
       set_lane(c.y, k, std::uint32_t(std::clamp(grid.cell_y(y), cells.y0, cells.y1 - 1)));
     });
@@ -277,7 +277,7 @@ class StrategyFunction {
   const Scene& scene_;
   const Rays& rays_;
   const StrategyPaths& settings_;
-  const ChainPass& chain_pass_;
+  const SeriesPass& series_pass_;
   const TilePass pass_;
   const SplatPlane& plane_;
   std::vector<float> values_;

@@ -95,7 +95,7 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathS
 // By those of the pass.
 template <class F>
 PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site) {
-  return start_of_path<F>(scene, pass, site, Sampler<F>(pass.points, site.x, site.y, site.index));
+  return start_of_path<F>(scene, pass, site, numbers_of<F>(pass.points, site));
 }
 
 template <class F>
@@ -108,7 +108,7 @@ void FirstHits<F>::tally_sky(const Scene& scene, const PathStart<F>& start, Mask
     const Uint<F> light = Uint<F>(std::uint32_t(scene.lights.infinite_light(i)));
     tally.template add<F>(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
   }
-  for_each_lane(left, [&](int k) { tally.finish(k, lane(start.slot, k), out[lane(start.slot, k)]); });
+  for_each_lane(left, [&](int k) { tally.finish(k, lane(start.output, k), out[lane(start.output, k)]); });
 }
 
 template <class F>
@@ -135,7 +135,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
         const auto [pixel_x, pixel_y] = pixels_of<F>(pass, x, y);
         PathStart<F> state = start_of_path<F>(scene, pass, {pixel_x, pixel_y, U(first + sample)});
-        state.slot =
+        state.output =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *
                 U(samples) +
             U(sample);
@@ -149,7 +149,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         Mask<F> left = on & !starts;
         if (any(left)) {
           Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
-          for_each_lane(left, [&](int k) { out[lane(state.slot, k)].radiance = to_rgb(lane(sky, k)); });
+          for_each_lane(left, [&](int k) { out[lane(state.output, k)].radiance = to_rgb(lane(sky, k)); });
           if constexpr (Tally::records) tally_sky(scene, state, left, out, tally);
         }
       }

@@ -101,7 +101,7 @@ MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const Tile
   if constexpr (requires { source.numbers(path); })
     return source.numbers(path);
   else
-    return Sampler<F>(pass.points, path.x, path.y, path.index);
+    return numbers_of(pass.points, path);
 }
 
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
@@ -130,9 +130,9 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
   const auto finish = [&](M ended) {
     if (!any(ended)) return;
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(ended, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     if constexpr (Tally::records)
-      for_each_lane(ended, [&](int k) { tally.finish(k, lane(path.slot, k), out[lane(path.slot, k)]); });
+      for_each_lane(ended, [&](int k) { tally.finish(k, lane(path.output, k), out[lane(path.output, k)]); });
   };
   M on(false);
   for (;;) {

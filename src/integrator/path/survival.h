@@ -61,7 +61,7 @@ class PilotTally {
     const F throughput = roulette_throughput(path);
     const Spectrum<F> gathered = path.radiance * path.weight;
     for_each_lane(on, [&](int k) {
-      paths_[lane(path.slot, k)].decisions.push_back({lane(throughput, k), mean_light(to_rgb(lane(gathered, k)))});
+      paths_[lane(path.output, k)].decisions.push_back({lane(throughput, k), mean_light(to_rgb(lane(gathered, k)))});
     });
   }
   static float mean_light(const Rgb& light) { return (light.c[0] + light.c[1] + light.c[2]) / 3; }

@@ -33,7 +33,7 @@ struct PhotonSet {
 
 // All photons of a frame have one time where surfaces move. The times of the frames are spread over the exposure as
 // the samples of a pixel are.
-inline std::optional<float> shared_shutter_sample(const Scene& scene, const ChainPass& pass, int frame) {
+inline std::optional<float> shared_shutter_sample(const Scene& scene, const SeriesPass& pass, int frame) {
   if (!scene.moves()) return std::nullopt;
   return Sampler<float>(pass.points, 0, 0, std::uint32_t(frame)).get1(path_dimension::time);
 }
@@ -46,51 +46,33 @@ inline void show_broken(std::span<PixelSample> out) {
 template <class F, class Rays>
 class PhotonFilling {
  public:
-  static constexpr int stages = 4;
+  static constexpr int stages = PhotonMap::stages;
 
   // What is referred to must outlive this.
-  PhotonFilling(const Scene& scene, const Rays& rays, const std::optional<AliasTable>& by_power, const ChainPass& pass,
+  PhotonFilling(const Scene& scene, const Rays& rays, const std::optional<AliasTable>& by_power, const SeriesPass& pass,
                 const PhotonPaths& paths)
       : scene_(scene),
         rays_(rays),
         by_power_(by_power),
         pass_(pass),
         paths_(paths),
-        map_(2 * std::size_t(paths.count), std::size_t(pass.bounds.area())) {}
+        map_(2 * std::size_t(paths.count), units_of_light_paths(paths.count)) {}
 
-  // A stage, over one tile.
-  RayCounts run(const PhotonSet& set, int stage, const PixelBounds& tile) {
-    const std::size_t number = number_of(tile.x0, tile.y0);
-    switch (stage) {
-      case 0:
-        return follow_light(set, tile);
-      case 1:
-        if (number == 0) map_.lay_out(set.radius);
-        return {};
-      case 2:
-        map_.deal(number);
-        return {};
-      default:
-        for (int y = tile.y0; y < tile.y1; ++y)
-          map_.put_in_order(number_of(tile.x0, y), number_of(tile.x1, y), std::size_t(pass_.bounds.area()));
-        return {};
-    }
+  // The units of a stage, and one of them.
+  std::size_t units(int stage) const { return map_.units(stage); }
+  RayCounts run_unit(const PhotonSet& set, int stage, std::size_t unit) {
+    return map_.run_unit(stage, unit, set.radius,
+                         [&](std::vector<Photon>& box) { return follow_light(set, unit, box); });
   }
   const PhotonMap& map() const { return map_; }
   // Whether the flux of a path was not a number since the last time.
   bool take_broken() { return broken_.take() > 0; }
 
  private:
-  std::size_t number_of(int x, int y) const {
-    return std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
-  }
-
-  RayCounts follow_light(const PhotonSet& set, const PixelBounds& tile) {
+  RayCounts follow_light(const PhotonSet& set, std::size_t unit, std::vector<Photon>& box) {
     RayCounts counts;
-    std::vector<Photon>& box = map_.box(number_of(tile.x0, tile.y0));
-    box.clear();
     if (!by_power_) return counts;
-    const LightPathShare share(pass_.bounds, tile, paths_.count);
+    const LightPathPart part = light_path_part(unit, paths_.count);
     const LightWalkScene<Rays> walk{scene_,
                                     rays_,
                                     *by_power_,
@@ -100,8 +82,8 @@ class PhotonFilling {
                                     paths_.max_depth,
                                     paths_.roulette_depth};
     const auto follow = [&](auto sink) {
-      LightWalk<F, Rays, decltype(sink)>(walk, sink, counts).run(share.count(), [&](std::uint32_t i) {
-        return PathSite<float>{0, 0, share[i]};
+      LightWalk<F, Rays, decltype(sink)>(walk, sink, counts).run(part.count, [&](std::uint32_t i) {
+        return PathSite<float>{0, 0, part.first + i};
       });
       if (sink.broken() > 0) broken_.next();
     };
@@ -110,16 +92,15 @@ class PhotonFilling {
       follow(CausticSink<F>(all, *paths_.caustics));
     else
       follow(all);
-    map_.count(box, set.radius);
     return counts;
   }
 
   const Scene& scene_;
   const Rays& rays_;
   const std::optional<AliasTable>& by_power_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   const PhotonPaths paths_;
-  SharedCount broken_;  // tiles with a flux that is not a number
+  SharedCount broken_;  // parts with a flux that is not a number
   PhotonMap map_;
 };
 

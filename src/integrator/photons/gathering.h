@@ -70,7 +70,7 @@ class PhotonGathering {
   // Gather rays that wait for each other, to be followed as full packs.
   static constexpr std::size_t max_waiting = 4096;
   struct Gathered {
-    std::uint32_t slot;
+    std::uint32_t output;
     Spectrum<float> radiance;
   };
 
@@ -81,16 +81,16 @@ class PhotonGathering {
     points.seed = mix_bits(points.seed ^ 0xa54ff53au);
     return points;
   }
-  Sampler<F> gather_numbers(const TilePass& pass, const PathState<F>& path, const U& ray) const {
-    return Sampler<F>(gather_points(pass, rules_.gather_rays), path.x, path.y,
-                      path.index * U(std::uint32_t(rules_.gather_rays)) + ray);
+  auto gather_numbers(const TilePass& pass, const PathState<F>& path, const U& ray) const {
+    const U index = path.index * U(std::uint32_t(rules_.gather_rays)) + ray;
+    return numbers_of<F>(gather_points(pass, rules_.gather_rays), PathSite<F>{path.x, path.y, index});
   }
   static U dimension_of(const PathState<F>& path) {
     return U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
   }
   // The surface that a path has met, with the light met on the way.
   template <class Weight>
-  NextVertex<F> arrive(PathState<F>& path, M on, const Sampler<F>& numbers, Weight weight) {
+  NextVertex<F> arrive(PathState<F>& path, M on, const NumberSource<F> auto& numbers, Weight weight) {
     const NextVertex<F> at =
         follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
                       numbers.stream(dimension_of(path) + U(path_dimension::own)), counts_.scattered, weight);
@@ -121,8 +121,8 @@ class PhotonGathering {
   }
   // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface.
   template <class Weight>
-  M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves, const Sampler<F>& numbers,
-          Weight weight) {
+  M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves,
+          const NumberSource<F> auto& numbers, Weight weight) {
     const U dimension = dimension_of(path);
     moves = scatter_path(path, next, moves);
     const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
@@ -138,7 +138,7 @@ class PhotonGathering {
 
   // One vertex of every path; gives the lanes that continue. `ends`: those that only look for emission.
   M step(const TilePass& pass, PathState<F>& path, M on, M& ends, std::span<PixelSample> out) {
-    const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass.points, path);
     const U dimension = dimension_of(path);
     const NextVertex<F> at = arrive(path, on, sampler, weight_for(path));
     const M scatters = on & at.found & !ends & may_scatter(path);
@@ -174,7 +174,7 @@ class PhotonGathering {
     ends = left & !followed;
     const M ended = on & !left;
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(ended, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     return left;
   }
 
@@ -201,7 +201,7 @@ class PhotonGathering {
                         const BsdfContext<F>& context, M rough) {
     const U dimension = dimension_of(path);
     for (int i = 0; i < rules_.gather_rays; ++i) {
-      const Sampler<F> numbers = gather_numbers(pass, path, U(std::uint32_t(i)));
+      const auto numbers = gather_numbers(pass, path, U(std::uint32_t(i)));
       BsdfContext<F> own = context;
       own.random = context.random.fork(U(0x9b05688cu + std::uint32_t(i)));
       const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
@@ -214,10 +214,10 @@ class PhotonGathering {
       const M met = leave(ray.path, at, next, sent, numbers, weight_of_gather_ray(ray));
       for_each_lane(sent, [&](int k) {
         set_lane(ray.number, k, std::uint32_t(results_.size()));
-        results_.push_back({lane(path.slot, k), lane(ray.path.radiance, k) * lane(path.weight, k)});
+        results_.push_back({lane(path.output, k), lane(ray.path.radiance, k) * lane(path.weight, k)});
       });
       // The number of the ray stands where the loop over packs finds it with the pixel's point.
-      ray.path.slot = U(std::uint32_t(i));
+      ray.path.output = U(std::uint32_t(i));
       for_each_lane(met, [&](int k) { get_lane_words(ray, k, waiting_.emplace_back()); });
     }
   }
@@ -240,13 +240,13 @@ class PhotonGathering {
       on = left;
     }
     const float share = 1 / float(std::max(rules_.gather_rays, 1));
-    for (const Gathered& one : results_) gathered_[one.slot] += one.radiance * share;
+    for (const Gathered& one : results_) gathered_[one.output] += one.radiance * share;
     waiting_.clear(), results_.clear();
   }
   // One vertex of every gather ray; gives the lanes that continue.
   M gather_step(const TilePass& pass, GatherRay<F>& ray, M on) {
     PathState<F>& path = ray.path;
-    const Sampler<F> numbers = gather_numbers(pass, path, path.slot);
+    const auto numbers = gather_numbers(pass, path, path.output);
     const U dimension = dimension_of(path);
     const NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray));
     const M scatters = on & at.found & may_scatter(path);
@@ -271,7 +271,7 @@ class PhotonGathering {
   std::optional<PhotonLookup> beyond_;
   std::vector<GatherRay<float>> waiting_;
   std::vector<Gathered> results_;
-  std::vector<Spectrum<float>> gathered_;  // by slot
+  std::vector<Spectrum<float>> gathered_;  // by output
   RayCounts counts_;
 };
 

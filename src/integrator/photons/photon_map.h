@@ -5,6 +5,7 @@
 
 #include "color/spectrum.h"
 #include "image/pixel_sample.h"
+#include "integrator/integrator.h"
 #include "math/shared_count.h"
 #include "math/vec.h"
 
@@ -52,22 +53,48 @@ struct NearPhotons {
   void reserve_more(std::size_t more);
 };
 
-// Filled in steps, each by many threads, with a barrier between two: tiles trace photons into their boxes (box, count);
-// one thread lays out the cells (lay_out); tiles deal their boxes into cells (deal); parts of the cells are put in
-// order (put_in_order); then photons can be looked up. The order of photons within a cell is that of their numbers,
+// Filled in steps, each by many threads, with a barrier between two: photons are traced into boxes (box, count); one
+// thread lays out the cells (lay_out); the boxes are dealt into cells (deal); parts of the cells are put in order
+// (put_in_order); then photons can be looked up. The order of photons within a cell is that of their numbers,
 // whatever the threads did, so that sums over them have the same bits.
 class PhotonMap {
  public:
   // For about so many photons, in so many boxes; `weighted`: their weights are kept.
   PhotonMap(std::size_t expected, std::size_t boxes, bool weighted = false);
 
-  // The photons of a tile, which has a number below that of boxes to itself.
-  std::vector<Photon>& box(std::size_t tile) { return boxes_[tile]; }
+  // By its number, below that of boxes. One thread at a time has it.
+  std::vector<Photon>& box(std::size_t number) { return boxes_[number]; }
+  std::size_t boxes() const { return boxes_.size(); }
   void count(std::span<const Photon> photons, float radius);
   void lay_out(float radius);
-  void deal(std::size_t tile);
-  // Of the cells, the part from `begin` to `end` of `whole`.
-  void put_in_order(std::size_t begin, std::size_t end, std::size_t whole);
+  void deal(std::size_t number);
+  // One of `parts` parts of the cells.
+  void put_in_order(std::size_t part, std::size_t parts);
+
+  // ---- these steps as the stages of a frame: trace(box) adds photons to that box
+
+  static constexpr int stages = 4;
+  std::size_t units(int stage) const { return stage == 1 ? 1 : boxes(); }
+  template <class Trace>
+  RayCounts run_unit(int stage, std::size_t unit, float radius, Trace trace) {
+    RayCounts rays;
+    switch (stage) {
+      case 0:
+        box(unit).clear();
+        rays = trace(box(unit));
+        count(box(unit), radius);
+        break;
+      case 1:
+        lay_out(radius);
+        break;
+      case 2:
+        deal(unit);
+        break;
+      default:
+        put_in_order(unit, boxes());
+    }
+    return rays;
+  }
 
   std::size_t size() const { return dealt_.size(); }
   float radius() const { return radius_; }

@@ -21,12 +21,12 @@ PhotonPaths caustic_paths(const PhotonMapSettings& settings, int pixels) {
 }
 
 template <class F>
-class PhotonMapChain final : public Chain {
+class PhotonMapSeries final : public FrameSeries {
  public:
   using Photons = PhotonFilling<F, Accel>;
-  // What is referred to must outlive the chain.
-  PhotonMapChain(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings,
-                 const std::optional<AliasTable>& by_power, const ChainPass& pass)
+  // What is referred to must outlive the series.
+  PhotonMapSeries(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings,
+                  const std::optional<AliasTable>& by_power, const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
@@ -36,18 +36,22 @@ class PhotonMapChain final : public Chain {
       caustics_.emplace(scene, accel, by_power, pass, caustic_paths(settings, pass.bounds.area()));
   }
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    const std::optional<float> shutter_sample = shared_shutter_sample(scene_, pass_, step.frame);
-    if (step.stage < Photons::stages) {
-      RayCounts counts;
-      if (step.frame > 0 && !shutter_sample) return counts;
-      counts += global_.run({2 * step.frame, settings_.radius, shutter_sample}, step.stage, tile);
-      if (caustics_)
-        counts += caustics_->run({2 * step.frame + 1, settings_.caustic_radius, shutter_sample}, step.stage, tile);
-      return counts;
-    }
+  // The units of the global map, then those of the map of caustics. Where nothing moves, all frames share the maps.
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    if (step.stage >= Photons::stages) return std::nullopt;
+    if (step.frame > 0 && !shutter_sample(step)) return 0;
+    return global_.units(step.stage) + (caustics_ ? caustics_->units(step.stage) : 0);
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override {
+    const std::size_t of_global = global_.units(step.stage);
+    if (unit < of_global)
+      return global_.run_unit({2 * step.frame, settings_.radius, shutter_sample(step)}, step.stage, unit);
+    return caustics_->run_unit({2 * step.frame + 1, settings_.caustic_radius, shutter_sample(step)}, step.stage,
+                               unit - of_global);
+  }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     const PhotonLookup global = lookup(global_);
-    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), shutter_sample, pass_.grid};
+    const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), shutter_sample(step), pass_.grid};
     PhotonGathering<F, Accel> gathering(scene_, accel_, settings_.gathering(), caustics_ ? lookup(*caustics_) : global,
                                         caustics_ ? std::optional(global) : std::nullopt);
     const RayCounts counts = gathering.run(pass, out);
@@ -57,12 +61,15 @@ class PhotonMapChain final : public Chain {
   }
 
  private:
+  std::optional<float> shutter_sample(const SeriesStep& step) const {
+    return shared_shutter_sample(scene_, pass_, step.frame);
+  }
   PhotonLookup lookup(const Photons& photons) const { return {photons.map(), settings_.kernel, settings_.nearest}; }
 
   const Scene& scene_;
   const Accel& accel_;
   const PhotonMapSettings& settings_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   Photons global_;
   std::optional<Photons> caustics_;  // of final gathering
 };
@@ -76,8 +83,8 @@ float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapS
   constexpr double usual = 64;   // photons, where all within the radius count
   constexpr double spare = 1.5;  // of the radius, where the nearest photons are counted
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
-  const float most = std::max(0.1f * diagonal, 1e-6f);
-  if (scene.lights.count() == 0) return most;
+  const float largest = std::max(0.1f * diagonal, 1e-6f);
+  if (scene.lights.count() == 0) return largest;
 
   const PhotonPaths wanted = global_paths(settings, pixels);
   const AliasTable by_power = scene.lights.by_power();
@@ -108,14 +115,14 @@ float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapS
     std::nth_element(distances.begin(), last, distances.end());
     squared.push_back(*last);
   }
-  if (squared.empty()) return most;
+  if (squared.empty()) return largest;
   const auto middle = squared.begin() + std::ptrdiff_t(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   const double share = double(pilot_paths) / double(wanted.count) / double(neighbours);
   const bool counted = settings.nearest > 0;
   const double held = counted ? double(settings.nearest) : usual;
   const double radius = (counted ? spare : 1) * std::sqrt(double(*middle) * share * held);
-  return float(std::clamp(radius, 1e-6 * double(diagonal), double(most)));
+  return float(std::clamp(radius, 1e-6 * double(diagonal), double(largest)));
 }
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings)
@@ -125,10 +132,10 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Scene& scene, const Accel& accel,
 
 int PhotonMapIntegrator::stages() const { return PhotonFilling<float, Accel>::stages + 1; }
 
-std::unique_ptr<Chain> PhotonMapIntegrator::begin(const ChainPass& pass) const {
+std::unique_ptr<FrameSeries> PhotonMapIntegrator::begin(const SeriesPass& pass) const {
   if (settings_.lanes == Lanes::one)
-    return std::make_unique<PhotonMapChain<float>>(scene_, accel_, settings_, by_power_, pass);
-  return std::make_unique<PhotonMapChain<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
+    return std::make_unique<PhotonMapSeries<float>>(scene_, accel_, settings_, by_power_, pass);
+  return std::make_unique<PhotonMapSeries<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
 }
 
 }  // namespace montelux

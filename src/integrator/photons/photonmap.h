@@ -12,17 +12,17 @@ namespace montelux {
 // by a pilot of light paths.
 float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings, int pixels);
 
-// A chain traces maps of its own in its first frame, and gathers in all of them; where surfaces move each frame has its
-// own maps.
+// A series traces maps of its own in its first frame, and gathers in all of them; where surfaces move each frame has
+// its own maps.
 class PhotonMapIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains. Its radii are set.
+  // Scene and accel must outlive the integrator, and the integrator its series. Its radii are set.
   PhotonMapIntegrator(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings);
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
   int stages() const override;
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

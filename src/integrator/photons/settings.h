@@ -27,7 +27,7 @@ struct SppmSettings {
   PhotonKernel kernel = PhotonKernel::epanechnikov;
   bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
   float glossy = 4;              // density per steradian above which a direction is followed instead
-  int frames = 1024;             // of a chain, at most
+  int frames = 1024;             // of a series, at most
   std::optional<int> max_depth;  // scattering events between the light and the camera
   int roulette_depth = 2;        // scattering events of a path before roulette
   Lanes lanes = Lanes::native;
@@ -45,7 +45,7 @@ struct PhotonMapSettings {
   int gather_rays = 4;           // of each surface in view; 0: the global map is looked up there
   bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
   float glossy = 4;              // density per steradian above which a direction is followed instead
-  int frames = 16;               // of a chain, with the same maps, at most
+  int frames = 16;               // of a series, with the same maps, at most
   std::optional<int> max_depth;  // scattering events between the light and the camera
   int roulette_depth = 2;        // scattering events of a path before roulette
   Lanes lanes = Lanes::native;

@@ -11,11 +11,11 @@ namespace montelux {
 namespace {
 
 template <class F>
-class SppmChain final : public Chain {
+class SppmSeries final : public FrameSeries {
  public:
-  // What is referred to must outlive the chain.
-  SppmChain(const Scene& scene, const Accel& accel, const SppmSettings& settings,
-            const std::optional<AliasTable>& by_power, const ChainPass& pass)
+  // What is referred to must outlive the series.
+  SppmSeries(const Scene& scene, const Accel& accel, const SppmSettings& settings,
+             const std::optional<AliasTable>& by_power, const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
@@ -24,10 +24,14 @@ class SppmChain final : public Chain {
                  {light_paths(settings.photons, pass.bounds.area()), settings.nee ? 1u : 0u, settings.max_depth,
                   settings.roulette_depth}) {}
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    const PhotonSet set{step.frame, float(sppm_radius(settings_.radius, settings_.alpha, step.frame)),
-                        shared_shutter_sample(scene_, pass_, step.frame)};
-    if (step.stage < Photons::stages) return photons_.run(set, step.stage, tile);
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    return step.stage < Photons::stages ? std::optional(photons_.units(step.stage)) : std::nullopt;
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override {
+    return photons_.run_unit(set_of(step.frame), step.stage, unit);
+  }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    const PhotonSet set = set_of(step.frame);
     const RayCounts counts =
         PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(), PhotonLookup(photons_.map(), settings_.kernel))
             .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.shutter_sample, pass_.grid}, out);
@@ -37,11 +41,16 @@ class SppmChain final : public Chain {
   }
 
  private:
+  PhotonSet set_of(int frame) const {
+    return {frame, float(sppm_radius(settings_.radius, settings_.alpha, frame)),
+            shared_shutter_sample(scene_, pass_, frame)};
+  }
+
   using Photons = PhotonFilling<F, Accel>;
   const Scene& scene_;
   const Accel& accel_;
   const SppmSettings& settings_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   Photons photons_;
 };
 
@@ -88,11 +97,11 @@ float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int
     if (across > 0 && first.distance > 0) footprints.push_back(growth / std::sqrt(double(across)));
   }
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
-  const double most = std::max(0.01 * double(diagonal), 1e-6);
-  if (footprints.empty()) return float(most);
+  const double largest = std::max(0.01 * double(diagonal), 1e-6);
+  if (footprints.empty()) return float(largest);
   const auto middle = footprints.begin() + std::ptrdiff_t(footprints.size() / 2);
   std::nth_element(footprints.begin(), middle, footprints.end());
-  return float(std::min(pixels * *middle, most));
+  return float(std::min(pixels * *middle, largest));
 }
 
 SppmIntegrator::SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings)
@@ -100,10 +109,10 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const Accel& accel, const Spp
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
 }
 
-std::unique_ptr<Chain> SppmIntegrator::begin(const ChainPass& pass) const {
+std::unique_ptr<FrameSeries> SppmIntegrator::begin(const SeriesPass& pass) const {
   if (settings_.lanes == Lanes::one)
-    return std::make_unique<SppmChain<float>>(scene_, accel_, settings_, by_power_, pass);
-  return std::make_unique<SppmChain<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
+    return std::make_unique<SppmSeries<float>>(scene_, accel_, settings_, by_power_, pass);
+  return std::make_unique<SppmSeries<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
 }
 
 }  // namespace montelux

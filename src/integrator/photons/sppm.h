@@ -20,13 +20,13 @@ float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int
 // Each frame follows light paths, stores their photons, and gathers them by a path from each pixel.
 class SppmIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains. Its radius is set.
+  // Scene and accel must outlive the integrator, and the integrator its series. Its radius is set.
   SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings);
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
   int stages() const override { return 5; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

@@ -1,5 +1,6 @@
 // Photons: what light paths leave at rough surfaces.
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "integrator/light_paths/walk.h"
@@ -63,26 +64,19 @@ class CausticSink : public PhotonSink<F> {
   const float glossy_;
 };
 
-// The light paths of a tile, which are a part of those of the frame: the paths are dealt out to the pixels, so that any
-// tiles share them.
-class LightPathShare {
- public:
-  LightPathShare(const PixelBounds& all, const PixelBounds& tile, std::uint32_t paths) {
-    const auto pixels = std::uint64_t(all.area());
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      const std::uint64_t row =
-          std::uint64_t(y - all.y0) * std::uint64_t(all.width()) + std::uint64_t(tile.x0 - all.x0);
-      const auto first = std::uint32_t(row * paths / pixels),
-                 last = std::uint32_t((row + std::uint64_t(tile.width())) * paths / pixels);
-      for (std::uint32_t i = first; i < last; ++i) numbers_.push_back(i);
-    }
-  }
-  std::uint32_t count() const { return std::uint32_t(numbers_.size()); }
-  std::uint32_t operator[](std::size_t i) const { return numbers_[i]; }
-
- private:
-  std::vector<std::uint32_t> numbers_;
+// Light paths are traced in parts of so many, each a unit of work.
+inline constexpr std::uint32_t light_paths_per_unit = 1024;
+inline std::size_t units_of_light_paths(std::uint32_t paths) {
+  return (std::size_t(paths) + light_paths_per_unit - 1) / light_paths_per_unit;
+}
+// The paths of one of these parts.
+struct LightPathPart {
+  std::uint32_t first, count;
 };
+inline LightPathPart light_path_part(std::size_t unit, std::uint32_t paths) {
+  const std::uint32_t first = std::uint32_t(unit) * light_paths_per_unit;
+  return {first, std::min(light_paths_per_unit, paths - first)};
+}
 
 // The points of the light paths of a frame: one set for all of them, and none of those of the paths from the eye.
 inline PointSet photon_points(PointSet points, int frame, std::uint32_t paths) {

@@ -17,7 +17,7 @@ using F = NativeFloats;
 using U = Uint<F>;
 using M = Mask<F>;
 
-// What every stage of a chain shares.
+// What every stage of a series shares.
 struct Radiosity {
   const Scene& scene;
   const Accel& accel;
@@ -56,7 +56,7 @@ Spectrum<F> reflected(const Radiosity& r, const Irradiance& irradiance, const Di
 
 // One sample of the irradiance at x on the side of n: a point of a light, and a direction to another element.
 Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const SurfacePoint<F>& x, const Vec3<F>& n,
-                              const Sampler<F>& numbers, RayCounts& counts, M on) {
+                              const NumberSource<F> auto& numbers, RayCounts& counts, M on) {
   namespace plan = element_dimension;
   const LightSample<F> light =
       r.scene.lights.sample<F>(x.p, n, numbers.get1(U(plan::light_choice)), numbers.get2(U(plan::light_point)), on);
@@ -75,14 +75,22 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
   return sum + select(found, reflected(r, known, other, hit, found), gray(F(0.0f)));
 }
 
-class RadiosityChain final : public Chain {
+// Sides of elements in one unit of work.
+constexpr std::size_t sides_per_unit = 32;
+
+class RadiositySeries final : public FrameSeries {
  public:
-  RadiosityChain(const Radiosity& shared, const ChainPass& pass) : shared_(shared), pass_(pass) {
+  RadiositySeries(const Radiosity& shared, const SeriesPass& pass) : shared_(shared), pass_(pass) {
     for (Irradiance& i : irradiance_) i.assign(2 * shared.mesh.size(), gray(0.0f));
   }
 
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
-    return step.stage == 0 ? transport(step.frame, tile) : show(step.frame, tile, out);
+  std::optional<std::size_t> units(const SeriesStep& step) const override {
+    if (step.stage > 0) return std::nullopt;
+    return (irradiance_[0].size() + sides_per_unit - 1) / sides_per_unit;
+  }
+  RayCounts run_unit(const SeriesStep& step, std::size_t unit) override { return transport(step.frame, unit); }
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return show(step.frame, tile, out);
   }
 
  private:
@@ -97,18 +105,14 @@ class RadiosityChain final : public Chain {
   const Irradiance& before(int frame) const { return irradiance_[std::size_t(frame) & 1]; }
   Irradiance& after(int frame) { return irradiance_[std::size_t(frame + 1) & 1]; }
 
-  // The sides of elements are dealt out to the pixels, so that any tiles share the work and none does it twice.
-  RayCounts transport(int frame, const PixelBounds& tile) {
+  // The irradiance of some sides of elements.
+  RayCounts transport(int frame, std::size_t unit) {
     RayCounts counts;
     const PointSet set = points(frame);
-    const auto pixels = std::size_t(pass_.bounds.area()), sides = before(frame).size();
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const std::size_t first =
-            std::size_t(y - pass_.bounds.y0) * std::size_t(pass_.bounds.width()) + std::size_t(x - pass_.bounds.x0);
-        for (std::size_t side = first; side < sides; side += pixels)
-          after(frame)[side] = irradiance_of(side, before(frame), set, counts);
-      }
+    const std::size_t first = unit * sides_per_unit;
+    const std::size_t end = std::min(first + sides_per_unit, before(frame).size());
+    for (std::size_t side = first; side < end; ++side)
+      after(frame)[side] = irradiance_of(side, before(frame), set, counts);
     return counts;
   }
 
@@ -118,7 +122,7 @@ class RadiosityChain final : public Chain {
     for (std::uint32_t first = 0; first < rays; first += std::uint32_t(lanes_of<F>)) {
       const U index = lane_index<F>() + U(first);
       const M on = index < U(rays);
-      const Sampler<F> numbers(set, U(std::uint32_t(side)), U(0u), select(on, index, U(0u)));
+      const auto numbers = numbers_of<F>(set, PathSite<F>{U(std::uint32_t(side)), U(0u), select(on, index, U(0u))});
       const Vec2<F> u = numbers.get2(U(element_dimension::place));
       Hit<F> hit{};
       Vec3<F> o{};
@@ -147,7 +151,7 @@ class RadiosityChain final : public Chain {
     counts.camera = first_hits.rays();
     PathState<F> path{};
     for (M on = first_hits.refill(path, M(false)); any(on); on = first_hits.refill(path, M(false))) {
-      const Sampler<F> sampler(pass.points, path.x, path.y, path.index);
+      const auto sampler = numbers_of(pass.points, path);
       const U first = U(path_dimension::first_vertex), own = U(path_dimension::own);
       const NextVertex<F> at =
           first_vertex<F>(shared_.scene, shared_.accel, path, on, sampler.stream(first + own), counts);
@@ -156,21 +160,20 @@ class RadiosityChain final : public Chain {
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
       if (shared_.settings.gather)
         leaves =
-            point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, gathering(pass, path), counts, on);
+            point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, numbers_of(gathering_points(pass.points), path), counts, on);
       const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
-      for_each_lane(on, [&](int k) { out[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+      for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
       write_features(at, point.albedo, path, on, out);
     }
     return counts;
   }
-  Sampler<F> gathering(const TilePass& pass, const PathState<F>& path) const {
-    PointSet set = pass.points;
-    set.seed = mix_bits(set.seed ^ 0x2545f491u);
-    return Sampler<F>(set, path.x, path.y, path.index);
+  static PointSet gathering_points(PointSet points) {
+    points.seed = mix_bits(points.seed ^ 0x2545f491u);
+    return points;
   }
 
   Radiosity shared_;
-  ChainPass pass_;
+  SeriesPass pass_;
   Irradiance irradiance_[2];
 };
 
@@ -200,8 +203,8 @@ Result<std::unique_ptr<RadiosityIntegrator>> RadiosityIntegrator::make(const Sce
   return std::unique_ptr<RadiosityIntegrator>(new RadiosityIntegrator(scene, accel, settings, *std::move(mesh)));
 }
 
-std::unique_ptr<Chain> RadiosityIntegrator::begin(const ChainPass& pass) const {
-  return std::make_unique<RadiosityChain>(Radiosity{scene_, accel_, settings_, mesh_}, pass);
+std::unique_ptr<FrameSeries> RadiosityIntegrator::begin(const SeriesPass& pass) const {
+  return std::make_unique<RadiositySeries>(Radiosity{scene_, accel_, settings_, mesh_}, pass);
 }
 
 }  // namespace montelux

@@ -14,14 +14,14 @@ namespace montelux {
 class RadiosityIntegrator final : public CoupledIntegrator {
  public:
   // Fails where the scene is not one of diffuse surfaces, or its surfaces cannot be cut. Scene and accel must outlive
-  // the integrator, and the integrator its chains.
+  // the integrator, and the integrator its series.
   static Result<std::unique_ptr<RadiosityIntegrator>> make(const Scene& scene, const Accel& accel,
                                                            const RadiositySettings& settings);
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return settings_.warm_up; }
   int stages() const override { return 2; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   RadiosityIntegrator(const Scene& scene, const Accel& accel, const RadiositySettings& settings, ElementMesh mesh)

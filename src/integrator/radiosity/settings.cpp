@@ -11,7 +11,8 @@ Fields<RadiositySettings> radiosity_fields() {
   Fields<S> fields;
   fields.number("elementsize", &S::element_size, "longest edge of an element, over the scene's diagonal", 1e-5, 10)
       .integer("rays", &S::rays, "of each side of an element in each frame", 1, 65536)
-      .integer("chain", &S::frames, "frames per solution, which is one pass", 1, 1024)
+      .integer("frames", &S::frames, "frames per solution, which is one pass", 1, 1024)
+      .formerly("chain")
       .integer("warm-up", &S::warm_up, "frames before the first one that is shown", 0, 1024)
       .boolean("gather", &S::gather, "final gather: irradiance of pixels from lights and elements");
   return fields;

@@ -8,7 +8,7 @@ namespace montelux {
 struct RadiositySettings {
   float element_size = 0.05f;  // longest edge of an element, over the diagonal of the scene
   int rays = 16;               // of each side of an element in each frame
-  int frames = 16;             // of a chain: a pass
+  int frames = 16;             // of a series: a pass
   int warm_up = 12;            // frames before those: light that has been reflected more often than that is missing
   bool gather = false;         // look up radiosity one bounce later than the picture
 };

@@ -11,14 +11,14 @@ namespace montelux {
 template <class F>
 class Continuations {
  public:
-  // Paths whose next vertex is path.hit; path.slot says where their light goes. The light that they meet there belongs
-  // to them only where `counts`: elsewhere the reused reservoirs have it.
+  // Paths whose next vertex is path.hit; path.output says where their light goes. The light that they meet there
+  // belongs to them only where `counts`: elsewhere the reused reservoirs have it.
   void add(const PathState<F>& path, Mask<F> on, Mask<F> counts) {
     for_each_lane(on, [&](int k) {
       PathState<float>& one = paths_.emplace_back();
       get_lane_words(path, k, one);
-      slots_.push_back(one.slot);
-      one.slot = std::uint32_t(slots_.size()) - 1;
+      slots_.push_back(one.output);
+      one.output = std::uint32_t(slots_.size()) - 1;
       silent_depths_.push_back(lane(counts, k) ? ~0u : one.depth);
     });
   }
@@ -34,7 +34,7 @@ class Continuations {
     return mask_of_bits<F>(running);
   }
   Mask<F> counts_light(const PathState<F>& path, Mask<F> on) const {
-    return on & (gather(silent_depths_.data(), select(on, path.slot, Uint<F>(0u))) != path.depth);
+    return on & (gather(silent_depths_.data(), select(on, path.output, Uint<F>(0u))) != path.depth);
   }
 
   // Adds what the loop has written to `results`, one for each path.

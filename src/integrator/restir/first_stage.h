@@ -10,7 +10,7 @@
 
 namespace montelux {
 
-// All that the stages of a chain share and never change.
+// All that the stages of a series share and never change.
 template <class Rays>
 struct RestirScene {
   const Scene& scene;
@@ -29,8 +29,8 @@ namespace restir_stream {
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
 }  // namespace restir_stream
 
-// Results go to `keep`: keep.lights(vertex, origin, reservoir, slot, mask) and, where paths are reused,
-// keep.paths(reservoir, slot, mask). Pixels that are not reported have no vertex, or no path.
+// Results go to `keep`: keep.lights(vertex, origin, reservoir, output, mask) and, where paths are reused,
+// keep.paths(reservoir, output, mask). Pixels that are not reported have no vertex, or no path.
 template <class F, class Rays, class Keep>
 class FirstStage {
  public:
@@ -56,9 +56,9 @@ class FirstStage {
       on = step(path, on);
     }
     if (reuses_paths()) {
-      paths_.run([&](const U& slot, const PathReservoir<F>& reservoir, const Spectrum<F>& plain, M done) {
-        for_each_lane(done, [&](int k) { out_[lane(slot, k)].radiance += to_rgb(lane(plain, k)); });
-        keep_.paths(reservoir, slot, done);
+      paths_.run([&](const U& output, const PathReservoir<F>& reservoir, const Spectrum<F>& plain, M done) {
+        for_each_lane(done, [&](int k) { out_[lane(output, k)].radiance += to_rgb(lane(plain, k)); });
+        keep_.paths(reservoir, output, done);
       });
       return counts_;
     }
@@ -77,7 +77,7 @@ class FirstStage {
     const Scene& scene = shared_.scene;
     const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
     const M may_scatter = path.depth < max_depth_;
-    const Sampler<F> sampler(pass_.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass_.points, path);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
     const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own), on, Densities::exact};
@@ -138,7 +138,7 @@ class FirstStage {
 
     const M ended = on & (rough | !found | !moves);
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out_[lane(path.slot, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(ended, [&](int k) { out_[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     return on & !ended;
   }
 
@@ -147,8 +147,8 @@ class FirstStage {
   // The direction in which a path leaves its vertex. At a rough one, whose sample is handed to other pixels, its
   // numbers are none that decide where the vertices of other pixels or frames are, as those of a smooth one do: points
   // of one set are not independent. Where paths are reused, others will scatter with the same numbers.
-  BsdfSample<F> leave(const Vertex<F>& v, const Sampler<F>& sampler, U dimension, const RandomStream<F>& path_numbers,
-                      M on) const {
+  BsdfSample<F> leave(const Vertex<F>& v, const NumberSource<F> auto& sampler, U dimension,
+                      const RandomStream<F>& path_numbers, M on) const {
     const M smooth = v.bsdf.is_delta;
     const U place = select(smooth, dimension, U(path_dimension::rough_direction));
     const Vec2<F> u = sampler.get2(place + U(path_dimension::direction));
@@ -200,7 +200,7 @@ class FirstStage {
   void keep(PathState<F>& path, const FoundVertex& found, const Candidates& candidates, M rough) {
     const M broken = rough & candidates.broken();
     if (any(broken)) path.radiance += select(broken, gray(F(std::numeric_limits<float>::quiet_NaN())), gray(F(0.0f)));
-    keep_.lights(found.vertex, found.origin, candidates.result(), path.slot, rough);
+    keep_.lights(found.vertex, found.origin, candidates.result(), path.output, rough);
   }
 
   const RestirScene<Rays>& shared_;

@@ -1,4 +1,5 @@
-// What a chain of one picture leaves to a chain of the next one, and which of its pixels showed a surface point before.
+// What a series of one picture leaves to a series of the next one, and which of its pixels showed a surface point
+// before.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -12,7 +13,7 @@
 namespace montelux {
 
 // The vertices and reservoirs that the last frame of a picture ended with, pixels in row-major order.
-struct ReuseMemory final : ChainMemory {
+struct ReuseMemory final : SeriesMemory {
   PixelBounds bounds;
   Shutter shutter;
   std::vector<ReuseVertex<float>> vertices;

@@ -1,6 +1,6 @@
 #include "integrator/restir/integrator.h"
 
-#include "integrator/restir/chain.h"
+#include "integrator/restir/series.h"
 
 namespace montelux {
 
@@ -11,12 +11,12 @@ RestirIntegrator::RestirIntegrator(const Scene& scene, const Accel& accel, const
       lights_(std::make_unique<LightTechniques>(scene.lights, settings)) {}
 RestirIntegrator::~RestirIntegrator() = default;
 
-int RestirIntegrator::stages() const { return ReuseChain<float, Accel>::stages(settings_); }
+int RestirIntegrator::stages() const { return ReuseSeries<float, Accel>::stages(settings_); }
 
-std::unique_ptr<Chain> RestirIntegrator::begin(const ChainPass& pass) const {
+std::unique_ptr<FrameSeries> RestirIntegrator::begin(const SeriesPass& pass) const {
   const RestirScene<Accel> shared{scene_, *lights_, accel_, settings_};
-  if (settings_.path.lanes == Lanes::one) return std::make_unique<ReuseChain<float, Accel>>(shared, pass);
-  return std::make_unique<ReuseChain<NativeFloats, Accel>>(shared, pass);
+  if (settings_.path.lanes == Lanes::one) return std::make_unique<ReuseSeries<float, Accel>>(shared, pass);
+  return std::make_unique<ReuseSeries<NativeFloats, Accel>>(shared, pass);
 }
 
 }  // namespace montelux

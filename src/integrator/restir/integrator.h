@@ -1,5 +1,5 @@
 // Spatiotemporal resampling by reservoirs, of direct light (Bitterli et al. 2020) and of paths (Ouyang et al. 2021, Lin
-// et al. 2022), as an offline estimator: chains of frames are independent, so their spread is an honest error bar.
+// et al. 2022), as an offline estimator: series of frames are independent, so their spread is an honest error bar.
 // docs/reuse.md has the method.
 #pragma once
 #include "accel/accel.h"
@@ -13,13 +13,13 @@ struct LightTechniques;
 
 class RestirIntegrator final : public CoupledIntegrator {
  public:
-  // Scene and accel must outlive the integrator, and the integrator its chains.
+  // Scene and accel must outlive the integrator, and the integrator its series.
   RestirIntegrator(const Scene& scene, const Accel& accel, const RestirSettings& settings);
   ~RestirIntegrator() override;
-  int frames() const override { return settings_.chain; }
+  int frames() const override { return settings_.frames; }
   int warm_up() const override { return settings_.warm_up; }
   int stages() const override;
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:
   const Scene& scene_;

@@ -31,7 +31,7 @@ struct PathWalk {
   Vec3<F> wi;
   Spectrum<F> until;  // what the path contributes for each unit of light along it,
   Spectrum<F> tail;   // and the weights of all events behind
-  Uint<F> slot;
+  Uint<F> output;
 };
 
 // The walks of a tile: begin() for each pixel, then run().
@@ -48,7 +48,7 @@ class PathCandidates {
              const PathState<F>& ray, M found, M on) {
     PathWalk<F> walk{};
     walk.from = vertex, walk.o = ray.o, walk.d = ray.d, walk.hit = ray.hit;
-    walk.found = select(found, U(1u), U(0u)), walk.slot = ray.slot;
+    walk.found = select(found, U(1u), U(0u)), walk.output = ray.output;
     walk.before = gray(F(1.0f)), walk.leaving = event.f_cos, walk.weight = event.weight;
     walk.density = event.density, walk.by_delta = select(event.delta, U(1u), U(0u)), walk.eta_scale = ray.eta_scale;
     walk.pixels = squared_distance_of_pixels(shared_.reuse, vertex);
@@ -57,7 +57,7 @@ class PathCandidates {
     for_each_lane(on, [&](int k) { get_lane_words(walk, k, walks_.emplace_back()); });
   }
 
-  // Calls done(slot, reservoir, light of the pixel alone, mask) for every walk that has ended.
+  // Calls done(output, reservoir, light of the pixel alone, mask) for every walk that has ended.
   template <class Done>
   void run(Done done) {
     M on(false);
@@ -71,7 +71,7 @@ class PathCandidates {
       const PathReservoir<F> reservoir{chosen_.value,
                                        select(found, usable_weight<F>(chosen_.weight_sum / target), F(0.0f)), F(1.0f),
                                        select(found, target, F(0.0f))};
-      done(walk_.slot, reservoir, walk_.from.throughput * walk_.plain, ended);
+      done(walk_.output, reservoir, walk_.from.throughput * walk_.plain, ended);
       on = on & !ended;
     }
   }

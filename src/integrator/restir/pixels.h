@@ -2,7 +2,7 @@
 #pragma once
 #include "image/pixel_sample.h"
 #include "math/lanes.h"
-#include "mc/point_set.h"
+#include "transport/numbers.h"
 
 namespace montelux {
 
@@ -20,25 +20,27 @@ void for_each_row(const PixelBounds& picture, const PixelBounds& tile, Function 
       std::size_t(tile.width()));
 }
 
-// Which pixels the lanes `on` are: `slot` in the tile, `pixel` in the picture.
+// Which pixels the lanes `on` are: `output` in the tile, `pixel` in the picture.
 template <class F>
 struct LanePixels {
   PixelBounds tile;
-  Uint<F> slot = Uint<F>(0u), pixel = Uint<F>(0u);
+  Uint<F> output = Uint<F>(0u), pixel = Uint<F>(0u);
   Mask<F> on = Mask<F>(false);
 
-  int x(int k) const { return tile.x0 + int(lane(slot, k)) % tile.width(); }
-  int y(int k) const { return tile.y0 + int(lane(slot, k)) / tile.width(); }
+  int x(int k) const { return tile.x0 + int(lane(output, k)) % tile.width(); }
+  int y(int k) const { return tile.y0 + int(lane(output, k)) / tile.width(); }
 
-  // The numbers of the pixels in the chain's frame `frame`, for `purpose`.
+  // The numbers of the pixels in the series's frame `frame`, for `purpose`.
   RandomStream<F> stream(const PointSet& points, int frame, std::uint32_t dimension, std::uint32_t purpose) const {
     Uint<F> xs = Uint<F>(0u), ys = Uint<F>(0u);
     for_each_lane(on, [&](int k) { set_lane(xs, k, std::uint32_t(x(k))), set_lane(ys, k, std::uint32_t(y(k))); });
-    return Sampler<F>(points, xs, ys, Uint<F>(std::uint32_t(frame))).stream(Uint<F>(dimension)).fork(Uint<F>(purpose));
+    return numbers_of<F>(points, PathSite<F>{xs, ys, Uint<F>(std::uint32_t(frame))})
+        .stream(Uint<F>(dimension))
+        .fork(Uint<F>(purpose));
   }
 };
 
-// The next pixels of the tile for which wanted(pixel) holds, from slot `next` on, which moves.
+// The next pixels of the tile for which wanted(pixel) holds, from output `next` on, which moves.
 template <class F, class Wanted>
 LanePixels<F> gather_pixels(const PixelBounds& picture, const PixelBounds& tile, std::uint32_t& next, Wanted wanted) {
   LanePixels<F> at{tile};
@@ -47,7 +49,7 @@ LanePixels<F> gather_pixels(const PixelBounds& picture, const PixelBounds& tile,
     const std::size_t pixel =
         pixel_number(picture, tile.x0 + int(next) % tile.width(), tile.y0 + int(next) / tile.width());
     if (!wanted(pixel)) continue;
-    set_lane(at.slot, k, next), set_lane(at.pixel, k, std::uint32_t(pixel));
+    set_lane(at.output, k, next), set_lane(at.pixel, k, std::uint32_t(pixel));
     lanes |= 1u << k++;
   }
   at.on = mask_of_bits<F>(lanes);

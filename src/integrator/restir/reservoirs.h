@@ -1,4 +1,4 @@
-// What all pixels hold between the steps of a chain: one reservoir each, before a step and after it.
+// What all pixels hold between the steps of a series: one reservoir each, before a step and after it.
 #pragma once
 #include <vector>
 
@@ -16,7 +16,7 @@ class ReservoirPlanes {
   void resize(std::size_t pixels) {
     for (auto& plane : planes_) plane.resize(pixels);
   }
-  // Steps are counted from the first of the chain on; only the last two are there.
+  // Steps are counted from the first of the series on; only the last two are there.
   std::vector<One>& after(int step) { return planes_[std::size_t(step) & 1]; }
   const std::vector<One>& before(int step) const { return planes_[std::size_t(step + 1) & 1]; }
 

@@ -8,10 +8,10 @@ namespace montelux {
 
 namespace {
 
-constexpr int most = 4096;
+constexpr int largest = 4096;
 
 // What has proven best: for direct light, much time behind each sample; for paths, many neighbours and no frames
-// before, whose samples the mean over a chain would count again.
+// before, whose samples the mean over a series would count again.
 RestirSettings defaults_of(std::string_view name, bool groups) {
   RestirSettings s;
   s.groups = groups;
@@ -47,15 +47,15 @@ Fields<RestirSettings> fields_of(std::string_view name) {
   using S = RestirSettings;
   const bool paths = name != "restir-di";
   Fields<S> fields;
-  fields.integer("candidates", &S::candidates, "first candidates by the light hierarchy", 0, most)
-      .integer("power-candidates", &S::power_candidates, "first candidates by power", 0, most)
+  fields.integer("candidates", &S::candidates, "first candidates by the light hierarchy", 0, largest)
+      .integer("power-candidates", &S::power_candidates, "first candidates by power", 0, largest)
       .boolean("bsdf", &S::bsdf_candidate, "one more candidate by the BSDF")
       .other({"groups",
               {ParameterType::boolean},
               "pixels share in groups, whose samples are evaluated at all of their pixels; off: each pixel has its "
               "own neighbours; default on, off if weights are stated"})
       .integer("neighbours", &S::neighbours, "pixels that a pixel shares with in each round", 0, 16)
-      .number("radius", &S::radius, "their distance in pixels; the blocks of groups have twice this size", 1, most)
+      .number("radius", &S::radius, "their distance in pixels; the blocks of groups have twice this size", 1, largest)
       .integer("rounds", &S::rounds, "rounds of spatial reuse", 0, 8)
       .boolean("similar", &S::similar,
                "share between similar pixels: in groups, the same object first; else similar normal and depth")
@@ -66,7 +66,8 @@ Fields<RestirSettings> fields_of(std::string_view name) {
                             "weights of sharing without groups; stating them turns groups off; naive is biased",
                             weights_names())
       .boolean("visibility-reuse", &S::visibility_reuse, "do not pass on occluded samples")
-      .integer("chain", &S::chain, "frames that share samples, which form one pass", 1, 1024)
+      .integer("frames", &S::frames, "frames that share samples, which form one pass", 1, 1024)
+      .formerly("chain")
       .integer("warm-up", &S::warm_up, "preceding frames that are not shown, with temporal=on", 0, 1024)
       .other(max_depth_spec())
       .choice<Lanes>(

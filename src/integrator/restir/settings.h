@@ -35,12 +35,12 @@ struct RestirSettings {
   // first frame, that of the picture before.
   bool temporal = true;
   float m_cap = 20;
-  // In a sequence, chains continue from each picture to the next.
+  // In a sequence, series continue from each picture to the next.
   bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
   // Targets of direct light know what is in the way: more shadow rays, better samples.
   bool visibility_reuse = true;
-  int chain = 16, warm_up = 0;  // frames of a chain; those before them that only teach
+  int frames = 16, warm_up = 0;  // frames of a series; those before them that only teach
   // Direct light at the first rough surface is shared; no: it is each pixel's own.
   bool direct = true;
   PathReuse indirect;

@@ -149,10 +149,10 @@ RayCounts TracePathIntegrator::trace(const TilePass& pass, std::span<PixelSample
   PathState<float> path{};
   const Recursion recursion{scene_, accel_, settings_, polygons_, counts};
   while (first_hits.refill(path, false)) {
-    const Sampler<float> sampler(pass.points, path.x, path.y, path.index);
+    const auto sampler = numbers_of(pass.points, path);
     const RandomStream<float> random = sampler.stream(path_dimension::first_vertex + path_dimension::own);
     const NextVertex<float> at = first_vertex<float>(scene_, accel_, path, true, random.fork(1u), counts);
-    out[path.slot].radiance = to_rgb(recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight);
+    out[path.output].radiance = to_rgb(recursion.radiance(at, random.fork(2u), 0, gray(1.0f)) * path.weight);
     if (at.found) {
       RandomStream<float> own = random.fork(3u);
       const float lobe = own.next();

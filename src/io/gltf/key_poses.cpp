@@ -146,9 +146,9 @@ std::vector<bool> too_fast(Document& document, const NodeTree& tree, const std::
 
 // The maximum number of intervals from the first on, fewer than all and at least `least`, that can be approximated,
 // given the errors of this many chords. Errors are proportional to the square of the step.
-int longest_part(const std::vector<double>& turns, int chords, int least) {
+int longest_part(const std::vector<double>& turns, int chords, int min_steps) {
   double needed = 1;
-  int longest = least;
+  int longest = min_steps;
   for (int n = 1; n < int(turns.size()); ++n) {
     needed = std::max(needed, chords * std::sqrt(turns[std::size_t(n - 1)] / tolerance));
     if (std::bit_floor(unsigned(max_steps / n)) >= needed) longest = std::max(longest, n);
@@ -182,23 +182,23 @@ KeyPoses key_poses_of(Document& document, const NodeTree& tree, const std::optio
     poses.frames_held = n < intervals ? std::max(1, int(n - std::max(exposure, 1.0) + 1e-9)) : 1 << 30;
     fill(poses, tree, animation, n * chords);
   };
-  const int most = std::min(intervals, max_steps);
+  const int step_limit = std::min(intervals, max_steps);
   if (!window.open) {
-    take(most, 1);
+    take(step_limit, 1);
     return poses;
   }
   // The times of the first frames, if all are too many; the rest becomes another scene. The minimum is one frame.
-  const int least = std::min(most, 1 + int(std::ceil(exposure - 1e-9)));
+  const int min_steps = std::min(step_limit, 1 + int(std::ceil(exposure - 1e-9)));
   if (intervals > max_steps && exposure + 1 > max_steps)
     document.report().tolerable(document.whole(),
                                 "the shutter is open over more than " + std::to_string(max_steps - 1) + " frames",
                                 "use a shorter exposure, or fewer frames per second");
   std::vector<bool> is_given_up;
-  for (int n = most;;) {
+  for (int n = step_limit;;) {
     int chords = 1;
     take(n, chords);
     ChordErrors errors = chord_errors(tree, poses, animation);
-    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, poses, errors, max_steps / least);
+    if (is_given_up.empty()) is_given_up = too_fast(document, tree, animation, poses, errors, max_steps / min_steps);
     const auto turns = [&] { return largest_turns(errors, std::size_t(n), is_given_up); };
     const auto is_rough = [&] { return std::ranges::max(turns()) > aim || errors.way > aim_of_ways; };
     while (2 * chords * n <= max_steps && is_rough()) {
@@ -207,8 +207,8 @@ KeyPoses key_poses_of(Document& document, const NodeTree& tree, const std::optio
       errors = chord_errors(tree, poses, animation);
     }
     const std::vector<double> all = turns();
-    if (std::ranges::max(all) <= tolerance || n <= least) return poses;
-    n = longest_part(all, chords, least);
+    if (std::ranges::max(all) <= tolerance || n <= min_steps) return poses;
+    n = longest_part(all, chords, min_steps);
   }
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 using enum ParameterType;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 constexpr double max_integer = 2147483647;
 
 ParameterSpec later(ParameterSpec spec) {
@@ -24,15 +24,16 @@ Fields<FilmDesc> film() {
   fields.list<4>("cropwindow", &S::crop_window, "x0 x1 y0 y1 of the part to render, in [0, 1]; default all", 0, 1);
   fields.list<4>("pixelbounds", &S::pixel_bounds, "x0 x1 y0 y1 of the part to render, in pixels; default all", 0,
                  65536);
-  fields.other(
-      later({"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, most}));
+  fields.other(later(
+      {"diagonal", {number}, "diagonal of the film in mm, for the realistic camera; default 35", 1e-6, unlimited}));
   fields.words("filename", &S::file, "output file unless stated by -o; default: the name of the scene");
   fields.other(later({"savefp16", {boolean}, "write half floats; default true"}));
-  fields.optional("iso", &S::iso, "sensitivity: scales the image with the exposure time; default 100", 1e-6, most);
-  fields.other(later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, most}));
+  fields.optional("iso", &S::iso, "sensitivity: scales the image with the exposure time; default 100", 1e-6, unlimited);
+  fields.other(
+      later({"whitebalance", {number}, "colour temperature in kelvin taken as white; default none", 0, unlimited}));
   fields.other(later({"sensor", {string}, "camera sensor; default cie1931"}));
   fields.optional("maxcomponentvalue", &S::max_component, "clamp of a sample's components (biased); default none", 0,
-                  most);
+                  unlimited);
   return fields;
 }
 
@@ -43,8 +44,8 @@ Fields<FilmDesc> layers_film() {
 Fields<FilmDesc> spectral_film() {
   return film()
       .other(later({"nbuckets", {integer}, "default 16", 1, 4096}))
-      .other(later({"lambdamin", {number}, "nm; default 360", 1, most}))
-      .other(later({"lambdamax", {number}, "nm; default 830", 1, most}));
+      .other(later({"lambdamin", {number}, "nm; default 360", 1, unlimited}))
+      .other(later({"lambdamax", {number}, "nm; default 830", 1, unlimited}));
 }
 
 // ---- samplers -------------------------------------------------------------------------------------------------------
@@ -129,7 +130,7 @@ Fields<Integrator> occlusion() {
   Fields<Integrator> fields;
   fields.flag("cossample", &Integrator::cosine_directions, "cosine-weighted directions");
   fields.optional("maxdistance", &Integrator::max_distance, "maximum distance of occluders; default infinite", 1e-6,
-                  most);
+                  unlimited);
   return fields;
 }
 
@@ -148,7 +149,7 @@ Fields<Integrator> metropolis() {
   fields.optional("mutationsperpixel", &Integrator::mutations, "the number of samples; default that of the sampler", 1,
                   1 << 24);
   fields.optional("largestepprobability", &Integrator::large_step, "default 0.3", 0.01, 1);
-  fields.other(later({"sigma", {number}, "size of a small step; default 0.01", 1e-9, most}));
+  fields.other(later({"sigma", {number}, "size of a small step; default 0.01", 1e-9, unlimited}));
   return fields.other(regularize("default false"));
 }
 
@@ -156,7 +157,8 @@ Fields<Integrator> photons() {
   Fields<Integrator> fields = depth();
   fields.integer("photonsperiteration", &Integrator::photons, "light paths in each frame; -1: one per pixel", -1,
                  1 << 28);
-  fields.optional("radius", &Integrator::radius, "radius of the first frame; default three pixels wide", 1e-30, most);
+  fields.optional("radius", &Integrator::radius, "radius of the first frame; default three pixels wide", 1e-30,
+                  unlimited);
   fields.optional("seed", &Integrator::seed, "default that of the sampler", -max_integer, max_integer);
   return fields.other(regularize("default false"));
 }
@@ -231,7 +233,7 @@ const Models<StatedOptions>& option_models() {
                 "all samples at the pixel's centre, in the middle of lens and shutter (biased)");
     fields.other(later({"disabletexturefiltering", {boolean}, "default false"}));
     fields.other(later({"disablewavelengthjitter", {boolean}, "default false"}));
-    fields.other(later({"displacementedgescale", {number}, "default 1", 0, most}));
+    fields.other(later({"displacementedgescale", {number}, "default 1", 0, unlimited}));
     fields.other(later({"forcediffuse", {boolean}, "all materials diffuse; default false"}));
     fields.other(later({"msereferenceimage", {string}, "image to compare with"}));
     fields.other(later({"msereferenceout", {string}, "where to write the comparison"}));

@@ -101,7 +101,7 @@ std::vector<double> time_methods(const std::vector<ComparedMethod>& compared_met
       (void)render(compared_methods[i].integrator, s, part);
       one = std::min(one, std::max(wall.seconds(), 1e-6));
     }
-    // A chain has only one warm-up for all its frames.
+    // A series has only one warm-up for all its frames.
     if (const CoupledIntegrator* coupled = compared_methods[i].integrator.coupled()) {
       const double warm_up = coupled->warm_up(), frames = state.methods[i].plan.samples_per_pass;
       one *= (warm_up + frames) / (warm_up + 1) / frames;
@@ -142,10 +142,10 @@ ReferenceGoal plan_reference(const std::vector<Pilot>& pilots, const std::vector
                              const std::vector<double>& samples_of_repeat, ErrorMeasure measure, double share) {
   ReferenceGoal goal;
   goal.method = may_serve.front();
-  double least = infinite;
+  double lowest_cost = infinite;
   const std::vector<double> ranked = pilot_errors(pilots, may_serve, measure);
   for (std::size_t i : may_serve)
-    if (const double cost = ranked[i] * pilots[i].all_seconds; cost < least) least = cost, goal.method = i;
+    if (const double cost = ranked[i] * pilots[i].all_seconds; cost < lowest_cost) lowest_cost = cost, goal.method = i;
   // FLIP has no variance: the goal is stated by the others.
   const Pilot& best = pilots[goal.method];
   for (ErrorMeasure by : {ErrorMeasure::relative_mse, ErrorMeasure::mse}) {

@@ -40,7 +40,7 @@ struct Rates {
 };
 
 Rates measure(const Setup& setup, const Points& points) {
-  const std::uint32_t passes = std::max(8u, setup.count("passes")), most = setup.count("samples");
+  const std::uint32_t passes = std::max(8u, setup.count("passes")), largest = setup.count("samples");
   // The planted fault takes independent points under every name.
   const PointSetKind kind = setup.fault() ? PointSetKind::independent : points.kind;
   Rates rates;
@@ -48,7 +48,7 @@ Rates measure(const Setup& setup, const Points& points) {
   for (std::uint32_t d = 1; d <= 8; ++d) {
     Curve curve{fmt::format("{}, {}-dimensional", points.name, d), Mark::line, {}, {}, {}, {}};
     std::vector<double> variances, spreads;
-    for (std::uint32_t n = 16; n <= most; n *= 4) {
+    for (std::uint32_t n = 16; n <= largest; n *= 4) {
       std::vector<double> means;
       for (std::uint32_t pass = 0; pass < passes; ++pass)
         means.push_back(mean_of_pass({kind, setup.seed() + 31 * n + d, pass, n}, d));

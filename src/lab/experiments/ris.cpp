@@ -30,7 +30,7 @@ double as_if_from_target(std::uint32_t candidates, RandomStream<float>& stream) 
 }
 
 Findings run(const Setup& setup) {
-  const std::uint32_t many = setup.count("realisations"), most = setup.count("candidates");
+  const std::uint32_t many = setup.count("realisations"), largest = setup.count("candidates");
   Figure figure{"variance",
                 "Variance of the estimate against the number of candidates $M$: it falls from that of the "
                 "source density to that of the target. Lines: theory.",
@@ -50,7 +50,7 @@ Findings run(const Setup& setup) {
     const std::string n = "$N = " + std::to_string(resampled) + "$";
     Curve variance{n, Mark::points, {}, {}, {}, {}}, mean = variance;
     std::vector<double> z_mean, z_variance;
-    for (std::uint32_t m = 1; m <= most; m *= 2) {
+    for (std::uint32_t m = 1; m <= largest; m *= 2) {
       const ResamplingCounts counts{m, resampled};
       const Spread s = spread_of(realisations(setup, purpose++, many, [&](auto& stream) {
         return setup.fault() ? as_if_from_target(m, stream)
@@ -66,13 +66,13 @@ Findings run(const Setup& setup) {
     figure.curves.push_back(variance);
     add_expected(figure, function_curve(
                              "theory, " + n, Mark::line, [&](double m) { return expected_variance(m, resampled); }, 1,
-                             most, true, 60));
+                             largest, true, 60));
     means.curves.push_back(mean);
     findings.checks.push_back(deviations_check("Unbiased for every $M$, with " + n + ".", z_mean));
     findings.checks.push_back(deviations_check("The variance is that of theory, with " + n + ".", z_variance));
   }
   means.curves.push_back(function_curve(
-      "true value 1", Mark::dashes, [](double) { return 1.0; }, 1, most, true, 2));
+      "true value 1", Mark::dashes, [](double) { return 1.0; }, 1, largest, true, 2));
   findings.sections = {figure, means};
   return findings;
 }

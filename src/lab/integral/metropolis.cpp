@@ -21,7 +21,7 @@ class Metropolis final : public Technique {
 
   TechniqueTraits traits() const override {
     TechniqueTraits t;
-    t.passes = 32, t.unit = 0, t.least = 8;
+    t.passes = 32, t.unit = 0, t.min_samples = 8;
     return t;
   }
 

@@ -11,7 +11,7 @@ class Miser final : public Technique {
 
   TechniqueTraits traits() const override {
     TechniqueTraits t;
-    t.passes = 8, t.unit = 0, t.least = 2;
+    t.passes = 8, t.unit = 0, t.min_samples = 2;
     return t;
   }
   TermSums run(const PassPart& part) const override {

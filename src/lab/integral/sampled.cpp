@@ -40,14 +40,14 @@ void add_terms(std::span<const double> terms, double& sum, double& magnitude) {
 
 // Buffers of one part: points by coordinate, and the values at them.
 struct Batch {
-  std::size_t dimension, most;
+  std::size_t dimension, largest;
   std::vector<double> points, values, jacobian, control;
 
   Batch(std::size_t d, std::uint64_t count)
       : dimension(d),
-        most(std::size_t(std::min<std::uint64_t>(batch_size(d), count))),
-        points(d * most),
-        values(most) {}
+        largest(std::size_t(std::min<std::uint64_t>(batch_size(d), count))),
+        points(d * largest),
+        values(largest) {}
   std::span<double> coordinates(std::size_t n) { return std::span(points).first(dimension * n); }
 };
 
@@ -65,8 +65,8 @@ class Sampled final : public Technique {
     const bool correlated = method_.kind == MethodKind::qmc || method_.kind == MethodKind::stratified;
     t.passes = correlated ? 6 : 32;  // if lengths are powers of two, up to twice as many
     t.training_evaluations = training_evaluations_;
-    if (method_.kind == MethodKind::antithetic) t.least = 2;
-    if (map_) t.least = points_per_uniform, t.cost = 1 + 1 / double(points_per_uniform);
+    if (method_.kind == MethodKind::antithetic) t.min_samples = 2;
+    if (map_) t.min_samples = points_per_uniform, t.cost = 1 + 1 / double(points_per_uniform);
     return t;
   }
 
@@ -87,7 +87,7 @@ class Sampled final : public Technique {
     TermSums sums;
     if (map_) add_uniform_share(part, batch, sums);
     for (std::uint64_t done = 0; done < part.count;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, part.count - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, part.count - done));
       fill(part, shape, {integrand_.dimension, part.first + done, n, batch.points.data()});
       evaluate(batch, n, sums);
       done += n;
@@ -125,9 +125,9 @@ class Sampled final : public Technique {
   void add_uniform_share(const PassPart& part, Batch& batch, TermSums& sums) const {
     const CubeKey key = part.key.fork(uniform_purpose);
     const std::uint64_t first = part.first / points_per_uniform, all = part.count / points_per_uniform;
-    std::vector<double> density(batch.most);
+    std::vector<double> density(batch.largest);
     for (std::uint64_t done = 0; done < all;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, all - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, all - done));
       fill_points(key, {integrand_.dimension, first + done, n, batch.points.data()});
       map_->density(batch.coordinates(n), std::span(density).first(n));
       const std::span<double> values = std::span(batch.values).first(n);
@@ -195,7 +195,7 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
   std::vector<double> sums(dimension * bins), uniform;
   double mean = 0, mapped_square = 0, plain_square = 0;
   for (std::uint64_t done = 0; done < samples;) {
-    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.most, samples - done));
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, samples - done));
     fill_sobol(key, {dimension, done, n, batch.points.data()});
     uniform.assign(batch.points.begin(), batch.points.begin() + std::ptrdiff_t(dimension * n));
     batch.jacobian.assign(n, 1.0);
@@ -228,8 +228,8 @@ constexpr std::array<double, MapTraining::steps> step_shares{0.4, 0.031, 0.047, 
 // A power of two: the edges of the bins, where the map is not smooth, are then also edges of the strata of a Sobol'
 // net, which reduces its error by a factor of tens.
 std::size_t bins_for(std::uint64_t samples) {
-  constexpr std::uint64_t least = 8, most = 128, samples_per_bin = 24;
-  return std::size_t(std::bit_floor(std::clamp(samples / samples_per_bin, least, most)));
+  constexpr std::uint64_t smallest = 8, largest = 128, samples_per_bin = 24;
+  return std::size_t(std::bit_floor(std::clamp(samples / samples_per_bin, smallest, largest)));
 }
 
 }  // namespace

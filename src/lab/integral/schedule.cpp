@@ -82,7 +82,7 @@ std::uint64_t Schedule::fixed_passes(std::uint64_t samples) {
   if (passes_ == 0) {
     std::uint64_t passes = given ? state_.method.passes : traits_.passes;
     if (!given) passes = std::max(passes, (samples + max_length() - 1) / max_length());
-    length_ = std::max(traits_.least, technique_.fitting(std::max(traits_.least, samples / passes)));
+    length_ = std::max(traits_.min_samples, technique_.fitting(std::max(traits_.min_samples, samples / passes)));
     if (length_ > max_samples_of_pass)
       throw std::invalid_argument(fmt::format("{} passes of {} samples are too long: a pass has {} at most", passes,
                                               length_, max_samples_of_pass));
@@ -113,9 +113,9 @@ StopReason Schedule::run_fixed(std::uint64_t samples) {
 StopReason Schedule::run_growing() {
   if (passes_ == 0) {
     passes_ = state_.method.passes > 0 ? state_.method.passes : std::max<std::uint32_t>(16, traits_.passes);
-    length_ = std::bit_ceil(std::max(traits_.least, first_look / passes_));
+    length_ = std::bit_ceil(std::max(traits_.min_samples, first_look / passes_));
     if (budget_.samples) length_ = std::min(length_, *budget_.samples / passes_);
-    length_ = std::max(traits_.least, technique_.fitting(std::max(traits_.least, length_)));
+    length_ = std::max(traits_.min_samples, technique_.fitting(std::max(traits_.min_samples, length_)));
     if (!add(0, passes_, 0, length_)) return StopReason::stopped;
   }
   while (true) {

@@ -51,11 +51,11 @@ struct Top {
 
 // Uniform points of the whole cube: the largest values, and the position of the maximum.
 LargestTerms scan(Magnitude& f, CubeKey key, std::uint64_t samples, Top& top) {
-  const std::size_t dimension = top.point.size(), most = batch_size(dimension);
+  const std::size_t dimension = top.point.size(), batch = batch_size(dimension);
   LargestTerms largest(LargestTerms::of_run);
   std::vector<double> points, values;
   for (std::uint64_t done = 0; done < samples; done += values.size()) {
-    values.resize(std::size_t(std::min<std::uint64_t>(most, samples - done)));
+    values.resize(std::size_t(std::min<std::uint64_t>(batch, samples - done)));
     points.resize(dimension * values.size());
     fill_independent(key, {dimension, done, values.size(), points.data()});
     f.evaluate(points, values);

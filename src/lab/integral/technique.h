@@ -32,10 +32,10 @@ struct PassPart {
 
 // How a technique likes to be asked.
 struct TechniqueTraits {
-  std::uint32_t passes = 32;  // for a fixed number of samples
-  std::uint64_t unit = 8192;  // a part may be cut at multiples of this, for threads; 0: never
-  std::uint64_t least = 1;    // samples that a part needs at the least
-  double cost = 1;            // evaluations of one sample
+  std::uint32_t passes = 32;      // for a fixed number of samples
+  std::uint64_t unit = 8192;      // a part may be cut at multiples of this, for threads; 0: never
+  std::uint64_t min_samples = 1;  // that a part needs
+  double cost = 1;                // evaluations of one sample
   std::uint64_t training_evaluations = 0;
 };
 

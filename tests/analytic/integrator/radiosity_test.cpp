@@ -44,9 +44,9 @@ const std::vector<std::string> even_scenes{"closed-furnace-box.pbrt", "closed-fu
 TEST(Radiosity, finds_closed_forms_of_even_irradiance_whatever_the_elements) {
   const double level = sidak_level(family_level, 3.0 * double(even_scenes.size()));
   for (const std::string& scene : even_scenes) {
-    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.3,chain=4,warm-up=40", level)) << scene;
-    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.08,rays=5,chain=4,warm-up=40", level)) << scene;
-    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.5,chain=4,warm-up=40,gather=on", level)) << scene;
+    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.3,frames=4,warm-up=40", level)) << scene;
+    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.08,rays=5,frames=4,warm-up=40", level)) << scene;
+    EXPECT_TRUE(finds(scene, "radiosity:elementsize=0.5,frames=4,warm-up=40,gather=on", level)) << scene;
   }
 }
 
@@ -54,13 +54,13 @@ TEST(Radiosity, differs_from_a_closed_form_that_is_three_percent_off) {
   const double level = sidak_level(family_level, 3.0 * double(even_scenes.size()));
   int rejected = 0;
   for (const std::string& scene : even_scenes)
-    rejected += finds(scene, "radiosity:elementsize=0.3,chain=4,warm-up=40", level, 1.03) ? 0 : 1;
+    rejected += finds(scene, "radiosity:elementsize=0.3,frames=4,warm-up=40", level, 1.03) ? 0 : 1;
   EXPECT_GE(rejected, 6) << "of " << even_scenes.size();
 }
 
 TEST(Radiosity, lacks_the_reflections_that_it_was_given_no_frames_for) {
   for (const char* scene : {"closed-furnace-box.pbrt", "closed-furnace-sphere.pbrt"})
-    EXPECT_FALSE(finds(scene, "radiosity:elementsize=0.3,chain=4,warm-up=1", family_level)) << scene;
+    EXPECT_FALSE(finds(scene, "radiosity:elementsize=0.3,frames=4,warm-up=1", family_level)) << scene;
 }
 
 // A room with a shadow, seen below its lamp, whose edges would be the noise of both methods. The squared bias of a
@@ -133,8 +133,8 @@ TEST(Radiosity, comes_nearer_to_the_path_tracer_as_its_elements_become_smaller) 
 
 TEST(Radiosity, gives_the_same_bits_for_any_number_of_threads) {
   const TestScene scene(room);
-  const Film one = render_film(scene, "radiosity:elementsize=0.3,chain=2", {2, 2}, 3, 1);
-  const Film two = render_film(scene, "radiosity:elementsize=0.3,chain=2", {2, 2}, 3, 2);
+  const Film one = render_film(scene, "radiosity:elementsize=0.3,frames=2", {2, 2}, 3, 1);
+  const Film two = render_film(scene, "radiosity:elementsize=0.3,frames=2", {2, 2}, 3, 2);
   const PixelBounds& b = one.bounds();
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) EXPECT_EQ(one.pixel(x, y).mean[0], two.pixel(x, y).mean[0]);

@@ -71,7 +71,7 @@ class AnalyticScene : public testing::TestWithParam<Case> {};
 TEST_P(AnalyticScene, has_the_mean_of_theory_under_every_sampler) {
   const Case& c = GetParam();
   const TestScene scene(read_text(folder / c.scene), folder.string());
-  double least = INFINITY, most = 0;
+  double smallest = INFINITY, largest = 0;
   bool finds_one_percent = false;
   for (const NamedPointSet& set : point_set_names)
     for (Lanes lanes : {Lanes::native, Lanes::one}) {
@@ -85,12 +85,13 @@ TEST_P(AnalyticScene, has_the_mean_of_theory_under_every_sampler) {
       EXPECT_EQ(m.non_finite, 0u) << set.name << ", " << width;
       EXPECT_FALSE(agrees(m, c.value * 1.03)) << set.name << ": a closed form that is 3 % too large passes";
       EXPECT_FALSE(agrees(m, c.value / 1.03)) << set.name << ": a closed form that is 3 % too small passes";
-      least = std::min(least, smallest_fault(m, c.value)), most = std::max(most, smallest_fault(m, c.value));
+      smallest = std::min(smallest, smallest_fault(m, c.value)),
+      largest = std::max(largest, smallest_fault(m, c.value));
       finds_one_percent |= !agrees(m, c.value * 1.01) && !agrees(m, c.value / 1.01);
     }
   EXPECT_TRUE(finds_one_percent) << "a closed form that is 1 % off passes under every sampler";
   std::printf("    %-28s finds faults from %.3f %% (the best sampler) to %.3f %% (the worst)\n", c.scene.c_str(),
-              100 * least, 100 * most);
+              100 * smallest, 100 * largest);
 }
 
 TEST_P(AnalyticScene, shows_a_planted_fault) {

@@ -46,7 +46,7 @@ RenderResult rendered(const TestScene& scene, std::uint32_t seed, std::optional<
 
 // The least p-value of Welch's tests of all pixels, times their number (Bonferroni).
 double min_p_value(const Film& a, const Film& b) {
-  double least = 1;
+  double smallest = 1;
   int pixels = 0;
   const PixelBounds& all = a.bounds();
   for (int y = all.y0; y < all.y1; ++y)
@@ -58,9 +58,9 @@ double min_p_value(const Film& a, const Film& b) {
         continue;
       }
       const double degrees = (v + w) * (v + w) / (v * v + w * w) * (passes - 1);
-      least = std::min(least, 2 * student_t_cdf(-std::abs(p.mean[0] - q.mean[0]) / std::sqrt(v + w), degrees));
+      smallest = std::min(smallest, 2 * student_t_cdf(-std::abs(p.mean[0] - q.mean[0]) / std::sqrt(v + w), degrees));
     }
-  return std::min(1.0, least * pixels);
+  return std::min(1.0, smallest * pixels);
 }
 
 // The whole world, its lamp left out, which may not move: it lights from the camera's side.
@@ -132,12 +132,13 @@ Shape "sphere" "float radius" 0.05
   const double inside = radiance * disk / (n * radius * radius * std::sin(2 * std::numbers::pi / n) / 2);
   // How far a place is inside of the polygon's image, at least; negative outside.
   const auto depth = [&](double x, double y) {
-    double least = 9;
+    double smallest = 9;
     for (int side = 0; side < n; ++side) {
       const double middle = turn + 2 * std::numbers::pi * (side + 0.5) / n;
-      least = std::min(least, radius * std::cos(std::numbers::pi / n) + x * std::cos(middle) + y * std::sin(middle));
+      smallest =
+          std::min(smallest, radius * std::cos(std::numbers::pi / n) + x * std::cos(middle) + y * std::sin(middle));
     }
-    return least;
+    return smallest;
   };
   double sum = 0, variance = 0;
   int pixels = 0, dark = 0;

@@ -90,13 +90,13 @@ double strips_match(const std::function<FilterSample<float>(Vec2f)>& sample, con
     int i = std::min(strips - 1, int((s.offset.x - a) / step));
     sum[i] += s.weight, squares[i] += double(s.weight) * s.weight;
   }
-  double least = 1;
+  double smallest = 1;
   for (int i = 0; i < strips; ++i) {
     double truth = integral(expected.profile, a + i * step, a + (i + 1) * step) / whole, mean = sum[i] / samples;
     double error = std::sqrt((squares[i] / samples - mean * mean) / samples);
-    least = std::min(least, test::z_test(mean, error, truth).p_value);
+    smallest = std::min(smallest, test::z_test(mean, error, truth).p_value);
   }
-  return least * strips;
+  return smallest * strips;
 }
 
 // Two-sided p-value: does the mean of weight * g over samples equal the integral of f g for the normalised filter?

@@ -295,6 +295,70 @@ TEST(EmittedRays, take_directions_that_follow_the_density_and_a_wrong_cosine_is_
   }
 }
 
+// How far the numbers of a ray are from those that emit() drew it with, and the ray that they give from that ray.
+struct RoundTrip {
+  double numbers = 0;
+  double ray = 0;
+};
+// `fault`: a factor of the first number of each pair.
+RoundTrip round_trip(const EmissionCase& c, Vec2f u_point, Vec2f u_direction, float fault = 1) {
+  const LightEmission<float> e = c.lights.emit<float>(0, u_point, u_direction, true);
+  if (!e.valid) return {};
+  EmissionNumbers<float> u = c.lights.emission_numbers<float>(0, e.p, e.n, e.d, true);
+  u.point.x *= fault, u.direction.x *= fault;
+  const LightEmission<float> again = c.lights.emit<float>(0, u.point, u.direction, true);
+  RoundTrip r;
+  const auto widen = [&](Vec2f a, Vec2f b) {
+    r.numbers = std::max({r.numbers, double(std::abs(a.x - b.x)), double(std::abs(a.y - b.y))});
+  };
+  if (!e.delta_position) widen(u.point, u_point);
+  if (!e.delta_direction) widen(u.direction, u_direction);
+  r.ray = std::max(double(length(again.p - e.p)), double(length(again.d - e.d)));
+  return r;
+}
+
+// Rounding of directions near poles and of points near the ends of charts is multiplied there: nearly all numbers are
+// found to five digits, and all rays.
+TEST(EmittedRays, are_led_back_to_their_numbers) {
+  for (const EmissionCase& c : all_emission_cases()) {
+    SCOPED_TRACE(c.name);
+    RandomStream<float> r(5, 6);
+    int exact = 0, off = 0;
+    constexpr int n = 4000;
+    for (int i = 0; i < n; ++i) {
+      const Vec2f u_point = r.next2(), u_direction = r.next2();
+      const RoundTrip trip = round_trip(c, u_point, u_direction);
+      EXPECT_LT(trip.ray, is_infinite(c.kind) || c.kind == LightKind::distant ? 2e-3 : 1e-3)
+          << u_point.x << " " << u_point.y << " " << u_direction.x << " " << u_direction.y;
+      exact += trip.numbers < 1e-4;
+      off += round_trip(c, u_point, u_direction, 0.99f).numbers > 1e-4;
+    }
+    EXPECT_GT(exact, 0.97 * n);
+    EXPECT_GT(off, 0.9 * n) << "numbers that are a hundredth too small";
+  }
+}
+
+// Each lane its own ray, as in one lane.
+TEST(EmittedRays, are_led_back_in_lanes) {
+  for (const EmissionCase& c : all_emission_cases()) {
+    SCOPED_TRACE(c.name);
+    const RandomStream<P> r(Uint<P>(7u), lane_index<P>());
+    RandomStream<P> stream = r;
+    const Vec2<P> u_point = stream.next2(), u_direction = stream.next2();
+    const Uint<P> light(0u);
+    const LightEmission<P> e = c.lights.emit<P>(light, u_point, u_direction, Mask<P>(true));
+    const EmissionNumbers<P> u = c.lights.emission_numbers<P>(light, e.p, e.n, e.d, e.valid);
+    for_each_lane(e.valid, [&](int k) {
+      const EmissionNumbers<float> one =
+          c.lights.emission_numbers<float>(0, lane(e.p, k), lane(e.n, k), lane(e.d, k), true);
+      EXPECT_NEAR(lane(u.point.x, k), one.point.x, 1e-5f);
+      EXPECT_NEAR(lane(u.point.y, k), one.point.y, 1e-5f);
+      EXPECT_NEAR(lane(u.direction.x, k), one.direction.x, 1e-5f);
+      EXPECT_NEAR(lane(u.direction.y, k), one.direction.y, 1e-5f);
+    });
+  }
+}
+
 bool is_one(double integral) { return std::abs(integral - 1) < 2e-3; }
 
 TEST(EmittedRays, have_densities_of_integral_one_and_one_percent_more_is_found) {

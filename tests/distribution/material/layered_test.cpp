@@ -63,10 +63,10 @@ double sample_against_value(const Model& model, Vec3f wo, double fault, std::uin
     const BsdfContext<float> other = context_of(stream);
     uniform.add(cell_of(wi), model.evaluate(wo, wi, other).f_cos[0] / double(cosine_density(wi)));
   }
-  double least = 1;
+  double smallest = 1;
   for (std::size_t k = 0; k <= cells; ++k)
-    least = std::min(least, welch_test(drawn.of(k, count), uniform.of(k, count)).p_value);
-  return std::min(1.0, least * (cells + 1));
+    smallest = std::min(smallest, welch_test(drawn.of(k, count), uniform.of(k, count)).p_value);
+  return std::min(1.0, smallest * (cells + 1));
 }
 
 TEST(LayeredBsdf, sampled_weights_integrate_the_value) {

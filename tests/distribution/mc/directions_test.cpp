@@ -301,12 +301,12 @@ double disk_chart_density(double x, double y) {
 
 template <class Sample>
 double disk_p_value(Sample sample) {
-  double least = 1;
+  double smallest = 1;
   for (Grid grid : {coarse_grid, fine_grid})
-    least = std::min(
-        least, chi_square_square([&](auto& s) { return disk_chart(sample(s)); }, disk_chart_density, grid, samples, 1)
-                   .p_value);
-  return least;
+    smallest = std::min(smallest, chi_square_square([&](auto& s) { return disk_chart(sample(s)); }, disk_chart_density,
+                                                    grid, samples, 1)
+                                      .p_value);
+  return smallest;
 }
 
 TEST(Disk, samples_match_density) {
@@ -347,12 +347,12 @@ TEST(RegularPolygon, samples_match_density) {
       return area * double(regular_polygon_density(p * 0.9999f, n).value);
     };
     const auto p_value = [&](auto draw) {
-      double least = 1;
+      double smallest = 1;
       for (Grid grid : {coarse_grid, fine_grid})
-        least = std::min(
-            least,
+        smallest = std::min(
+            smallest,
             chi_square_square([&](auto& s) { return polygon_chart(draw(s), n); }, density, grid, samples, 1).p_value);
-      return least;
+      return smallest;
     };
     EXPECT_GT(p_value([&](auto& s) { return sample(s.next2()); }), level) << n;
     EXPECT_LT(p_value([&](auto& s) { return sample(bent(s.next2())); }), level) << n;
@@ -404,19 +404,19 @@ TEST(Triangle, samples_match_density) {
   // Chart of the triangle with corners (0, 0), (1, 0), (0, 1) that keeps area: fold the square's upper half over.
   const auto sample = [](auto u) { return sample_triangle(u); };
   const auto p_value = [&](auto draw) {
-    double least = 1;
+    double smallest = 1;
     for (Grid grid : {coarse_grid, fine_grid}) {
       std::uint32_t n = 0;
-      least = std::min(least,
-                       chi_square_square(
-                           [&](auto& s) {
-                             const Vec2f b = draw(s);
-                             return (++n & 1u) != 0 ? b : Vec2f{1 - b.x - 1e-7f, 1 - b.y - 1e-7f};
-                           },
-                           [](double, double) { return 0.5 * double(triangle_density(0.5f).value); }, grid, samples, 1)
-                           .p_value);
+      smallest = std::min(
+          smallest, chi_square_square(
+                        [&](auto& s) {
+                          const Vec2f b = draw(s);
+                          return (++n & 1u) != 0 ? b : Vec2f{1 - b.x - 1e-7f, 1 - b.y - 1e-7f};
+                        },
+                        [](double, double) { return 0.5 * double(triangle_density(0.5f).value); }, grid, samples, 1)
+                        .p_value);
     }
-    return least;
+    return smallest;
   };
   EXPECT_GT(p_value([&](auto& s) { return sample(s.next2()); }), level);
   EXPECT_LT(p_value([&](auto& s) { return sample(bent(s.next2())); }), level);

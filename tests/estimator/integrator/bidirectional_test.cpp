@@ -19,7 +19,7 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
   const PixelBounds& bounds = s.image.bounds;
   for (int number = 0; number < passes; ++number) {
-    const ChainPass pass{bounds, s.image.points(number, per_pass), {}, {}};
+    const SeriesPass pass{bounds, s.image.points(number, per_pass), {}, {}};
     SplatPlane plane(bounds, scene.scene().filter);
     Film film(bounds);
     std::vector<PixelPass> pixels(std::size_t(bounds.area()));
@@ -315,8 +315,9 @@ TEST(BidirectionalInMedia, agrees_with_path_in_a_liquid_and_around_a_lamp_in_a_c
 TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
   const TestScene scene(foggy_room());
   for (const int depth : {0, 1, 2}) {
-    const std::string most = ":maxdepth=" + std::to_string(depth);
-    const Comparison c = compared(measured(scene, "bdpt" + most, 16, 40, 2), measured(scene, "path" + most, 32, 60, 1));
+    const std::string largest = ":maxdepth=" + std::to_string(depth);
+    const Comparison c =
+        compared(measured(scene, "bdpt" + largest, 16, 40, 2), measured(scene, "path" + largest, 32, 60, 1));
     EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
   }
 }
@@ -324,10 +325,10 @@ TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
 TEST(Bidirectional, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string most = "maxdepth=" + std::to_string(depth);
-    const PassMeans path = measured(scene, "path:" + most, 16, 60, 1);
+    const std::string largest = "maxdepth=" + std::to_string(depth);
+    const PassMeans path = measured(scene, "path:" + largest, 16, 60, 1);
     for (const std::string way : {"bdpt:", "metropolis:strategies=bdpt,"}) {
-      const Comparison c = compared(measured(scene, way + most, 16, 40, 2), path);
+      const Comparison c = compared(measured(scene, way + largest, 16, 40, 2), path);
       EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
     }
   }
@@ -374,7 +375,7 @@ PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed)
   const PixelBounds& bounds = s.image.bounds;
   PhotonMap map(paths, 1, true);
   for (int number = 0; number < passes; ++number) {
-    const ChainPass pass{bounds, s.image.points(number, 1), {}, {}};
+    const SeriesPass pass{bounds, s.image.points(number, 1), {}, {}};
     SplatPlane plane(bounds, scene.scene().filter);
     const Frame frame{scene.scene(),
                       scene.accel(),
@@ -410,7 +411,7 @@ PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed)
     map.count(photons, radius);
     map.lay_out(radius);
     map.deal(0);
-    map.put_in_order(0, 1, 1);
+    map.put_in_order(0, 1);
     const LightVertices light = light_vertices<F>(frame, bounds, Splatting::off, counts);
     std::vector<PixelSample> samples(std::size_t(bounds.area()));
     EyeSubpaths<F, Frame>(frame, light).run(bounds, samples);
@@ -480,9 +481,9 @@ TEST(Merging, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3})
     for (const char* connect : {",connect=on", ",connect=off"}) {
-      const std::string most = "maxdepth=" + std::to_string(depth);
-      const Comparison c = compared(measured(scene, merging + connect + "," + most, 8, 40, 2),
-                                    measured(scene, "path:" + most, 16, 60, 1));
+      const std::string largest = "maxdepth=" + std::to_string(depth);
+      const Comparison c = compared(measured(scene, merging + connect + "," + largest, 8, 40, 2),
+                                    measured(scene, "path:" + largest, 16, 60, 1));
       EXPECT_FALSE(c.differ()) << connect << depth << ": " << c.smallest << " of " << c.tests;
     }
 }

@@ -66,9 +66,9 @@ TEST(IrradianceCache, agrees_with_path_in_a_coloured_room_and_planted_faults_are
 TEST(IrradianceCache, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string most = "maxdepth=" + std::to_string(depth);
+    const std::string largest = "maxdepth=" + std::to_string(depth);
     const Comparison c =
-        compared(measured(scene, dense + "," + most, 4, 40, 2), measured(scene, "path:" + most, 16, 60, 1));
+        compared(measured(scene, dense + "," + largest, 4, 40, 2), measured(scene, "path:" + largest, 16, 60, 1));
     EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
   }
   EXPECT_TRUE(compared(measured(scene, dense + ",maxdepth=2", 4, 40, 2), measured(scene, "path:maxdepth=3", 16, 60, 1))

@@ -17,7 +17,7 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
   const LightTracingSettings settings;
   for (int number = 0; number < passes; ++number) {
-    const ChainPass pass{s.image.bounds, s.image.points(number, per_pass), {}, {}};
+    const SeriesPass pass{s.image.bounds, s.image.points(number, per_pass), {}, {}};
     SplatPlane plane(s.image.bounds, scene.scene().filter);
     Film film(s.image.bounds);
     std::vector<PixelPass> pixels(std::size_t(s.image.bounds.area()));
@@ -135,9 +135,9 @@ Shape "bilinearmesh" "point3 P" [ -3 0 2  3 0 2  -3 4 2  3 4 2 ]
 TEST(LightTracing, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2}) {
-    const std::string most = ":maxdepth=" + std::to_string(depth);
+    const std::string largest = ":maxdepth=" + std::to_string(depth);
     const Comparison c =
-        compared(measured(scene, "light" + most, 16, 40, 2), measured(scene, "path" + most, 16, 40, 1));
+        compared(measured(scene, "light" + largest, 16, 40, 2), measured(scene, "path" + largest, 16, 40, 1));
     EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
   }
   EXPECT_TRUE(

@@ -286,7 +286,7 @@ struct RoomStrategies {
 
   AliasTable by_power;
   StrategyPaths paths;
-  ChainPass pass;
+  SeriesPass pass;
   SplatPlane plane;
   StrategyFunction<F, Accel, false> evaluate;
   SamplePoint<F> point;

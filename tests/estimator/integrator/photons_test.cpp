@@ -57,7 +57,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
     map.count(box, radius);
     map.lay_out(radius);
     map.deal(0);
-    map.put_in_order(0, 1, 1);
+    map.put_in_order(0, 1);
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
     PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(), PhotonLookup(map, settings.kernel))
@@ -89,13 +89,13 @@ PassMeans gathered_by_hand(const TestScene& scene, int passes, std::uint32_t see
   const std::optional<float> glossy = fault.all_in_view ? std::nullopt : std::optional(fault.glossy_of_caustics);
   PassMeans means;
   for (int number = 0; number < passes; ++number) {
-    const ChainPass pass{s.image.bounds, s.image.points(number, 1)};
+    const SeriesPass pass{s.image.bounds, s.image.points(number, 1)};
     Filling global(scene.scene(), scene.accel(), by_power, pass, {paths, fault.no_direct_beyond ? 1u : 0u, {}, 2, {}});
     Filling caustics(scene.scene(), scene.accel(), by_power, pass,
                      {paths, fault.direct_twice ? 0u : 1u, {}, 2, glossy});
     for (int stage = 0; stage < Filling::stages; ++stage) {
-      global.run({0, radius, {}}, stage, pass.bounds);
-      caustics.run({1, radius, {}}, stage, pass.bounds);
+      for (std::size_t i = 0; i < global.units(stage); ++i) global.run_unit({0, radius, {}}, stage, i);
+      for (std::size_t i = 0; i < caustics.units(stage); ++i) caustics.run_unit({1, radius, {}}, stage, i);
     }
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
@@ -211,10 +211,10 @@ TEST(Photons, agree_with_path_where_things_move) {
 TEST(Photons, end_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string most = "maxdepth=" + std::to_string(depth);
-    const PassMeans path = measured(scene, "path:" + most, 16, 60, 1);
+    const std::string largest = "maxdepth=" + std::to_string(depth);
+    const PassMeans path = measured(scene, "path:" + largest, 16, 60, 1);
     for (const std::string& way : {small, small + ",nee=off", gathering, gathering + ",nee=off"}) {
-      const Comparison c = compared(measured(scene, way + "," + most, 8, 40, 2), path);
+      const Comparison c = compared(measured(scene, way + "," + largest, 8, 40, 2), path);
       EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
     }
   }

@@ -1,5 +1,5 @@
 // Reservoirs that continue over a sequence, against the path tracer of each picture: image mean and blocks,
-// over independent chains, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
+// over independent series, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 
 #include "integrator/restir/history.h"
@@ -106,15 +106,15 @@ TEST(Sequence, by_naive_weights_is_too_dark) {
 bool differs_at_new_vertices(const Measured& m, const char* way) {
   const ChosenIntegrator chosen = m.scene.integrator(way);
   RenderObserver silent;
-  const MemoryChange at_new_vertices = [&](std::shared_ptr<const ChainMemory> memory, int picture) {
-    ChainMemories now;
+  const MemoryChange at_new_vertices = [&](std::shared_ptr<const SeriesMemory> memory, int picture) {
+    SeriesMemories now;
     RenderSettings s = m.scene.settings(PointSetKind::blue_noise, {1, 1}, 77, 0);
     s.image.shutter = sequence_shutter(picture), s.sequence.memories = &now;
     render(chosen.any(), s, silent);
     auto wrong = std::make_shared<ReuseMemory>(dynamic_cast<const ReuseMemory&>(*memory));
     wrong->vertices = dynamic_cast<const ReuseMemory&>(*now.at(0)).vertices;
     wrong->shutter = sequence_shutter(picture);
-    return std::shared_ptr<const ChainMemory>(std::move(wrong));
+    return std::shared_ptr<const SeriesMemory>(std::move(wrong));
   };
   return compare_sequence(measure_sequence(m.scene, chosen, {1, 96, 8}, at_new_vertices), m.truth, level).differ > 0;
 }

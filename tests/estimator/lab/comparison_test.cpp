@@ -40,20 +40,22 @@ class Noise final : public PixelIntegrator {
   WorkClock* clock_ = nullptr;
 };
 
-// Chains whose frames are those of Noise, after `warm_up` frames that take as long and show nothing.
+// Series whose frames are those of Noise, after `warm_up` frames that take as long and show nothing.
 class WarmedUp final : public CoupledIntegrator {
  public:
   WarmedUp(const Noise& noise, int warm_up) : noise_(noise), warm_up_(warm_up) {}
   int frames() const override { return 1; }
   int warm_up() const override { return warm_up_; }
   int stages() const override { return 1; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override { return std::make_unique<Frames>(noise_, pass); }
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
+    return std::make_unique<Frames>(noise_, pass);
+  }
 
  private:
-  class Frames final : public Chain {
+  class Frames final : public FrameSeries {
    public:
-    Frames(const Noise& noise, const ChainPass& pass) : noise_(noise), pass_(pass) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    Frames(const Noise& noise, const SeriesPass& pass) : noise_(noise), pass_(pass) {}
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       PointSet points = pass_.points;
       points.samples_per_pass = 1, points.pass = mix_bits(points.pass * 1024 + std::uint32_t(step.frame));
       return noise_.trace({tile, points, {}}, out);
@@ -61,7 +63,7 @@ class WarmedUp final : public CoupledIntegrator {
 
    private:
     const Noise& noise_;
-    ChainPass pass_;
+    SeriesPass pass_;
   };
   const Noise& noise_;
   int warm_up_;
@@ -328,10 +330,10 @@ TEST(Comparison, finds_a_bias_and_its_size) {
   EXPECT_FALSE(r.methods[0].agreement.differs());
   EXPECT_TRUE(r.methods[1].agreement.differs());
   const Measured& b = r.methods[1].bias_squared;
-  const double most = student_t_quantile(1 - family_level / 8, 7);
-  EXPECT_LT(std::abs(b.mean - 0.0004) / b.standard_error, most);
+  const double largest = student_t_quantile(1 - family_level / 8, 7);
+  EXPECT_LT(std::abs(b.mean - 0.0004) / b.standard_error, largest);
   // A planted fault: a mean that is off by half as much again.
-  EXPECT_GT(std::abs(b.mean - 0.0009) / b.standard_error, most);
+  EXPECT_GT(std::abs(b.mean - 0.0009) / b.standard_error, largest);
 }
 
 TEST(Comparison, takes_no_common_error_of_all_pixels_for_a_bias) {
@@ -387,10 +389,10 @@ TEST(Comparison, takes_the_reference_s_own_noise_off) {
   // The reference's noise is the same in every repeat: its mean square over 3072 values has this error of its own.
   const double own = share * truth * std::sqrt(0.8 / 3072);
   const double error = std::hypot(r.methods[0].mse.standard_error, own);
-  const double most = student_t_quantile(1 - family_level / 8, 11);
-  EXPECT_LT(std::abs(r.methods[0].mse.mean - truth) / error, most);
+  const double largest = student_t_quantile(1 - family_level / 8, 11);
+  EXPECT_LT(std::abs(r.methods[0].mse.mean - truth) / error, largest);
   // A planted fault: the reference's noise is left in.
-  EXPECT_GT(std::abs(r.methods[0].mse.mean - truth * (1 + share)) / error, most);
+  EXPECT_GT(std::abs(r.methods[0].mse.mean - truth * (1 + share)) / error, largest);
   EXPECT_NEAR(r.reference_share[ErrorMeasure::mse], 0.25 / 64 / std::min(r.methods[0].mse.mean, r.methods[1].mse.mean),
               1e-6);
 }

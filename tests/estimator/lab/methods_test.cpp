@@ -65,13 +65,13 @@ TEST(Genz, closed_forms_agree_with_quadrature) {
 
 TEST(Methods, every_mean_is_the_closed_form) {
   const double all_cases = 3 * 5 * double(covered_methods.size());
-  double tests = 0, least = 1, smallest_of_wrong = 1;
+  double tests = 0, smallest = 1, smallest_of_wrong = 1;
   for (std::size_t dimension : {2, 5, 10})
     for (const Case& c : cases(dimension))
       for (std::string_view method : covered_methods) {
         const auto r = lab::integrate(c.problem, lab::parse_method(method).value(), {.samples = 1u << 16}, {.seed = 5});
         const double p = p_value(r, c.genz.integral());
-        ++tests, least = std::min(least, p);
+        ++tests, smallest = std::min(smallest, p);
         EXPECT_GT(p, sidak_level(family_level, all_cases))
             << method << " " << name_of(c.genz.family) << " " << dimension << ": " << r.mean << " +- "
             << r.standard_error << ", not " << c.genz.integral();

@@ -1,6 +1,6 @@
 // Error bars of the integrators that share samples between pixels and frames: 95 % intervals of pixels and of the image
-// mean cover 93 % to 97 %, and the estimated mean squared error is the true one within a tenth. Frames of a chain and
-// pixels beside each other depend on each other; chains do not. Prints the table of docs/error-bars.md.
+// mean cover 93 % to 97 %, and the estimated mean squared error is the true one within a tenth. Frames of a series and
+// pixels beside each other depend on each other; series do not. Prints the table of docs/error-bars.md.
 #include <gtest/gtest.h>
 
 #include "error_bars.h"
@@ -10,7 +10,7 @@ namespace montelux::test {
 
 namespace {
 
-// Chains as long as they are by default. An image gives one interval of its mean and many of its pixels: small images
+// Series as long as they are by default. An image gives one interval of its mean and many of its pixels: small images
 // serve the former.
 constexpr PassPlan plan{16, 8};
 constexpr int seeds = 200, seeds_of_small_images = 800, last_picture = 2;
@@ -73,11 +73,11 @@ TEST(ErrorBarsOfReuse, cover_the_truth_as_often_as_they_say) {
   EXPECT_TRUE(low <= of_images.low && of_images.high <= high);
 }
 
-// The last picture of a sequence, whose chains continue those of the previous images.
+// The last picture of a sequence, whose series continue those of the previous images.
 Coverage coverage_of_sequence(const TestScene& scene, const char* way, int count) {
   const ChosenIntegrator chosen = scene.integrator(way);
   const auto film_of = [&](std::uint32_t seed) {
-    ChainMemories memories;
+    SeriesMemories memories;
     std::optional<Film> film;
     RenderObserver silent;
     for (int picture = 0; picture <= last_picture; ++picture) {
@@ -137,13 +137,13 @@ TEST(ErrorBarsOfReusePlanted, of_frames_taken_for_independent_are_found) {
     const char* way;
   };
   for (const Case& c :
-       {Case{error_bar_scenes()[1], "restir-di:chain=1"}, Case{error_bar_scenes()[2], "restir-di:chain=1"},
-        Case{error_bar_scenes()[1], "restir-pt:temporal=on,chain=1"}}) {
+       {Case{error_bar_scenes()[1], "restir-di:frames=1"}, Case{error_bar_scenes()[2], "restir-di:frames=1"},
+        Case{error_bar_scenes()[1], "restir-pt:temporal=on,frames=1"}}) {
     const auto coverage = [&](std::optional<std::pair<int, int>> resolution, int count) {
       const TestScene scene(c.text.text, ".", resolution);
       const ChosenIntegrator chosen = scene.integrator(c.way);
       const auto film_of = [&](std::uint32_t seed) {
-        ChainMemories memories;
+        SeriesMemories memories;
         std::optional<Film> film;
         RenderObserver silent;
         for (int frame = 0; frame < plan.samples_per_pass; ++frame) {

@@ -1,4 +1,4 @@
-// The squared error of the mean of N independent chains is what the spread of the chains says, at every N up to ten
+// The squared error of the mean of N independent series is what the spread of the series says, at every N up to ten
 // thousand: it falls as 1 / N and leaves no floor, and the dependence between pixels and frames does no harm. Naive
 // weights leave a floor.
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@ namespace montelux::test {
 namespace {
 
 constexpr int size = 16, frames = 4;
-// The means of `block` chains are kept; all others are means of these.
-constexpr std::size_t chains = 10240, block = 10, groups = 32, draws = 20000;
+// The means of `block` series are kept; all others are means of these.
+constexpr std::size_t series = 10240, block = 10, groups = 32, draws = 20000;
 constexpr double level = 0.01;
-// Bounds of 95 % on the floor must be below this, in variances of the mean of all chains. The error of a picture has
+// Bounds of 95 % on the floor must be below this, in variances of the mean of all series. The error of a picture has
 // few effective degrees of freedom, about eight: without a floor the bound is at one in the middle, and hardly ever
 // above six.
 constexpr double largest_floor = 6;
@@ -58,16 +58,16 @@ Known without_lamps(const TestScene& scene, const Truth& all) {
   return k;
 }
 
-// How far the means of successive blocks of chains are off.
+// How far the means of successive blocks of series are off.
 std::vector<Picture> errors_of_blocks(const TestScene& scene, std::string_view way, const Known& known) {
   const ChosenIntegrator chosen = scene.integrator(way);
   std::vector<Picture> errors;
   RenderObserver silent;
-  for (std::size_t chain = 0; chain < chains; ++chain) {
+  for (std::size_t one = 0; one < series; ++one) {
     RenderSettings s = scene.settings(PointSetKind::independent, {frames, 1}, 11, 1);
-    s.plan.first_pass = int(chain);
+    s.plan.first_pass = int(one);
     const Film film = render(chosen.any(), s, silent).film;
-    if (chain % block == 0) errors.emplace_back(known.pixels.size(), 0.0);
+    if (one % block == 0) errors.emplace_back(known.pixels.size(), 0.0);
     for (std::size_t i = 0; i < known.pixels.size(); ++i) {
       const int x = int(known.pixels[i]) % size, y = int(known.pixels[i]) / size;
       errors.back()[i] += (film.pixel(x, y).mean[0] - known.truth.mean[i]) / double(block);
@@ -86,8 +86,8 @@ std::vector<Picture> means_of(const std::vector<Picture>& pictures, std::size_t 
   return means;
 }
 
-// N times the squared error of a mean of N chains that is off by noise alone, drawn at random: the deviations of all
-// blocks from their mean, each with a random sign. Its mean is the variance of a chain.
+// N times the squared error of a mean of N series that is off by noise alone, drawn at random: the deviations of all
+// blocks from their mean, each with a random sign. Its mean is the variance of a series.
 std::vector<double> noise_of(const std::vector<Picture>& blocks) {
   const Picture mean = means_of(blocks, blocks.size())[0];
   const double scale = std::sqrt(double(block) / double(blocks.size() - 1));
@@ -141,15 +141,15 @@ SampleSummary floor_of(const std::vector<Picture>& errors, double known) {
 
 struct Point {
   std::size_t n;
-  double mse, p_value;  // the mean over all parts of N chains; is that the noise of N chains?
+  double mse, p_value;  // the mean over all parts of N series; is that the noise of N series?
 };
 struct Errors {
   std::vector<Point> points;
   double slope = 0;                  // of log MSE over log N
-  double variance = 0, degrees = 0;  // of a chain, by the spread of blocks; effective degrees of freedom of its error
+  double variance = 0, degrees = 0;  // of a series, by the spread of blocks; effective degrees of freedom of its error
   SampleSummary floor;               // the mean squared bias
 
-  double variance_of_last() const { return variance / double(chains); }
+  double variance_of_last() const { return variance / double(series); }
   // One-sided: is there no floor?
   double floor_p_value() const {
     const TestResult t = t_test(floor, 0);
@@ -180,7 +180,7 @@ Errors errors_of(const std::vector<Picture>& blocks, const Truth& truth) {
   const SampleSummary spread = summarize(noise);
   Errors e;
   e.variance = spread.mean, e.degrees = 2 * spread.mean * spread.mean / spread.variance;
-  for (std::size_t n = block; n <= chains; n *= 4) {
+  for (std::size_t n = block; n <= series; n *= 4) {
     const std::vector<Picture> means = means_of(blocks, n / block);
     double mse = -known;
     for (const Picture& mean : means) mse += mean_product(mean, mean) / double(means.size());
@@ -197,7 +197,7 @@ void print(const char* name, const Errors& e) {
   std::printf("\n  over that of noise");
   for (const Point& at : e.points)
     std::printf(" %zu: %.3f (p %.2g)", at.n, at.mse * double(at.n) / e.variance, at.p_value);
-  std::printf("\n  variance of a chain %.3g, %.1f degrees of freedom, of the last mean %.3g\n", e.variance, e.degrees,
+  std::printf("\n  variance of a series %.3g, %.1f degrees of freedom, of the last mean %.3g\n", e.variance, e.degrees,
               e.variance_of_last());
   std::printf("  squared bias %.3g +- %.3g, at most %.3g (95 %%)\n", e.floor.mean, e.floor.standard_error(),
               e.floor_at_most());
@@ -208,7 +208,7 @@ void hold_to_the_law(const TestScene& scene, const char* biased, std::initialize
   const Known known = without_lamps(scene, truth_of(scene, {8192, 64}));
   const Truth& truth = known.truth;
   EXPECT_GT(known.pixels.size(), std::size_t(size * size * 9 / 10));
-  // Of each form, five numbers of chains and the floor.
+  // Of each form, five numbers of series and the floor.
   const double own = sidak_level(level, double(ways.size()) * (5 + 1));
   const std::vector<Picture> biased_blocks = errors_of_blocks(scene, biased, known);
   const Errors off_by_form = errors_of(biased_blocks, truth);
@@ -238,7 +238,7 @@ void hold_to_the_law(const TestScene& scene, const char* biased, std::initialize
   }
 }
 
-TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
+TEST(ReuseSlope, is_minus_one_to_ten_thousand_series) {
   const ReuseScene text = reuse_scenes(size)[1];
   ASSERT_EQ(text.name, "blockers");
   hold_to_the_law(TestScene(text.text), "restir-di:radius=4,weights=naive",
@@ -246,7 +246,7 @@ TEST(ReuseSlope, is_minus_one_to_ten_thousand_chains) {
 }
 
 // Paths of several bounces, whose frames reuse the previous frames.
-TEST(ReuseSlope, of_paths_is_minus_one_to_ten_thousand_chains) {
+TEST(ReuseSlope, of_paths_is_minus_one_to_ten_thousand_series) {
   const ReuseScene text = path_reuse_scenes(size)[0];
   ASSERT_EQ(text.name, "indirect");
   hold_to_the_law(TestScene(text.text, textures_of_reuse_scenes()),

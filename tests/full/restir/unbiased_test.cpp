@@ -29,7 +29,7 @@ const char* const path_ways[] = {
     "restir-pt:radius=6,neighbours=2,weights=unbiased,footprint=0.02,similar=off",
     "restir-pt:radius=6,neighbours=2,weights=generalised,footprint=0.1,similar=off",
     "restir-pt:radius=3,neighbours=2,shift=replay",
-    "restir-pt:temporal=on,chain=4,warm-up=2",
+    "restir-pt:temporal=on,frames=4,warm-up=2",
     "restir-gi:temporal=on,groups=off,weights=generalised,neighbours=1,radius=4,m-cap=4",
 };
 

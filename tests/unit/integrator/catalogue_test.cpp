@@ -117,7 +117,7 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   const TestScene scene(room);
   EXPECT_EQ(failure_of(scene,
                        "restir-di:candidates=32,neighbours=5,radius=30,rounds=1,temporal=on,m-cap=20,"
-                       "weights=pairwise,visibility-reuse=off,chain=16"),
+                       "weights=pairwise,visibility-reuse=off,frames=16"),
             "");
   EXPECT_NE(failure_of(scene, "restir-di:weights=biased").find("naive, unbiased, pairwise"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:groups=on,weights=pairwise").find("needs groups=off"), std::string::npos);
@@ -128,7 +128,7 @@ TEST(IntegratorCatalogue, says_what_reuse_takes) {
   EXPECT_NE(failure_of(scene, "path:light-selection=bvhh").find("did you mean \"bvh\""), std::string::npos);
   EXPECT_NE(failure_of(scene, "path:roulette=thruput").find("did you mean \"throughput\""), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:neighbours=99").find("from 0 to 16"), std::string::npos);
-  EXPECT_NE(failure_of(scene, "restir-di:chain=0").find("from 1 to 1024"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "restir-di:frames=0").find("from 1 to 1024"), std::string::npos);
   EXPECT_NE(failure_of(scene, "restir-di:radius=0.5").find("from 1 to 4096"), std::string::npos);
   for (const char* idle : {"m-cap=5", "warm-up=3", "carry=on"})
     EXPECT_NE(failure_of(scene, std::string("restir-di:temporal=off,") + idle).find("needs temporal=on"),

@@ -1,5 +1,5 @@
 // Transport treats the components of what a path carries alike: equal ones stay equal, bit for bit, whatever the path
-// meets. A slot of parameters that is not as wide as a spectrum, or a loop over three components of four, shows.
+// meets. A output of parameters that is not as wide as a spectrum, or a loop over three components of four, shows.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

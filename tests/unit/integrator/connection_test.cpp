@@ -36,14 +36,14 @@ float largest_target_along(const TestScene& scene, Vec3f o, Vec3f d) {
   const Vertex<float> v(scene.scene(), {ray, hit, no_media<float>()}, {true, true}, {TransportMode::radiance, random});
   const ReuseVertex<float> vertex = vertex_behind(ReuseVertex<float>{}, v);
   const LightSet& lights = scene.scene().lights;
-  float most = 0;
+  float largest = 0;
   for (std::uint32_t light = 0; light < lights.count(); ++light)
     for (float u : {0.1f, 0.4f, 0.7f, 0.95f}) {
       const LightPointDraw<float> draw =
           lights.draw_light_point<float>(light, v.x.point.p, {0, 0, 0}, {u, 1 - u}, true);
-      most = std::max(most, connect<float>(lights, vertex, draw.point, true).target);
+      largest = std::max(largest, connect<float>(lights, vertex, draw.point, true).target);
     }
-  return most;
+  return largest;
 }
 
 TEST(Connection, reaches_lamps_closer_than_a_band_is_wide) {

@@ -91,7 +91,7 @@ TEST(Motion, leads_to_where_the_same_point_was_seen_before) {
   EXPECT_GT(hidden, 50);
 }
 
-// A picture as chains remember it.
+// A picture as series remember it.
 ReuseMemory remembered(float time) {
   ReuseMemory memory;
   memory.bounds = {0, 0, size, size};
@@ -196,7 +196,7 @@ TEST(History, behind_a_mirror_is_that_of_the_pixel_itself) {
   const TestScene scene(mirror_scene());
   const ChosenIntegrator chosen = scene.integrator("restir-di:neighbours=0,m-cap=100000");
   RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, 1, 2);
-  ChainMemories memories;
+  SeriesMemories memories;
   s.sequence.memories = &memories, s.image.shutter = Shutter{0, 0};
   RenderObserver silent;
   render(chosen.any(), s, silent);

@@ -44,7 +44,7 @@ void fill(PhotonMap& map, const std::vector<Photon>& photons, float radius, std:
   });
   map.lay_out(radius);
   each_tile([&](std::size_t tile) { map.deal(tile); });
-  each_tile([&](std::size_t tile) { map.put_in_order(tile, tile + 1, tiles); });
+  each_tile([&](std::size_t tile) { map.put_in_order(tile, tiles); });
 }
 std::vector<float> found_near(const PhotonMap& map, const Vec3f& p, const Vec3f& n) {
   NearPhotons near;

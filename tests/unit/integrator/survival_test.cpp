@@ -56,14 +56,14 @@ TEST(SurvivalMap, makes_variance_times_cost_least) {
   for (float behind : {0.2f, 1.0f, 3.0f}) {
     const auto paths = paths_of(behind);
     const SurvivalMap map = survival_from(paths, PilotBlocks::of(8, 8), 0);
-    const double least = variance_times_cost(paths, map, 1, 1);
+    const double smallest = variance_times_cost(paths, map, 1, 1);
     for (double scale : {0.6, 1.7}) {
-      EXPECT_GT(variance_times_cost(paths, map, scale, scale), least) << behind << " " << scale;
-      EXPECT_GT(variance_times_cost(paths, map, scale, 1), least) << behind << " " << scale;
+      EXPECT_GT(variance_times_cost(paths, map, scale, scale), smallest) << behind << " " << scale;
+      EXPECT_GT(variance_times_cost(paths, map, scale, 1), smallest) << behind << " " << scale;
     }
     // Far better than to let all of them live on, and than to let one in twenty.
-    EXPECT_LT(least, variance_times_cost(paths, map, 1e6, 1e6));
-    EXPECT_LT(least, variance_times_cost(paths, map, 1e-6, 1e-6));
+    EXPECT_LT(smallest, variance_times_cost(paths, map, 1e6, 1e6));
+    EXPECT_LT(smallest, variance_times_cost(paths, map, 1e-6, 1e-6));
   }
 }
 

@@ -103,10 +103,10 @@ TEST(CubePoints, a_grid_has_one_point_in_each_box) {
 
 TEST(CubePoints, grids_of_any_size_have_no_more_boxes_than_requested) {
   for (std::size_t d : {1, 2, 3, 10, 64})
-    for (std::uint64_t most : {1u, 2u, 7u, 100u, 4097u}) {
-      const GridShape shape = GridShape::of(d, most);
-      EXPECT_LE(shape.boxes, most);
-      EXPECT_GT(2 * shape.boxes, std::min<std::uint64_t>(most, 2)) << d;
+    for (std::uint64_t largest : {1u, 2u, 7u, 100u, 4097u}) {
+      const GridShape shape = GridShape::of(d, largest);
+      EXPECT_LE(shape.boxes, largest);
+      EXPECT_GT(2 * shape.boxes, std::min<std::uint64_t>(largest, 2)) << d;
     }
   EXPECT_EQ(GridShape::of(2, 100).boxes, 100u);
   EXPECT_EQ(GridShape::of(3, 1000).boxes, 1000u);

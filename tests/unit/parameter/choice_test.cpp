@@ -13,7 +13,8 @@ const EntitySpec dish{"soup",
                        {"spoons", {integer}, "how many", 1, 4},
                        {"warm", {boolean}, "default true"},
                        {"bowl", {string}, "which", 0, 0, {"deep", "flat"}},
-                       {"most", {integer}, "most; none: no bound", 0, 2147483647, {"none"}}}};
+                       {"most", {integer}, "most; none: no bound", 0, 2147483647, {"none"}},
+                       {"guests", {integer}, "how many", 1, 9, {}, false, false, "eaters"}}};
 
 TEST(Choice, splits_a_name_from_its_settings) {
   const auto choice = parse_choice("soup:salt=0.5,bowl=f(1,2)");
@@ -37,6 +38,14 @@ TEST(Choice, reads_each_type) {
   EXPECT_FALSE(list->boolean("warm", true));
   EXPECT_EQ(list->string("bowl", ""), "flat");
   EXPECT_EQ(list->integer("most", 0), 7);
+}
+
+TEST(Choice, accepts_an_earlier_name_as_the_present_one) {
+  const auto list = read_settings(dish, {{"eaters", "4"}}, "dish");
+  ASSERT_TRUE(list) << list.error();
+  EXPECT_EQ(list->integer("guests", 0), 4);
+  EXPECT_EQ(list->find("eaters"), nullptr);
+  EXPECT_FALSE(read_settings(dish, {{"eaters", "10"}}, "dish"));
 }
 
 TEST(Choice, none_lifts_a_bound) { EXPECT_EQ(read_settings(dish, {{"most", "none"}}, "dish")->find("most"), nullptr); }

@@ -42,20 +42,22 @@ class Noise final : public PixelIntegrator {
   std::uint32_t seed_, first_;
 };
 
-// The same by chains of frames, whose pixels share a number in each frame and window.
+// The same by series of frames, whose pixels share a number in each frame and window.
 class SharedNoise final : public CoupledIntegrator {
  public:
   explicit SharedNoise(Law law) : law_(std::move(law)) {}
   int frames() const override { return 16; }
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override { return std::make_unique<Frames>(law_, pass); }
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
+    return std::make_unique<Frames>(law_, pass);
+  }
 
  private:
-  class Frames final : public Chain {
+  class Frames final : public FrameSeries {
    public:
-    Frames(const Law& law, const ChainPass& pass) : law_(law), pass_(pass) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    Frames(const Law& law, const SeriesPass& pass) : law_(law), pass_(pass) {}
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       if (step.stage == 0) return {law_.rays * out.size(), 0, 0};
       RandomStream<float> random(mix_bits(pass_.points.pass) + std::uint32_t(step.frame),
                                  std::uint32_t(1000 * pass_.bounds.y0 + pass_.bounds.x0));
@@ -68,7 +70,7 @@ class SharedNoise final : public CoupledIntegrator {
 
    private:
     const Law& law_;
-    ChainPass pass_;
+    SeriesPass pass_;
   };
   Law law_;
 };

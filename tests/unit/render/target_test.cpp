@@ -35,21 +35,21 @@ class Noise final : public PixelIntegrator {
 };
 
 // The same as a coupled integrator.
-class ChainNoise final : public CoupledIntegrator {
+class SeriesNoise final : public CoupledIntegrator {
  public:
-  explicit ChainNoise(std::uint32_t seed) : noise_(seed) {}
+  explicit SeriesNoise(std::uint32_t seed) : noise_(seed) {}
   int frames() const override { return 2; }
   int warm_up() const override { return 0; }
   int stages() const override { return 1; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
     return std::make_unique<Frames>(noise_, pass.points);
   }
 
  private:
-  class Frames final : public Chain {
+  class Frames final : public FrameSeries {
    public:
     Frames(const Noise& noise, const PointSet& points) : noise_(noise), points_(points) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       PointSet points = points_;
       points.samples_per_pass = 1, points.pass = 1000 * points.pass + std::uint32_t(step.frame);
       return noise_.trace({tile, points, {}, {}, {}, {}}, out);
@@ -126,8 +126,8 @@ TEST(TargetPlan, gives_the_same_bits_for_any_number_of_threads_and_after_a_stop)
   }
 }
 
-TEST(TargetPlan, ends_chains) {
-  const ChainNoise noise(1);
+TEST(TargetPlan, ends_series) {
+  const SeriesNoise noise(1);
   RenderSettings s = settings_for(2);
   s.plan = {2, 4000};
   s.work = std::make_shared<TargetPlan>(relative), s.target = relative;

@@ -15,7 +15,7 @@ constexpr int tiles = 2 * 2, warm_up = 3, stages = 2;
 constexpr double begin_seconds = 0.5, tile_seconds = 0.25;  // of a step of a frame that is shown, for 16 x 16 pixels
 constexpr double frame_seconds = tiles * stages * tile_seconds;
 
-// Every sample is one more than the number of its chain.
+// Every sample is one more than the number of its series.
 class Timed final : public CoupledIntegrator {
  public:
   Timed(WorkClock& clock, double warm_up_tile_seconds, int warm_up_frames = montelux::warm_up)
@@ -23,18 +23,18 @@ class Timed final : public CoupledIntegrator {
   int frames() const override { return 16; }
   int warm_up() const override { return warm_up_; }
   int stages() const override { return montelux::stages; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
     clock_->pass(begin_seconds);
-    return std::make_unique<TimedChain>(*this, float(pass.points.pass + 1));
+    return std::make_unique<TimedSeries>(*this, float(pass.points.pass + 1));
   }
-  // Of one chain.
+  // Of one series.
   double warm_up_seconds() const { return warm_up_ * montelux::stages * tiles * warm_up_tile_; }
 
  private:
-  class TimedChain final : public Chain {
+  class TimedSeries final : public FrameSeries {
    public:
-    TimedChain(const Timed& of, float radiance) : of_(of), radiance_(radiance) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    TimedSeries(const Timed& of, float radiance) : of_(of), radiance_(radiance) {}
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
       of_.clock_->pass((step.frame < of_.warm_up_ ? of_.warm_up_tile_ : tile_seconds) * tile.area() / 256);
       if (step.stage + 1 == montelux::stages)
         for (PixelSample& sample : out) sample.radiance = gray_rgb(radiance_);
@@ -79,7 +79,7 @@ TEST(WarmUp, has_its_own_seconds_whatever_the_number_of_threads) {
     const RenderResult r = render(timed, settings(clock, {2, 3}, threads), silent);
     EXPECT_EQ(r.warm_up, 3 * timed.warm_up_seconds());
     EXPECT_EQ(r.shown_seconds(), 3 * (begin_seconds + 2 * frame_seconds));
-    // Planted faults: the time is shared out by the number of frames; a chain's beginning is taken for warm-up.
+    // Planted faults: the time is shared out by the number of frames; a series's beginning is taken for warm-up.
     EXPECT_NE(r.warm_up, r.seconds * warm_up / (warm_up + 2));
     EXPECT_NE(r.warm_up, 3 * (timed.warm_up_seconds() + begin_seconds));
   }
@@ -108,23 +108,23 @@ TEST(WarmUp, is_planned_for_where_it_counts) {
   const Timed timed(clock, 1);
   RenderSettings s = settings(clock, {}, 2);
   RenderObserver silent;
-  // Sixteen frames in four chains, with room for the inaccuracy of the measured speed; a chain of one frame is all that
-  // is left of that with the warm-up.
+  // Sixteen frames in four series, with room for the inaccuracy of the measured speed; a series of one frame is all
+  // that is left of that with the warm-up.
   const double seconds = 18 * (begin_seconds + frame_seconds);
   EXPECT_EQ(plan_for_time(timed, s, {seconds, false}, silent).plan.samples_per_pass, 4);
   EXPECT_EQ(plan_for_time(timed, s, {seconds, true}, silent).plan.samples_per_pass, 1);
 }
 
-// A single frame that prepares a chain may take longer than many others: what is left of a quarter of the time is for
+// A single frame that prepares a series may take longer than many others: what is left of a quarter of the time is for
 // these, and it is not thought to come again with each of them.
 TEST(WarmUp, of_one_long_frame_is_planned_for_as_long_as_it_takes) {
   WorkClock clock;
   const Timed timed(clock, 4, 1);
   RenderSettings s = settings(clock, {}, 2);
   RenderObserver silent;
-  const double chain = timed.warm_up_seconds() + begin_seconds + 6 * frame_seconds;
-  const int frames = plan_for_time(timed, s, {4 * chain, true}, silent).plan.samples_per_pass;
-  // The time of a chain is measured to within some percent, here the time of two frames. If all frames were thought to
+  const double series = timed.warm_up_seconds() + begin_seconds + 6 * frame_seconds;
+  const int frames = plan_for_time(timed, s, {4 * series, true}, silent).plan.samples_per_pass;
+  // The time of a series is measured to within some percent, here the time of two frames. If all frames were thought to
   // take the same time there would be one.
   EXPECT_GE(frames, 3);
   EXPECT_LE(frames, 6);
@@ -139,11 +139,11 @@ TEST(WarmUp, is_none_where_pixels_are_alone) {
 }
 
 // Frames of a warm-up are none of those that are done.
-TEST(Chains, that_time_breaks_off_count_if_half_done_or_the_first) {
+TEST(Series, that_time_breaks_off_count_if_half_done_or_the_first) {
   struct Case {
-    int whole, more;  // chains of eight frames; frames of the one that is broken off
+    int whole, more;  // series of eight frames; frames of the one that is broken off
     int passes;
-    double mean;  // over the chains that count, whatever their length
+    double mean;  // over the series that count, whatever their length
   };
   for (const Case& c : {Case{1, 3, 1, 1.0}, {1, 4, 2, 1.5}, {2, 3, 2, 1.5}, {2, 7, 3, 2.0}, {0, 1, 1, 1.0}}) {
     WorkClock clock;

@@ -59,18 +59,18 @@ std::size_t bytes_to_read(std::size_t nodes) {
 }
 
 // Buffers that double as they grow cost twice as much for twice as many, and up to a doubling more.
-constexpr double most = 2.5;
+constexpr double largest = 2.5;
 
 TEST(Preparation, costs_in_proportion_to_the_nodes_of_a_scene) {
   const auto few = double(bytes_to_prepare(2000)), many = double(bytes_to_prepare(4000));
   EXPECT_GT(few, 1e5);
-  EXPECT_LT(many, most * few);
-  EXPECT_LT(double(bytes_to_prepare(8000)), most * many);
+  EXPECT_LT(many, largest * few);
+  EXPECT_LT(double(bytes_to_prepare(8000)), largest * many);
 }
 
 TEST(Reading, costs_in_proportion_to_the_nodes_of_a_scene) {
   const auto few = double(bytes_to_read(2000)), many = double(bytes_to_read(4000));
-  EXPECT_LT(many, most * few);
+  EXPECT_LT(many, largest * few);
 }
 
 // The planted fault: room for one more, each time.

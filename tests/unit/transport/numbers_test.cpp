@@ -60,7 +60,7 @@ struct OneStart {
   Mask<F> refill(PathState<F>& path, Mask<F> on) {
     if (std::exchange(started, true)) return on;
     PathStart<F> start = start_of_path<F>(scene, pass, site, own);
-    start.slot = site.x;
+    start.output = site.x;
     const auto [found, hit] =
         accel.trace<F>({start.o, start.d, F(ray_infinity), start.time}, Mask<F>(true), RayUse::camera);
     start.hit = hit;

@@ -59,19 +59,19 @@ TEST(Scheduler, gives_units_at_the_same_time_different_workers) {
 
 TEST(Scheduler, keeps_to_the_threads_of_a_stage) {
   Scheduler scheduler(8);
-  std::atomic<int> running{0}, most{0};
+  std::atomic<int> running{0}, largest{0};
   scheduler.run(100,
                 [&](std::size_t, int worker) {
                   const int now = ++running;
-                  int seen = most;
-                  while (seen < now && !most.compare_exchange_weak(seen, now)) {
+                  int seen = largest;
+                  while (seen < now && !largest.compare_exchange_weak(seen, now)) {
                   }
                   EXPECT_LT(worker, 2);
                   std::this_thread::sleep_for(std::chrono::microseconds(100));
                   --running;
                 },
                 {.threads = 2});
-  EXPECT_LE(most, 2);
+  EXPECT_LE(largest, 2);
 }
 
 TEST(Scheduler, sees_what_the_stage_before_has_written) {

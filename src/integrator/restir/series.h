@@ -1,4 +1,4 @@
-// A chain of frames whose pixels share what they know of light. With a grid its pixels are the cells: what they share
+// A series of frames whose pixels share what they know of light. With a grid its pixels are the cells: what they share
 // is drawn by the numbers of the cells, while their paths have the numbers of the pixels that they stand for.
 #pragma once
 #include "integrator/restir/combination.h"
@@ -8,12 +8,12 @@
 namespace montelux {
 
 template <class F, class Rays>
-class ReuseChain final : public Chain {
+class ReuseSeries final : public FrameSeries {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  // What `shared` refers to must outlive the chain.
-  ReuseChain(const RestirScene<Rays>& shared, const ChainPass& pass)
+  // What `shared` refers to must outlive the series.
+  ReuseSeries(const RestirScene<Rays>& shared, const SeriesPass& pass)
       : shared_(shared), pass_(pass), before_(std::dynamic_pointer_cast<const ReuseMemory>(pass.before)) {
     const auto pixels = std::size_t(pass.bounds.area());
     if (before_ && (!shared.settings.temporal || pass.grid || !(before_->bounds == pass.bounds))) before_.reset();
@@ -26,7 +26,7 @@ class ReuseChain final : public Chain {
 
   // Stage 0 looks for light at every pixel and in the frame before; every further one reuses samples of neighbours,
   // and the last one of these makes the picture.
-  RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+  RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage > 0) {
       if (!in_groups()) return share(step, tile, out);
       return step.stage <= settings().rounds ? share_in_groups(step, tile) : show_frame(step, tile, out);
@@ -36,7 +36,7 @@ class ReuseChain final : public Chain {
     return counts;
   }
 
-  std::unique_ptr<ChainMemory> remember(int frames) override {
+  std::unique_ptr<SeriesMemory> remember(int frames) override {
     if (!settings().temporal || !settings().carry || pass_.grid) return nullptr;
     auto memory = std::make_unique<ReuseMemory>();
     memory->bounds = pass_.bounds, memory->shutter = shutter();
@@ -79,31 +79,31 @@ class ReuseChain final : public Chain {
 
   // Receives the results of FirstStage.
   struct FirstStageSink {
-    ReuseChain& chain;
+    ReuseSeries& series;
     int frame;
     PixelBounds tile;
 
     void lights(const ReuseVertex<F>& vertex, const VertexOrigin<F>& origin, const LightReservoir<F>& reservoir,
-                const U& slot, M on) {
-      const int step = chain.step_number(frame, 0);
-      if (chain.before_ && frame == 0) chain.trace_back({tile, slot, U(0u), on}, vertex, origin);
-      for_each_pixel(slot, on, [&](int k, std::size_t pixel) {
-        get_lane_words(vertex, k, chain.vertices(frame)[pixel]);
-        get(reservoir, k, chain.lights_.after(step)[pixel]);
-        if (chain.reuses_paths()) chain.paths_.after(step)[pixel] = {{}, 0.0f, 1.0f, 0.0f};
+                const U& output, M on) {
+      const int step = series.step_number(frame, 0);
+      if (series.before_ && frame == 0) series.trace_back({tile, output, U(0u), on}, vertex, origin);
+      for_each_pixel(output, on, [&](int k, std::size_t pixel) {
+        get_lane_words(vertex, k, series.vertices(frame)[pixel]);
+        get(reservoir, k, series.lights_.after(step)[pixel]);
+        if (series.reuses_paths()) series.paths_.after(step)[pixel] = {{}, 0.0f, 1.0f, 0.0f};
       });
     }
-    void paths(const PathReservoir<F>& reservoir, const U& slot, M on) {
-      for_each_pixel(slot, on, [&](int k, std::size_t pixel) {
-        get(reservoir, k, chain.paths_.after(chain.step_number(frame, 0))[pixel]);
+    void paths(const PathReservoir<F>& reservoir, const U& output, M on) {
+      for_each_pixel(output, on, [&](int k, std::size_t pixel) {
+        get(reservoir, k, series.paths_.after(series.step_number(frame, 0))[pixel]);
       });
     }
 
    private:
     template <class Function>
-    void for_each_pixel(const U& slot, M on, Function f) const {
-      const LanePixels<F> at{tile, slot, U(0u), on};
-      for_each_lane(on, [&](int k) { f(k, pixel_number(chain.pass_.bounds, at.x(k), at.y(k))); });
+    void for_each_pixel(const U& output, M on, Function f) const {
+      const LanePixels<F> at{tile, output, U(0u), on};
+      for_each_lane(on, [&](int k) { f(k, pixel_number(series.pass_.bounds, at.x(k), at.y(k))); });
     }
   };
 
@@ -200,7 +200,7 @@ class ReuseChain final : public Chain {
   }
 
   // One round of spatial reuse, and after the last the picture.
-  RayCounts share(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
+  RayCounts share(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
     copy_frame(tile, out);
     const bool shows = step.stage + 1 == stages(settings()), reuses = settings().rounds > 0;
@@ -236,7 +236,7 @@ class ReuseChain final : public Chain {
   }
 
   // The same for the pixels of groups, all at once.
-  RayCounts share_in_groups(const ChainStep& step, const PixelBounds& tile) {
+  RayCounts share_in_groups(const SeriesStep& step, const PixelBounds& tile) {
     RayCounts counts;
     const bool last = step.stage == settings().rounds;
     const ImageSums sums = last ? shows_all() : ImageSums{};
@@ -260,9 +260,10 @@ class ReuseChain final : public Chain {
     return counts;
   }
 
-  PixelGroups groups_at(const ChainStep& step, const PixelBounds& tile) {
+  PixelGroups groups_at(const SeriesStep& step, const PixelBounds& tile) {
     const auto number = [&](int x, int y, std::uint32_t which) {
-      return Sampler<float>(pass_.points, std::uint32_t(x), std::uint32_t(y), std::uint32_t(step.frame))
+      return numbers_of<float>(pass_.points,
+                               PathSite<float>{std::uint32_t(x), std::uint32_t(y), std::uint32_t(step.frame)})
           .stream(path_dimension::reuse)
           .fork(restir_stream::spatial + std::uint32_t(step.stage))
           .at(which);
@@ -280,7 +281,7 @@ class ReuseChain final : public Chain {
   }
 
   // Of the first pixel of each group.
-  RandomStream<F> group_stream(const ChainStep& step, const PixelGroups& groups, std::size_t first) const {
+  RandomStream<F> group_stream(const SeriesStep& step, const PixelGroups& groups, std::size_t first) const {
     U xs(0u), ys(0u);
     const auto width = std::uint32_t(pass_.bounds.width());
     for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
@@ -288,13 +289,13 @@ class ReuseChain final : public Chain {
       set_lane(xs, int(k), std::uint32_t(pass_.bounds.x0) + pixel % width);
       set_lane(ys, int(k), std::uint32_t(pass_.bounds.y0) + pixel / width);
     }
-    return Sampler<F>(pass_.points, xs, ys, U(std::uint32_t(step.frame)))
+    return numbers_of<F>(pass_.points, PathSite<F>{xs, ys, U(std::uint32_t(step.frame))})
         .stream(U(path_dimension::reuse))
         .fork(U(restir_stream::groups + std::uint32_t(step.stage)));
   }
 
   // The picture, once all rounds are over.
-  RayCounts show_frame(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
+  RayCounts show_frame(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) {
     RayCounts counts;
     copy_frame(tile, out);
     const ImageSums sums = shows_all();
@@ -348,7 +349,7 @@ class ReuseChain final : public Chain {
     add_light(light, at, open, out);
   }
   void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {
-    for_each_lane(on, [&](int k) { out[lane(at.slot, k)].radiance += to_rgb(lane(light, k)); });
+    for_each_lane(on, [&](int k) { out[lane(at.output, k)].radiance += to_rgb(lane(light, k)); });
   }
 
   // Targets of paths know what is in the way.
@@ -359,7 +360,7 @@ class ReuseChain final : public Chain {
   }
 
   const RestirScene<Rays> shared_;
-  const ChainPass pass_;
+  const SeriesPass pass_;
   std::shared_ptr<const ReuseMemory> before_;        // of the picture before, if there is one
   std::vector<std::optional<std::size_t>> earlier_;  // pixels of it that showed what the pixels show
   std::vector<ReuseVertex<float>> vertices_[2];      // of this frame and the one before

@@ -1,4 +1,4 @@
-#include "render/chains.h"
+#include "render/series.h"
 
 #include <algorithm>
 #include <mutex>
@@ -15,16 +15,16 @@ namespace {
 
 constexpr int tile_side = 16;
 
-struct ChainTile {
+struct SeriesTile {
   PixelBounds bounds;
-  std::vector<PixelPass> pixels;  // of the current chain
+  std::vector<PixelPass> pixels;  // of the current series
   std::vector<ExactRgb> sums;     // the same of its layers, if there are any
 };
 
-// The shared state of one render. Each step of a chain is a stage of the scheduler, with one unit for each tile.
-class ChainJob final : public WatchedWork {
+// The shared state of one render. Each step of a series is a stage of the scheduler.
+class SeriesJob final : public WatchedWork {
  public:
-  ChainJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
+  SeriesJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
       : integrator_(integrator),
         settings_(settings),
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
@@ -39,13 +39,13 @@ class ChainJob final : public WatchedWork {
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
     over_ = is_whole_ = is_planned();
-    if (!over_) begin_chain();
+    if (!over_) begin_series();
   }
 
   RenderResult run(RenderObserver& observer) {
     const bool requested = watch_.run(
         *this, [this] { drive(); }, observer);
-    // An incomplete chain is in the image, but not in the saved film: it restarts when the film is continued.
+    // An incomplete series is in the image, but not in the saved film: it restarts when the film is continued.
     if (incomplete_) add_to_film(*incomplete_);
     if (bias_of_incomplete_) bias_[*incomplete_] = *bias_of_incomplete_;
     if (mixing_of_incomplete_) mixing_[*incomplete_] = *mixing_of_incomplete_;
@@ -95,7 +95,7 @@ class ChainJob final : public WatchedWork {
   FilmSnapshot snapshot() override {
     const std::scoped_lock lock(mutex_);
     FilmSnapshot snapshot;
-    for (const ChainTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
+    for (const SeriesTile& tile : tiles_) film_.write_tile(tile.bounds, snapshot.tiles);
     const PixelBounds& first = tiles_.front().bounds;
     snapshot.tile_side = std::max(first.width(), first.height());
     snapshot.rays = rays_, snapshot.bias = bias_, snapshot.mixing = mixing_;
@@ -109,17 +109,17 @@ class ChainJob final : public WatchedWork {
     std::vector<ExactRgb> sums;
   };
 
-  // Runs the steps of all chains, one after the other.
+  // Runs the steps of all series, one after the other.
   void drive() {
     Scheduler scheduler(settings_.threads);
     std::vector<Worker> workers(std::size_t(scheduler.threads()));
-    const auto run_tile = [&](std::size_t i, int number) {
-      FlushDenormals flush;
-      Worker& worker = workers[std::size_t(number)];
-      worker.rays += do_tile(tiles_[i], worker);
-    };
     while (!over_) {
-      scheduler.run(tiles_.size(), run_tile);
+      const std::optional<std::size_t> units = series_->units(step_);
+      scheduler.run(units.value_or(tiles_.size()), [&](std::size_t i, int number) {
+        FlushDenormals flush;
+        Worker& worker = workers[std::size_t(number)];
+        worker.rays += units ? series_->run_unit(step_, i) : do_tile(tiles_[i], worker);
+      });
       const std::scoped_lock lock(mutex_);
       for (Worker& worker : workers) rays_ += std::exchange(worker.rays, {});
       finish_step();
@@ -130,12 +130,12 @@ class ChainJob final : public WatchedWork {
   int pass_number() const { return settings_.plan.first_pass + pass_; }
 
   // A tile belongs to one thread at a time.
-  RayCounts do_tile(ChainTile& tile, Worker& worker) {
+  RayCounts do_tile(SeriesTile& tile, Worker& worker) {
     std::vector<PixelSample>& samples = worker.samples;
     samples.assign(std::size_t(tile.bounds.area()), {});
     worker.sums.assign(tile.sums.size(), {});
-    const RayCounts rays = settings_.image.layers ? chain_->run_layers(step_, tile.bounds, samples, worker.sums)
-                                                  : chain_->run(step_, tile.bounds, samples);
+    const RayCounts rays = settings_.image.layers ? series_->run_layers(step_, tile.bounds, samples, worker.sums)
+                                                  : series_->run(step_, tile.bounds, samples);
     if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
     for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
     for (std::size_t i = 0; i < worker.sums.size(); ++i) tile.sums[i] += worker.sums[i];
@@ -163,11 +163,11 @@ class ChainJob final : public WatchedWork {
     RenderState state = state_now();
     state.next_frame = state.seconds - std::exchange(frame_began_, state.seconds);
     const bool stops = watch_.query(state);
-    const bool ends = step_.frame == frames_ || (stops && chain_counts());
-    if (ends) end_chain();
+    const bool ends = step_.frame == frames_ || (stops && series_counts());
+    if (ends) end_series();
     is_whole_ = step_.frame == frames_ && is_planned();
     over_ = stops || is_whole_ || pass_ == settings_.plan.passes;
-    if (ends && !over_) begin_chain();
+    if (ends && !over_) begin_series();
   }
 
   RenderState state_now() const {
@@ -177,12 +177,12 @@ class ChainJob final : public WatchedWork {
     return now;
   }
 
-  // Seconds of frames that are not shown, including the warm-up of the current chain. All threads work on one frame at
+  // Seconds of frames that are not shown, including the warm-up of the current series. All threads work on one frame at
   // a time.
   double warm_up_seconds(double now) const { return warm_up_ + (is_shown(step_.frame) ? 0 : now - warm_up_began_); }
 
-  // Whether an incomplete chain is a pass: much shorter ones would only add noise.
-  bool chain_counts() const {
+  // Whether an incomplete series is a pass: much shorter ones would only add noise.
+  bool series_counts() const {
     const int shown = step_.frame - integrator_.warm_up();
     return shown > 0 && (!has_image_ || 2 * shown >= settings_.plan.samples_per_pass);
   }
@@ -198,24 +198,24 @@ class ChainJob final : public WatchedWork {
     while (pass_ < settings_.plan.passes && film_.has(tiles_.front().bounds, pass_number())) ++pass_;
   }
 
-  void begin_chain() {
-    ChainPass pass{film_.grid().cells(), settings_.image.points(pass_number(), frames_), settings_.image.shutter,
-                   memories_.take(std::size_t(pass_))};
+  void begin_series() {
+    SeriesPass pass{film_.grid().cells(), settings_.image.points(pass_number(), frames_), settings_.image.shutter,
+                    memories_.take(std::size_t(pass_))};
     if (film_.grid().stride > 1) pass.grid = film_.grid();
     if (settings_.image.layers) pass.layers = &*settings_.image.layers;
-    chain_ = integrator_.begin(pass);
+    series_ = integrator_.begin(pass);
     step_ = {};
-    for (ChainTile& tile : tiles_) {
+    for (SeriesTile& tile : tiles_) {
       std::ranges::fill(tile.pixels, PixelPass{});
       std::ranges::fill(tile.sums, ExactRgb{});
     }
     warm_up_began_ = watch_.seconds();
   }
 
-  void end_chain() {
-    const std::optional<MeanDifference> bias = chain_->measured_bias();
-    const std::optional<MixingFigures> mixing = chain_->mixing();
-    memories_.store(std::size_t(pass_), *chain_, step_.frame);
+  void end_series() {
+    const std::optional<MeanDifference> bias = series_->measured_bias();
+    const std::optional<MixingFigures> mixing = series_->mixing();
+    memories_.store(std::size_t(pass_), *series_, step_.frame);
     if (step_.frame == frames_) {
       add_to_film(pass_number());
       if (bias) bias_[pass_number()] = *bias;
@@ -228,43 +228,43 @@ class ChainJob final : public WatchedWork {
   }
 
   void add_to_film(int pass) {
-    for (const ChainTile& tile : tiles_) film_.add_pass(tile.bounds, pass, tile.pixels, tile.sums);
+    for (const SeriesTile& tile : tiles_) film_.add_pass(tile.bounds, pass, tile.pixels, tile.sums);
   }
 
   const CoupledIntegrator& integrator_;
   const RenderSettings& settings_;
-  const int frames_;  // of a chain, including the warm-up
+  const int frames_;  // of a series, including the warm-up
   RenderWatch watch_{settings_};
   std::mutex mutex_;  // guards what follows, except for what a unit of work writes
   Film film_;
-  std::vector<ChainTile> tiles_;
+  std::vector<SeriesTile> tiles_;
   MemoryExchange memories_{settings_.sequence};
-  std::unique_ptr<Chain> chain_;
-  ChainStep step_;
-  int pass_ = 0;  // chains of the plan that are done
+  std::unique_ptr<FrameSeries> series_;
+  SeriesStep step_;
+  int pass_ = 0;  // series of the plan that are done
   int passes_begun_ = 0;
-  std::optional<int> incomplete_;  // the pass of the last chain, if it ended early
+  std::optional<int> incomplete_;  // the pass of the last series, if it ended early
   std::optional<MeanDifference> bias_of_incomplete_;
   std::optional<MixingFigures> mixing_of_incomplete_;
   BiasOfPasses bias_;       // of the passes that are done
   MixingOfPasses mixing_;   // likewise
-  bool has_image_ = false;  // a chain is done
+  bool has_image_ = false;  // a series is done
   std::uint64_t samples_before_ = 0;
   std::uint64_t shown_frames_ = 0;
   int frames_run_ = 0;        // including those that are not shown
   double frame_began_ = 0;    // seconds since the start
-  double warm_up_began_ = 0;  // of the current chain, likewise
+  double warm_up_began_ = 0;  // of the current series, likewise
   double warm_up_ = 0;        // seconds of all that have ended
   bool over_ = false;
-  bool is_whole_ = false;  // all chains have all frames
+  bool is_whole_ = false;  // all series have all frames
   RayCounts rays_;
 };
 
 }  // namespace
 
-RenderResult render_chains(const CoupledIntegrator& integrator, const RenderSettings& settings,
+RenderResult render_series(const CoupledIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer) {
-  return ChainJob(integrator, settings).run(observer);
+  return SeriesJob(integrator, settings).run(observer);
 }
 
 }  // namespace montelux

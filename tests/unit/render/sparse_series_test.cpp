@@ -1,4 +1,4 @@
-// Chains of frames over a part of the pixels: what they show, and how they are planned for a time.
+// Series of frames over a part of the pixels: what they show, and how they are planned for a time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ PassMeans sparse_passes(const TestScene& of, const AnyIntegrator& integrator, in
   return means;
 }
 
-TEST(SparseChains, have_the_mean_of_the_path_tracer_at_their_pixels) {
+TEST(SparseSeries, have_the_mean_of_the_path_tracer_at_their_pixels) {
   const std::pair<const char*, int> ways[] = {{"restir-di:radius=4,candidates=4", 72},
                                               {"restir-di:radius=4,candidates=4,groups=off,temporal=on", 72},
                                               {"restir-pt:radius=4,candidates=4", 72},
@@ -84,8 +84,8 @@ class WithoutGrid final : public CoupledIntegrator {
   int frames() const override { return inner_.frames(); }
   int warm_up() const override { return inner_.warm_up(); }
   int stages() const override { return inner_.stages(); }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
-    ChainPass without = pass;
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
+    SeriesPass without = pass;
     without.grid.reset();
     return inner_.begin(without);
   }
@@ -94,7 +94,7 @@ class WithoutGrid final : public CoupledIntegrator {
   const CoupledIntegrator& inner_;
 };
 
-TEST(SparseChains, that_take_cells_for_pixels_have_another_mean) {
+TEST(SparseSeries, that_take_cells_for_pixels_have_another_mean) {
   const PassMeans truth = sparse_passes(scene(), scene().integrator("path").any(), 64, 48, 1);
   for (const char* way : {"restir-di:radius=4,candidates=4", "light", "bdpt"}) {
     const ChosenIntegrator chosen = scene().integrator(way);
@@ -103,7 +103,7 @@ TEST(SparseChains, that_take_cells_for_pixels_have_another_mean) {
   }
 }
 
-TEST(SparseChains, of_radiosity_show_the_pixels_of_the_whole_picture) {
+TEST(SparseSeries, of_radiosity_show_the_pixels_of_the_whole_picture) {
   const char* way = "radiosity:elementsize=0.3,warm-up=3";
   const Film whole = film_of(diffuse_scene(), way, {2, 2}, 1), sparse = film_of(diffuse_scene(), way, {2, 2}, stride);
   int sampled = 0;
@@ -117,7 +117,7 @@ TEST(SparseChains, of_radiosity_show_the_pixels_of_the_whole_picture) {
   EXPECT_EQ(sampled, 14 * 11);
 }
 
-TEST(SparseChains, see_what_the_pixels_see_that_they_represent) {
+TEST(SparseSeries, see_what_the_pixels_see_that_they_represent) {
   // Nothing is reused: the first frame is the pixels' own.
   const char* way = "restir-di:rounds=0,temporal=off";
   const Film whole = film_of(scene(), way, {1, 1}, 1), sparse = film_of(scene(), way, {1, 1}, stride);
@@ -129,7 +129,7 @@ TEST(SparseChains, see_what_the_pixels_see_that_they_represent) {
     }
 }
 
-TEST(SparseChains, have_the_same_bits_for_any_number_of_threads) {
+TEST(SparseSeries, have_the_same_bits_for_any_number_of_threads) {
   const auto expect_same = [](const Film& a, const Film& b) {
     ASSERT_EQ(a.grid(), b.grid());
     for (int y = a.bounds().y0; y < a.bounds().y1; ++y)
@@ -151,9 +151,9 @@ TEST(SparseChains, have_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-TEST(SparseChains, neither_use_nor_leave_a_memory) {
+TEST(SparseSeries, neither_use_nor_leave_a_memory) {
   const ChosenIntegrator chosen = scene().integrator("restir-di:radius=4");
-  const auto second_picture = [&](int first, int second, ChainMemories& memories) {
+  const auto second_picture = [&](int first, int second, SeriesMemories& memories) {
     RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, 1}, 5);
     s.sequence.memories = &memories, s.plan.stride = first;
     RenderObserver silent;
@@ -161,7 +161,7 @@ TEST(SparseChains, neither_use_nor_leave_a_memory) {
     s.plan.stride = second, s.image.seed = 6;
     return render(chosen.any(), s, silent).film;
   };
-  ChainMemories dense, sparse, mixed;
+  SeriesMemories dense, sparse, mixed;
   second_picture(1, 1, dense);
   ASSERT_EQ(dense.size(), 1u);
   EXPECT_NE(dense[0], nullptr);
@@ -179,17 +179,17 @@ class TimedFrames final : public CoupledIntegrator {
   int frames() const override { return 16; }
   int warm_up() const override { return warm_up_; }
   int stages() const override { return 1; }
-  std::unique_ptr<Chain> begin(const ChainPass& pass) const override {
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
     max_cells_ = std::max(max_cells_.load(), pass.bounds.area());
     return std::make_unique<Frames>(*this);
   }
-  int max_cells() const { return max_cells_; }  // of the chains so far
+  int max_cells() const { return max_cells_; }  // of the series so far
 
  private:
-  class Frames final : public Chain {
+  class Frames final : public FrameSeries {
    public:
     explicit Frames(const TimedFrames& of) : of_(of) {}
-    RayCounts run(const ChainStep&, const PixelBounds& tile, std::span<PixelSample> out) override {
+    RayCounts run(const SeriesStep&, const PixelBounds& tile, std::span<PixelSample> out) override {
       of_.clock_.pass((tile.x0 == 0 && tile.y0 == 0 ? of_.frame_ : 0) + of_.pixel_ * tile.area());
       for (PixelSample& sample : out) sample.radiance = gray_rgb(1.0f);
       return {};
@@ -213,7 +213,7 @@ RenderSettings settings(const WorkClock& clock) {
   return s;
 }
 
-TEST(SparseChains, are_planned_if_a_frame_takes_longer_than_the_time_which_they_keep) {
+TEST(SparseSeries, are_planned_if_a_frame_takes_longer_than_the_time_which_they_keep) {
   struct Case {
     double frame;  // seconds of a whole frame, in all
     double fixed;  // of these, what does not depend on the pixels
@@ -257,7 +257,7 @@ TEST(SparseChains, are_planned_if_a_frame_takes_longer_than_the_time_which_they_
 }
 
 // Where what does not depend on the pixels takes more than the time, fewer pixels would not help.
-TEST(SparseChains, are_no_sparser_than_helps) {
+TEST(SparseSeries, are_no_sparser_than_helps) {
   WorkClock clock;
   const TimedFrames timed(clock, 16.0 / screen.area(), 4, 0);
   RenderObserver silent;

@@ -1,4 +1,4 @@
-// Chains of frames: the same picture for any number of threads, clean ends, and a film over chains.
+// Series of frames: the same picture for any number of threads, clean ends, and a film over series.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@ const TestScene& scene() {
   return s;
 }
 
-RenderResult chains(const char* way, PassPlan plan, int threads, int first_pass = 0,
+RenderResult series(const char* way, PassPlan plan, int threads, int first_pass = 0,
                     std::optional<PixelBounds> crop = {}) {
   const ChosenIntegrator chosen = scene().integrator(way);
   RenderSettings s = scene().settings(PointSetKind::blue_noise, plan, 5, threads);
@@ -40,26 +40,26 @@ void expect_same(const Film& a, const Film& b) {
   EXPECT_EQ(a.image().mean[0], b.image().mean[0]);
 }
 
-TEST(Chains, have_the_same_bits_for_any_number_of_threads) {
+TEST(Series, have_the_same_bits_for_any_number_of_threads) {
   for (const char* way :
        {"restir-di:candidates=2,radius=10,rounds=2", "restir-di:groups=off,neighbours=3,radius=10,rounds=2",
         "restir-di:radius=10,visibility-reuse=off", "restir-di:groups=off,radius=10,visibility-reuse=off",
         "restir-di:rounds=0", "restir-pt:candidates=2,radius=10,temporal=on",
         "restir-pt:groups=off,neighbours=3,radius=10,temporal=on", "light", "bdpt", "vcm:radius=0.1"}) {
     SCOPED_TRACE(way);
-    const RenderResult one = chains(way, {4, 2}, 1);
+    const RenderResult one = series(way, {4, 2}, 1);
     EXPECT_EQ(one.film.image().passes, 2);
     EXPECT_EQ(one.film.samples(3, 3), 8);
     EXPECT_GT(one.film.image().mean[0], 0);
-    for (int threads : {2, 5}) expect_same(one.film, chains(way, {4, 2}, threads).film);
+    for (int threads : {2, 5}) expect_same(one.film, series(way, {4, 2}, threads).film);
   }
 }
 
 // Without neighbours a round hands on what there is; without rounds the same is shown another way.
-TEST(Chains, show_the_same_without_rounds_and_without_neighbours) {
-  const Film none = chains("restir-di:rounds=0", {4, 1}, 2).film;
+TEST(Series, show_the_same_without_rounds_and_without_neighbours) {
+  const Film none = series("restir-di:rounds=0", {4, 1}, 2).film;
   for (const char* way : {"restir-di:neighbours=0", "restir-di:neighbours=0,groups=off"}) {
-    const Film alone = chains(way, {4, 1}, 2).film;
+    const Film alone = series(way, {4, 1}, 2).film;
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 40; ++x) {
         const double mean = alone.pixel(x, y).mean[0];
@@ -69,10 +69,10 @@ TEST(Chains, show_the_same_without_rounds_and_without_neighbours) {
 }
 
 // What compilers make of the order of sums may differ between packs, so that a few pixels choose otherwise.
-TEST(Chains, choose_alike_in_one_lane_and_in_packs_nearly_everywhere) {
+TEST(Series, choose_alike_in_one_lane_and_in_packs_nearly_everywhere) {
   for (const std::string way : {"restir-di:candidates=2", "restir-pt:candidates=2"}) {
-    const Film pack = chains(way.c_str(), {3, 1}, 1).film;
-    const Film one = chains((way + ",lanes=one").c_str(), {3, 1}, 1).film;
+    const Film pack = series(way.c_str(), {3, 1}, 1).film;
+    const Film one = series((way + ",lanes=one").c_str(), {3, 1}, 1).film;
     EXPECT_EQ(pack.non_finite() + one.non_finite(), 0u) << way;
     int alike = 0;
     for (int y = 0; y < 40; ++y)
@@ -86,7 +86,7 @@ TEST(Chains, choose_alike_in_one_lane_and_in_packs_nearly_everywhere) {
 }
 
 // Whatever the others choose: the means agree within their errors, which are small where lights are few and large.
-TEST(Chains, have_one_mean_in_one_lane_and_in_packs) {
+TEST(Series, have_one_mean_in_one_lane_and_in_packs) {
   const TestScene blockers{reuse_scenes(40)[1].text};
   const auto film = [&](const std::string& way, std::uint32_t seed) {
     const ChosenIntegrator chosen = blockers.integrator(way);
@@ -113,27 +113,27 @@ TEST(Chains, have_one_mean_in_one_lane_and_in_packs) {
   }
 }
 
-TEST(Chains, add_up_to_the_film_of_one_render) {
+TEST(Series, add_up_to_the_film_of_one_render) {
   const char* way = "restir-di:candidates=2";
-  Film first = chains(way, {4, 2}, 1).film;
-  first.merge(chains(way, {4, 3}, 1, 2).film);
-  const Film whole = chains(way, {4, 5}, 1).film;
+  Film first = series(way, {4, 2}, 1).film;
+  first.merge(series(way, {4, 3}, 1, 2).film);
+  const Film whole = series(way, {4, 5}, 1).film;
   for (int c = 0; c < rgb_size; ++c) EXPECT_NEAR(first.image().mean[c], whole.image().mean[c], 1e-12);
   EXPECT_EQ(first.image().passes, 5);
 }
 
-TEST(Chains, keep_to_the_crop) {
+TEST(Series, keep_to_the_crop) {
   const PixelBounds crop{7, 9, 31, 26};
-  const RenderResult r = chains("restir-di", {2, 1}, 2, 0, crop);
+  const RenderResult r = series("restir-di", {2, 1}, 2, 0, crop);
   EXPECT_EQ(r.film.bounds(), crop);
   EXPECT_GT(r.film.pixel(20, 20).mean[0], 0);
 }
 
 // Smaller than a tile, than a block of pixels that share, than a group.
-TEST(Chains, are_lit_in_the_smallest_pictures) {
+TEST(Series, are_lit_in_the_smallest_pictures) {
   for (const char* way : {"restir-di", "restir-di:groups=off", "restir-pt:temporal=on"})
     for (const PixelBounds crop : {PixelBounds{20, 20, 21, 21}, {18, 20, 21, 22}, {17, 25, 34, 26}}) {
-      const RenderResult r = chains(way, {4, 4}, 2, 0, crop);
+      const RenderResult r = series(way, {4, 4}, 2, 0, crop);
       EXPECT_EQ(r.film.bounds(), crop);
       EXPECT_EQ(r.film.non_finite(), 0u);
       for (int y = crop.y0; y < crop.y1; ++y)
@@ -144,18 +144,18 @@ TEST(Chains, are_lit_in_the_smallest_pictures) {
     }
 }
 
-TEST(Chains, do_not_show_their_warm_up) {
-  const RenderResult r = chains("restir-di:warm-up=3,candidates=2", {2, 2}, 2);
+TEST(Series, do_not_show_their_warm_up) {
+  const RenderResult r = series("restir-di:warm-up=3,candidates=2", {2, 2}, 2);
   EXPECT_EQ(r.film.samples(5, 5), 4);
   EXPECT_EQ(r.film.image().passes, 2);
   // A frame after two that are not shown is the third of three, which is what these have more than the first two.
-  const auto chain = [](const char* way, int frames) {
+  const auto series = [](const char* way, int frames) {
     const ChosenIntegrator chosen = scene().integrator(way);
     RenderObserver silent;
     return render(chosen.any(), scene().settings(PointSetKind::independent, {frames, 1}, 5, 2), silent).film;
   };
   const char* way = "restir-di:candidates=2";
-  const Film shown = chain("restir-di:candidates=2,warm-up=2", 1), two = chain(way, 2), three = chain(way, 3);
+  const Film shown = series("restir-di:candidates=2,warm-up=2", 1), two = series(way, 2), three = series(way, 3);
   int differ = 0;
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
@@ -172,7 +172,7 @@ class StopsAtOnce final : public RenderObserver {
   bool stop_requested() override { return true; }
 };
 
-TEST(Chains, that_are_stopped_end_between_frames_with_a_picture) {
+TEST(Series, that_are_stopped_end_between_frames_with_a_picture) {
   const ChosenIntegrator chosen = scene().integrator("restir-di");
   const RenderSettings s = scene().settings(PointSetKind::independent, {1024, 64}, 1, 2);
   StopsAtOnce observer;
@@ -184,8 +184,8 @@ TEST(Chains, that_are_stopped_end_between_frames_with_a_picture) {
   EXPECT_EQ(r.film.non_finite(), 0u);
 }
 
-// A chain that is broken off counts as a pass, and is none of the passes that were planned.
-TEST(Chains, that_are_broken_off_are_not_whole) {
+// A series that is broken off counts as a pass, and is none of the passes that were planned.
+TEST(Series, that_are_broken_off_are_not_whole) {
   const ChosenIntegrator chosen = scene().integrator("restir-di");
   StopsAtOnce observer;
   EXPECT_TRUE(render(chosen.any(), scene().settings(PointSetKind::independent, {1024, 1}, 1, 2), observer).interrupted);
@@ -194,11 +194,11 @@ TEST(Chains, that_are_broken_off_are_not_whole) {
   EXPECT_TRUE(render(chosen.any(), s, observer).interrupted);
 }
 
-TEST(Chains, end_in_time) {
-  const ChosenIntegrator chosen = scene().integrator("restir-di:chain=4");
+TEST(Series, end_in_time) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di:frames=4");
   RenderSettings s = scene().settings(PointSetKind::independent, {}, 1, 2);
   RenderObserver silent;
-  // By a clock that the machine's load does not move: whole chains are planned where there is time for them.
+  // By a clock that the machine's load does not move: whole series are planned where there is time for them.
   std::atomic<int> requested{0};
   s.clock = [&requested] { return 1e-5 * ++requested; };
   s.plan = plan_for_time(chosen.any(), s, 0.3, silent).plan;
@@ -211,12 +211,12 @@ TEST(Chains, end_in_time) {
   EXPECT_LT(r.seconds, 10);
 }
 
-TEST(Chains, are_planned_whole) {
-  const ChosenIntegrator chosen = scene().integrator("restir-di:chain=16");
+TEST(Series, are_planned_whole) {
+  const ChosenIntegrator chosen = scene().integrator("restir-di:frames=16");
   const PassPlan plan = plan_passes(chosen.any(), 97, PointSetKind::independent);
   EXPECT_EQ(plan.samples_per_pass, 16);
   EXPECT_EQ(plan.passes, 7);
-  // Chains are shorter where an error bar would have too few of them.
+  // Series are shorter where an error bar would have too few of them.
   const PassPlan few = plan_passes(chosen.any(), 33, PointSetKind::independent);
   EXPECT_EQ(few.samples_per_pass, 8);
   EXPECT_EQ(few.passes, 5);
@@ -226,7 +226,7 @@ TEST(Chains, are_planned_whole) {
 }
 
 // Two pictures of a sequence; the film of the second.
-Film second_picture(const char* way, int first_passes, int threads, ChainMemories& memories,
+Film second_picture(const char* way, int first_passes, int threads, SeriesMemories& memories,
                     std::optional<PixelBounds> crop = {}) {
   const ChosenIntegrator chosen = scene().integrator(way);
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, first_passes}, 5, threads);
@@ -238,23 +238,23 @@ Film second_picture(const char* way, int first_passes, int threads, ChainMemorie
   return render(chosen.any(), s, silent).film;
 }
 
-const ReuseMemory& opened(const ChainMemory& memory) { return dynamic_cast<const ReuseMemory&>(memory); }
+const ReuseMemory& opened(const SeriesMemory& memory) { return dynamic_cast<const ReuseMemory&>(memory); }
 template <class Reservoirs>
 double largest_confidence_of(const Reservoirs& reservoirs) {
   float largest = 0;
   for (const auto& r : reservoirs) largest = std::max(largest, r.confidence);
   return double(largest);
 }
-// Bytes of a pixel that a chain keeps, as docs/reuse.md says for three components. With a fourth one, the four colours
+// Bytes of a pixel that a series keeps, as docs/reuse.md says for three components. With a fourth one, the four colours
 // of its lights, and three more of its paths, are larger by a float each.
 constexpr std::size_t lights_bytes = 324 + 16 * (spectrum_size - rgb_size);
 constexpr std::size_t paths_bytes = 616 + 28 * (spectrum_size - rgb_size);
 
-double largest_confidence(const ChainMemory& memory) { return largest_confidence_of(opened(memory).lights); }
+double largest_confidence(const SeriesMemory& memory) { return largest_confidence_of(opened(memory).lights); }
 
-TEST(Chains, go_on_from_the_picture_before_each_from_its_own) {
+TEST(Series, go_on_from_the_picture_before_each_from_its_own) {
   const char* way = "restir-di:candidates=2,neighbours=0";
-  ChainMemories memories;
+  SeriesMemories memories;
   const Film film = second_picture(way, 3, 1, memories);
   ASSERT_EQ(memories.size(), 3u);
   for (const auto& memory : memories) {
@@ -262,12 +262,12 @@ TEST(Chains, go_on_from_the_picture_before_each_from_its_own) {
     EXPECT_EQ(largest_confidence(*memory), 4);
     EXPECT_EQ(memory->bytes(), std::size_t(40 * 40) * lights_bytes);
   }
-  ChainMemories by_many;
+  SeriesMemories by_many;
   expect_same(film, second_picture(way, 3, 4, by_many));
 }
 
-TEST(Chains, go_on_from_the_picture_before_with_their_paths) {
-  ChainMemories memories;
+TEST(Series, go_on_from_the_picture_before_with_their_paths) {
+  SeriesMemories memories;
   second_picture("restir-pt:temporal=on,neighbours=0", 3, 2, memories);
   ASSERT_EQ(memories.size(), 3u);
   for (const auto& memory : memories) {
@@ -277,10 +277,10 @@ TEST(Chains, go_on_from_the_picture_before_with_their_paths) {
   }
 }
 
-TEST(Chains, find_the_same_history_in_a_crop) {
+TEST(Series, find_the_same_history_in_a_crop) {
   const char* way = "restir-di:candidates=2,neighbours=0";
   const PixelBounds crop{7, 15, 31, 32};
-  ChainMemories of_all, of_crop;
+  SeriesMemories of_all, of_crop;
   const Film all = second_picture(way, 3, 2, of_all), part = second_picture(way, 3, 2, of_crop, crop);
   const ReuseMemory &whole = opened(*of_all[0]), &own = opened(*of_crop[0]);
   ASSERT_EQ(own.bounds, crop);
@@ -297,7 +297,7 @@ TEST(Chains, find_the_same_history_in_a_crop) {
 }
 
 // A new reservoir has confidence 1; what is remembered, of the frame or of the picture before, at most the cap.
-TEST(Chains, trust_what_they_remember_up_to_the_cap) {
+TEST(Series, trust_what_they_remember_up_to_the_cap) {
   struct Case {
     int cap;
     double after_eight_frames, after_another_picture;
@@ -306,7 +306,7 @@ TEST(Chains, trust_what_they_remember_up_to_the_cap) {
     const ChosenIntegrator chosen =
         scene().integrator(fmt::format("restir-di:candidates=2,neighbours=0,m-cap={}", c.cap));
     RenderSettings s = scene().settings(PointSetKind::blue_noise, {8, 1}, 5, 2);
-    ChainMemories memories;
+    SeriesMemories memories;
     s.sequence.memories = &memories;
     RenderObserver silent;
     render(chosen.any(), s, silent);
@@ -317,10 +317,10 @@ TEST(Chains, trust_what_they_remember_up_to_the_cap) {
   }
 }
 
-TEST(Chains, leave_no_more_than_there_is_room_for) {
+TEST(Series, leave_no_more_than_there_is_room_for) {
   const ChosenIntegrator chosen = scene().integrator("restir-di:candidates=2,neighbours=0");
   RenderSettings s = scene().settings(PointSetKind::blue_noise, {2, 3}, 5, 2);
-  ChainMemories memories;
+  SeriesMemories memories;
   s.sequence.memories = &memories;
   RenderObserver silent;
   constexpr std::size_t of_one = std::size_t(40 * 40) * lights_bytes;
@@ -331,7 +331,7 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   EXPECT_EQ(memories[0]->bytes(), of_one);
   EXPECT_EQ(memories[1], nullptr);
   EXPECT_EQ(memories[2], nullptr);
-  // The next image: chain 0 continues, and the others restart. Their earlier histories use no memory.
+  // The next image: series 0 continues, and the others restart. Their earlier histories use no memory.
   s.sequence.max_memory = 3 * of_one, s.image.seed = 6;
   const RenderResult next = render(chosen.any(), s, silent);
   EXPECT_EQ(next.forgotten, 0);
@@ -352,8 +352,8 @@ TEST(Chains, leave_no_more_than_there_is_room_for) {
   for (const auto& memory : memories) EXPECT_EQ(memory, nullptr);
 }
 
-TEST(Chains, without_a_picture_before_begin_afresh) {
-  ChainMemories memories, none;
+TEST(Series, without_a_picture_before_begin_afresh) {
+  SeriesMemories memories, none;
   second_picture("restir-di:candidates=2,neighbours=0", 1, 2, memories);
   ASSERT_EQ(memories.size(), 3u);
   EXPECT_EQ(largest_confidence(*memories[0]), 4);
@@ -367,11 +367,11 @@ TEST(Chains, without_a_picture_before_begin_afresh) {
     expect_same(film, render(chosen.any(), scene().settings(PointSetKind::blue_noise, {2, 3}, 6, 1), silent).film);
   }
   // Where nothing is learnt from the frame before, nothing is from the picture before.
-  ChainMemories idle;
+  SeriesMemories idle;
   second_picture("restir-pt:candidates=2,neighbours=0", 3, 2, idle);
   for (const auto& memory : idle) EXPECT_EQ(memory, nullptr);
-  // Nor does a chain continue an earlier image if the one in between had no chain with its number.
-  ChainMemories gap;
+  // Nor does a series continue an earlier image if the one in between had no series with its number.
+  SeriesMemories gap;
   second_picture("restir-di:candidates=2,neighbours=0", 3, 2, gap);
   ASSERT_EQ(gap.size(), 3u);
   second_picture("restir-di:candidates=2,neighbours=0", 1, 2, gap);
@@ -390,10 +390,10 @@ TEST(Chains, without_a_picture_before_begin_afresh) {
 // Frames that take a hundredth of a second each, by a clock of their own.
 class TickingFrames final : public CoupledIntegrator {
  public:
-  class Frames final : public Chain {
+  class Frames final : public FrameSeries {
    public:
     explicit Frames(std::atomic<int>& ticks) : ticks_(ticks) {}
-    RayCounts run(const ChainStep& step, const PixelBounds& tile, std::span<PixelSample>) override {
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample>) override {
       // The last tile of the 40 x 40 pixels ends the frame.
       if (step.stage == 1 && tile.x1 == 40 && tile.y1 == 40) ++ticks_;
       return {};
@@ -405,7 +405,7 @@ class TickingFrames final : public CoupledIntegrator {
   int frames() const override { return 4; }
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
-  std::unique_ptr<Chain> begin(const ChainPass&) const override { return std::make_unique<Frames>(ticks_); }
+  std::unique_ptr<FrameSeries> begin(const SeriesPass&) const override { return std::make_unique<Frames>(ticks_); }
   SecondsClock clock() const {
     return [this] { return 0.01 * ticks_; };
   }
@@ -421,14 +421,14 @@ RenderResult within(TimeBudget budget) {
   return render(integrator, s, silent);
 }
 
-TEST(Budget, is_filled_by_whole_frames_of_one_chain) {
+TEST(Budget, is_filled_by_whole_frames_of_one_series) {
   for (auto [budget, frames] : {std::pair{TimeBudget{0.0451, 0}, 4}, {{0.0401, 0.005}, 3}, {{0.0401, 0.015}, 2}}) {
     const RenderResult r = within(budget);
     EXPECT_EQ(r.film.samples(3, 3), frames) << budget.seconds() << " " << budget.ending();
     EXPECT_EQ(r.film.samples(39, 39), frames);
     EXPECT_LE(r.seconds, budget.seconds());
     EXPECT_FALSE(r.interrupted);
-    // One chain has no error bar.
+    // One series has no error bar.
     EXPECT_EQ(r.film.image().passes, 1);
     EXPECT_EQ(r.film.error().pixels, 0u);
   }
@@ -460,11 +460,11 @@ TEST(Budget, is_filled_by_whole_passes_of_other_integrators) {
   EXPECT_NEAR(r.film.pixel(39, 5).variance_of_mean(0), 1.0 / 3, 1e-12);
 }
 
-TEST(Chains, hand_on_what_goes_wrong) {
+TEST(Series, hand_on_what_goes_wrong) {
   class Broken final : public CoupledIntegrator {
    public:
-    class Frames final : public Chain {
-      RayCounts run(const ChainStep& step, const PixelBounds&, std::span<PixelSample>) override {
+    class Frames final : public FrameSeries {
+      RayCounts run(const SeriesStep& step, const PixelBounds&, std::span<PixelSample>) override {
         if (step.frame == 1) throw std::runtime_error("broken");
         return {};
       }
@@ -472,7 +472,7 @@ TEST(Chains, hand_on_what_goes_wrong) {
     int frames() const override { return 4; }
     int warm_up() const override { return 0; }
     int stages() const override { return 2; }
-    std::unique_ptr<Chain> begin(const ChainPass&) const override { return std::make_unique<Frames>(); }
+    std::unique_ptr<FrameSeries> begin(const SeriesPass&) const override { return std::make_unique<Frames>(); }
   };
   RenderObserver silent;
   const Broken broken;

@@ -1,0 +1,71 @@
+// From rays that start at lights back to the numbers that draw them: bodies of LightSet's templates.
+#pragma once
+#include "light/light_set.h"
+
+namespace montelux {
+
+template <class F>
+Vec2<F> LightSet::point_emission_numbers(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const {
+  Vec2<F> u = invert_sphere(d);
+  if (kind == LightKind::spot) {
+    using Spot = SpotEmitter<F>;
+    const F one_minus_cos = F(1.0f) - rows.number(Spot::cos_end);
+    return invert_cone(one_minus_cos, Frame<F>::from_normal(rows.vec3(Spot::axis)).to_local(d));
+  }
+  if (kind == LightKind::goniometric) {
+    const Vec3<F> own = normalize(rows.transform().direction_to_light(d));
+    const Vec2<F> place = inside_square(square_from_sphere(own));
+    for_each_image<F>(rows, on & rows.has_image(),
+                      [&](const PiecewiseConstant2& table, Mask<F> same) { u = select(same, table.invert(place), u); });
+  }
+  if (kind == LightKind::projection) {
+    const Vec3<F> own = normalize(rows.transform().direction_to_light(d));
+    const Vec2<F> place = inside_square(ProjectionPlane<F>(rows).place(own));
+    for_each_image<F>(rows, on,
+                      [&](const PiecewiseConstant2& table, Mask<F> same) { u = select(same, table.invert(place), u); });
+  }
+  return u;
+}
+
+template <class F>
+Vec2<F> LightSet::beyond_place_numbers(Vec3<F> p, Vec3<F> d) const {
+  const Vec3<F> from_centre = (p - splat<F>(tables_.scene_centre)) * (1 / tables_.scene_radius);
+  const Vec3<F> across = Frame<F>::from_normal(d).to_local(from_centre);
+  return invert_disk_concentric(Vec2<F>{across.x, across.y});
+}
+
+template <class F>
+EmissionNumbers<F> LightSet::emission_numbers(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec3<F> d, Mask<F> on) const {
+  EmissionNumbers<F> r{{F(0.0f), F(0.0f)}, {F(0.0f), F(0.0f)}};
+  // Rounding may lead slightly past an end.
+  const auto inside = [](const Vec2<F>& u) {
+    return Vec2<F>{clamp(u.x, 0.0f, one_minus_epsilon), clamp(u.y, 0.0f, one_minus_epsilon)};
+  };
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    const LightRows<F> row = rows<F>(light, m);
+    if (is_surface(kind)) {
+      with_emitter<F>(kind, row, [&](const auto& emitter) {
+        const Vec2<F> place = inside(emitter.site_numbers(p));
+        Vec2<F> direction = inside(invert_cosine_hemisphere(Frame<F>::from_normal(n).to_local(d)));
+        // A light with two sides spends half of the first number on each.
+        const Mask<F> behind = dot(emitter.site(place).n, n) < F(0.0f);
+        const F half = 0.5f * direction.x + select(behind, F(0.5f), F(0.0f));
+        direction.x = select(row.flag(light_two_sided), half, direction.x);
+        r.point = select(m, place, r.point), r.direction = select(m, direction, r.direction);
+      });
+    } else if (!is_unbounded(kind)) {
+      r.direction = select(m, inside(point_emission_numbers(kind, row, d, m)), r.direction);
+    } else {
+      r.point = select(m, inside(beyond_place_numbers<F>(p, d)), r.point);
+      if (kind == LightKind::uniform_infinite)
+        r.direction = select(m, inside(UniformInfinite<F>::numbers(-d)), r.direction);
+      else if (kind == LightKind::image_infinite)
+        for_each_light<F>(light, m, [&](LightId one, Mask<F> same) {
+          r.direction = select(same, inside(image_infinite<F>(one).numbers(-d)), r.direction);
+        });
+    }
+  });
+  return r;
+}
+
+}  // namespace montelux
