@@ -27,6 +27,7 @@ template <class F>
 struct EmissionDensities {
   Density<Area, F> position;
   Density<SolidAngle, F> direction;
+  Mask<F> delta_position, delta_direction;
 };
 
 // The numbers in [0, 1)^2 with which a ray is drawn.

@@ -7,13 +7,10 @@
 
 #include "light/bvh.h"
 #include "light/emission.h"
+#include "light/emitters.h"
 #include "light/image.h"
 #include "light/infinite.h"
 #include "light/light_point.h"
-#include "light/patch.h"
-#include "light/point.h"
-#include "light/quadric.h"
-#include "light/triangle.h"
 #include "mc/discrete.h"
 
 namespace montelux {
@@ -65,9 +62,6 @@ class LightSet {
   bool has_beyond() const { return !unbounded_.empty(); }
   template <class F>
   Mask<F> is_beyond(Uint<F> light, Mask<F> on) const;
-  // Lights that no ray hits.
-  template <class F>
-  Mask<F> is_delta_light(Uint<F> light, Mask<F> on) const;
 
   // The light to sample at p, and the probability of that choice (equal bit for bit).
   template <class F>
@@ -144,9 +138,7 @@ class LightSet {
   // Calls f(kind, lanes) once for each kind of light among the lanes.
   template <class F, class Function>
   void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;
-  // Calls f(emitter) with the surface of the kind.
-  template <class F, class Function>
-  static void with_emitter(LightKind kind, const LightRows<F>& rows, Function f);
+  LightImages images() const { return {tables_.images.data(), tables_.distributions.data()}; }
 
   template <class F>
   LightSample<F> sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
@@ -164,21 +156,15 @@ class LightSet {
   template <class F>
   LightEmission<F> emit_point(LightKind kind, const LightRows<F>& rows, Vec2<F> u, Mask<F> on) const;
   template <class F>
-  Density<SolidAngle, F> point_emission_density(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const;
-  template <class F>
   LightEmission<F> emit_beyond(LightKind kind, const LightRows<F>& rows, Vec2<F> u_point, Vec2<F> u_direction,
                                Mask<F> on) const;
   template <class F>
   Density<Area, F> beyond_position_density() const;
   template <class F>
-  Vec2<F> point_emission_numbers(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const;
-  template <class F>
   Vec2<F> beyond_place_numbers(Vec3<F> p, Vec3<F> d) const;
-  // Calls f(light, lanes) once for each light among the lanes, and f(distribution, lanes) for each image.
+  // Calls f(light, lanes) once for each light among the lanes.
   template <class F, class Function>
   void for_each_light(Uint<F> light, Mask<F> on, Function f) const;
-  template <class F, class Function>
-  void for_each_image(const LightRows<F>& rows, Mask<F> on, Function f) const;
   template <class F>
   ImageInfinite<F> image_infinite(LightId light) const;
   // Radiance, and density without the choice.
@@ -194,17 +180,6 @@ class LightSet {
   bool has_delta_ = false, has_masked_ = false;
   float unbounded_mass_ = 0;  // of each unbounded light, in the hierarchy's choice
 };
-
-}  // namespace montelux
-
-namespace montelux {
-
-template <class F>
-inline constexpr bool all_are_surface_emitters =
-    (SurfaceEmitter<TriangleEmitter<F>, F> && SurfaceEmitter<ParallelogramEmitter<F>, F> &&
-     SurfaceEmitter<BilinearPatchEmitter<F>, F> && SurfaceEmitter<DiskEmitter<F>, F> &&
-     SurfaceEmitter<SphereEmitter<F>, F> && SurfaceEmitter<CylinderEmitter<F>, F>);
-static_assert(all_are_surface_emitters<float> && all_are_surface_emitters<NativeFloats>);
 
 }  // namespace montelux
 

@@ -11,13 +11,6 @@ Mask<F> LightSet::is_beyond(Uint<F> light, Mask<F> on) const {
 }
 
 template <class F>
-Mask<F> LightSet::is_delta_light(Uint<F> light, Mask<F> on) const {
-  const Uint<F> kinds = gather(tables_.kinds.data(), select(on, light, Uint<F>(0u)));
-  return on & (kinds >= Uint<F>(std::uint32_t(LightKind::point))) &
-         (kinds <= Uint<F>(std::uint32_t(LightKind::distant)));
-}
-
-template <class F>
 LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   if (count() == 0) return {Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
   if (settings_.selection == LightSelection::uniform) {

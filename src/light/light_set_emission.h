@@ -40,88 +40,14 @@ LightEmission<F> LightSet::emit_surface(LightKind kind, const LightRows<F>& rows
 // ---- lights in one point ------------------------------------------------------------------------------------------
 
 template <class F>
-Density<SolidAngle, F> LightSet::point_emission_density(LightKind kind, const LightRows<F>& rows, Vec3<F> d,
-                                                        Mask<F> on) const {
-  switch (kind) {
-    case LightKind::spot: {
-      using Spot = SpotEmitter<F>;
-      const F cos_end = rows.number(Spot::cos_end);
-      const Mask<F> inside = dot(rows.vec3(Spot::axis), d) >= cos_end;
-      return {select(inside, cone_density(F(1.0f) - cos_end).value, F(0.0f))};
-    }
-    case LightKind::goniometric: {
-      F density = sphere_density<F>().value;
-      const LightTransforms<F> transform = rows.transform();
-      const Vec3<F> own = normalize(transform.direction_to_light(d));
-      const F growth = transform.solid_angle_growth(own);
-      const Vec2<F> uv = inside_square(square_from_sphere(own));
-      for_each_image<F>(rows, on & rows.has_image(), [&](const PiecewiseConstant2& table, Mask<F> same) {
-        density = select(same, table.density(uv).value * inv_four_pi / growth, density);
-      });
-      return {density};
-    }
-    case LightKind::projection: {
-      const ProjectionPlane<F> plane(rows);
-      const Vec3<F> own = normalize(rows.transform().direction_to_light(d));
-      const Vec2<F> uv = plane.place(own);
-      F density(0.0f);
-      for_each_image<F>(rows, on & (own.z >= F(ProjectionPlane<F>::near)),
-                        [&](const PiecewiseConstant2& table, Mask<F> same) {
-                          density = select(same, plane.of_direction(table.density(uv), own).value, density);
-                        });
-      return {density};
-    }
-    default:
-      return sphere_density<F>();
-  }
-}
-
-template <class F>
 LightEmission<F> LightSet::emit_point(LightKind kind, const LightRows<F>& rows, Vec2<F> u, Mask<F> on) const {
   LightEmission<F> r{};
-  r.direction = sphere_density<F>();
-  r.valid = on;
-  Vec3<F> d = sample_sphere(u);
-  switch (kind) {
-    case LightKind::spot: {
-      using Spot = SpotEmitter<F>;
-      const F one_minus_cos = F(1.0f) - rows.number(Spot::cos_end);
-      d = Frame<F>::from_normal(rows.vec3(Spot::axis)).to_world(sample_cone(one_minus_cos, u));
-      r.direction = cone_density(one_minus_cos);
-      r.radiance = Spot(rows).intensity(d, on), r.p = Spot(rows).p;
-      break;
-    }
-    case LightKind::goniometric: {
-      const LightTransforms<F> transform = rows.transform();
-      for_each_image<F>(rows, on & rows.has_image(), [&](const PiecewiseConstant2& table, Mask<F> same) {
-        const PointSample2<F> s = table.sample(u);
-        const Vec3<F> own = sphere_from_square(s.p);
-        d = select(same, normalize(transform.direction_to_world(own)), d);
-        r.direction.value =
-            select(same, s.density.value * inv_four_pi / transform.solid_angle_growth(own), r.direction.value);
-      });
-      const GoniometricEmitter<F> light(rows, tables_.images.data());
-      r.radiance = light.intensity(d, on), r.p = light.p;
-      break;
-    }
-    case LightKind::projection: {
-      const ProjectionPlane<F> plane(rows);
-      for_each_image<F>(rows, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
-        const PointSample2<F> s = table.sample(u);
-        const Vec3<F> own = plane.direction(s.p);
-        d = select(same, normalize(rows.transform().direction_to_world(own)), d);
-        r.direction.value = select(same, plane.of_direction(s.density, own).value, r.direction.value);
-      });
-      const ProjectionEmitter<F> light(rows, tables_.images.data());
-      r.radiance = light.intensity(d, on), r.p = light.p;
-      break;
-    }
-    default: {
-      const PointEmitter<F> light(rows);
-      r.radiance = light.intensity(d, on), r.p = light.p;
-    }
-  }
-  r.d = r.n = d;
+  with_point_light<F>(kind, rows, images(), [&](const auto& light) {
+    const LeavingDirection<F> leaving = light.leave(u, on);
+    r.d = leaving.d, r.direction = leaving.density;
+    r.radiance = light.intensity(leaving.d, on), r.p = light.p;
+  });
+  r.n = r.d;
   r.position = {F(1.0f)};
   r.flux = r.radiance * (F(1.0f) / r.direction.value);
   r.valid = on & (r.direction.value > F(0.0f)) & is_finite(r.direction.value);
@@ -191,13 +117,15 @@ LightEmission<F> LightSet::emit(Uint<F> light, Vec2<F> u_point, Vec2<F> u_direct
 
 template <class F>
 EmissionDensities<F> LightSet::emission_densities(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec3<F> d, Mask<F> on) const {
-  EmissionDensities<F> r{{F(1.0f)}, {F(1.0f)}};
+  EmissionDensities<F> r{{F(1.0f)}, {F(1.0f)}, Mask<F>(false), Mask<F>(false)};
   const auto put = [&r](Mask<F> m, F position, F direction) {
     r.position.value = select(m, position, r.position.value);
     r.direction.value = select(m, direction, r.direction.value);
   };
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
     const LightRows<F> row = rows<F>(light, m);
+    if (!is_surface(kind) && !is_unbounded(kind)) r.delta_position = r.delta_position | m;
+    if (kind == LightKind::distant) r.delta_direction = r.delta_direction | m;
     if (is_surface(kind))
       with_emitter<F>(kind, row, [&](const auto& emitter) {
         const F position = emitter.site_density(p).value;
@@ -205,7 +133,8 @@ EmissionDensities<F> LightSet::emission_densities(Uint<F> light, Vec3<F> p, Vec3
         put(m, select(drawn, position, F(0.0f)), surface_emission_density(row, n, d).value);
       });
     else if (!is_unbounded(kind))
-      put(m, F(1.0f), point_emission_density(kind, row, d, m).value);
+      with_point_light<F>(kind, row, images(),
+                          [&](const auto& point) { put(m, F(1.0f), point.leaving_density(d, m).value); });
     else if (kind == LightKind::distant)
       put(m, beyond_position_density<F>().value, F(1.0f));
     else
@@ -223,17 +152,6 @@ void LightSet::for_each_light(Uint<F> light, Mask<F> on, Function f) const {
     const std::uint32_t one = lane(light, std::countr_zero(bits(on)));
     const Mask<F> same = on & (light == Uint<F>(one));
     f(LightId(one), same);
-    on = on & !same;
-  }
-}
-
-template <class F, class Function>
-void LightSet::for_each_image(const LightRows<F>& rows, Mask<F> on, Function f) const {
-  const Uint<F> image = rows.bits(light_slot::image);
-  while (any(on)) {
-    const std::uint32_t number = lane(image, std::countr_zero(bits(on)));
-    const Mask<F> same = on & (image == Uint<F>(number));
-    f(*tables_.distributions[number - 1], same);
     on = on & !same;
   }
 }

@@ -5,29 +5,6 @@
 namespace montelux {
 
 template <class F>
-Vec2<F> LightSet::point_emission_numbers(LightKind kind, const LightRows<F>& rows, Vec3<F> d, Mask<F> on) const {
-  Vec2<F> u = invert_sphere(d);
-  if (kind == LightKind::spot) {
-    using Spot = SpotEmitter<F>;
-    const F one_minus_cos = F(1.0f) - rows.number(Spot::cos_end);
-    return invert_cone(one_minus_cos, Frame<F>::from_normal(rows.vec3(Spot::axis)).to_local(d));
-  }
-  if (kind == LightKind::goniometric) {
-    const Vec3<F> own = normalize(rows.transform().direction_to_light(d));
-    const Vec2<F> place = inside_square(square_from_sphere(own));
-    for_each_image<F>(rows, on & rows.has_image(),
-                      [&](const PiecewiseConstant2& table, Mask<F> same) { u = select(same, table.invert(place), u); });
-  }
-  if (kind == LightKind::projection) {
-    const Vec3<F> own = normalize(rows.transform().direction_to_light(d));
-    const Vec2<F> place = inside_square(ProjectionPlane<F>(rows).place(own));
-    for_each_image<F>(rows, on,
-                      [&](const PiecewiseConstant2& table, Mask<F> same) { u = select(same, table.invert(place), u); });
-  }
-  return u;
-}
-
-template <class F>
 Vec2<F> LightSet::beyond_place_numbers(Vec3<F> p, Vec3<F> d) const {
   const Vec3<F> from_centre = (p - splat<F>(tables_.scene_centre)) * (1 / tables_.scene_radius);
   const Vec3<F> across = Frame<F>::from_normal(d).to_local(from_centre);
@@ -54,7 +31,9 @@ EmissionNumbers<F> LightSet::emission_numbers(Uint<F> light, Vec3<F> p, Vec3<F> 
         r.point = select(m, place, r.point), r.direction = select(m, direction, r.direction);
       });
     } else if (!is_unbounded(kind)) {
-      r.direction = select(m, inside(point_emission_numbers(kind, row, d, m)), r.direction);
+      with_point_light<F>(kind, row, images(), [&](const auto& point) {
+        r.direction = select(m, inside(point.leaving_numbers(d, m)), r.direction);
+      });
     } else {
       r.point = select(m, inside(beyond_place_numbers<F>(p, d)), r.point);
       if (kind == LightKind::uniform_infinite)

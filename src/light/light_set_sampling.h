@@ -16,26 +16,6 @@ void LightSet::for_each_kind(Uint<F> light, Mask<F> on, Function f) const {
   }
 }
 
-template <class F, class Function>
-void LightSet::with_emitter(LightKind kind, const LightRows<F>& rows, Function f) {
-  switch (kind) {
-    case LightKind::triangle:
-      return f(TriangleEmitter<F>(rows));
-    case LightKind::parallelogram:
-      return f(ParallelogramEmitter<F>(rows));
-    case LightKind::bilinear_patch:
-      return f(BilinearPatchEmitter<F>(rows));
-    case LightKind::disk:
-      return f(DiskEmitter<F>(rows));
-    case LightKind::sphere:
-      return f(SphereEmitter<F>(rows));
-    case LightKind::cylinder:
-      return f(CylinderEmitter<F>(rows));
-    default:
-      return;
-  }
-}
-
 template <class F>
 Spectrum<F> LightSet::surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const {
   Spectrum<F> e = rows.emission();
@@ -108,22 +88,10 @@ LightSample<F> LightSet::sample_delta(LightKind kind, const LightRows<F>& rows, 
     r.wi = d * (F(1.0f) / r.distance);
     r.radiance = light.intensity(-r.wi, on) * (F(1.0f) / d2);
   };
-  switch (kind) {
-    case LightKind::point:
-      from_point(PointEmitter<F>(rows));
-      break;
-    case LightKind::spot:
-      from_point(SpotEmitter<F>(rows));
-      break;
-    case LightKind::goniometric:
-      from_point(GoniometricEmitter<F>(rows, tables_.images.data()));
-      break;
-    case LightKind::projection:
-      from_point(ProjectionEmitter<F>(rows, tables_.images.data()));
-      break;
-    default:  // distant
-      r.wi = rows.vec3(light_slot::shape), r.distance = F(2.0f * tables_.scene_radius), r.radiance = rows.emission();
-  }
+  if (kind == LightKind::distant)
+    r.wi = rows.vec3(light_slot::shape), r.distance = F(2.0f * tables_.scene_radius), r.radiance = rows.emission();
+  else
+    with_point_light<F>(kind, rows, images(), from_point);
   r.density = {F(1.0f)};
   r.delta = Mask<F>(true);
   r.valid = on & !is_black(r.radiance);

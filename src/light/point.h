@@ -1,12 +1,41 @@
-// Lights at one point: each has a position and an intensity (W / sr) towards a unit direction.
+// Lights at one point: each has a position, an intensity (W / sr) towards a unit direction of the world, and a density
+// of the directions in which rays leave it.
 #pragma once
 #include <memory>
 
 #include "light/image.h"
+#include "light/infinite.h"
 #include "light/row.h"
 #include "math/square_maps.h"
+#include "mc/hemisphere.h"
+#include "mc/piecewise.h"
 
 namespace montelux {
+
+// The images of all lights, by the number in a row minus one, and the distribution of each where it is needed.
+struct LightImages {
+  const std::shared_ptr<const LightImage>* images = nullptr;
+  const std::shared_ptr<const PiecewiseConstant2>* distributions = nullptr;
+};
+
+// Calls f(distribution, lanes) for each image among the rows of the lanes `on`.
+template <class F, class Function>
+void for_each_distribution(const LightRows<F>& rows, const LightImages& of, Mask<F> on, Function f) {
+  const Uint<F> image = rows.bits(light_slot::image);
+  for (on = on & rows.has_image(); any(on);) {
+    const std::uint32_t number = lane(image, std::countr_zero(bits(on)));
+    const Mask<F> same = on & (image == Uint<F>(number));
+    f(*of.distributions[number - 1], same);
+    on = on & !same;
+  }
+}
+
+// A direction in which a ray leaves a light. Without a meaning where the density is zero.
+template <class F>
+struct LeavingDirection {
+  Vec3<F> d;
+  Density<SolidAngle, F> density;
+};
 
 // The same in all directions.
 template <class F>
@@ -14,8 +43,14 @@ struct PointEmitter {
   Vec3<F> p;
   Spectrum<F> emission;
 
-  explicit MONTELUX_INLINE PointEmitter(const LightRows<F>& r) : p(r.vec3(light_slot::shape)), emission(r.emission()) {}
+  MONTELUX_INLINE PointEmitter(const LightRows<F>& r, const LightImages&)
+      : p(r.vec3(light_slot::shape)), emission(r.emission()) {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F>, Mask<F>) const { return emission; }
+  MONTELUX_INLINE LeavingDirection<F> leave(Vec2<F> u, Mask<F>) const {
+    return {sample_sphere(u), sphere_density<F>()};
+  }
+  MONTELUX_INLINE Density<SolidAngle, F> leaving_density(Vec3<F>, Mask<F>) const { return sphere_density<F>(); }
+  MONTELUX_INLINE Vec2<F> leaving_numbers(Vec3<F> d, Mask<F>) const { return invert_sphere(d); }
 };
 
 // 0 below `low`, 1 above `high`, between them t^2 (1 + bend - bend t): a bend of 2 gives a cubic with zero end slopes,
@@ -34,17 +69,31 @@ struct SpotEmitter {
   Vec3<F> p;
   LightRows<F> rows;
 
-  explicit MONTELUX_INLINE SpotEmitter(const LightRows<F>& r) : p(r.vec3(place)), rows(r) {}
+  MONTELUX_INLINE SpotEmitter(const LightRows<F>& r, const LightImages&) : p(r.vec3(place)), rows(r) {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F>) const {
     return rows.emission() *
            soft_step(dot(rows.vec3(axis), w), rows.number(cos_end), rows.number(cos_edge), rows.number(bend));
   }
+  MONTELUX_INLINE LeavingDirection<F> leave(Vec2<F> u, Mask<F>) const {
+    return {about_axis().to_world(sample_cone(one_minus_cos(), u)), cone_density(one_minus_cos())};
+  }
+  MONTELUX_INLINE Density<SolidAngle, F> leaving_density(Vec3<F> d, Mask<F>) const {
+    const Mask<F> inside = dot(rows.vec3(axis), d) >= rows.number(cos_end);
+    return {select(inside, cone_density(one_minus_cos()).value, F(0.0f))};
+  }
+  MONTELUX_INLINE Vec2<F> leaving_numbers(Vec3<F> d, Mask<F>) const {
+    return invert_cone(one_minus_cos(), about_axis().to_local(d));
+  }
+
+ private:
+  MONTELUX_INLINE F one_minus_cos() const { return F(1.0f) - rows.number(cos_end); }
+  MONTELUX_INLINE Frame<F> about_axis() const { return Frame<F>::from_normal(rows.vec3(axis)); }
 };
 
 // Lights whose intensity is given by an image, by direction: the images of all lights, and which of them a row uses.
 template <class F>
 struct ImagedLights {
-  const std::shared_ptr<const LightImage>* images;
+  LightImages of;
   LightRows<F> rows;
 
   // The emission times the result of f(image, lane), in the lanes that are on; other lanes are black.
@@ -54,7 +103,7 @@ struct ImagedLights {
     Uint<F> image = rows.bits(light_slot::image);
     for_each_lane(on, [&](int k) {
       std::uint32_t number = lane(image, k);
-      set_lane(r, k, number == 0 ? lane(e, k) : lane(e, k) * f(*images[number - 1], k));
+      set_lane(r, k, number == 0 ? lane(e, k) : lane(e, k) * f(*of.images[number - 1], k));
     });
     return r;
   }
@@ -66,12 +115,48 @@ struct GoniometricEmitter {
   Vec3<F> p;
   ImagedLights<F> light;
 
-  MONTELUX_INLINE GoniometricEmitter(const LightRows<F>& r, const std::shared_ptr<const LightImage>* images)
+  MONTELUX_INLINE GoniometricEmitter(const LightRows<F>& r, const LightImages& images)
       : p(r.vec3(light_slot::shape)), light{images, r} {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F> on) const {
     Vec2<F> uv = square_from_sphere(normalize(light.rows.transform().direction_to_light(w)));
     return light.times_image(on,
                              [&](const LightImage& image, int k) { return gray(average(image.nearest(lane(uv, k)))); });
+  }
+  // In proportion to the image; uniform without one.
+  MONTELUX_INLINE LeavingDirection<F> leave(Vec2<F> u, Mask<F> on) const {
+    LeavingDirection<F> r{sample_sphere(u), sphere_density<F>()};
+    const LightTransforms<F> transform = light.rows.transform();
+    for_each_distribution<F>(light.rows, light.of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
+      const PointSample2<F> s = table.sample(u);
+      const Vec3<F> own = sphere_from_square(s.p);
+      r.d = select(same, normalize(transform.direction_to_world(own)), r.d);
+      r.density.value =
+          select(same, s.density.value * inv_four_pi / transform.solid_angle_growth(own), r.density.value);
+    });
+    return r;
+  }
+  MONTELUX_INLINE Density<SolidAngle, F> leaving_density(Vec3<F> d, Mask<F> on) const {
+    F density = sphere_density<F>().value;
+    const Vec3<F> own = own_direction(d);
+    const F growth = light.rows.transform().solid_angle_growth(own);
+    const Vec2<F> uv = inside_square(square_from_sphere(own));
+    for_each_distribution<F>(light.rows, light.of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
+      density = select(same, table.density(uv).value * inv_four_pi / growth, density);
+    });
+    return {density};
+  }
+  MONTELUX_INLINE Vec2<F> leaving_numbers(Vec3<F> d, Mask<F> on) const {
+    Vec2<F> u = invert_sphere(d);
+    const Vec2<F> uv = inside_square(square_from_sphere(own_direction(d)));
+    for_each_distribution<F>(light.rows, light.of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
+      u = select(same, table.invert(uv), u);
+    });
+    return u;
+  }
+
+ private:
+  MONTELUX_INLINE Vec3<F> own_direction(Vec3<F> d) const {
+    return normalize(light.rows.transform().direction_to_light(d));
   }
 };
 
@@ -123,7 +208,7 @@ struct ProjectionEmitter {
   Vec3<F> p;
   ImagedLights<F> light;
 
-  MONTELUX_INLINE ProjectionEmitter(const LightRows<F>& r, const std::shared_ptr<const LightImage>* images)
+  MONTELUX_INLINE ProjectionEmitter(const LightRows<F>& r, const LightImages& images)
       : p(r.vec3(projection_place)), light{images, r} {}
   MONTELUX_INLINE Spectrum<F> intensity(Vec3<F> w, Mask<F> on) const {
     Vec3<F> own = normalize(light.rows.transform().direction_to_light(w));
@@ -133,6 +218,50 @@ struct ProjectionEmitter {
     return light.times_image(Mask<F>(on & lit),
                              [&](const LightImage& image, int k) { return from_rgb(image.nearest(lane(uv, k))); });
   }
+  // In proportion to the image.
+  MONTELUX_INLINE LeavingDirection<F> leave(Vec2<F> u, Mask<F> on) const {
+    LeavingDirection<F> r{sample_sphere(u), sphere_density<F>()};
+    const ProjectionPlane<F> plane(light.rows);
+    for_each_distribution<F>(light.rows, light.of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
+      const PointSample2<F> s = table.sample(u);
+      const Vec3<F> own = plane.direction(s.p);
+      r.d = select(same, normalize(light.rows.transform().direction_to_world(own)), r.d);
+      r.density.value = select(same, plane.of_direction(s.density, own).value, r.density.value);
+    });
+    return r;
+  }
+  MONTELUX_INLINE Density<SolidAngle, F> leaving_density(Vec3<F> d, Mask<F> on) const {
+    const ProjectionPlane<F> plane(light.rows);
+    const Vec3<F> own = normalize(light.rows.transform().direction_to_light(d));
+    const Vec2<F> uv = plane.place(own);
+    F density(0.0f);
+    for_each_distribution<F>(light.rows, light.of, Mask<F>(on & (own.z >= F(ProjectionPlane<F>::near))),
+                             [&](const PiecewiseConstant2& table, Mask<F> same) {
+                               density = select(same, plane.of_direction(table.density(uv), own).value, density);
+                             });
+    return {density};
+  }
+  MONTELUX_INLINE Vec2<F> leaving_numbers(Vec3<F> d, Mask<F> on) const {
+    Vec2<F> u{F(0.0f), F(0.0f)};
+    const Vec3<F> own = normalize(light.rows.transform().direction_to_light(d));
+    const Vec2<F> uv = inside_square(ProjectionPlane<F>(light.rows).place(own));
+    for_each_distribution<F>(light.rows, light.of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
+      u = select(same, table.invert(uv), u);
+    });
+    return u;
+  }
+};
+
+// The interface of every light at one point, made from its row and the images of all lights: leave() draws the
+// direction of a ray, leaving_density() is its density (0 where none leaves), leaving_numbers() the inverse of leave().
+template <class Light, class F>
+concept PointLight = requires(const Light& light, Vec3<F> d, Vec2<F> u, Mask<F> on) {
+  Light(LightRows<F>{}, LightImages{});
+  { light.p } -> std::convertible_to<Vec3<F>>;
+  { light.intensity(d, on) } -> std::same_as<Spectrum<F>>;
+  { light.leave(u, on) } -> std::same_as<LeavingDirection<F>>;
+  { light.leaving_density(d, on) } -> std::same_as<Density<SolidAngle, F>>;
+  { light.leaving_numbers(d, on) } -> std::same_as<Vec2<F>>;
 };
 
 }  // namespace montelux

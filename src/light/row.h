@@ -141,8 +141,9 @@ struct EmitterSite {
 
 // The interface of every emitting surface, made from its row: a point sampled from a reference point, and the density
 // at the reference point with which sample() samples the point p in the unit direction wi; a point sampled by area
-// alone, the density with which site() samples p, and a bound of the rounding error of its coordinates. The density of
-// a direction is that of the surface's first point along it; for convex surfaces with one or two emitting sides.
+// alone, the density with which site() samples p, the numbers with which it does, and a bound of the rounding error of
+// its coordinates. The density of a direction is that of the surface's first point along it; for convex surfaces with
+// one or two emitting sides.
 template <class Emitter, class F>
 concept SurfaceEmitter = requires(const Emitter& e, Vec3<F> p, Vec2<F> u) {
   Emitter(LightRows<F>{});

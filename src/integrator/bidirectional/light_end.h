@@ -20,7 +20,7 @@ LightEnd<F> light_end(const PathLights& from, const MetLight<F>& at, const Vec3<
   const LightSet& lights = from.lights;
   const EmissionDensities<F> p = lights.template emission_densities<F>(at.number, at.p, at.n, d, at.on);
   const Mask<F> beyond = lights.template is_beyond<F>(at.number, at.on);
-  const Mask<F> delta = lights.template is_delta_light<F>(at.number, at.on);
+  const Mask<F> delta = p.delta_position | p.delta_direction;
   const F spread = F(1.0f) / max(distance_squared, F(1e-30f));
   const Uint<F> number = select(at.on, at.number, Uint<F>(0u));
   // Light from beyond the scene is as wide as where it starts.

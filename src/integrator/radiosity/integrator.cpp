@@ -159,8 +159,8 @@ class RadiositySeries final : public FrameSeries {
                                                sampler.stream(first + own + U(path_dimension::per_vertex)), on);
       Spectrum<F> leaves = reflected(shared_, known, point, path.hit, on);
       if (shared_.settings.gather)
-        leaves =
-            point.albedo * irradiance_sample(shared_, known, point.x.point, point.n, numbers_of(gathering_points(pass.points), path), counts, on);
+        leaves = point.albedo * irradiance_sample(shared_, known, point.x.point, point.n,
+                                                  numbers_of(gathering_points(pass.points), path), counts, on);
       const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
       for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
       write_features(at, point.albedo, path, on, out);

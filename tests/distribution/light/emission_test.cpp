@@ -399,6 +399,8 @@ TEST(EmittedRays, state_the_densities_that_are_requested_of_a_ray) {
       EXPECT_GT(dot(e.n, e.d), 0);
       const EmissionDensities<float> d = c.lights.emission_densities<float>(0, e.p, e.n, e.d, true);
       EXPECT_NEAR(d.position.value / e.position.value, 1, 1e-3f);
+      EXPECT_EQ(d.delta_position, e.delta_position);
+      EXPECT_EQ(d.delta_direction, e.delta_direction);
       // A direction on the edge of two texels may be looked up in either; the cosine of a grazing one is rounded.
       off += std::abs(d.direction.value / e.direction.value - 1) > 2e-3f;
     }
