@@ -137,8 +137,7 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
     left = select(open, left * left_along(segment.media, v.x.distance), left);
     if (!any(passes)) break;
     crossed = true;
-    segment.media = select_media<F>(passes, v.media_toward(ray.d), segment.media);
-    segment.ray.o = select(passes, v.origin_toward(ray.d), segment.ray.o);
+    cross_interface(segment, v, passes);
     crossings = crossings + select(passes, U(1u), U(0u));
     traced += std::uint64_t(count(passes));
     const auto [further, next] = rays.template trace<F>({segment.ray.o, ray.d, F(ray_infinity), ray.time}, passes);

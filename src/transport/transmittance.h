@@ -4,7 +4,7 @@
 
 #include "mc/random.h"
 #include "scene/scene.h"
-#include "transport/media.h"
+#include "transport/vertex.h"
 
 namespace montelux {
 
@@ -20,33 +20,32 @@ struct Transmitted {
 // surfaces that are interfaces at times. `rays` has trace() as Accel does; counts the rays that it takes. `first_use`
 // is that of the ray up to its first surface.
 template <class F, bool with_passing = true, class Rays>
-Transmitted<F> transmitted(const Scene& scene, const Rays& rays, Ray<F> ray, Media<F> media, Mask<F> on,
+Transmitted<F> transmitted(const Scene& scene, const Rays& rays, const Ray<F>& to, const Media<F>& media, Mask<F> on,
                            RandomStream<F> random, std::uint64_t& traced, RayUse first_use = RayUse::path) {
   Spectrum<F> left = select(on, gray(F(1.0f)), gray(F(0.0f)));
   F passing(1.0f);
   RayUse use = first_use;
+  Segment<F> segment{to, {}, media};
   Uint<F> crossings(0u);
-  F length = ray.t_max * (1.0f / (1.0f - shadow_shortening));  // media fill the whole way, which the rays do not go
+  F length = to.t_max * (1.0f / (1.0f - shadow_shortening));  // media fill the whole way, which the rays do not go
   for (Mask<F> open = on; any(open);) {
     traced += std::uint64_t(count(open));
-    const auto [found, hit] = rays.template trace<F>(ray, open, std::exchange(use, RayUse::path));
+    const auto [found, hit] = rays.template trace<F>(segment.ray, open, std::exchange(use, RayUse::path));
     const F way = select(found, hit.t, length);
-    left = select(open, left * media.left(way), left);
+    left = select(open, left * segment.media.left(way), left);
     if constexpr (with_passing)
-      passing = select(open, passing * scene.media.mean_passing<F>(media.medium, way), passing);
+      passing = select(open, passing * scene.media.mean_passing<F>(segment.media.medium, way), passing);
     open = open & found & (max_component(left) > F(0.0f));
     left = select(found & !open, gray(F(0.0f)), left);
     if (!any(open)) break;
-    const SurfaceHit<F> x = surface<F>(scene.geometry, {ray.o, ray.d, hit.t, ray.time}, hit, open);
-    const SurfaceScattering<F> bsdf = scene.materials.template scattering<F>(x, ray.d, open, random.fork(crossings));
-    const Mask<F> passes = open & bsdf.is_interface;
+    segment.hit = hit;
+    const Vertex<F> v(scene, segment, {open, open}, {TransportMode::radiance, random.fork(crossings)});
+    const Mask<F> passes = open & v.bsdf.is_interface;
     left = select(open & !passes, gray(F(0.0f)), left);
-    const Boundary<F> boundary(scene.media, x, bsdf);
-    media = select_media<F>(passes, boundary.behind(media, ray.d, ray.d), media);
-    ray.o = select<F>(passes, offset_origin(x.point.p, x.point.p_error, x.point.ng, ray.d), ray.o);
-    ray.t_max = select(passes, ray.t_max - hit.t, ray.t_max), length = length - hit.t;
+    cross_interface(segment, v, passes);
+    segment.ray.t_max = select(passes, segment.ray.t_max - hit.t, segment.ray.t_max), length = length - hit.t;
     crossings = crossings + select(passes, Uint<F>(1u), Uint<F>(0u));
-    open = passes & (ray.t_max > F(0.0f));
+    open = passes & (segment.ray.t_max > F(0.0f));
   }
   return {left, passing};
 }

@@ -109,6 +109,14 @@ struct Vertex {
   }
 };
 
+// The segments of the lanes `passes` continue straight on beyond v, an interface at their end. What they meet there is
+// not known yet.
+template <class F>
+MONTELUX_INLINE void cross_interface(Segment<F>& segment, const Vertex<F>& v, Mask<F> passes) {
+  segment.media = select_media<F>(passes, v.media_toward(segment.ray.d), segment.media);
+  segment.ray.o = select(passes, v.origin_toward(segment.ray.d), segment.ray.o);
+}
+
 // How a vertex scatters: toward the query's light, where wanted, and along a sampled direction (local directions).
 template <class F, bool in_media = false>
 MONTELUX_INLINE Scattering<F> scatter_at(const Scene& scene, const Vertex<F>& v, const ScatterQuery<F>& query,

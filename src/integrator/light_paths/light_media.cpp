@@ -10,22 +10,21 @@ namespace {
 std::uint32_t medium_at(const Scene& scene, const Accel& accel, const Vec3f& end, const RandomStream<float>& random) {
   const float time = scene.moves() ? scene.shutter.time(0.5f) : 0.0f;
   const CameraRay<float> camera = scene.camera.generate({0.0f, 0.0f}, {0.5f, 0.5f}, time);
-  Media<float> media = media_of<float>(scene.media, scene.camera_medium);
   const Vec3f way = end - camera.ray.o;
   const float distance = length(way);
-  if (!(distance > 0)) return media.medium;
-  Ray<float> ray{camera.ray.o, way * (1 / distance), distance * (1 - shadow_shortening), time};
-  for (std::uint32_t crossings = 0; ray.t_max > 0; ++crossings) {
-    const auto [found, hit] = accel.trace<float>(ray, true);
+  if (!(distance > 0)) return scene.camera_medium;
+  Segment<float> segment{{camera.ray.o, way * (1 / distance), distance * (1 - shadow_shortening), time},
+                         {},
+                         media_of<float>(scene.media, scene.camera_medium)};
+  for (std::uint32_t crossings = 0; segment.ray.t_max > 0; ++crossings) {
+    const auto [found, hit] = accel.trace<float>(segment.ray, true);
     if (!found) break;
-    const SurfaceHit<float> x = surface<float>(scene.geometry, {ray.o, ray.d, hit.t, time}, hit, true);
-    const SurfaceScattering<float> bsdf =
-        scene.materials.scattering<float>(x, ray.d, true, random.fork(Uint<float>(crossings)));
-    media = Boundary<float>(scene.media, x, bsdf).behind(media, ray.d, ray.d);
-    ray.o = offset_origin(x.point.p, x.point.p_error, x.point.ng, ray.d);
-    ray.t_max -= hit.t;
+    segment.hit = hit;
+    const Vertex<float> v(scene, segment, {true, true}, {TransportMode::radiance, random.fork(crossings)});
+    cross_interface(segment, v, true);
+    segment.ray.t_max -= hit.t;
   }
-  return media.medium;
+  return segment.media.medium;
 }
 
 }  // namespace

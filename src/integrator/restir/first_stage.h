@@ -186,7 +186,7 @@ class FirstStage {
       if (const M emits = found & (v.x.light != U(0u)); any(emits)) candidates.add_hit(v.x, path.d, stream, emits);
       const M passes = found & has_interfaces & v.bsdf.is_interface;
       if (!any(passes)) return;
-      segment.ray.o = select(passes, v.origin_toward(path.d), segment.ray.o);
+      cross_interface(segment, v, passes);
       counts_.scattered += std::uint64_t(count(passes));
       const auto [further, next] = shared_.rays.template trace<F>(segment.ray, passes);
       segment.hit = next, found = passes & further, left = passes & !further;
