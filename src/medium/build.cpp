@@ -33,7 +33,7 @@ Medium build_medium(const HomogeneousMediumDesc& stated, const MediumInputs& inp
   medium.absorption = (stated.absorption ? inputs.coefficient(*stated.absorption) : basis.absorption) * stated.scale;
   medium.scattering = (stated.scattering ? inputs.coefficient(*stated.scattering) : basis.scattering) * stated.scale;
   medium.emission = inputs.emission(stated.emission) * stated.emission_scale;
-  medium.mean_cosine = stated.mean_cosine;
+  medium.mean_cosine = stated.mean_cosine, medium.phase = stated.phase;
   return medium;
 }
 

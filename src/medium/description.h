@@ -4,6 +4,7 @@
 #include <string>
 
 #include "parameter/value.h"
+#include "phase/phase.h"
 
 namespace montelux {
 
@@ -13,9 +14,10 @@ struct HomogeneousMediumDesc {
   std::optional<SpectrumValue> absorption{};  // sigma_a; none: the preset's
   std::optional<SpectrumValue> scattering{};  // sigma_s; none: the preset's
   float scale = 1;                            // factor of both
-  float mean_cosine = 0;                      // of the phase function of Henyey and Greenstein
-  SpectrumValue emission = gray_value(0);     // radiance, times sigma_a per unit of length
-  float emission_scale = 1;                   // factor of the emission
+  PhaseKind phase = PhaseKind::henyey_greenstein;
+  float mean_cosine = 0;                   // of the phase function of Henyey and Greenstein
+  SpectrumValue emission = gray_value(0);  // radiance, times sigma_a per unit of length
+  float emission_scale = 1;                // factor of the emission
 };
 
 struct MediumDesc {

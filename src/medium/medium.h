@@ -13,7 +13,8 @@ struct Medium {
   Rgb absorption{};          // sigma_a
   Rgb scattering{};          // sigma_s
   Rgb emission{};            // radiance that absorption emits in turn: sigma_a * emission per unit of length
-  float mean_cosine = 0.0f;  // g of the phase function
+  float mean_cosine = 0.0f;  // g of the phase function of Henyey and Greenstein
+  PhaseKind phase = PhaseKind::henyey_greenstein;
 };
 
 // The number of a medium in a MediumSet; 0 is empty space.
@@ -39,8 +40,8 @@ class MediumSet {
   MediumSet() : rows_(1) {}
   // The number of the medium.
   std::uint32_t add(const Medium& medium) {
-    rows_.push_back(
-        {from_rgb(medium.absorption), from_rgb(medium.scattering), from_rgb(medium.emission), medium.mean_cosine});
+    rows_.push_back({from_rgb(medium.absorption), from_rgb(medium.scattering), from_rgb(medium.emission),
+                     medium.mean_cosine, std::uint32_t(medium.phase)});
     scatters_ = scatters_ || !is_black(medium.scattering), emits_ = emits_ || !is_black(medium.emission);
     return std::uint32_t(rows_.size() - 1);
   }
@@ -61,8 +62,8 @@ class MediumSet {
     return spectrum<F>(&Row::scattering, medium);
   }
   template <class F>
-  MONTELUX_INLINE HenyeyGreenstein<F> phase(Uint<F> medium) const {
-    return HenyeyGreenstein<F>(gather(&rows_.data()->mean_cosine, at<F>(medium)));
+  MONTELUX_INLINE PhaseFunction<F> phase(Uint<F> medium) const {
+    return {gather(&rows_.data()->phase, at<F>(medium)), gather(&rows_.data()->mean_cosine, at<F>(medium))};
   }
 
   // The probability, averaged over the components, that a path goes this far without an event; 1 where the medium does
@@ -135,8 +136,9 @@ class MediumSet {
   struct Row {
     Spectrum<float> absorption{}, scattering{}, emission{};
     float mean_cosine = 0.0f;
+    std::uint32_t phase = 0;
   };
-  static_assert(sizeof(Row) == (3 * spectrum_size + 1) * sizeof(float));
+  static_assert(sizeof(Row) == (3 * spectrum_size + 2) * sizeof(float));
   template <class F>
   static MONTELUX_INLINE Uint<F> at(Uint<F> medium) {
     return medium * Uint<F>(std::uint32_t(sizeof(Row) / sizeof(float)));

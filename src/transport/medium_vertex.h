@@ -36,14 +36,14 @@ MONTELUX_INLINE void put_medium_scattering(Mask<F> on, SurfaceScattering<F>& s) 
 // The phase function toward one direction, and, as the next direction of the path, drawn from it. Directions are in the
 // frame above.
 template <class F>
-MONTELUX_INLINE void put_phase_value(Mask<F> on, const HenyeyGreenstein<F>& phase, const Vec3<F>& wo, const Vec3<F>& wi,
+MONTELUX_INLINE void put_phase_value(Mask<F> on, const PhaseFunction<F>& phase, const Vec3<F>& wo, const Vec3<F>& wi,
                                      BsdfValue<F>& value) {
   const Density<SolidAngle, F> density = phase.evaluate(wo, wi);
   value.f_cos = select(on, gray(density.value), value.f_cos);
   value.density.value = select(on, density.value, value.density.value);
 }
 template <class F>
-MONTELUX_INLINE void put_phase_scattering(Mask<F> on, const HenyeyGreenstein<F>& phase, const ScatterQuery<F>& query,
+MONTELUX_INLINE void put_phase_scattering(Mask<F> on, const PhaseFunction<F>& phase, const ScatterQuery<F>& query,
                                           Scattering<F>& s) {
   put_phase_value(on, phase, query.wo, query.wi_light, s.toward_light);
   const PhaseSample<F> next = phase.sample(query.wo, query.u2);

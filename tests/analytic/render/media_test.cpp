@@ -17,10 +17,19 @@ struct MediumText {
   Coefficients absorption, scattering;
   double g = 0;
   Coefficients emission{0, 0, 0};
+  bool rayleigh = false;
+  // Of the phase function, by the cosine of the directions of flight.
+  double phase(double cosine) const {
+    if (rayleigh) return 3 / (16 * std::numbers::pi) * (1 + cosine * cosine);
+    const double d = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d));
+  }
   double extinction(std::size_t c) const { return absorption[c] + scattering[c]; }
   std::string text() const {
     return R"(MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_a" )" + rgb(absorption) + " \"rgb sigma_s\" " +
-           rgb(scattering) + " \"float g\" " + std::to_string(g) + " \"rgb Le\" " + rgb(emission) + "\n";
+           rgb(scattering) +
+           (rayleigh ? std::string(" \"string phase\" \"rayleigh\"") : " \"float g\" " + std::to_string(g)) +
+           " \"rgb Le\" " + rgb(emission) + "\n";
   }
 };
 
@@ -108,19 +117,18 @@ double single_scattering(const MediumText& m, std::size_t c, double intensity) {
     const double angle = from + (to - from) * (i + 0.5) / steps;
     const double z = std::tan(angle), t = 5 + z, r = std::sqrt(1 + z * z);  // dt / r^2 = d(angle)
     const double cosine = -z / r;  // of the flight from the light to (0, 0, -z), then along +z
-    const double g = m.g, d = 1 + g * g - 2 * g * cosine;
-    const double phase = (1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d));
-    sum += m.scattering[c] * phase * intensity * std::exp(-m.extinction(c) * (t + r));
+    sum += m.scattering[c] * m.phase(cosine) * intensity * std::exp(-m.extinction(c) * (t + r));
   }
   return sum * (to - from) / steps;
 }
 
 TEST(UnboundedMedium, scatters_the_light_of_a_point_once) {
   const Coefficients intensity{1, 2, 3};
-  for (const double g : {-0.5, 0.0, 0.7}) {
-    const MediumText m{{0.1, 0.2, 0}, {0.2, 0.3, 0.5}, g};
+  for (const double g : {-0.5, 0.0, 0.7, 1.0}) {
+    MediumText m{{0.1, 0.2, 0}, {0.2, 0.3, 0.5}, g};
+    if (g == 1) m.g = 0, m.rayleigh = true;
     MediumText reversed = m;
-    reversed.g = g == 0 ? 0.3 : -g;
+    reversed.rayleigh = false, reversed.g = m.rayleigh ? 0 : g == 0 ? 0.3 : -g;
     const std::string scene = head(1) + m.text() + R"(MediumInterface "" "m"
 LookAt 0 0 5  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1e-4 1e-4 -1e-4 1e-4 ]
@@ -150,9 +158,7 @@ double mean_single_scattering(const MediumText& m, std::size_t c, double intensi
       double ray = 0;
       for (int k = 0; k < steps; ++k) {
         const double z = distance * std::tan(from + (to - from) * (k + 0.5) / steps), r = std::hypot(distance, z);
-        const double cosine = -z / r, g = m.g, d = 1 + g * g - 2 * g * cosine;
-        const double phase = (1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d));
-        ray += phase * std::exp(-m.extinction(c) * (along + z + r));
+        ray += m.phase(-z / r) * std::exp(-m.extinction(c) * (along + z + r));
       }
       sum += ray * (to - from) / steps / distance;
     }

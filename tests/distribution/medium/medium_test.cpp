@@ -103,5 +103,56 @@ TEST(HenyeyGreenstein, has_the_moments_of_its_mean_cosine) {
   }
 }
 
+// The cosine has mean 0, and its square 2/5; isotropic scattering has 1/3.
+TEST(Rayleigh, has_the_moments_of_its_law) {
+  const double level = sidak_level(family_level, 2);
+  const Vec3f wo = normalize(Vec3f{0.3f, -0.5f, 0.7f});
+  const Rayleigh<float> phase(0);
+  RandomStream<float> random(7, 3);
+  Sums first, second;
+  for (int i = 0; i < samples; ++i) {
+    const PhaseSample<float> s = phase.sample(wo, random.next2());
+    const double cosine = double(-dot(wo, s.wi));
+    first.add(cosine), second.add(cosine * cosine);
+    EXPECT_NEAR(double(length(s.wi)), 1, 1e-5);
+  }
+  EXPECT_GT(first.p_value(0), level);
+  EXPECT_GT(second.p_value(0.4), level) << second.mean();
+  EXPECT_LT(second.p_value(1.0 / 3), level);
+}
+
+// Every phase function: samples follow the value, which integrates to 1, also in lanes of mixed kinds.
+TEST(PhaseFunction, draws_directions_by_its_value_and_a_planted_fault_is_found) {
+  const double level = sidak_level(family_level, 2.0 * phase_names.size());
+  const Vec3f wo = normalize(Vec3f{-0.2f, 0.4f, 0.5f});
+  const Frame<float> frame = Frame<float>::from_normal(-wo);
+  for (std::size_t kind = 0; kind < phase_names.size(); ++kind) {
+    const PhaseFunction<float> phase{std::uint32_t(kind), 0.35f};
+    const auto direction = [&](RandomStream<float>& random) { return phase.sample(wo, random.next2()).wi; };
+    const auto density = [&](Vec3f wi) { return double(phase.evaluate(wo, wi).value); };
+    EXPECT_NEAR(integrate_sphere(density, frame, 64, -1), 1, 1e-4) << phase_names[kind];
+    for (const Grid grid : {coarse_grid, fine_grid})
+      EXPECT_GT(chi_square_sphere(direction, density, grid, 100000, 9, frame, 4).p_value, level) << phase_names[kind];
+    const auto wrong = [&](Vec3f wi) { return density(wi) * (dot(wi, frame.s) > 0 ? 1.05 : 0.95); };
+    EXPECT_LT(chi_square_sphere(direction, wrong, coarse_grid, 100000, 9, frame, 4).p_value, level);
+  }
+}
+
+TEST(PhaseFunction, is_the_same_in_lanes_of_mixed_kinds) {
+  using P = NativeFloats;
+  const Uint<P> kinds = lane_index<P>() & Uint<P>(1u);
+  const PhaseFunction<P> phases{kinds, P(-0.4f)};
+  const Vec3f wo = normalize(Vec3f{0.1f, 0.9f, -0.3f});
+  RandomStream<P> random(Uint<P>(5u), lane_index<P>());
+  const Vec2<P> u = random.next2();
+  const PhaseSample<P> all = phases.sample(splat<P>(wo), u);
+  for (int k = 0; k < lanes_of<P>; ++k) {
+    const PhaseFunction<float> one{lane(kinds, k), -0.4f};
+    const PhaseSample<float> s = one.sample(wo, lane(u, k));
+    EXPECT_NEAR(double(length(lane(all.wi, k) - s.wi)), 0, 1e-5);
+    EXPECT_NEAR(double(lane(all.density.value, k)), double(one.evaluate(wo, lane(all.wi, k)).value), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace montelux::test
