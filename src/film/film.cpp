@@ -89,12 +89,9 @@ void PixelSums::add(int pass, const PixelPass& sums) {
   const PixelFeatures& f = sums.features;
   samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(sums.non_finite);
   if (f.hits == 0) return;
-  constexpr double largest = ExactSum::largest;
-  emission.add(within(f.emission, largest));
-  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], max_film_albedo * f.hits));
-  for (int c = 0; c < 3; ++c)
-    normal[c].add(within(f.normal[c], f.hits)), position[c].add(within(f.position[c], largest));
-  depth.add(within(f.depth, largest));
+  for_each_feature(*this, f, [&](auto& sum, double of_pass, double limit) {
+    sum.add(within(of_pass, std::min(limit * f.hits, double(ExactSum::largest))));
+  });
   if (f.object != 0 && (object == 0 || pass < object_pass)) object = f.object, object_pass = pass;
 }
 
@@ -107,9 +104,9 @@ void PixelSums::add_mean(int pass, const double (&mean)[rgb_size]) {
 }
 
 void PixelSums::merge(const PixelSums& other) {
-  for (int c = 0; c < rgb_size; ++c) radiance[c].merge(other.radiance[c]), albedo[c] += other.albedo[c];
-  for (int c = 0; c < 3; ++c) normal[c] += other.normal[c], position[c] += other.position[c];
-  half += other.half, emission += other.emission, depth += other.depth;
+  for (int c = 0; c < rgb_size; ++c) radiance[c].merge(other.radiance[c]);
+  for_each_feature(*this, other, [](auto& sum, const auto& more, double) { sum += more; });
+  half += other.half;
   passes += other.passes, half_passes += other.half_passes, non_finite += other.non_finite;
   hits += other.hits, samples += other.samples;
   if (other.object != 0 && (object == 0 || other.object_pass < object_pass))
@@ -132,9 +129,7 @@ std::array<double, rgb_size> PixelSums::mean() const {
 
 PixelFeatures PixelSums::features() const {
   PixelFeatures f;
-  f.emission = emission.value(), f.depth = depth.value();
-  for (int c = 0; c < rgb_size; ++c) f.albedo[c] = albedo[c].value();
-  for (int c = 0; c < 3; ++c) f.normal[c] = normal[c].value(), f.position[c] = position[c].value();
+  for_each_feature(f, *this, [](double& to, const auto& sum, double) { to = sum.value(); });
   f.hits = hits, f.samples = samples, f.object = object;
   return f;
 }

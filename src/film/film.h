@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "film/half_sums.h"
 #include "film/layer_film.h"
+#include "film/limits.h"
 #include "film/picture_error.h"
 #include "image/pixel_sample.h"
 #include "mc/exact_moments.h"
@@ -44,7 +46,7 @@ struct PixelEstimate {
 struct PixelFeatures {
   double emission = 0;  // sum over samples of the mean of the channels
   // Sums over samples that hit.
-  double albedo[rgb_size] = {}, normal[3] = {}, position[3] = {}, depth = 0;
+  double depth = 0, position[3] = {}, albedo[rgb_size] = {}, normal[3] = {};
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
@@ -77,6 +79,17 @@ struct PixelSums {
   std::array<double, rgb_size> mean() const;
   PixelFeatures features() const;
 };
+
+// The one list of the features that a film sums: calls f(a, b, limit) for each channel of each, with the members of two
+// structs that have them, and the largest absolute value of one sample; values beyond it count as it.
+template <class A, class B, class Function>
+void for_each_feature(A& a, B& b, Function f) {
+  f(a.emission, b.emission, std::numeric_limits<double>::infinity());
+  f(a.depth, b.depth, std::numeric_limits<double>::infinity());
+  for (int c = 0; c < 3; ++c) f(a.position[c], b.position[c], std::numeric_limits<double>::infinity());
+  for (int c = 0; c < rgb_size; ++c) f(a.albedo[c], b.albedo[c], max_film_albedo);
+  for (int c = 0; c < 3; ++c) f(a.normal[c], b.normal[c], 1.0);
+}
 
 // The mean of the whole image over passes, with an error that includes correlations between pixels.
 struct ImageEstimate {

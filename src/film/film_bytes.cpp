@@ -130,10 +130,7 @@ void write(ByteWriter& out, const PixelSums& p) {
   for (const ExactMoments& channel : p.radiance) out.sum(channel.sum()), out.sum(channel.squares());
   out.sum(p.half);
   if (p.hits == 0) return;
-  out.sum(p.emission), out.sum(p.depth);
-  for (const ExactSum& x : p.position) out.sum(x);
-  for (const SmallExactSum& x : p.albedo) out.sum(x);
-  for (const SmallExactSum& x : p.normal) out.sum(x);
+  for_each_feature(p, p, [&](const auto& sum, const auto&, double) { out.sum(sum); });
 }
 
 PixelSums read_pixel(ByteReader& in, std::uint64_t passes) {
@@ -148,10 +145,12 @@ PixelSums read_pixel(ByteReader& in, std::uint64_t passes) {
   }
   p.half = in.sum(p.passes);
   if (p.hits == 0) return p;
-  p.emission = in.sum(p.hits), p.depth = in.sum(p.hits);
-  for (ExactSum& x : p.position) x = in.sum(p.hits);
-  for (SmallExactSum& x : p.albedo) x = in.small_sum();
-  for (SmallExactSum& x : p.normal) x = in.small_sum();
+  for_each_feature(p, p, [&]<class Sum>(Sum& sum, const Sum&, double) {
+    if constexpr (std::is_same_v<Sum, ExactSum>)
+      sum = in.sum(p.hits);
+    else
+      sum = in.small_sum();
+  });
   return p;
 }
 
