@@ -2,7 +2,7 @@
 """Writes expected.json: the mean that each scene of this folder has in theory.
 
 Every formula is evaluated here as it stands in the file, with the functions below and nothing of Montelux. `fault` is a
-change of the scene's text that must be found out: a test renders the changed scene too.
+change of the scene's text that must be detected: a test renders the changed scene too.
 """
 import json
 import math

@@ -55,6 +55,21 @@ class Tree(unittest.TestCase):
     def test_a_tree_without_fault_passes(self):
         self.assert_clean()
 
+    def test_scripts_scenes_and_pages_are_read(self):
+        self.write("quickstart", "#!/bin/sh\n# It goes on.\necho \"$#\"\n")
+        self.assert_found('quickstart:2:6: "goes on"; write: continues')
+        (self.root / "quickstart").unlink()
+        self.write("scenes/a/a.pbrt", "# A path that asks\nShape \"asks\"\n")
+        self.assert_found('scenes/a/a.pbrt:1:15: "asks"; write: queries')
+        (self.root / "scenes/a/a.pbrt").unlink()
+        self.write("web/src/a.ts", "const text = `it goes on`;\n")
+        self.assert_found('web/src/a.ts:1:18: "goes on"; write: continues')
+        (self.root / "web/src/a.ts").unlink()
+        self.write("src/a/CMakeLists.txt", "# goes on\n")
+        self.assert_found('src/a/CMakeLists.txt:1:3: "goes on"')
+        (self.root / "src/a/CMakeLists.txt").unlink()
+        self.assert_clean()
+
     def test_a_phrase_in_a_comment_is_found_with_its_replacement(self):
         self.write("src/a/bad.h", "int a;  // one\n  // The path Goes on here.\n")
         self.assert_found('src/a/bad.h:2:15: "Goes on"; write: continues')

@@ -1,4 +1,4 @@
-// Pictures in linear values, a set at a time: held against each other, brighter or darker, their errors, and every pixel
+// Pictures in linear values, a set at a time: compared with each other, brighter or darker, their errors, and every pixel
 // read out with its error bar and with how its mean settled.
 import { element } from "./dom";
 import { paintError, paintPicture, unpackPicture, type Pixels } from "./pixels";

@@ -10,7 +10,7 @@ export interface Pixels {
   channels: 1 | 3;
   mean: Float32Array; // so many a pixel
   error: Float32Array; // likewise; empty: exact
-  repeats: Float32Array[]; // luminance, one a pixel
+  repeats: Float32Array[]; // luminance, one per pixel
 }
 
 // The number with these 16 bits (IEEE 754 binary16).

@@ -1,4 +1,4 @@
-// Pictures of one size, held against each other: in a grid, two at one place with a line between them, or one after the
+// Pictures of one size, compared with each other: in a grid, two at one place with a line between them, or one after the
 // other; they zoom and pan together.
 import { element } from "./dom";
 import type { ImagesView } from "./report";
