@@ -100,7 +100,7 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
   LayerPlan plan;
   plan.bounces = request.bounces;
   plan.strategies = request.strategies, plan.alone = request.alone;
-  plan.mergings = chosen.name == "vcm";
+  plan.mergings = std::ranges::count(integrators_with(Ability::mergings), chosen.name) > 0;
   plan.light_groups = request.light_groups;
   plan.spread = request.errors;
   state_light_groups(plan, scene);

@@ -377,7 +377,9 @@ constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
                         all_abilities = only_layers | std::uint32_t(Ability::media) | std::uint32_t(Ability::paths),
                         shared_samples = std::uint32_t(Ability::shared_samples),
                         shared_in_media = shared_samples | std::uint32_t(Ability::media),
-                        bidirectional = shared_in_media | only_layers | std::uint32_t(Ability::strategies);
+                        bidirectional = shared_in_media | only_layers | std::uint32_t(Ability::strategies),
+                        by_photons = shared_samples | only_layers,
+                        with_mergings = bidirectional | std::uint32_t(Ability::mergings);
 
 // The one table of integrators.
 const std::vector<Row>& rows() {
@@ -393,11 +395,11 @@ const std::vector<Row>& rows() {
         {restir_pt_spec(), make_restir<restir_pt>, LightSearch::any_length, Content::light, shared_samples},
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, bidirectional},
-        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_samples},
-        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, shared_samples},
+        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, by_photons},
+        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, by_photons},
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, bidirectional},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
-        {vcm_spec(), make_vcm, LightSearch::photons, Content::light, bidirectional},
+        {vcm_spec(), make_vcm, LightSearch::photons, Content::light, with_mergings},
         {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media,
          metropolis_search},
         {automatic_spec(), make_automatic, LightSearch::any_length, Content::light, all_abilities}};

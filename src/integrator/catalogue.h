@@ -26,6 +26,7 @@ enum class Ability : std::uint32_t {
   // What its pixels do rather than can: they share samples within a pass, so that their errors are correlated.
   shared_samples = 8,
   strategies = 16,  // its layers may be those of bidirectional strategies
+  mergings = 32,    // which may merge vertices
 };
 std::vector<std::string_view> integrators_with(Ability ability);
 

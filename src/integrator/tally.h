@@ -112,6 +112,12 @@ class LayerTally {
     brightness = 0;
   }
 
+  // Takes back a sample that is done, of a tile with one sample for each pixel, because something that was added later
+  // is not finite.
+  void leave_out(std::uint32_t output) {
+    std::fill_n(sums_.begin() + std::ptrdiff_t(output * stride_), stride_, ExactRgb{});
+  }
+
  private:
   void add_lane(int k, const Spectrum<float>& carried, const LightOrigin<float>& from) {
     const Rgb light = to_rgb(carried);

@@ -1,6 +1,10 @@
 // Renders with layers, read as pictures with standard errors.
 #pragma once
+#include <gtest/gtest.h>
+
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "image/welch.h"
 #include "render_scenes.h"
@@ -64,6 +68,78 @@ inline bool families_sum_to_all(const Film& film, const LayerPlan& plan) {
         if (!(sum == layers.all_light(x, y))) return false;
       }
   return true;
+}
+
+// ---- scenes, and renders of them
+
+inline constexpr const char* small_film = R"(
+Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 16 ]
+PixelFilter "box"
+)";
+// Rough surfaces alone, so that every integrator finds all light.
+inline const std::string three_lights = std::string(small_film) + R"(
+Integrator "path" "integer maxdepth" [ 5 ]
+LookAt 0 1.2 -3   0 0.6 0   0 1 0
+Camera "perspective" "float fov" [ 60 ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ] "string group" "sky"
+LightSource "point" "rgb I" [ 2 1 1 ] "point3 from" [ -1 2 -1 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 5 5 4 ] "string group" "key"
+  Translate 0.8 1.5 0
+  Shape "sphere" "float radius" [ 0.3 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
+Shape "bilinearmesh" "point3 P" [ -3 0 -3   3 0 -3   -3 0 3   3 0 3 ]
+Material "conductor" "float roughness" [ 0.4 ]
+AttributeBegin
+  Translate -0.6 0.5 0.2
+  Shape "sphere" "float radius" [ 0.5 ]
+AttributeEnd
+)";
+// The inside of a sphere that emits L and reflects the share r: after b bounces its light is L r^b at every point.
+inline const std::string furnace = std::string(small_film) + R"(
+Integrator "path" "integer maxdepth" [ 12 ]
+LookAt 0.2 0.1 -0.3   0 0 1   0 1 0
+Camera "perspective" "float fov" [ 60 ]
+WorldBegin
+AreaLightSource "diffuse" "rgb L" [ 1 2 3 ]
+Material "diffuse" "rgb reflectance" [ 0.8 0.5 0.3 ]
+ReverseOrientation
+Shape "sphere"
+)";
+inline constexpr double emitted[3] = {1, 2, 3}, reflected[3] = {0.8, 0.5, 0.3};
+
+inline Film film_of(const TestScene& scene, const std::string& way, const LayerPlan& plan, PassPlan passes,
+                    int threads = 1, int first_pass = 0) {
+  const ChosenIntegrator chosen = scene.integrator(way);
+  RenderSettings settings = scene.settings(PointSetKind::independent, passes, 5, threads);
+  settings.image.layers = plan;
+  settings.plan.first_pass = first_pass;
+  RenderObserver silent;
+  return render(chosen.any(), settings, silent).film;
+}
+
+// The image means of a layer in each pass, by channel. Pixels of a pass share paths from the lights, passes share
+// nothing.
+using LayerMeans = std::array<std::vector<double>, rgb_size>;
+
+inline std::vector<LayerMeans> layer_means(const TestScene& scene, const std::string& way, const LayerPlan& plan,
+                                           int samples, int passes) {
+  std::vector<LayerMeans> means(std::size_t(plan.count()));
+  for (int pass = 0; pass < passes; ++pass) {
+    const Film film = film_of(scene, way, plan, {samples, 1}, 1, pass);
+    EXPECT_EQ(film.non_finite(), 0u);
+    const PixelBounds& b = film.bounds();
+    for (std::size_t i = 0; i < means.size(); ++i)
+      for (int c = 0; c < rgb_size; ++c) {
+        double sum = 0;
+        for (int y = b.y0; y < b.y1; ++y)
+          for (int x = b.x0; x < b.x1; ++x) sum += film.layers()->layer_mean(x, y, int(i), c);
+        means[i][std::size_t(c)].push_back(sum / b.area());
+      }
+  }
+  return means;
 }
 
 }  // namespace montelux::test

@@ -56,7 +56,8 @@ class PhotonFilling {
         by_power_(by_power),
         pass_(pass),
         paths_(paths),
-        map_(2 * std::size_t(paths.count), units_of_light_paths(paths.count)) {}
+        map_(2 * std::size_t(paths.count), units_of_light_paths(paths.count), pass.layers != nullptr),
+        light_of_path_(pass.layers ? paths.count : 0) {}
 
   // The units of a stage, and one of them.
   std::size_t units(int stage) const { return map_.units(stage); }
@@ -65,6 +66,8 @@ class PhotonFilling {
                          [&](std::vector<Photon>& box) { return follow_light(set, unit, box); });
   }
   const PhotonMap& map() const { return map_; }
+  // By the number of a light path the light where it starts; null in a pass without layers.
+  const std::uint32_t* light_of_path() const { return light_of_path_.empty() ? nullptr : light_of_path_.data(); }
   // Whether the flux of a path was not a number since the last time.
   bool take_broken() { return broken_.take() > 0; }
 
@@ -87,7 +90,8 @@ class PhotonFilling {
       });
       if (sink.broken() > 0) broken_.next();
     };
-    PhotonSink<F> all(box, paths_.first_event, 1 / float(paths_.count));
+    PhotonSink<F> all(box, paths_.first_event, 1 / float(paths_.count),
+                      light_of_path_.empty() ? nullptr : light_of_path_.data());
     if (paths_.caustics)
       follow(CausticSink<F>(all, *paths_.caustics));
     else
@@ -102,6 +106,7 @@ class PhotonFilling {
   const PhotonPaths paths_;
   SharedCount broken_;  // parts with a flux that is not a number
   PhotonMap map_;
+  std::vector<std::uint32_t> light_of_path_;
 };
 
 }  // namespace montelux

@@ -1,5 +1,7 @@
 // Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
 #pragma once
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "integrator/first_vertex.h"
@@ -9,6 +11,19 @@
 #include "transport/connection.h"
 
 namespace montelux {
+
+// The layers of a tile in a pass with layers: where the light of the paths comes from, and that of gather rays.
+class GatheringTallies {
+ public:
+  // `layers`: null: there are none.
+  GatheringTallies(const LayerPlan* layers, std::span<ExactRgb> sums) {
+    if (layers) both_.emplace(std::array{LayerTally(*layers, 1, sums), LayerTally(*layers, 1, sums)});
+  }
+  std::array<LayerTally, 2>* get() { return both_ ? &*both_ : nullptr; }
+
+ private:
+  std::optional<std::array<LayerTally, 2>> both_;
+};
 
 // A gather ray on its way, one a lane: words alone, as set_lane_words takes them.
 template <class F>
@@ -37,18 +52,21 @@ class PhotonGathering {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  // What is referred to must outlive this. `beyond`: the photons that gather rays look up.
+  // What is referred to must outlive this. `beyond`: the photons that gather rays look up. `tallies`: receive where the
+  // light comes from, the second one that of gather rays; null: nobody does.
   PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookup& in_view,
-                  const std::optional<PhotonLookup>& beyond = {})
+                  const std::optional<PhotonLookup>& beyond = {}, std::array<LayerTally, 2>* tallies = nullptr)
       : scene_(scene),
         rays_(rays),
         rules_(rules),
         mis_{rules.nee, PathMis::power},
         in_view_(in_view),
-        beyond_(beyond) {}
+        beyond_(beyond),
+        tallies_(tallies) {}
 
   RayCounts run(const TilePass& pass, std::span<PixelSample> out) {
-    FirstHits<F> first_hits(scene_, rays_, pass, out);
+    FirstHits<F> first_hits =
+        tallies_ ? FirstHits<F>(scene_, rays_, pass, out, (*tallies_)[0]) : FirstHits<F>(scene_, rays_, pass, out);
     counts_.camera += first_hits.rays();
     gathered_.assign(beyond_ ? out.size() : 0, gray(0.0f));
     PathState<F> path{};
@@ -62,7 +80,10 @@ class PhotonGathering {
       if (waiting_.size() >= max_waiting) gather(pass);
     }
     gather(pass);
-    for (std::size_t i = 0; i < gathered_.size(); ++i) out[i].radiance += to_rgb(gathered_[i]);
+    for (std::size_t i = 0; i < gathered_.size(); ++i) {
+      out[i].radiance += to_rgb(gathered_[i]);
+      if (tallies_ && !std::isfinite(max_component(gathered_[i]))) (*tallies_)[0].leave_out(std::uint32_t(i));
+    }
     return counts_;
   }
 
@@ -73,6 +94,20 @@ class PhotonGathering {
     std::uint32_t output;
     Spectrum<float> radiance;
   };
+
+  // Where light is added to layers (null: nowhere), and the share of it that a pixel receives.
+  struct Layers {
+    LayerTally* tally;
+    float share;
+  };
+  Layers of_paths() const { return {tallies_ ? &(*tallies_)[0] : nullptr, 1}; }
+  Layers of_gather_rays() const {
+    return {tallies_ ? &(*tallies_)[1] : nullptr, 1 / float(std::max(rules_.gather_rays, 1))};
+  }
+  static void record(const Layers& to, M on, const PathState<F>& path, const Spectrum<F>& light,
+                     const LightOrigin<F>& from) {
+    to.tally->template add<F>(on, path.throughput * light * (path.weight * F(to.share)), from);
+  }
 
   // Their points: as many for each pixel of the pass as it has gather rays.
   static PointSet gather_points(const TilePass& pass, int rays) {
@@ -88,12 +123,19 @@ class PhotonGathering {
   static U dimension_of(const PathState<F>& path) {
     return U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
   }
+  // For light that a ray meets.
+  static auto sink_for(const PathState<F>& path, const Layers& layers) {
+    return [&path, layers](const M& met, const Spectrum<F>& light, const U& number, Technique technique) {
+      if (layers.tally) record(layers, met, path, light, {path.depth, number, technique});
+    };
+  }
   // The surface that a path has met, with the light met on the way.
   template <class Weight>
-  NextVertex<F> arrive(PathState<F>& path, M on, const NumberSource<F> auto& numbers, Weight weight) {
-    const NextVertex<F> at =
-        follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
-                      numbers.stream(dimension_of(path) + U(path_dimension::own)), counts_.scattered, weight);
+  NextVertex<F> arrive(PathState<F>& path, M on, const NumberSource<F> auto& numbers, Weight weight,
+                       const Layers& layers) {
+    const NextVertex<F> at = follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
+                                           numbers.stream(dimension_of(path) + U(path_dimension::own)),
+                                           counts_.scattered, weight, sink_for(path, layers));
     path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     return at;
@@ -113,16 +155,24 @@ class PhotonGathering {
       return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
     };
   }
-  // The radiance that photons scatter toward the path.
-  Spectrum<F> photons(PhotonLookup& map, const PathState<F>& path, const NextVertex<F>& at,
-                      const BsdfContext<F>& context, M rough) const {
+  // The light that photons scatter toward the path.
+  void add_photons(PathState<F>& path, PhotonLookup& map, const NextVertex<F>& at, const BsdfContext<F>& context,
+                   M rough, const Layers& layers) const {
     const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
-    return map.template radiance<F>(at, context, rough, PhotonRules<F>{rules_.glossy, room});
+    const PhotonRules<F> rules{rules_.glossy, room};
+    const auto to_layers = [&](const FoundPhoton<F>& photon, const M& counted, const Spectrum<F>& light, const F&) {
+      record(layers, counted, path, light,
+             {path.depth + photon.events + U(1u), map.template light_of<F>(photon.number), Technique::light_sampling,
+              photon.events + U(2u), true});
+    };
+    const Spectrum<F> light = layers.tally ? map.template radiance<F>(at, context, rough, rules, to_layers)
+                                           : map.template radiance<F>(at, context, rough, rules);
+    path.radiance += select(rough, path.throughput * light, gray(F(0.0f)));
   }
   // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface.
   template <class Weight>
   M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves,
-          const NumberSource<F> auto& numbers, Weight weight) {
+          const NumberSource<F> auto& numbers, Weight weight, const Layers& layers) {
     const U dimension = dimension_of(path);
     moves = scatter_path(path, next, moves);
     const M plays = moves & (path.depth > U(std::uint32_t(rules_.roulette_depth)));
@@ -131,8 +181,8 @@ class PhotonGathering {
     leave_vertex(path, at, at.bsdf.frame.to_world(next.wi), next, moves, M(false));
     const M found = trace_path(path, rays_, moves, counts_.scattered);
     if (const M escapes = moves & !found; any(escapes))
-      path.radiance += path.throughput *
-                       sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes, weight, NoSink{});
+      path.radiance += path.throughput * sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes,
+                                                      weight, sink_for(path, layers));
     return moves & found;
   }
 
@@ -140,7 +190,8 @@ class PhotonGathering {
   M step(const TilePass& pass, PathState<F>& path, M on, M& ends, std::span<PixelSample> out) {
     const auto sampler = numbers_of(pass.points, path);
     const U dimension = dimension_of(path);
-    const NextVertex<F> at = arrive(path, on, sampler, weight_for(path));
+    const Layers layers = of_paths();
+    const NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers);
     const M scatters = on & at.found & !ends & may_scatter(path);
     const M rough = scatters & !at.bsdf.is_delta;
     const BsdfContext<F> context = exact(at);
@@ -148,9 +199,9 @@ class PhotonGathering {
     // A point of a light, and a direction.
     const M wants_light = rough & M(rules_.nee);
     const ReferencePoint<F> from = at.reference();
-    const LightSample<F> light =
-        scene_.lights.template sample<F>(from.p, from.n, sampler.get1(dimension + U(path_dimension::light_choice)),
-                                         sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
+    const F u_choice = sampler.get1(dimension + U(path_dimension::light_choice));
+    const LightSample<F> light = scene_.lights.template sample<F>(
+        from.p, from.n, u_choice, sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
     const M queries = wants_light & light.valid;
     const Scattering<F> scattered =
         scatter<F>(at.bsdf.lanes(scatters),
@@ -160,33 +211,48 @@ class PhotonGathering {
     const BsdfSample<F>& next = scattered.next;
     if (const M first = on & (path.depth == U(0u)) & at.found; any(first))
       write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
-    if (any(queries)) add_direct(path, at, light, scattered.toward_light, queries);
+    if (any(queries)) add_direct(path, at, {light, u_choice, queries}, scattered.toward_light);
     if (any(rough)) {
-      const Spectrum<F> gathered = photons(in_view_, path, at, context, rough);
-      path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
+      add_photons(path, in_view_, at, context, rough, layers);
       if (beyond_) send_gather_rays(pass, path, at, context, rough);
     }
 
     M moves = scatters & next.valid;
     const M followed = follows(next);
     if (!rules_.nee || beyond_) moves = moves & followed;
-    const M left = leave(path, at, next, moves, sampler, weight_for(path));
+    const M left = leave(path, at, next, moves, sampler, weight_for(path), layers);
     ends = left & !followed;
     const M ended = on & !left;
     const Spectrum<F> radiance = path.radiance * path.weight;
-    for_each_lane(ended, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
+    for_each_lane(ended, [&](int k) {
+      PixelSample& sample = out[lane(path.output, k)];
+      sample.radiance = to_rgb(lane(radiance, k));
+      if (layers.tally) layers.tally->finish(k, lane(path.output, k), sample);
+    });
     return left;
   }
 
-  void add_direct(PathState<F>& path, const NextVertex<F>& at, const LightSample<F>& light, const BsdfValue<F>& value,
-                  M queries) {
+  // A point of a light, and the number that chose the light.
+  struct DrawnLight {
+    const LightSample<F>& sample;
+    F u_choice;
+    M on;
+  };
+  void add_direct(PathState<F>& path, const NextVertex<F>& at, const DrawnLight& drawn, const BsdfValue<F>& value) {
+    const LightSample<F>& light = drawn.sample;
     const F share = select(light.delta, F(1.0f), weight_of_light_sample(mis_, light.density, value.density));
     const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density.value);
-    const M shadow = queries & (max_component(direct) > F(0.0f));
+    const M shadow = drawn.on & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
     const Arriving<F> seen = arriving_from<F>(scene_, rays_, at, light.wi, light.distance, shadow,
                                               at.context.random.fork(U(path_dimension::shadow_stream)), counts_.shadow);
-    path.radiance += select(seen.on, direct * seen.left, gray(F(0.0f)));
+    const Spectrum<F> arrives = direct * seen.left;
+    path.radiance += select(seen.on, arrives, gray(F(0.0f)));
+    if (!tallies_) return;
+    const ReferencePoint<F> from = at.reference();
+    const U number = scene_.lights.template choose<F>(from.p, from.n, drawn.u_choice, drawn.on).light;
+    of_paths().tally->template add<F>(seen.on, arrives * path.weight,
+                                      {path.depth + U(1u), number, Technique::light_sampling});
   }
 
   // Light that a gather ray meets counts before its first event alone, as direct light of the surface in view.
@@ -211,15 +277,21 @@ class PhotonGathering {
       if (!any(sent)) continue;
       GatherRay<F> ray{path, U(0u), U(0u)};
       ray.path.radiance = gray(F(0.0f));
-      const M met = leave(ray.path, at, next, sent, numbers, weight_of_gather_ray(ray));
+      const M met = leave(ray.path, at, next, sent, numbers, weight_of_gather_ray(ray), of_gather_rays());
       for_each_lane(sent, [&](int k) {
         set_lane(ray.number, k, std::uint32_t(results_.size()));
         results_.push_back({lane(path.output, k), lane(ray.path.radiance, k) * lane(path.weight, k)});
+        finish_gather_ray(k, lane(path.output, k));
       });
       // The number of the ray stands where the loop over packs finds it with the pixel's point.
       ray.path.output = U(std::uint32_t(i));
       for_each_lane(met, [&](int k) { get_lane_words(ray, k, waiting_.emplace_back()); });
     }
+  }
+  // What the ray of lane k has found so far joins the layers of its pixel.
+  void finish_gather_ray(int k, std::uint32_t output) {
+    PixelSample sample;
+    if (tallies_) (*tallies_)[1].finish(k, output, sample);
   }
   // Follows the gather rays that wait, and adds what they find to their pixels.
   void gather(const TilePass& pass) {
@@ -236,7 +308,11 @@ class PhotonGathering {
       if (!any(on)) break;
       const M left = gather_step(pass, ray, on);
       const Spectrum<F> radiance = ray.path.radiance * ray.path.weight;
-      for_each_lane(on & !left, [&](int k) { results_[lane(ray.number, k)].radiance = lane(radiance, k); });
+      for_each_lane(on & !left, [&](int k) {
+        Gathered& result = results_[lane(ray.number, k)];
+        result.radiance = lane(radiance, k);
+        finish_gather_ray(k, result.output);
+      });
       on = left;
     }
     const float share = 1 / float(std::max(rules_.gather_rays, 1));
@@ -248,19 +324,17 @@ class PhotonGathering {
     PathState<F>& path = ray.path;
     const auto numbers = gather_numbers(pass, path, path.output);
     const U dimension = dimension_of(path);
-    const NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray));
+    const NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays());
     const M scatters = on & at.found & may_scatter(path);
     const BsdfContext<F> context = exact(at);
     const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
     const BsdfSample<F> next = sample<F>(at.bsdf.lanes(scatters), at.wo,
                                          {numbers.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, context);
-    if (const M rough = scatters & !at.bsdf.is_delta; any(rough)) {
-      const Spectrum<F> gathered = photons(*beyond_, path, at, context, rough);
-      path.radiance += select(rough, path.throughput * gathered, gray(F(0.0f)));
-    }
+    if (const M rough = scatters & !at.bsdf.is_delta; any(rough))
+      add_photons(path, *beyond_, at, context, rough, of_gather_rays());
     const M moves = scatters & next.valid & follows(next);
     ray.followed = ray.followed + select(moves, U(1u), U(0u));
-    return leave(path, at, next, moves, numbers, weight_of_gather_ray(ray));
+    return leave(path, at, next, moves, numbers, weight_of_gather_ray(ray), of_gather_rays());
   }
 
   const Scene& scene_;
@@ -269,6 +343,7 @@ class PhotonGathering {
   const LightWeights mis_;
   PhotonLookup in_view_;
   std::optional<PhotonLookup> beyond_;
+  std::array<LayerTally, 2>* const tallies_;
   std::vector<GatherRay<float>> waiting_;
   std::vector<Gathered> results_;
   std::vector<Spectrum<float>> gathered_;  // by output

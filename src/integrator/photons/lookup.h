@@ -46,8 +46,15 @@ struct PhotonRules {
 class PhotonLookup {
  public:
   // `nearest`: so many photons at most, within the distance of the next one; 0: all within the map's radius.
-  PhotonLookup(const PhotonMap& map, PhotonKernel kernel, int nearest = 0)
-      : map_(map), kernel_(kernel), nearest_(std::size_t(nearest)) {}
+  // `light_of_path`: for light_of(), whose map keeps the paths of its photons.
+  PhotonLookup(const PhotonMap& map, PhotonKernel kernel, int nearest = 0, const std::uint32_t* light_of_path = nullptr)
+      : map_(map), kernel_(kernel), nearest_(std::size_t(nearest)), light_of_path_(light_of_path) {}
+
+  // The number of the light from which photons come, by their numbers in the map.
+  template <class F>
+  Uint<F> light_of(const Uint<F>& photon) const {
+    return gather(light_of_path_, gather(map_.paths(), photon));
+  }
 
   // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
   // `sink(FoundPhoton, on, radiance, weight)` receives what each of them contributes.
@@ -56,7 +63,14 @@ class PhotonLookup {
                        PhotonSink sink) {
     return any(on) ? scattered<F>(at, context, on, find<F>(at, on), share, sink) : gray(F(0.0f));
   }
-  // The same with the weight 1 or 0. Diffuse surfaces scatter the sum of their photons at once.
+  // The same with the weight 1 or 0.
+  template <class F, class PhotonSink>
+  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const PhotonRules<F>& rules,
+                       PhotonSink sink) {
+    return radiance<F>(
+        at, context, on, [&](const FoundPhoton<F>& photon, Mask<F>) { return weight_of<F>(photon, rules); }, sink);
+  }
+  // The same without a sink. Diffuse surfaces scatter the sum of their photons at once.
   template <class F>
   Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on,
                        const PhotonRules<F>& rules) {
@@ -80,14 +94,15 @@ class PhotonLookup {
     if (const Mask<F> others = on & !diffuse; any(others))
       sum += scattered<F>(
           at, context, others, radius_squared,
-          [&](const FoundPhoton<F>& photon, Mask<F>) {
-            return select((photon.density.value <= F(rules.glossy)) & (photon.events <= rules.room), F(1.0f), F(0.0f));
-          },
-          NoSink{});
+          [&](const FoundPhoton<F>& photon, Mask<F>) { return weight_of<F>(photon, rules); }, NoSink{});
     return sum;
   }
 
  private:
+  template <class F>
+  static F weight_of(const FoundPhoton<F>& photon, const PhotonRules<F>& rules) {
+    return select((photon.density.value <= F(rules.glossy)) & (photon.events <= rules.room), F(1.0f), F(0.0f));
+  }
   // A diffuse surface, and what is looked up there.
   struct Receiver {
     Vec3f n, ng;  // the shading normal on the side that is looked at
@@ -204,6 +219,7 @@ class PhotonLookup {
   const PhotonMap& map_;
   PhotonKernel kernel_;
   std::size_t nearest_;
+  const std::uint32_t* light_of_path_;
   std::array<NearPhotons, native_lanes> near_;
   std::vector<float> within_;
 };

@@ -59,7 +59,7 @@ struct NearPhotons {
 // whatever the threads did, so that sums over them have the same bits.
 class PhotonMap {
  public:
-  // For about so many photons, in so many boxes; `weighted`: their weights are kept.
+  // For about so many photons, in so many boxes; `weighted`: their weights and paths are kept.
   PhotonMap(std::size_t expected, std::size_t boxes, bool weighted = false);
 
   // By its number, below that of boxes. One thread at a time has it.

@@ -50,10 +50,15 @@ class PhotonMapSeries final : public FrameSeries {
                                unit - of_global);
   }
   RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     const PhotonLookup global = lookup(global_);
     const TilePass pass{tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), shutter_sample(step), pass_.grid};
+    GatheringTallies tallies(pass_.layers, sums);
     PhotonGathering<F, Accel> gathering(scene_, accel_, settings_.gathering(), caustics_ ? lookup(*caustics_) : global,
-                                        caustics_ ? std::optional(global) : std::nullopt);
+                                        caustics_ ? std::optional(global) : std::nullopt, tallies.get());
     const RayCounts counts = gathering.run(pass, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
     if (is_first && (global_.take_broken() || (caustics_ && caustics_->take_broken()))) show_broken(out);
@@ -64,7 +69,9 @@ class PhotonMapSeries final : public FrameSeries {
   std::optional<float> shutter_sample(const SeriesStep& step) const {
     return shared_shutter_sample(scene_, pass_, step.frame);
   }
-  PhotonLookup lookup(const Photons& photons) const { return {photons.map(), settings_.kernel, settings_.nearest}; }
+  PhotonLookup lookup(const Photons& photons) const {
+    return {photons.map(), settings_.kernel, settings_.nearest, photons.light_of_path()};
+  }
 
   const Scene& scene_;
   const Accel& accel_;

@@ -31,9 +31,16 @@ class SppmSeries final : public FrameSeries {
     return photons_.run_unit(set_of(step.frame), step.stage, unit);
   }
   RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     const PhotonSet set = set_of(step.frame);
+    GatheringTallies tallies(pass_.layers, sums);
     const RayCounts counts =
-        PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(), PhotonLookup(photons_.map(), settings_.kernel))
+        PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(),
+                                  PhotonLookup(photons_.map(), settings_.kernel, 0, photons_.light_of_path()), {},
+                                  tallies.get())
             .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.shutter_sample, pass_.grid}, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
     if (is_first && photons_.take_broken()) show_broken(out);

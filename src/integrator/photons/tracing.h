@@ -14,15 +14,19 @@ class PhotonSink {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  // Photons that fewer events have scattered are not stored. `scale`: one over the number of paths.
-  PhotonSink(std::vector<Photon>& box, std::uint32_t first_event, float scale)
-      : box_(box), first_event_(first_event), scale_(scale) {}
+  // Photons that fewer events have scattered are not stored. `scale`: one over the number of paths. `light_of_path`:
+  // receives by the number of a path the light where it starts; null: nobody needs it.
+  PhotonSink(std::vector<Photon>& box, std::uint32_t first_event, float scale, std::uint32_t* light_of_path = nullptr)
+      : box_(box), first_event_(first_event), scale_(scale), light_of_path_(light_of_path) {}
 
   struct Query {
     Vec3<F> toward;
     M on;
   };
-  void leave(const LightPathStart<F>&, M) {}
+  void leave(const LightPathStart<F>& s, M on) {
+    if (!light_of_path_) return;
+    for_each_lane(on, [&](int k) { light_of_path_[lane(s.site.index, k)] = lane(s.choice.index, k); });
+  }
   Query query(const LightPathVertex<F>& v, M) const { return {v.at.wo, M(false)}; }
   void visit(const LightPathVertex<F>& v, const Query&, const BsdfValue<F>&, M on) {
     const M stored = on & !v.at.bsdf.is_delta & (v.path.depth >= U(first_event_));
@@ -40,6 +44,7 @@ class PhotonSink {
   std::vector<Photon>& box_;
   const std::uint32_t first_event_;
   const float scale_;
+  std::uint32_t* light_of_path_;
   std::uint64_t broken_ = 0;
 };
 

@@ -56,7 +56,7 @@ class Misbooked final : public PixelIntegrator {
   std::optional<int> to_;
 };
 
-constexpr const char* three_lights = R"(
+constexpr const char* lights_and_glass = R"(
 Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 16 ]
 Integrator "path" "integer maxdepth" [ 6 ]
 LookAt 0 1.2 -3   0 0.6 0   0 1 0
@@ -84,7 +84,7 @@ AttributeEnd
 )";
 
 TEST(Layers, sum_to_the_picture_bit_for_bit_in_every_integrator) {
-  const TestScene scene(three_lights);
+  const TestScene scene(lights_and_glass);
   const LayerPlan plan = all_layers(scene.scene(), 2);
   EXPECT_EQ(plan.group_names, (std::vector<std::string>{"key", "sky", "default"}));
   for (const std::string& way : layered_ways) {
@@ -99,7 +99,7 @@ TEST(Layers, sum_to_the_picture_bit_for_bit_in_every_integrator) {
 }
 
 TEST(Layers, leave_the_picture_what_it_is_without_them) {
-  const TestScene scene(three_lights);
+  const TestScene scene(lights_and_glass);
   const LayerPlan plan = all_layers(scene.scene(), 2);
   for (const std::string& way : layered_ways) {
     const ChosenIntegrator chosen = scene.integrator(way);
@@ -126,7 +126,7 @@ TEST(Layers, leave_the_picture_what_it_is_without_them) {
 }
 
 TEST(Layers, are_the_same_bits_for_any_number_of_threads_and_any_merge) {
-  const TestScene scene(three_lights);
+  const TestScene scene(lights_and_glass);
   const LayerPlan plan = all_layers(scene.scene(), 3);
   const ChosenIntegrator chosen = scene.integrator("path");
   const Film whole = render_layers(scene, *chosen.integrator, plan, {2, 6}).film;
@@ -202,7 +202,7 @@ TEST(Layers, of_bounces_are_the_terms_of_the_neumann_series_where_they_are_known
 
 // The layer of a group is the picture of the scene without the other lights.
 TEST(Layers, of_a_light_group_are_the_picture_with_the_other_lights_removed) {
-  const std::string all = three_lights;
+  const std::string all = lights_and_glass;
   const std::string key = R"(  AreaLightSource "diffuse" "rgb L" [ 5 5 4 ] "string group" "key"
 )";
   const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ] "string group" "sky"
@@ -270,7 +270,7 @@ TEST(Layers, of_the_first_bounce_are_the_light_of_the_direct_integrator) {
 }
 
 TEST(Layers, are_had_by_integrators_that_gather_light_along_paths_and_by_no_others) {
-  const TestScene scene(three_lights);
+  const TestScene scene(lights_and_glass);
   for (const std::string& way : layered_ways) EXPECT_TRUE(scene.integrator(way).integrator->has_layers()) << way;
   for (const char* way : {"tracepath", "ao", "normal", "path:maxcomponent=3"}) {
     const ChosenIntegrator chosen = scene.integrator(way);

@@ -16,32 +16,7 @@ const std::vector<std::string> ways{"light",
                                     "vcm:photons=2000,radius=0.1",
                                     "vcm:photons=2000,radius=0.1,connect=off"};
 
-constexpr const char* head = R"(
-Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 16 ]
-PixelFilter "box"
-)";
-// Rough surfaces alone, so that every integrator here finds all light.
-const std::string three_lights = std::string(head) + R"(
-Integrator "path" "integer maxdepth" [ 5 ]
-LookAt 0 1.2 -3   0 0.6 0   0 1 0
-Camera "perspective" "float fov" [ 60 ]
-WorldBegin
-LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ] "string group" "sky"
-LightSource "point" "rgb I" [ 2 1 1 ] "point3 from" [ -1 2 -1 ]
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 5 5 4 ] "string group" "key"
-  Translate 0.8 1.5 0
-  Shape "sphere" "float radius" [ 0.3 ]
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
-Shape "bilinearmesh" "point3 P" [ -3 0 -3   3 0 -3   -3 0 3   3 0 3 ]
-Material "conductor" "float roughness" [ 0.4 ]
-AttributeBegin
-  Translate -0.6 0.5 0.2
-  Shape "sphere" "float radius" [ 0.5 ]
-AttributeEnd
-)";
-const std::string fog_room = std::string(head) + R"(
+const std::string fog_room = std::string(small_film) + R"(
 Integrator "path" "integer maxdepth" [ 4 ]
 MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [ 0.4 0.3 0.2 ] "rgb sigma_a" [ 0.05 0.1 0.1 ]
     "rgb Le" [ 0.02 0.01 0.03 ]
@@ -63,19 +38,6 @@ Shape "sphere" "float radius" [ 4 ]
 MediumInterface "" ""
 LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ] "string group" "sky"
 )";
-// The inside of a sphere that emits L and reflects the share r: after b bounces its light is L r^b at every point.
-const std::string furnace = std::string(head) + R"(
-Integrator "path" "integer maxdepth" [ 12 ]
-LookAt 0.2 0.1 -0.3   0 0 1   0 1 0
-Camera "perspective" "float fov" [ 60 ]
-WorldBegin
-AreaLightSource "diffuse" "rgb L" [ 1 2 3 ]
-Material "diffuse" "rgb reflectance" [ 0.8 0.5 0.3 ]
-ReverseOrientation
-Shape "sphere"
-)";
-constexpr double emitted[3] = {1, 2, 3}, reflected[3] = {0.8, 0.5, 0.3};
-
 LayerPlan plan_of(const Scene& scene, const std::string& way) {
   LayerPlan plan = all_layers(scene, 3);
   plan.techniques = false;
@@ -86,38 +48,6 @@ LayerPlan plan_of(const Scene& scene, const std::string& way) {
   if (way.starts_with("path")) return plan;
   plan.strategies = 2, plan.alone = true, plan.mergings = way.starts_with("vcm");
   return plan;
-}
-
-Film film_of(const TestScene& scene, const std::string& way, const LayerPlan& plan, PassPlan passes, int threads = 1,
-             int first_pass = 0) {
-  const ChosenIntegrator chosen = scene.integrator(way);
-  RenderSettings settings = scene.settings(PointSetKind::independent, passes, 5, threads);
-  settings.image.layers = plan;
-  settings.plan.first_pass = first_pass;
-  RenderObserver silent;
-  return render(chosen.any(), settings, silent).film;
-}
-
-// The image means of a layer in each pass, by channel. Pixels of a pass share paths from the lights, passes share
-// nothing.
-using LayerMeans = std::array<std::vector<double>, rgb_size>;
-
-std::vector<LayerMeans> layer_means(const TestScene& scene, const std::string& way, const LayerPlan& plan, int samples,
-                                    int passes) {
-  std::vector<LayerMeans> means(std::size_t(plan.count()));
-  for (int pass = 0; pass < passes; ++pass) {
-    const Film film = film_of(scene, way, plan, {samples, 1}, 1, pass);
-    EXPECT_EQ(film.non_finite(), 0u);
-    const PixelBounds& b = film.bounds();
-    for (std::size_t i = 0; i < means.size(); ++i)
-      for (int c = 0; c < rgb_size; ++c) {
-        double sum = 0;
-        for (int y = b.y0; y < b.y1; ++y)
-          for (int x = b.x0; x < b.x1; ++x) sum += film.layers()->layer_mean(x, y, int(i), c);
-        means[i][std::size_t(c)].push_back(sum / b.area());
-      }
-  }
-  return means;
 }
 
 TEST(StrategyLayers, sum_to_the_image_bit_for_bit_for_any_number_of_threads) {
