@@ -36,7 +36,7 @@ MONTELUX_INLINE Vec3<F> triangle_tangent(const TriangleCorners<F>& c, Vec3<F> e1
   Mask<F> good = abs(determinant) > max(scale * 1e-6f, F(1e-30f));
   Vec3<F> along = (e1 * d2.y - e2 * d1.y) * (F(1.0f) / select(good, determinant, F(1.0f)));
   good = good & (max_component(abs(along)) > F(0.0f));
-  return select<F>(good, along, Frame<F>::from_normal(normal).s);
+  return select<F>(good, along, LocalFrame<F>::from_normal(normal).s);
 }
 
 // The point with barycentric coordinates (1-u-v, u, v). p_error bounds the rounding of the interpolation (Pharr, Jakob

@@ -32,7 +32,8 @@ struct UniformInfinite {
   static MONTELUX_INLINE InfiniteSample<F> sample(Vec3<F> n, Vec2<F> u) {
     Mask<F> one_side = length_squared(n) > F(0.5f);
     Vec3<F> axis = select(one_side, n, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)});
-    Vec3<F> wi = select(one_side, Frame<F>::from_normal(axis).to_world(sample_cosine_hemisphere(u)), sample_sphere(u));
+    Vec3<F> wi =
+        select(one_side, LocalFrame<F>::from_normal(axis).to_world(sample_cosine_hemisphere(u)), sample_sphere(u));
     return {wi, gray(F(1.0f)), density(n, wi)};
   }
   // The numbers that sample wi where no side matters.

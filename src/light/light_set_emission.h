@@ -23,7 +23,7 @@ LightEmission<F> LightSet::emit_surface(LightKind kind, const LightRows<F>& rows
     const F x = select(both, u_direction.x * 2.0f - select(behind, F(1.0f), F(0.0f)), u_direction.x);
     r.p = site.p, r.p_error = emitter.site_error();
     r.n = site.n * select(behind, F(-1.0f), F(1.0f));
-    r.d = Frame<F>::from_normal(r.n).to_world(sample_cosine_hemisphere(Vec2<F>{x, u_direction.y}));
+    r.d = LocalFrame<F>::from_normal(r.n).to_world(sample_cosine_hemisphere(Vec2<F>{x, u_direction.y}));
     r.position = site.density, r.direction = surface_emission_density(rows, site.n, r.d);
     r.valid = on & !rows.flag(light_masked) & is_finite(r.position.value) & (r.position.value > F(0.0f)) &
               (dot(r.n, r.d) > F(0.0f));
@@ -80,7 +80,7 @@ LightEmission<F> LightSet::emit_beyond(LightKind kind, const LightRows<F>& rows,
   }
   r.n = r.d;
   const Vec2<F> disk = sample_disk_concentric(u_point);
-  const Vec3<F> across = Frame<F>::from_normal(r.d).to_world({disk.x, disk.y, F(-1.0f)});
+  const Vec3<F> across = LocalFrame<F>::from_normal(r.d).to_world({disk.x, disk.y, F(-1.0f)});
   r.p = splat<F>(tables_.scene_centre) + across * tables_.scene_radius;
   r.position = beyond_position_density<F>();
   r.flux = r.radiance * (F(1.0f) / (r.position.value * select(r.valid, r.direction.value, F(1.0f))));

@@ -7,7 +7,7 @@ namespace montelux {
 template <class F>
 Vec2<F> LightSet::beyond_place_numbers(Vec3<F> p, Vec3<F> d) const {
   const Vec3<F> from_centre = (p - splat<F>(tables_.scene_centre)) * (1 / tables_.scene_radius);
-  const Vec3<F> across = Frame<F>::from_normal(d).to_local(from_centre);
+  const Vec3<F> across = LocalFrame<F>::from_normal(d).to_local(from_centre);
   return invert_disk_concentric(Vec2<F>{across.x, across.y});
 }
 
@@ -23,7 +23,7 @@ EmissionNumbers<F> LightSet::emission_numbers(Uint<F> light, Vec3<F> p, Vec3<F> 
     if (is_surface(kind)) {
       with_emitter<F>(kind, row, [&](const auto& emitter) {
         const Vec2<F> place = inside(emitter.site_numbers(p));
-        Vec2<F> direction = inside(invert_cosine_hemisphere(Frame<F>::from_normal(n).to_local(d)));
+        Vec2<F> direction = inside(invert_cosine_hemisphere(LocalFrame<F>::from_normal(n).to_local(d)));
         // A light with two sides spends half of the first number on each.
         const Mask<F> behind = dot(emitter.site(place).n, n) < F(0.0f);
         const F half = 0.5f * direction.x + select(behind, F(0.5f), F(0.0f));

@@ -87,7 +87,7 @@ struct SpotEmitter {
 
  private:
   MONTELUX_INLINE F one_minus_cos() const { return F(1.0f) - rows.number(cos_end); }
-  MONTELUX_INLINE Frame<F> about_axis() const { return Frame<F>::from_normal(rows.vec3(axis)); }
+  MONTELUX_INLINE LocalFrame<F> about_axis() const { return LocalFrame<F>::from_normal(rows.vec3(axis)); }
 };
 
 // Lights whose intensity is given by an image, by direction: the images of all lights, and which of them a row uses.

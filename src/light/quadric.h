@@ -150,7 +150,7 @@ struct SphereEmitter {
     F sin2 = w.x * w.x + w.y * w.y;
     F cos_a = clamp(sin2 / cap.sin + w.z * safe_sqrt(F(1.0f) - sin2 / (cap.sin * cap.sin)), -1.0f, 1.0f);
     F around = safe_sqrt(F(1.0f) - cos_a * cos_a) / max(sqrt(sin2), F(1e-30f));
-    Vec3<F> outward = Frame<F>::from_normal(cap.axis).to_world({w.x * around, w.y * around, -cos_a});
+    Vec3<F> outward = LocalFrame<F>::from_normal(cap.axis).to_world({w.x * around, w.y * around, -cos_a});
     const LightRows<F>& rows = part.rows;
     Vec3<F> p = rows.vec3(quadric_centre) + outward * rows.number(quadric_world_radius);
     Vec3<F> n = outward * select(rows.flag(light_flipped), F(-1.0f), F(1.0f));

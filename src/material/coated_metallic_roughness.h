@@ -38,7 +38,7 @@ class CoatedMetallicRoughness {
   MONTELUX_INLINE explicit CoatedMetallicRoughness(const BsdfRows<F>& rows)
       : coat_(rows.number(S::coat)),
         facets_(square(rows.number(S::coat_roughness)), square(rows.number(S::coat_roughness))),
-        coat_frame_(Frame<F>::from_normal(
+        coat_frame_(LocalFrame<F>::from_normal(
             {rows.number(S::coat_normal), rows.number(S::coat_normal + 1), rows.number(S::coat_normal + 2)})) {
     const F roughness = rows.number(MetallicRoughnessSlots::roughness), alpha = roughness * roughness;
     const F strength = rows.number(S::anisotropy);
@@ -107,7 +107,7 @@ class CoatedMetallicRoughness {
 
   F coat_, cos_, sin_;
   GgxFacets<F> facets_;
-  Frame<F> coat_frame_;
+  LocalFrame<F> coat_frame_;
   MetallicRoughness<F> base_;
 };
 

@@ -66,10 +66,10 @@ struct LayerMedium {
 template <class F>
 MONTELUX_INLINE void layer_roulette(LayerWalk<F>& walk, int depth, F u) {
   if (depth <= 3) return;
-  F most = max_component(walk.beta);
-  Mask<F> doubtful = walk.live & (most < F(0.25f));
-  walk.live = walk.live & !Mask<F>(doubtful & (u >= most));
-  walk.beta = walk.beta / select(doubtful, max(most, F(1e-30f)), F(1.0f));
+  F largest = max_component(walk.beta);
+  Mask<F> doubtful = walk.live & (largest < F(0.25f));
+  walk.live = walk.live & !Mask<F>(doubtful & (u >= largest));
+  walk.beta = walk.beta / select(doubtful, max(largest, F(1e-30f)), F(1.0f));
 }
 
 }  // namespace montelux

@@ -41,7 +41,7 @@ class Phong {
     return {select(reflects, value, gray(F(0.0f))), {select(reflects, density, F(0.0f))}};
   }
   MONTELUX_INLINE BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
-    Vec3<F> lobe = Frame<F>::from_normal(mirrored(wo)).to_world(sample_phong_lobe(exponent_, u2));
+    Vec3<F> lobe = LocalFrame<F>::from_normal(mirrored(wo)).to_world(sample_phong_lobe(exponent_, u2));
     Vec3<F> wi = select(u < diffuse_, sample_cosine_side(wo, u2), lobe);
     BsdfValue<F> value = evaluate(wo, wi, context);
     Mask<F> valid = value.density.value > F(0.0f);

@@ -9,7 +9,7 @@ using S = MaterialDesc;
 template <class T>
 using Place = Fields<S>::Place<T>;
 
-constexpr double most = 1e30;
+constexpr double unlimited = 1e30;
 constexpr double min_index = 1e-3;  // of refraction
 
 // A model, a part of one, and a member of either.
@@ -29,21 +29,21 @@ Place<T> of(T M::*member) {
 // ---- what several materials have ------------------------------------------------------------------------------------
 
 void normal_scale(Fields<S>& fields, std::string_view name, const Place<NormalMapDesc>& map, std::string meaning) {
-  fields.list<2>(name, in(map, &NormalMapDesc::scale), std::move(meaning), -most, most);
+  fields.list<2>(name, in(map, &NormalMapDesc::scale), std::move(meaning), -unlimited, unlimited);
 }
 
 // Every material has these, mixtures and interfaces excepted.
 void common(Fields<S>& fields) {
   fields
-      .optional_input<NumberInput>("displacement", &S::displacement, "bump height in scene units; default none", -most,
-                                   most)
+      .optional_input<NumberInput>("displacement", &S::displacement, "bump height in scene units; default none",
+                                   -unlimited, unlimited)
       .later();
   fields.words("normalmap", &S::normal_file, "file of an image of tangent-space normals; default none");
   const Place<NormalMapDesc> normals = &S::normals;
   fields.optional_input<SpectrumInput>(
       "normaltexture", in(normals, &NormalMapDesc::texture),
-      "tangent-space normals as a texture of spectra, instead of normalmap; default none (Montelux alone)", -most,
-      most);
+      "tangent-space normals as a texture of spectra, instead of normalmap; default none (Montelux alone)", -unlimited,
+      unlimited);
   normal_scale(fields, "normalscale", normals, "factors of x and y of the mapped normal (Montelux alone)");
 }
 
@@ -57,12 +57,13 @@ void roughness(Fields<S>& fields, const Place<FacetsDesc>& facets, const FacetNa
     const FacetsDesc& f = facets(copy);
     return f.roughness_u && f.roughness_v;
   };
-  fields.input<NumberInput>(names.both, in(facets, &FacetsDesc::roughness), "roughness of both directions", 0, most)
+  fields
+      .input<NumberInput>(names.both, in(facets, &FacetsDesc::roughness), "roughness of both directions", 0, unlimited)
       .only_if([each_has_its_own](const S& material) { return !each_has_its_own(material); });
   fields.optional_input<NumberInput>(names.u, in(facets, &FacetsDesc::roughness_u),
-                                     "roughness along u; default that of both", 0, most);
+                                     "roughness along u; default that of both", 0, unlimited);
   fields.optional_input<NumberInput>(names.v, in(facets, &FacetsDesc::roughness_v),
-                                     "roughness along v; default that of both", 0, most);
+                                     "roughness along v; default that of both", 0, unlimited);
 }
 
 void remap(Fields<S>& fields, const Place<bool>& maps_roughness) {
@@ -71,7 +72,7 @@ void remap(Fields<S>& fields, const Place<bool>& maps_roughness) {
 
 void index(Fields<S>& fields, const Place<IndexInput>& eta, std::string meaning = "index of refraction",
            std::string_view name = "eta", double low = min_index) {
-  fields.input<IndexInput>(name, eta, std::move(meaning), low, most);
+  fields.input<IndexInput>(name, eta, std::move(meaning), low, unlimited);
 }
 
 void albedo(Fields<S>& fields, std::string_view name, const Place<SpectrumInput>& place, std::string meaning) {
@@ -80,7 +81,7 @@ void albedo(Fields<S>& fields, std::string_view name, const Place<SpectrumInput>
 
 void layer(Fields<S>& fields, const Place<LayerDesc>& layer) {
   fields.input<NumberInput>("thickness", in(layer, &LayerDesc::thickness), "thickness of the coat in scene units", 0,
-                            most);
+                            unlimited);
   fields.input<NumberInput>("g", in(layer, &LayerDesc::g), "asymmetry of scattering inside the coat", -1, 1);
   albedo(fields, "albedo", in(layer, &LayerDesc::albedo), "single-scattering albedo inside the coat");
   fields.integer("maxdepth", in(layer, &LayerDesc::max_depth), "maximum number of bounces between the layers", 0,
@@ -89,8 +90,8 @@ void layer(Fields<S>& fields, const Place<LayerDesc>& layer) {
 }
 
 void metal(Fields<S>& fields, const Place<MetalDesc>& metal, std::string_view eta = "eta", std::string_view k = "k") {
-  fields.input<SpectrumInput>(eta, in(metal, &MetalDesc::eta), "index of refraction", 0, most);
-  fields.input<SpectrumInput>(k, in(metal, &MetalDesc::k), "absorption coefficient", 0, most);
+  fields.input<SpectrumInput>(eta, in(metal, &MetalDesc::eta), "index of refraction", 0, unlimited);
+  fields.input<SpectrumInput>(k, in(metal, &MetalDesc::k), "absorption coefficient", 0, unlimited);
   fields.optional_input<SpectrumInput>("reflectance", in(metal, &MetalDesc::reflectance),
                                        "reflectance at normal incidence, instead of eta and k", 0, 1);
 }
@@ -101,7 +102,8 @@ void metallic_roughness(Fields<S>& fields, const Place<MetallicRoughnessDesc>& b
   fields.input<NumberInput>("metallic", in(base, &M::metallic), "share of the metal", 0, 1);
   fields.input<NumberInput>("roughness", in(base, &M::roughness), "alpha of the facets is its square", 0, 1);
   fields.input<NumberInput>("specular", in(base, &M::specular), "strength of the dielectric's reflection", 0, 1);
-  fields.input<SpectrumInput>("specularcolor", in(base, &M::specular_color), "its colour at normal incidence", 0, most);
+  fields.input<SpectrumInput>("specularcolor", in(base, &M::specular_color), "its colour at normal incidence", 0,
+                              unlimited);
   index(fields, in(base, &M::eta), "index of refraction of the dielectric", "eta", 1);
 }
 
@@ -183,11 +185,11 @@ Model<S> coated_metallic_roughness() {
   const Place<NormalMapDesc> normals = of(&M::coat_normals);
   fields.optional_input<SpectrumInput>(
       "coatnormaltexture", in(normals, &NormalMapDesc::texture),
-      "tangent-space normals of the coat; default: those of the surface, not of the base", -most, most);
+      "tangent-space normals of the coat; default: those of the surface, not of the base", -unlimited, unlimited);
   normal_scale(fields, "coatnormalscale", normals, "factors of their x and y");
   fields.input<NumberInput>("anisotropy", of(&M::anisotropy), "strength of the grain", 0, 1);
   fields.number("anisotropyrotation", of(&M::grain_rotation), "rotation of the grain from u towards v in degrees",
-                -most, most);
+                -unlimited, unlimited);
   fields.input<NumberInput>("grainx", of(&M::grain_x), "the unrotated grain, u component, from 0 (-1) to 1 (1)", 0, 1);
   fields.input<NumberInput>("grainy", of(&M::grain_y), "the same along v, where 0.5 is none", 0, 1);
   fields.flag("grainmirrored", of(&M::grain_is_mirrored), "v is against n x u");
@@ -222,7 +224,7 @@ Model<S> tinted_dielectric() {
   Fields<S> fields;
   index(fields, of(&M::eta));
   albedo(fields, "tint", of(&M::tint), "factor of transmitted light");
-  fields.spectrum("absorption", of(&M::absorption), "absorption inside, per unit of length", 0, most);
+  fields.spectrum("absorption", of(&M::absorption), "absorption inside, per unit of length", 0, unlimited);
   roughness(fields, of(&M::facets));
   remap(fields, of(&M::maps_roughness));
   common(fields);
@@ -236,7 +238,7 @@ Model<S> thin_dielectric() {
   index(fields, of(&M::eta));
   albedo(fields, "tint", of(&M::tint), "factor of transmitted light (Montelux alone)");
   fields.input<NumberInput>("roughness", of(&M::roughness), "roughness of reflection and transmission (Montelux alone)",
-                            0, most);
+                            0, unlimited);
   remap(fields, of(&M::maps_roughness));
   common(fields);
   return model("thindielectric", "a thin pane without refraction", M{}, fields);
@@ -247,7 +249,7 @@ Model<S> diffuse_transmission() {
   Fields<S> fields;
   albedo(fields, "reflectance", of(&M::reflected), "albedo of reflection");
   albedo(fields, "transmittance", of(&M::transmitted), "albedo of transmission");
-  fields.number("scale", of(&M::scale), "factor of both", 0, most);
+  fields.number("scale", of(&M::scale), "factor of both", 0, unlimited);
   common(fields);
   return model("diffusetransmission", "Lambertian reflection and transmission", M{}, fields);
 }
@@ -275,12 +277,12 @@ Model<S> later(std::string_view name, std::string_view meaning, const std::vecto
 
 Model<S> hair() {
   return later("hair", "a fibre (Chiang et al. 2016)",
-               {{"sigma_a", spectrum_map, "absorption; default from the others", 0, most},
+               {{"sigma_a", spectrum_map, "absorption; default from the others", 0, unlimited},
                 {"reflectance", spectrum_map, "albedo, instead of the absorption", 0, 1},
                 {"color", spectrum_map, "albedo, the older name", 0, 1},
-                {"eumelanin", number_map, "concentration of eumelanin; default 1.3", 0, most},
-                {"pheomelanin", number_map, "concentration of pheomelanin; default 0", 0, most},
-                {"eta", number_map, "index of refraction; default 1.55", min_index, most},
+                {"eumelanin", number_map, "concentration of eumelanin; default 1.3", 0, unlimited},
+                {"pheomelanin", number_map, "concentration of pheomelanin; default 0", 0, unlimited},
+                {"eta", number_map, "index of refraction; default 1.55", min_index, unlimited},
                 {"beta_m", number_map, "longitudinal roughness; default 0.3", 0, 1},
                 {"beta_n", number_map, "azimuthal roughness; default 0.3", 0, 1},
                 {"alpha", number_map, "tilt of the scales in degrees; default 2", -90, 90}});
@@ -289,16 +291,16 @@ Model<S> hair() {
 Model<S> subsurface() {
   return later("subsurface", "a dielectric over a scattering medium",
                {{"name", {string}, "a measured material"},
-                {"sigma_a", spectrum_map, "absorption per millimetre; default 0.0011 0.0024 0.014", 0, most},
-                {"sigma_s", spectrum_map, "scattering per millimetre; default 2.55 3.21 3.77", 0, most},
-                {"mfp", spectrum_map, "mean free path, with reflectance", 0, most},
+                {"sigma_a", spectrum_map, "absorption per millimetre; default 0.0011 0.0024 0.014", 0, unlimited},
+                {"sigma_s", spectrum_map, "scattering per millimetre; default 2.55 3.21 3.77", 0, unlimited},
+                {"mfp", spectrum_map, "mean free path, with reflectance", 0, unlimited},
                 {"reflectance", spectrum_map, "albedo, with mfp", 0, 1},
-                {"scale", {number}, "factor of the coefficients; default 1", 0, most},
+                {"scale", {number}, "factor of the coefficients; default 1", 0, unlimited},
                 {"g", {number}, "asymmetry; default 0", -1, 1},
-                {"eta", {number}, "index of refraction; default 1.33", min_index, most},
-                {"roughness", number_map, "roughness of both directions; default 0", 0, most},
-                {"uroughness", number_map, "roughness along u; default that of both", 0, most},
-                {"vroughness", number_map, "roughness along v; default that of both", 0, most},
+                {"eta", {number}, "index of refraction; default 1.33", min_index, unlimited},
+                {"roughness", number_map, "roughness of both directions; default 0", 0, unlimited},
+                {"uroughness", number_map, "roughness along u; default that of both", 0, unlimited},
+                {"vroughness", number_map, "roughness along v; default that of both", 0, unlimited},
                 {"remaproughness", {boolean}, "roughness is perceptual: alpha is its square root; default true"}});
 }
 

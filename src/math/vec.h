@@ -69,22 +69,22 @@ template <class F> MONTELUX_INLINE Vec2<F> gather2(const float* base, Uint<F> i)
 
 // A right-handed orthonormal frame (tangent, bitangent, normal).
 template <class F>
-struct Frame {
+struct LocalFrame {
   Vec3<F> s, t, n;
 
   // Any frame around the unit vector n, without a branch (Duff et al. 2017, "Building an Orthonormal Basis,
   // Revisited").
-  static MONTELUX_INLINE Frame from_normal(Vec3<F> n) {
+  static MONTELUX_INLINE LocalFrame from_normal(Vec3<F> n) {
     F sign = copysign(F(1.0f), n.z);
     F a = F(-1.0f) / (sign + n.z);
     F b = n.x * n.y * a;
     return {{F(1.0f) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
   // The frame around unit n whose s is the direction nearest to `tangent`; any frame where tangent is parallel to n.
-  static MONTELUX_INLINE Frame from_normal_tangent(Vec3<F> n, Vec3<F> tangent) {
+  static MONTELUX_INLINE LocalFrame from_normal_tangent(Vec3<F> n, Vec3<F> tangent) {
     Vec3<F> s = tangent - n * dot(n, tangent);
     F squared = dot(s, s);
-    Frame any_frame = from_normal(n);
+    LocalFrame any_frame = from_normal(n);
     Mask<F> good = squared > F(1e-12f) * dot(tangent, tangent);
     s = select(good, s * (F(1.0f) / sqrt(max(squared, F(1e-30f)))), any_frame.s);
     return {s, cross(n, s), n};

@@ -21,7 +21,7 @@ MONTELUX_INLINE Vec3<F> sample_henyey_greenstein(Vec3<F> forward, F g, Vec2<F> u
   F c = clamp(cosine, F(-1.0f), F(1.0f));
   F sine = safe_sqrt(F(1.0f) - c * c);
   SinCos<F> phi = sin_cos_two_pi(u.x);
-  return Frame<F>::from_normal(forward).to_world({sine * phi.cos, sine * phi.sin, c});
+  return LocalFrame<F>::from_normal(forward).to_world({sine * phi.cos, sine * phi.sin, c});
 }
 
 }  // namespace montelux

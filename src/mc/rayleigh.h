@@ -21,7 +21,7 @@ MONTELUX_INLINE Vec3<F> sample_rayleigh(Vec3<F> forward, Vec2<F> u) {
   const F cosine = select(q < F(0.0f), F(0.0f) - c, c);
   const F sine = safe_sqrt(F(1.0f) - cosine * cosine);
   const SinCos<F> phi = sin_cos_two_pi(u.x);
-  return Frame<F>::from_normal(forward).to_world({sine * phi.cos, sine * phi.sin, cosine});
+  return LocalFrame<F>::from_normal(forward).to_world({sine * phi.cos, sine * phi.sin, cosine});
 }
 
 }  // namespace montelux

@@ -9,7 +9,7 @@ namespace montelux {
 // blurs the map by more than a thousandth, and sampling by area is as good.
 template <class F>
 struct SphericalRectangle {
-  Frame<F> frame;        // s and t along the edges, n from the rectangle to the centre
+  LocalFrame<F> frame;   // s and t along the edges, n from the rectangle to the centre
   F x0, x1, y0, y1, z0;  // the rectangle in the frame; z0 <= 0
   F b0, b1, k;           // the paper's constants
   F solid_angle;

@@ -16,11 +16,11 @@ std::uint32_t slots_of(BsdfKind kind) {
 
 // The frame rotated by a tangent-space normal (components in [-1, 1], z outward); keeps the side of the surface.
 template <class F>
-Frame<F> with_normal(const Frame<F>& frame, const Vec3<F>& dpdu, const Vec3<F>& tangent_normal) {
+LocalFrame<F> with_normal(const LocalFrame<F>& frame, const Vec3<F>& dpdu, const Vec3<F>& tangent_normal) {
   Vec3<F> n = frame.to_world(tangent_normal);
   const Mask<F> proper = dot(n, n) > F(0.0f);
   n = normalize(select<F>(proper, n, frame.n));
-  const Frame<F> turned = Frame<F>::from_normal_tangent(select<F>(dot(n, frame.n) < F(0.0f), -n, n), dpdu);
+  const LocalFrame<F> turned = LocalFrame<F>::from_normal_tangent(select<F>(dot(n, frame.n) < F(0.0f), -n, n), dpdu);
   return {select<F>(proper, turned.s, frame.s), select<F>(proper, turned.t, frame.t),
           select<F>(proper, turned.n, frame.n)};
 }
@@ -80,15 +80,16 @@ void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, c
                           Mask<F> on, SurfaceScattering<F>& s) const {
   look_up_slots<F>(material, *textures_, points, on, s.slots);
   if (!material.has_any_normal_map()) return;
-  const Frame<F> plain = s.frame;
+  const LocalFrame<F> plain = s.frame;
   if (material.has_normal_map()) {
-    const Frame<F> turned = with_normal<F>(plain, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
+    const LocalFrame<F> turned = with_normal<F>(plain, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
     s.frame = {select<F>(on, turned.s, plain.s), select<F>(on, turned.t, plain.t), select<F>(on, turned.n, plain.n)};
   }
   if (material.kind != BsdfKind::coated_metallic_roughness) return;
-  const Frame<F> coat = material.coat_normal_texture
-                            ? with_normal<F>(plain, at.dpdu, mapped_coat_normal<F>(material, *textures_, points, on))
-                            : plain;
+  const LocalFrame<F> coat =
+      material.coat_normal_texture
+          ? with_normal<F>(plain, at.dpdu, mapped_coat_normal<F>(material, *textures_, points, on))
+          : plain;
   const Vec3<F> n = s.frame.to_local(coat.n);
   F* slots = s.slots.v + CoatedMetallicRoughnessSlots::coat_normal;
   slots[0] = select(on, n.x, slots[0]), slots[1] = select(on, n.y, slots[1]), slots[2] = select(on, n.z, slots[2]);
@@ -106,7 +107,7 @@ SurfaceScattering<F> MaterialSet::scattering(const SurfaceHit<F>& at, const Vec3
   const U trait = gather(traits_.data(), material);
   s.kind = gather(kinds_.data(), material);
   s.is_interface = on & ((trait & U(std::uint32_t(is_interface))) != U(0u));
-  s.frame = Frame<F>::from_normal_tangent(at.point.ns, at.point.dpdu);
+  s.frame = LocalFrame<F>::from_normal_tangent(at.point.ns, at.point.dpdu);
   const U slots = trait >> int(slots_shift), row = material * U(std::uint32_t(sizeof(BsdfRow) / sizeof(float)));
   for (int i = 0; i < bsdf_row_size && any(on & (slots > U(std::uint32_t(i)))); ++i)
     s.slots.v[i] = gather(rows_.data()->v + i, row);

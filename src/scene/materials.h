@@ -15,7 +15,7 @@ template <class F>
 struct SurfaceScattering {
   BsdfSlots<F> slots;    // the parameters that the models of the lanes have
   Uint<F> kind;          // of BsdfKind
-  Frame<F> frame;        // z: the shading normal, normal map applied
+  LocalFrame<F> frame;   // z: the shading normal, normal map applied
   Vec3<F> light_normal;  // unit, on the side of wo; zero if light from both sides matters. For the choice of a light
   Mask<F> is_interface;  // nothing scatters: the path continues straight on
   Mask<F> is_delta;      // no direction towards a light can scatter

@@ -52,7 +52,7 @@ class Boundary {
     outward_ = face_forward(x.point.ng, bsdf.frame.n);
   }
   // Of bodies of glass alone.
-  MONTELUX_INLINE Boundary(Uint<F> kind, const BsdfSlots<F>& slots, const Vec3<F>& ng, const Frame<F>& frame)
+  MONTELUX_INLINE Boundary(Uint<F> kind, const BsdfSlots<F>& slots, const Vec3<F>& ng, const LocalFrame<F>& frame)
       : bounds_(bounds_body<F>(kind)), is_any_(any(bounds_)) {
     if (!is_any_) return;
     outward_ = face_forward(ng, frame.n);

@@ -12,7 +12,7 @@ struct StoredSurface {
   Vec3<F> p, ng;  // ng is zero in a medium
   BsdfSlots<F> slots;
   Uint<F> kind;  // a BsdfKind, or in_medium_kind
-  Frame<F> frame;
+  LocalFrame<F> frame;
   RandomStream<F> random;
 
   // f |cos wi| for unit directions of the world, and the density of wi.

@@ -133,7 +133,7 @@ LightCase quadric_case(std::string name, Shape s, Emission e, Vec3f reference) {
 inline LightCase uniform_infinite_case(std::string name, Vec3f n) {
   LightSetBuilder b;
   b.add_uniform_infinite(gray_rgb(2.0f));
-  Frame<float> frame = Frame<float>::from_normal(dot(n, n) > 0 ? n : Vec3f{0, 0, 1});
+  LocalFrame<float> frame = LocalFrame<float>::from_normal(dot(n, n) > 0 ? n : Vec3f{0, 0, 1});
   auto at = [=](double x, double y) {
     double z = 2 * x - 1, r = std::sqrt(1 - z * z), phi = 2 * double(pi) * y;
     Vec3f w = frame.to_world({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)});

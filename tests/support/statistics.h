@@ -221,8 +221,8 @@ double integrate2(Function f, double ax, double bx, double ay, double by, int pa
 // normal; panels in cos and in the azimuth. Put the peak of f on the normal, where the nodes may be made dense by more
 // panels.
 template <class Function>
-double integrate_sphere(Function f, const Frame<float>& frame = Frame<float>::from_normal({0, 0, 1}), int panels = 32,
-                        double low = -1, double high = 1) {
+double integrate_sphere(Function f, const LocalFrame<float>& frame = LocalFrame<float>::from_normal({0, 0, 1}),
+                        int panels = 32, double low = -1, double high = 1) {
   return integrate2(
       [&](double cos, double azimuth) {
         const double sin = std::sqrt(std::max(0.0, 1 - cos * cos));
@@ -279,12 +279,12 @@ TestResult chi_square_square(Sample sample, DensityFunction density, Grid grid, 
 struct SpherePoint {
   double x, y;
 };
-inline SpherePoint sphere_chart(const Frame<float>& frame, Vec3f w) {
+inline SpherePoint sphere_chart(const LocalFrame<float>& frame, Vec3f w) {
   const Vec3f v = frame.to_local(w);
   const double azimuth = std::atan2(double(v.y), double(v.x)) / (2 * std::numbers::pi);
   return {std::clamp(0.5 + 0.5 * double(v.z), 0.0, 1 - 1e-9), std::clamp(azimuth - std::floor(azimuth), 0.0, 1 - 1e-9)};
 }
-inline Vec3f sphere_from_chart(const Frame<float>& frame, double x, double y) {
+inline Vec3f sphere_from_chart(const LocalFrame<float>& frame, double x, double y) {
   const double cos = 2 * x - 1, sin = std::sqrt(std::max(0.0, 1 - cos * cos)), azimuth = 2 * std::numbers::pi * y;
   return frame.to_world({float(sin * std::cos(azimuth)), float(sin * std::sin(azimuth)), float(cos)});
 }
@@ -293,7 +293,8 @@ inline Vec3f sphere_from_chart(const Frame<float>& frame, double x, double y) {
 // "none"; density(Vec3f) -> a number. `frame` turns the grid: put a peak on its normal and raise `panels` for it.
 template <class Sample, class DensityFunction>
 TestResult chi_square_sphere(Sample sample, DensityFunction density, Grid grid, double count, std::uint32_t seed,
-                             const Frame<float>& frame = Frame<float>::from_normal({0, 0, 1}), int panels = 1) {
+                             const LocalFrame<float>& frame = LocalFrame<float>::from_normal({0, 0, 1}),
+                             int panels = 1) {
   return chi_square_square(
       [&](RandomStream<float>& stream) {
         const Vec3f w = sample(stream);
@@ -306,7 +307,8 @@ TestResult chi_square_sphere(Sample sample, DensityFunction density, Grid grid, 
 // The lesser p-value of the coarse and the fine grid, doubled (Bonferroni).
 template <class Sample, class DensityFunction>
 TestResult chi_square_sample_density(Sample sample, DensityFunction density, double count, std::uint32_t seed,
-                                     const Frame<float>& frame = Frame<float>::from_normal({0, 0, 1}), int panels = 1) {
+                                     const LocalFrame<float>& frame = LocalFrame<float>::from_normal({0, 0, 1}),
+                                     int panels = 1) {
   TestResult coarse = chi_square_sphere(sample, density, coarse_grid, count, seed, frame, 4 * panels);
   TestResult fine = chi_square_sphere(sample, density, fine_grid, count, seed + 1, frame, panels);
   TestResult& worse = coarse.p_value < fine.p_value ? coarse : fine;

@@ -47,7 +47,7 @@ float harmonic_mean_distance(std::span<const float> distances) {
 }
 
 HemisphereEstimate integrate_hemisphere(const HemisphereStrata& strata, std::span<const HemisphereSample> samples,
-                                        const Frame<float>& frame) {
+                                        const LocalFrame<float>& frame) {
   const int rows = strata.rows, columns = strata.columns;
   const double cell = pi_ / strata.count();  // projected solid angle
   // Directions within a column are spread: their mean is shorter than a unit vector.

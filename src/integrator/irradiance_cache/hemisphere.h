@@ -47,7 +47,7 @@ struct HemisphereEstimate {
 // `samples`: one for each cell of the strata. Radiance counts as constant within a cell; the boundary between two cells
 // moves with the nearer of their surfaces as the point moves.
 HemisphereEstimate integrate_hemisphere(const HemisphereStrata& strata, std::span<const HemisphereSample> samples,
-                                        const Frame<float>& frame);
+                                        const LocalFrame<float>& frame);
 // The harmonic mean alone.
 float harmonic_mean_distance(std::span<const float> distances);
 

@@ -52,7 +52,7 @@ class HemispherePaths {
     samples_.clear();
     for (std::size_t i = 0; i < results_.size(); ++i)
       samples_.push_back({from_rgb(results_[i].radiance), distances_[i]});
-    return integrate_hemisphere(strata_, samples_, Frame<float>::from_normal(at.query.n));
+    return integrate_hemisphere(strata_, samples_, LocalFrame<float>::from_normal(at.query.n));
   }
 
   // For the path loop.
@@ -73,8 +73,8 @@ class HemispherePaths {
     starts_.clear(), next_ = 0, first_depth_ = at.depth + 1;
     const int cells = strata_.count();
     distances_.assign(std::size_t(cells), std::numeric_limits<float>::infinity());
-    const Frame<float> local = Frame<float>::from_normal(at.query.n);
-    const Frame<F> frame{splat<F>(local.s), splat<F>(local.t), splat<F>(local.n)};
+    const LocalFrame<float> local = LocalFrame<float>::from_normal(at.query.n);
+    const LocalFrame<F> frame{splat<F>(local.s), splat<F>(local.t), splat<F>(local.n)};
     const Vec3<F> p = splat<F>(at.query.p), p_error = splat<F>(at.p_error), ng = splat<F>(at.ng);
     Media<F> media{};
     for (int k = 0; k < lanes_of<F>; ++k) set_lane_words(media, k, at.media);

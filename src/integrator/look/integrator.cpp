@@ -32,7 +32,7 @@ struct View {
   Spectrum<F> openness(std::uint32_t sample) const {
     const Vec2<F> u = numbers.get2(sample, path_dimension::direction);
     const Vec3<F> local = settings.by_cosine ? sample_cosine_hemisphere(u) : sample_hemisphere(u);
-    const Vec3<F> wi = Frame<F>::from_normal(normal()).to_world(local);
+    const Vec3<F> wi = LocalFrame<F>::from_normal(normal()).to_world(local);
     // The density that is wanted over the one that was drawn by.
     const F weight =
         settings.by_cosine ? F(1.0f) : cosine_hemisphere_density(local.z).value / hemisphere_density(local.z).value;

@@ -56,7 +56,7 @@ ChainTracer::ChainTracer(const Scene& scene, const Accel& accel) : scene_(scene)
 bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind,
                         const RandomStream<float>& random, SpecularChain& chain, std::uint64_t& rays) const {
   using F = float;
-  const Frame<F> frame = Frame<F>::from_normal(w);
+  const LocalFrame<F> frame = LocalFrame<F>::from_normal(w);
   chain.w = w, chain.s = frame.s, chain.t = frame.t, chain.left = gray(1.0f), chain.at = {};
   RayDifferential r{to_double(from.p), to_double(w), {}, {to_double(frame.s), to_double(frame.t)}};
   r.dp = {Vec3d{0, 0, 0}, Vec3d{0, 0, 0}};

@@ -66,7 +66,7 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
                              counts.shadow);
   Spectrum<F> sum = select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
 
-  const Vec3<F> wi = Frame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(plan::direction))));
+  const Vec3<F> wi = LocalFrame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(plan::direction))));
   const Vec3<F> from = offset_origin(x.p, x.p_error, x.ng, wi);
   counts.scattered += std::uint64_t(count(on));
   const auto [found, hit] = r.accel.trace<F>({from, wi, F(ray_infinity)}, on);

@@ -59,7 +59,7 @@ struct Recursion {
                             int depth, const Spectrum<float>& throughput) const {
     const float rest = 2 * pi - solid_angle(above_horizon(seen, at.bsdf.light_normal));
     if (rest < 1e-4f) return gray(0.0f);
-    const Frame<float> frame = Frame<float>::from_normal(at.bsdf.light_normal);
+    const LocalFrame<float> frame = LocalFrame<float>::from_normal(at.bsdf.light_normal);
     for (int tries = 0; tries < 10000; ++tries) {
       const Vec3f wi = frame.to_world(sample_hemisphere(random.next2()));
       if (seen.count == 0 || !covers(seen, wi)) return continued(at, wi, {1 / rest}, random, depth, throughput);

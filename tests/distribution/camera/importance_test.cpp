@@ -134,7 +134,7 @@ Moments pixels_of_directions(const Camera& c, int x, int y, double fault) {
     const Vec3f d = c.generate(Vec2f{float(x) + corner.x, float(y) + corner.y}, u).ray.d;
     one_minus_cos = max(one_minus_cos, 1.2f * (1 - dot(d, middle.d)));
   }
-  const Frame<float> frame = Frame<float>::from_normal(middle.d);
+  const LocalFrame<float> frame = LocalFrame<float>::from_normal(middle.d);
   for (int i = 0; i < 1500000; ++i) {
     const Vec3f w = frame.to_world(sample_cone(one_minus_cos, r.next2()));
     const LensDirection<float> seen = c.toward_direction(w, u);

@@ -95,7 +95,7 @@ test::SampleSummary area_by_lines(const NamedShape& k, Stream& r) {
   float radius = 0.5001f * length(box.high - box.low);
   std::vector<double> x;
   for (int i = 0; i < samples; ++i) {
-    Frame<float> f = Frame<float>::from_normal(random_direction(r));
+    LocalFrame<float> f = LocalFrame<float>::from_normal(random_direction(r));
     SinCos<float> phi = sin_cos_two_pi(r.next());
     float rho = radius * sqrt(r.next());
     Vec3f o = center + f.s * (rho * phi.cos) + f.t * (rho * phi.sin) - f.n * (3 * radius);

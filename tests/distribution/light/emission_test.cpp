@@ -176,7 +176,7 @@ Vec2f chart_of_place(const EmissionCase& c, RandomStream<float>& r) {
   if (!e.valid) return {-1, -1};
   if (is_surface(c.kind)) return c.chart(e.p);
   // On the disk: the squared distance from its centre and the azimuth.
-  const Vec3f q = Frame<float>::from_normal(e.d).to_local(e.p) * float(1 / R);
+  const Vec3f q = LocalFrame<float>::from_normal(e.d).to_local(e.p) * float(1 / R);
   EXPECT_NEAR(q.z, -1, 1e-5f);
   return in_square(double(q.x * q.x + q.y * q.y), double(azimuth_fraction(q)));
 }
@@ -196,11 +196,11 @@ Vec3f local_direction(const EmissionCase& c, RandomStream<float>& r) {
   if (!e.valid) return nowhere;
   if (!is_surface(c.kind)) return e.d;
   const Vec2f at = c.chart(e.p);
-  return Frame<float>::from_normal(c.at(double(at.x), double(at.y)).n).to_local(e.d);
+  return LocalFrame<float>::from_normal(c.at(double(at.x), double(at.y)).n).to_local(e.d);
 }
 double density_of_direction(const EmissionCase& c, Vec3f local) {
   const LightPoint at = is_surface(c.kind) ? c.at(0.4, 0.3) : LightPoint{nowhere, {0, 0, 1}, {0, 0}, 1};
-  const Vec3f d = is_surface(c.kind) ? Frame<float>::from_normal(at.n).to_world(local) : local;
+  const Vec3f d = is_surface(c.kind) ? LocalFrame<float>::from_normal(at.n).to_world(local) : local;
   return double(c.lights.emission_densities<float>(0, at.p, at.n, d, true).direction.value);
 }
 bool has_image_of_directions(const EmissionCase& c) { return !is_surface(c.kind) && bool(c.chart); }
@@ -216,8 +216,8 @@ Vec2f chart_on_image(const EmissionCase& c, RandomStream<float>& r) {
   return c.chart(is_infinite(c.kind) ? -e.d : e.d);
 }
 // A spot's axis turns the chart about it, so that its edge lies on a ring of the chart.
-Frame<float> frame_of(const EmissionCase& c) {
-  return Frame<float>::from_normal(c.kind == LightKind::spot ? normalize(Vec3f{0.2f, 0.4f, 1}) : Vec3f{0, 0, 1});
+LocalFrame<float> frame_of(const EmissionCase& c) {
+  return LocalFrame<float>::from_normal(c.kind == LightKind::spot ? normalize(Vec3f{0.2f, 0.4f, 1}) : Vec3f{0, 0, 1});
 }
 
 TEST(EmittedRays, have_a_case_for_every_kind_of_light) {
@@ -266,7 +266,7 @@ TEST(EmittedRays, take_directions_that_follow_the_density_and_a_wrong_cosine_is_
     }
     // The texels of an image under a map that is no rotation have edges in no grid's favour.
     if (c.name.ends_with("bent")) continue;
-    const Frame<float> frame = frame_of(c);
+    const LocalFrame<float> frame = frame_of(c);
     const auto direction = [&](RandomStream<float>& stream) { return local_direction(c, stream); };
     const auto density = [&](Vec3f w) { return density_of_direction(c, w); };
     for (const Grid grid : {coarse_grid, fine_grid}) {
@@ -455,7 +455,7 @@ Receiver receiver_of(const EmissionCase& c) {
   RandomStream<float> r(7, 8);
   const LightSample<float> s = c.lights.sample<float>(c.receiver, nowhere, 0.5f, {0.4f, 0.45f}, true);
   EXPECT_TRUE(s.valid);
-  const Frame<float> frame = Frame<float>::from_normal(s.valid ? s.wi : Vec3f{0, 0, 1});
+  const LocalFrame<float> frame = LocalFrame<float>::from_normal(s.valid ? s.wi : Vec3f{0, 0, 1});
   return {c.receiver, frame.n, frame.s, frame.t, 0.5f * float(c.size)};
 }
 

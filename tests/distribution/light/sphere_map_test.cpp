@@ -10,7 +10,7 @@ namespace {
 Vec3f through(Vec2f uv, float bend) { return sphere_from_square(Vec2f{uv.x, pow(uv.y, bend)}); }
 
 TEST(SphereMap, gives_equal_areas_and_a_bent_one_is_found) {
-  Frame<float> frame = Frame<float>::from_normal(normalize(Vec3f{1, 2, 3}));
+  LocalFrame<float> frame = LocalFrame<float>::from_normal(normalize(Vec3f{1, 2, 3}));
   auto uniform = [](Vec3f) { return inv_four_pi; };
   double level = sidak_level(family_level, 2);
   EXPECT_GT(

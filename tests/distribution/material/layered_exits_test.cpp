@@ -48,7 +48,7 @@ Estimates two_techniques(const Dielectric<float>& coat, Vec3f wo, Vec3f wi, int 
 
 // The same as a product of two integrals, by quadrature.
 double one_bounce(const Dielectric<float>& coat, Vec3f wo, Vec3f wi) {
-  const Frame<float> up = Frame<float>::from_normal({0, 0, 1});
+  const LocalFrame<float> up = LocalFrame<float>::from_normal({0, 0, 1});
   const double enters = integrate_sphere(
       [&](Vec3f w) { return coat.evaluate_lobes<Lobes::transmission>(wo, w, radiance).f_cos; }, up, 64, -1, 0);
   const double leaves = integrate_sphere(

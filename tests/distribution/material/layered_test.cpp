@@ -197,7 +197,7 @@ TEST(LayeredBsdf, rough_coat_matches_quadrature_of_one_bounce) {
   const Dielectric<float> coat({alpha, alpha}, eta);
   const Vec3f wo = direction(0.7f, 0.2f), wi = direction(0.35f, 0.5f);
   const auto radiance = TransportMode::radiance;
-  const Frame<float> up = Frame<float>::from_normal({0, 0, 1});
+  const LocalFrame<float> up = LocalFrame<float>::from_normal({0, 0, 1});
   const double enters = integrate_sphere(
       [&](Vec3f w) { return coat.evaluate_lobes<Lobes::transmission>(wo, w, radiance).f_cos; }, up, 48, -1, 0);
   const double leaves = integrate_sphere(

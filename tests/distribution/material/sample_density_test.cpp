@@ -26,7 +26,7 @@ TestResult samples_against_density(const Model& model, const BsdfCase& c, Vec3f 
         return s.valid && !s.delta ? s.wi : Vec3f{0, 0, 0};
       },
       [&](Vec3f wi) { return stated(model.evaluate(wo, wi, context).density.value, wi); }, sample_count, seed,
-      Frame<float>::from_normal({0, 0, 1}), c.panels);
+      LocalFrame<float>::from_normal({0, 0, 1}), c.panels);
 }
 
 // Walks that meet deltas alone are drawn by numbers of their own, one for each direction; here they have but one, which

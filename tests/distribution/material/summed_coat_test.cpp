@@ -62,7 +62,7 @@ TEST(SummedCoat, rough_directions_follow_the_density) {
               return s.valid ? s.wi : Vec3f{0, 0, 0};
             },
             [&](Vec3f wi) { return fault(model.evaluate(wo, wi, context).density.value, wi); }, 100000, seed,
-            Frame<float>::from_normal({0, 0, 1}), 2);
+            LocalFrame<float>::from_normal({0, 0, 1}), 2);
       };
       seed += 2;
       const TestResult right = test([](float p, Vec3f) { return p; });

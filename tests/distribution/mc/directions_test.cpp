@@ -20,7 +20,7 @@ using namespace test;
 
 const double level = sidak_level(family_level, 60);
 constexpr double samples = 200000;
-const Frame<float> pole = Frame<float>::from_normal({0, 0, 1});
+const LocalFrame<float> pole = LocalFrame<float>::from_normal({0, 0, 1});
 
 // A planted fault: the first coordinate a little too low.
 Vec2f bent(Vec2f u) { return {std::pow(u.x, 1.08f), u.y}; }

@@ -125,7 +125,7 @@ TEST(Rayleigh, has_the_moments_of_its_law) {
 TEST(PhaseFunction, draws_directions_by_its_value_and_a_planted_fault_is_found) {
   const double level = sidak_level(family_level, 2.0 * phase_names.size());
   const Vec3f wo = normalize(Vec3f{-0.2f, 0.4f, 0.5f});
-  const Frame<float> frame = Frame<float>::from_normal(-wo);
+  const LocalFrame<float> frame = LocalFrame<float>::from_normal(-wo);
   for (std::size_t kind = 0; kind < phase_names.size(); ++kind) {
     const PhaseFunction<float> phase{std::uint32_t(kind), 0.35f};
     const auto direction = [&](RandomStream<float>& random) { return phase.sample(wo, random.next2()).wi; };

@@ -222,7 +222,7 @@ TEST(BilinearPatch, rays_that_leave_do_not_meet_the_patch_again) {
       SurfacePoint<float> s = surface_point(patch, ray, *hit);
       Vec3f up = face_forward(s.ng, -ray.d);
       const float rise = 0.01f + random.next(), side = random.next() - 0.5f;
-      Vec3f w = normalize(up * rise + Frame<float>::from_normal(up).s * side);
+      Vec3f w = normalize(up * rise + LocalFrame<float>::from_normal(up).s * side);
       if (intersect(patch, {offset_origin(s.p, s.p_error, s.ng, w), w, 1e30f}, 0)) ++again;
     }
     EXPECT_GT(hits, 15000u);

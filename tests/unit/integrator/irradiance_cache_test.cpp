@@ -28,7 +28,7 @@ struct Seen {
 // One estimate of a hemisphere about n.
 template <class Around>
 HemisphereEstimate sampled(const HemisphereStrata& strata, const Vec3f& n, std::uint32_t seed, Around around) {
-  const Frame<float> frame = Frame<float>::from_normal(n);
+  const LocalFrame<float> frame = LocalFrame<float>::from_normal(n);
   RandomStream<float> random(seed, 0x5be0cd19u);
   std::vector<HemisphereSample> samples;
   for (int j = 0; j < strata.rows; ++j)
@@ -91,11 +91,11 @@ TEST(HemisphereStrata, are_about_as_many_as_wanted_and_share_the_hemisphere_even
 TEST(HemisphereGradients, of_the_normal_are_those_of_a_bright_cone) {
   constexpr double sine = 0.4;
   const Vec3f n = normalize(Vec3f{0.2f, -0.3f, 0.8f});
-  const Vec3f c = normalize(Frame<float>::from_normal(n).to_world({0.5f, 0.3f, 0.7f}));
+  const Vec3f c = normalize(LocalFrame<float>::from_normal(n).to_world({0.5f, 0.3f, 0.7f}));
   const auto cone = [&](const Vec3f& w) { return Seen{double(dot(w, c)) > std::sqrt(1 - sine * sine), nothing}; };
   const HemisphereStrata strata = HemisphereStrata::of(2000);
   const Vec3f truth = cross(n, c) * float(pi_ * sine * sine);
-  const Frame<float> frame = Frame<float>::from_normal(n);
+  const LocalFrame<float> frame = LocalFrame<float>::from_normal(n);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(agrees(many(strata, n, cone, [&](const HemisphereEstimate& e) { return double(e.irradiance[int(i)]); }),
                        light[i] * pi_ * sine * sine * double(dot(n, c)), 0, level(9)));
