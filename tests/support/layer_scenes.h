@@ -142,4 +142,26 @@ inline std::vector<LayerMeans> layer_means(const TestScene& scene, const std::st
   return means;
 }
 
+// The layers sum to the image bit for bit, have the same bits for other threads, and leave the image what it is without
+// them, except for the rounding of sums of floats: a relative error of `rounding`.
+inline void expect_layers_of_image(const TestScene& scene, const std::string& way, const LayerPlan& plan,
+                                   double rounding) {
+  const Film film = film_of(scene, way, plan, {3, 2});
+  EXPECT_TRUE(families_sum_to_all(film, plan)) << way;
+  const Film same = film_of(scene, way, plan, {3, 2}, 3);
+  RenderObserver silent;
+  const ChosenIntegrator chosen = scene.integrator(way);
+  const Film plain = render(chosen.any(), scene.settings(PointSetKind::independent, {3, 2}, 5), silent).film;
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      for (int i = 0; i < plan.count(); ++i)
+        EXPECT_EQ(film.layers()->layer(x, y, i), same.layers()->layer(x, y, i)) << way << " " << i;
+      for (int c = 0; c < rgb_size; ++c) {
+        const double mean = plain.pixel(x, y).mean[c];
+        EXPECT_NEAR(film.pixel(x, y).mean[c], mean, rounding * mean + 1e-9) << way;
+      }
+    }
+}
+
 }  // namespace montelux::test

@@ -56,26 +56,7 @@ class Misbooked final : public PixelIntegrator {
   std::optional<int> to_;
 };
 
-constexpr const char* lights_and_glass = R"(
-Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 16 ]
-Integrator "path" "integer maxdepth" [ 6 ]
-LookAt 0 1.2 -3   0 0.6 0   0 1 0
-Camera "perspective" "float fov" [ 60 ]
-WorldBegin
-LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ] "string group" "sky"
-LightSource "point" "rgb I" [ 2 1 1 ] "point3 from" [ -1 2 -1 ]
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 5 5 4 ] "string group" "key"
-  Translate 0.8 1.5 0
-  Shape "sphere" "float radius" [ 0.3 ]
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
-Shape "bilinearmesh" "point3 P" [ -3 0 -3   3 0 -3   -3 0 3   3 0 3 ]
-Material "conductor" "float roughness" [ 0.2 ]
-AttributeBegin
-  Translate -0.6 0.5 0.2
-  Shape "sphere" "float radius" [ 0.5 ]
-AttributeEnd
+const std::string lights_and_glass = three_lights + R"(
 Material "dielectric"
 AttributeBegin
   Translate 0.5 0.4 -0.3

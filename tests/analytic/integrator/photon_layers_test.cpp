@@ -16,25 +16,7 @@ const std::vector<std::string> ways{"sppm:photons=2000,radius=0.1", "sppm:photon
 TEST(PhotonLayers, sum_to_the_image_bit_for_bit_for_any_number_of_threads) {
   const TestScene scene(three_lights);
   const LayerPlan plan = all_layers(scene.scene(), 3);
-  for (const std::string& way : ways) {
-    const Film film = film_of(scene, way, plan, {3, 2});
-    EXPECT_TRUE(families_sum_to_all(film, plan)) << way;
-    const Film same = film_of(scene, way, plan, {3, 2}, 3);
-    RenderObserver silent;
-    const ChosenIntegrator chosen = scene.integrator(way);
-    const Film plain = render(chosen.any(), scene.settings(PointSetKind::independent, {3, 2}, 5), silent).film;
-    const PixelBounds& b = film.bounds();
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x) {
-        for (int i = 0; i < plan.count(); ++i)
-          EXPECT_EQ(film.layers()->layer(x, y, i), same.layers()->layer(x, y, i)) << way << " " << i;
-        // The image is what it is without layers, except for the rounding of sums of floats.
-        for (int c = 0; c < rgb_size; ++c) {
-          const double mean = plain.pixel(x, y).mean[c];
-          EXPECT_NEAR(film.pixel(x, y).mean[c], mean, 1e-5 * mean + 1e-9) << way;
-        }
-      }
-  }
+  for (const std::string& way : ways) expect_layers_of_image(scene, way, plan, 1e-5);
 }
 
 // The kernel lies on a sphere of radius 1, whose curvature changes densities by less than its square.
