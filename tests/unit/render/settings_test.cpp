@@ -51,7 +51,7 @@ std::vector<std::string> values_of(const ParameterSpec& row) {
   if (name == "shadow-rays" && row.types.front() == ParameterType::string) return {"1/1"};
   if (name == "light-selection") return {"uniform", "ris:4"};
   if (name == "manifold") return {"1"};
-  if (name == "roulette") return {"off"};
+  if (name == "roulette") return {"proportional"};
   std::vector<std::string> all;
   for (std::string_view choice : row.choices)
     if (choice != "none") all.emplace_back(choice);
