@@ -400,9 +400,9 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
 // "A" or "A:B".
 Result<PassRange> parse_passes(const std::string& text) {
   const std::size_t colon = text.find(':');
-  constexpr int largest = (1 << 24) - 1;
-  const Result<int> first = parse_whole(text.substr(0, colon), 0, largest);
-  const Result<int> last = colon == std::string::npos ? first : parse_whole(text.substr(colon + 1), 0, largest);
+  constexpr int max_number = (1 << 24) - 1;
+  const Result<int> first = parse_whole(text.substr(0, colon), 0, max_number);
+  const Result<int> last = colon == std::string::npos ? first : parse_whole(text.substr(colon + 1), 0, max_number);
   if (first && last && *first <= *last) return PassRange{*first, *last};
   return Failure{fmt::format("takes a range of passes A:B, from 0, with its last pass, as 0:3; found \"{}\"", text)};
 }

@@ -178,9 +178,9 @@ std::string sentence_of(const lab::Agreement& a, double reference_mean) {
 std::vector<std::pair<std::string, std::string>> conditions_of(const Comparison& comparison, const std::string& scene) {
   const ComparisonOptions& o = comparison.saved.options;
   const lab::ComparisonResult& r = comparison.result;
-  std::size_t fewest = ~std::size_t(0), largest = 0;
+  std::size_t min_repeats = ~std::size_t(0), max_repeats = 0;
   for (const lab::MethodResult& m : r.methods)
-    fewest = std::min(fewest, m.repeats.size()), largest = std::max(largest, m.repeats.size());
+    min_repeats = std::min(min_repeats, m.repeats.size()), max_repeats = std::max(max_repeats, m.repeats.size());
   std::vector<std::pair<std::string, std::string>> rows;
   rows.emplace_back("scene", scene);
   std::string size = fmt::format("{} × {} pixels", r.reference.mean.width, r.reference.mean.height);
@@ -193,8 +193,9 @@ std::vector<std::pair<std::string, std::string>> conditions_of(const Comparison&
   for (const auto& [key, value] : o.settings) common += fmt::format("{}{}={}", common.empty() ? "" : ", ", key, value);
   if (!common.empty()) rows.emplace_back("settings of all", common);
   rows.emplace_back("budget", budget_text(o));
-  rows.emplace_back("repeats", fewest == largest ? fmt::format("{} of each method", largest)
-                                                 : fmt::format("{} to {} of each method", fewest, largest));
+  rows.emplace_back("repeats", min_repeats == max_repeats
+                                   ? fmt::format("{} of each method", max_repeats)
+                                   : fmt::format("{} to {} of each method", min_repeats, max_repeats));
   rows.emplace_back("measure", measure_text(r.measure));
   rows.emplace_back("intervals", fmt::format("{:g} %", 100 * o.confidence));
   rows.emplace_back("reference", fmt::format("{}; its own variance is {:.2g} of the smallest error", r.reference.origin,

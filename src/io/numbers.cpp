@@ -19,7 +19,7 @@ std::string_view without_plus(std::string_view text) {
 // one division rounds correctly (Clinger 1990). No value for all others.
 std::optional<float> short_decimal(std::string_view text) {
   static constexpr std::array<float, 11> powers{1e0f, 1e1f, 1e2f, 1e3f, 1e4f, 1e5f, 1e6f, 1e7f, 1e8f, 1e9f, 1e10f};
-  constexpr std::uint32_t largest = 1u << 24;
+  constexpr std::uint32_t max_digits = 1u << 24;
   bool negative = text[0] == '-';
   std::uint32_t digits = 0;
   std::size_t fraction = 0, count = 0;
@@ -28,7 +28,7 @@ std::optional<float> short_decimal(std::string_view text) {
     unsigned digit = static_cast<unsigned>(c - '0');
     if (digit <= 9) {
       digits = digits * 10 + digit, fraction += after_point, ++count;
-      if (digits > largest) return std::nullopt;
+      if (digits > max_digits) return std::nullopt;
     } else if (c == '.' && !after_point) {
       after_point = true;
     } else {

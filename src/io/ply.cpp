@@ -130,9 +130,9 @@ class BodyReader {
  private:
   // A header must not state more than the bytes can contain.
   bool fits(const Element& element) {
-    std::size_t smallest = 0;
-    for (const Property& p : element.properties) smallest += Source::min_size(p.is_list ? p.count_type : p.type);
-    if (element.count == 0 || (smallest > 0 && element.count <= source_.left() / smallest)) return true;
+    std::size_t element_bytes = 0;
+    for (const Property& p : element.properties) element_bytes += Source::min_size(p.is_list ? p.count_type : p.type);
+    if (element.count == 0 || (element_bytes > 0 && element.count <= source_.left() / element_bytes)) return true;
     body_.problem = "it states " + std::to_string(element.count) + " of element '" + printable(element.name) +
                     "', more than its bytes can contain";
     return false;

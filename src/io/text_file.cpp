@@ -180,9 +180,9 @@ std::string without_escapes(std::string_view text) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t largest = 120;
-  std::string clean = without_control(text.substr(0, largest), '?');
-  if (text.size() > largest) clean += "...";
+  constexpr std::size_t max_length = 120;
+  std::string clean = without_control(text.substr(0, max_length), '?');
+  if (text.size() > max_length) clean += "...";
   return clean;
 }
 

@@ -218,9 +218,9 @@ LightId LightSetBuilder::add_quadric(LightKind kind, const Transform& to_world, 
   // A whole sphere that remains a sphere is sampled by its visible cap, if nothing else of it emits towards the point.
   Vec3f x = to_world.direction(Vec3f{radius, 0, 0}), y = to_world.direction(Vec3f{0, radius, 0});
   Vec3f z = to_world.direction(Vec3f{0, 0, radius});
-  float r2 = dot(x, x), largest = 1e-5f * r2;
-  bool round = std::abs(dot(y, y) - r2) < largest && std::abs(dot(z, z) - r2) < largest &&
-               std::abs(dot(x, y)) < largest && std::abs(dot(y, z)) < largest && std::abs(dot(z, x)) < largest;
+  float r2 = dot(x, x), tolerance = 1e-5f * r2;
+  bool round = std::abs(dot(y, y) - r2) < tolerance && std::abs(dot(z, z) - r2) < tolerance &&
+               std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance && std::abs(dot(z, x)) < tolerance;
   bool whole = sphere && low <= -radius && high >= radius && own.v[quadric_turn] >= 1;
   const bool far_side_shines = emission.seen_through && (flip || emission.two_sided);
   if (whole && round && !far_side_shines) {

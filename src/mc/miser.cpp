@@ -16,12 +16,12 @@ struct Box {
 // Evaluates f at uniform points of a box in batches; calls use(points, values) on each, with points within the box.
 template <class Use>
 std::uint64_t sample_box(const CubeFunction& f, const Box& box, std::uint64_t samples, CubeKey key, Use use) {
-  constexpr std::size_t largest = 256;
+  constexpr std::size_t batch = 256;
   const std::size_t dimension = box.low.size();
-  std::vector<double> points(dimension * largest), values(largest);
+  std::vector<double> points(dimension * batch), values(batch);
   std::uint64_t non_finite = 0;
   for (std::uint64_t done = 0; done < samples;) {
-    const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, samples - done));
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch, samples - done));
     fill_independent(key, {dimension, done, n, points.data()});
     for (std::size_t d = 0; d < dimension; ++d)
       for (std::size_t i = 0; i < n; ++i) {

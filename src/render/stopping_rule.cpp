@@ -34,14 +34,14 @@ bool FirstOf::stops(const RenderState& state) const {
   return std::ranges::any_of(rules_, [&](const auto& rule) { return rule->stops(state); });
 }
 double FirstOf::seconds_left(const RenderState& state) const {
-  double smallest = infinite;
-  for (const auto& rule : rules_) smallest = std::min(smallest, rule->seconds_left(state));
-  return smallest;
+  double shortest = infinite;
+  for (const auto& rule : rules_) shortest = std::min(shortest, rule->seconds_left(state));
+  return shortest;
 }
 double FirstOf::time_for_estimate(const RenderState& state) const {
-  double smallest = infinite;
-  for (const auto& rule : rules_) smallest = std::min(smallest, rule->time_for_estimate(state));
-  return smallest;
+  double shortest = infinite;
+  for (const auto& rule : rules_) shortest = std::min(shortest, rule->time_for_estimate(state));
+  return shortest;
 }
 
 }  // namespace montelux

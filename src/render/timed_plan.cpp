@@ -44,7 +44,8 @@ int unit_samples_for(const RenderSettings& settings, double sample_seconds) {
   return int(std::clamp(samples, 64.0, double(settings.plan.max_unit_samples)));
 }
 
-// The time of a series's first sample, as a function of the number of cells: a part of it may not depend on the pixels.
+// The time of the first sample of a series, as a function of the number of cells: a part of it may not depend on the
+// pixels.
 struct SeriesSeconds {
   double fixed = 0, cell = 0;
   double warm_up_share = 0;  // of the time, as far as it counts

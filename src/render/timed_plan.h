@@ -8,7 +8,7 @@ namespace montelux {
 struct TimedPlan {
   PassPlan plan;              // with a stride above 1 if less than one sample per pixel fits into the time
   double sample_seconds = 0;  // the measured time of one sample of every pixel
-  double first_seconds = 0;   // that of the first sample of the pixels of the plan, including a series's warm-up
+  double first_seconds = 0;   // that of the first sample of the pixels of the plan, including the warm-up of a series
 };
 
 // The passes have as many samples as possible while there are enough passes. Measures the speed on a part of the pixels

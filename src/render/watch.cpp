@@ -57,9 +57,9 @@ bool RenderWatch::run(WatchedWork& work, const std::function<void()>& drive, Ren
 
 void RenderWatch::report_end(WatchedWork& work, RenderObserver& observer) { observer.progress(progress(work, true)); }
 
-bool RenderWatch::wait_for_end(std::chrono::milliseconds largest) {
+bool RenderWatch::wait_for_end(std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, largest, [this] { return ended_; });
+  return changed_.wait_for(lock, limit, [this] { return ended_; });
 }
 
 void RenderWatch::look(WatchedWork& work, RenderObserver& observer) {

@@ -84,7 +84,7 @@ class RenderWatch {
   void report_end(WatchedWork& work, RenderObserver& observer);
 
  private:
-  bool wait_for_end(std::chrono::milliseconds largest);  // of `drive`; false: the time is over
+  bool wait_for_end(std::chrono::milliseconds limit);  // of `drive`; false: the time is over
   void look(WatchedWork& work, RenderObserver& observer);
   void drop_late_units(WatchedWork& work);
   void update_error(WatchedWork& work);

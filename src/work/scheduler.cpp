@@ -80,8 +80,8 @@ Scheduler::~Scheduler() = default;
 
 std::size_t Scheduler::run(std::size_t count, const UnitWork& work, const StageLimits& limits) {
   Stage stage(count, work, limits);
-  const int largest = limits.threads > 0 ? std::min(limits.threads, threads_) : threads_;
-  const int workers = int(std::min(std::size_t(largest), count));
+  const int max_workers = limits.threads > 0 ? std::min(limits.threads, threads_) : threads_;
+  const int workers = int(std::min(std::size_t(max_workers), count));
   stage.publish();
   if (workers <= 1)
     stage.run(0);

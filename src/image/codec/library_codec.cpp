@@ -68,8 +68,8 @@ bool is_plausible(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, st
   constexpr std::uint64_t small = std::uint64_t(64) << 20;
   const std::uint64_t bytes = spec.image_bytes(true), tile = spec.tile_bytes(true);
   const std::string_view compression = spec.get_string_attribute("compression");
-  const double largest = double(file_size) * max_packing(input.format_name(), compression);
-  return std::max(bytes, tile) <= small || double(std::max(bytes, tile)) <= largest;
+  const double max_bytes = double(file_size) * max_packing(input.format_name(), compression);
+  return std::max(bytes, tile) <= small || double(std::max(bytes, tile)) <= max_bytes;
 }
 
 // A file that is being read: by name, or in memory.

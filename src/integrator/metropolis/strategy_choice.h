@@ -64,9 +64,9 @@ class StrategyChoice {
   // The most events that u_events chooses in one of the lanes.
   template <class F>
   int longest(const F& u_events) const {
-    int largest = 0;
-    for (int k = 0; k < lanes_of<F>; ++k) largest = std::max(largest, events_at(lane(u_events, k)).first);
-    return largest;
+    int max_events = 0;
+    for (int k = 0; k < lanes_of<F>; ++k) max_events = std::max(max_events, events_at(lane(u_events, k)).first);
+    return max_events;
   }
 
   // u_events, u_strategy: numbers in [0, 1).

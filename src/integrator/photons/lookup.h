@@ -179,11 +179,11 @@ class PhotonLookup {
   Spectrum<F> scattered(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const F& radius_squared,
                         Share share, PhotonSink sink) const {
     using U = Uint<F>;
-    std::size_t largest = 0;
-    for_each_lane(on, [&](int k) { largest = std::max(largest, near_[std::size_t(k)].count); });
+    std::size_t max_found = 0;
+    for_each_lane(on, [&](int k) { max_found = std::max(max_found, near_[std::size_t(k)].count); });
     Spectrum<F> sum = gray(F(0.0f));
     const auto* words = reinterpret_cast<const float*>(map_.photons());
-    for (std::size_t i = 0; i < largest; ++i) {
+    for (std::size_t i = 0; i < max_found; ++i) {
       U photon(0u);
       F distance_squared(0.0f);
       std::uint32_t there = 0;

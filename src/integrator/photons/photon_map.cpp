@@ -106,7 +106,7 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
   // Cells that share an entry of the table are looked through once.
   std::array<std::uint32_t, 8> seen;
   std::size_t cells = 0;
-  const float largest = radius_ * radius_, height = similar_height * radius_;
+  const float radius_squared = radius_ * radius_, height = similar_height * radius_;
   for (std::int64_t z = z0; z <= z1; ++z)
     for (std::int64_t y = y0; y <= y1; ++y)
       for (std::int64_t x = x0; x <= x1; ++x) {
@@ -119,7 +119,7 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
           const F dx = load(x_, i) - p.x, dy = load(y_, i) - p.y, dz = load(z_, i) - p.z;
           const F d2 = dx * dx + dy * dy + dz * dz;
           const F cosine = load(nx_, i) * n.x + load(ny_, i) * n.y + load(nz_, i) * n.z;
-          const Mask<F> near = (d2 < F(largest)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
+          const Mask<F> near = (d2 < F(radius_squared)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
                                (abs(cosine) > F(similar_normals)) & (lane_index<F>() < Uint<F>(end - i));
           write_lanes(near, Uint<F>(lane_index<F>() + Uint<F>(i)), found.photon.data() + found.count);
           write_lanes(near, d2, found.distance_squared.data() + found.count);

@@ -90,8 +90,8 @@ float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapS
   constexpr double usual = 64;   // photons, where all within the radius count
   constexpr double spare = 1.5;  // of the radius, where the nearest photons are counted
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
-  const float largest = std::max(0.1f * diagonal, 1e-6f);
-  if (scene.lights.count() == 0) return largest;
+  const float largest_radius = std::max(0.1f * diagonal, 1e-6f);
+  if (scene.lights.count() == 0) return largest_radius;
 
   const PhotonPaths wanted = global_paths(settings, pixels);
   const AliasTable by_power = scene.lights.by_power();
@@ -122,14 +122,14 @@ float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapS
     std::nth_element(distances.begin(), last, distances.end());
     squared.push_back(*last);
   }
-  if (squared.empty()) return largest;
+  if (squared.empty()) return largest_radius;
   const auto middle = squared.begin() + std::ptrdiff_t(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   const double share = double(pilot_paths) / double(wanted.count) / double(neighbours);
   const bool counted = settings.nearest > 0;
   const double held = counted ? double(settings.nearest) : usual;
   const double radius = (counted ? spare : 1) * std::sqrt(double(*middle) * share * held);
-  return float(std::clamp(radius, 1e-6 * double(diagonal), double(largest)));
+  return float(std::clamp(radius, 1e-6 * double(diagonal), double(largest_radius)));
 }
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings)

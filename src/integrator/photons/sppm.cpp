@@ -104,11 +104,11 @@ float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int
     if (across > 0 && first.distance > 0) footprints.push_back(growth / std::sqrt(double(across)));
   }
   const float diagonal = scene.bounds.is_empty() ? 1.0f : length(scene.bounds.high - scene.bounds.low);
-  const double largest = std::max(0.01 * double(diagonal), 1e-6);
-  if (footprints.empty()) return float(largest);
+  const double largest_radius = std::max(0.01 * double(diagonal), 1e-6);
+  if (footprints.empty()) return float(largest_radius);
   const auto middle = footprints.begin() + std::ptrdiff_t(footprints.size() / 2);
   std::nth_element(footprints.begin(), middle, footprints.end());
-  return float(std::min(pixels * *middle, largest));
+  return float(std::min(pixels * *middle, largest_radius));
 }
 
 SppmIntegrator::SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings)

@@ -79,8 +79,8 @@ PixelGroups groups_of(const ReuseBlocks& blocks, const PixelBounds& picture, con
   for_each_block(blocks, picture, tile, [&](const ReuseBlocks::Block& block) {
     const Vec2<double> centre = blocks.centre(block);
     const double reach = blocks.reach();
-    const auto first = [&](double c, int smallest) { return std::max(int(std::floor(c - reach)), smallest); };
-    const auto last = [&](double c, int largest) { return std::min(int(std::ceil(c + reach)), largest); };
+    const auto first = [&](double c, int low) { return std::max(int(std::floor(c - reach)), low); };
+    const auto last = [&](double c, int high) { return std::min(int(std::ceil(c + reach)), high); };
     pixels.clear();
     for (int y = first(centre.y, picture.y0); y < last(centre.y, picture.y1); ++y)
       for (int x = first(centre.x, picture.x0); x < last(centre.x, picture.x1); ++x) {

@@ -30,7 +30,7 @@ struct LanePixels {
   int x(int k) const { return tile.x0 + int(lane(output, k)) % tile.width(); }
   int y(int k) const { return tile.y0 + int(lane(output, k)) / tile.width(); }
 
-  // The numbers of the pixels in the series's frame `frame`, for `purpose`.
+  // The numbers of the pixels in the frame `frame` of the series, for `purpose`.
   RandomStream<F> stream(const PointSet& points, int frame, std::uint32_t dimension, std::uint32_t purpose) const {
     Uint<F> xs = Uint<F>(0u), ys = Uint<F>(0u);
     for_each_lane(on, [&](int k) { set_lane(xs, k, std::uint32_t(x(k))), set_lane(ys, k, std::uint32_t(y(k))); });

@@ -8,7 +8,7 @@ namespace montelux {
 
 namespace {
 
-constexpr int largest = 4096;
+constexpr int max_setting = 4096;
 
 // What has proven best: for direct light, much time behind each sample; for paths, many neighbours and no frames
 // before, whose samples the mean over a series would count again.
@@ -47,15 +47,16 @@ Fields<RestirSettings> fields_of(std::string_view name) {
   using S = RestirSettings;
   const bool paths = name != "restir-di";
   Fields<S> fields;
-  fields.integer("candidates", &S::candidates, "first candidates by the light hierarchy", 0, largest)
-      .integer("power-candidates", &S::power_candidates, "first candidates by power", 0, largest)
+  fields.integer("candidates", &S::candidates, "first candidates by the light hierarchy", 0, max_setting)
+      .integer("power-candidates", &S::power_candidates, "first candidates by power", 0, max_setting)
       .boolean("bsdf", &S::bsdf_candidate, "one more candidate by the BSDF")
       .other({"groups",
               {ParameterType::boolean},
               "pixels share in groups, whose samples are evaluated at all of their pixels; off: each pixel has its "
               "own neighbours; default on, off if weights are stated"})
       .integer("neighbours", &S::neighbours, "pixels that a pixel shares with in each round", 0, 16)
-      .number("radius", &S::radius, "their distance in pixels; the blocks of groups have twice this size", 1, largest)
+      .number("radius", &S::radius, "their distance in pixels; the blocks of groups have twice this size", 1,
+              max_setting)
       .integer("rounds", &S::rounds, "rounds of spatial reuse", 0, 8)
       .boolean("similar", &S::similar,
                "share between similar pixels: in groups, the same object first; else similar normal and depth")

@@ -31,7 +31,7 @@ T value_at(const std::uint8_t* p) {
 
 // One component as a real; normalised integers are converted by glTF 2.0, 3.6.2.2.
 float real_at(const std::uint8_t* p, int code, bool normalized) {
-  const auto scaled = [&](float x, float largest) { return normalized ? std::max(x / largest, -1.0f) : x; };
+  const auto scaled = [&](float x, float max_value) { return normalized ? std::max(x / max_value, -1.0f) : x; };
   switch (code) {
     case 5120:
       return scaled(float(value_at<std::int8_t>(p)), 127);

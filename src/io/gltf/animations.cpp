@@ -151,7 +151,7 @@ std::vector<double> Track::at(double time) const {
 
 void Animation::apply(double time, std::vector<LocalPose>& poses, std::vector<std::vector<double>>& weights) const {
   // A scale of zero is replaced by a small one, so that the map can be inverted.
-  constexpr double smallest = 1e-6;
+  constexpr double min_scale = 1e-6;
   for (const Track& track : tracks) {
     const std::vector<double> value = track.at(time);
     LocalPose& pose = poses[track.node];
@@ -161,7 +161,7 @@ void Animation::apply(double time, std::vector<LocalPose>& poses, std::vector<st
       std::copy_n(value.begin(), 4, pose.rotation.begin());
     else if (track.path == AnimatedPath::scale)
       for (std::size_t i = 0; i < 3; ++i)
-        pose.scale[i] = std::abs(value[i]) < smallest ? std::copysign(smallest, value[i]) : value[i];
+        pose.scale[i] = std::abs(value[i]) < min_scale ? std::copysign(min_scale, value[i]) : value[i];
     else
       weights[track.node] = value;
   }

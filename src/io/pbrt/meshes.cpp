@@ -91,9 +91,9 @@ void remove_arrays(Entity& shape) {
 }
 
 bool subdivision_is_sensible(const Entity& shape, std::size_t triangles, Reporter& report) {
-  constexpr std::size_t largest = std::size_t{1} << 28;
+  constexpr std::size_t max_triangles = std::size_t{1} << 28;
   auto levels = static_cast<std::size_t>(shape.parameters.integer("levels", 3));
-  if ((triangles << (2 * levels)) <= largest) return true;
+  if ((triangles << (2 * levels)) <= max_triangles) return true;
   report.error(place_of(shape, "levels"),
                std::to_string(levels) + " levels give more than 2^28 triangles for " + std::to_string(triangles));
   return false;

@@ -27,8 +27,8 @@ Reference reference_of(const Film& film, int passes) {
 // but at most as many as there are, because a variance from few passes may be far too small or too large.
 int more_passes(int passes, double excess) {
   const double needed = 1.05 * passes * excess;
-  const int largest = std::min(passes, max_passes - passes);
-  return std::clamp(int(std::min(needed - passes, 1e9)), std::min(min_more, largest), largest);
+  const int max_more = std::min(passes, max_passes - passes);
+  return std::clamp(int(std::min(needed - passes, 1e9)), std::min(min_more, max_more), max_more);
 }
 
 }  // namespace

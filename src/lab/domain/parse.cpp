@@ -195,13 +195,14 @@ class Reader {
 
   Triangle triangle() {
     Triangle t;
-    std::size_t smallest = 3, largest = 0;
+    std::size_t min_coordinates = 3, max_coordinates = 0;
     const std::string_view names[] = {"a", "b", "c"};
     for (std::size_t k = 0; k < 3; ++k)
       if (const std::size_t n = corner(names[k], t.corners[k]))
-        smallest = std::min(smallest, n), largest = std::max(largest, n);
-    t.in_space = largest == 3;
-    if (largest > smallest) complain(0, text_.size(), "all corners must have two coordinates, or all three");
+        min_coordinates = std::min(min_coordinates, n), max_coordinates = std::max(max_coordinates, n);
+    t.in_space = max_coordinates == 3;
+    if (max_coordinates > min_coordinates)
+      complain(0, text_.size(), "all corners must have two coordinates, or all three");
     if (!(*t.volume() > 0)) complain(0, text_.size(), "the corners are collinear");
     return t;
   }

@@ -101,9 +101,9 @@ void operate(Operation operation, View a, View b, std::size_t n, double* out) {
 
 void Program::run(std::span<const double* const> columns, std::span<double> values) const {
   // One slot for each pending instruction, and one for each constant argument of a function.
-  std::size_t largest = 0;
-  for (const Instruction& i : instructions) largest = std::max(largest, i.operands.size());
-  const auto memory = std::make_unique_for_overwrite<double[]>((slots + largest) * block);
+  std::size_t max_operands = 0;
+  for (const Instruction& i : instructions) max_operands = std::max(max_operands, i.operands.size());
+  const auto memory = std::make_unique_for_overwrite<double[]>((slots + max_operands) * block);
   std::vector<const double*> arguments;
   for (std::size_t begin = 0; begin < values.size(); begin += block) {
     const std::size_t n = std::min(block, values.size() - begin);

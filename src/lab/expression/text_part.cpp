@@ -8,14 +8,14 @@ TextPart trimmed(TextPart part) {
   return part;
 }
 
-std::vector<TextPart> split(TextPart whole, char at, std::size_t largest) {
+std::vector<TextPart> split(TextPart whole, char at, std::size_t max_parts) {
   std::vector<TextPart> parts;
   std::size_t begin = 0;
   int depth = 0;
   for (std::size_t i = 0; i < whole.text.size(); ++i) {
     const char c = whole.text[i];
     depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (c != at || depth > 0 || parts.size() + 1 >= largest) continue;
+    if (c != at || depth > 0 || parts.size() + 1 >= max_parts) continue;
     parts.push_back({whole.text.substr(begin, i - begin), whole.begin + begin});
     begin = i + 1;
   }

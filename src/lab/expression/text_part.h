@@ -14,6 +14,6 @@ struct TextPart {
 // Without white space at its ends.
 TextPart trimmed(TextPart part);
 // Splits at a character, but not within brackets; into at most `most` parts.
-std::vector<TextPart> split(TextPart whole, char at, std::size_t largest = std::string_view::npos);
+std::vector<TextPart> split(TextPart whole, char at, std::size_t max_parts = std::string_view::npos);
 
 }  // namespace montelux::lab

@@ -170,20 +170,20 @@ Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_
   }
 
   // Those that can still win get twice the samples, as long as the budget of the pilots suffices.
-  const auto smallest = [&] {
+  const auto lowest = [&] {
     return std::min_element(pilots.begin(), pilots.end(),
                             [](const Pilot& a, const Pilot& b) { return a.predicted < b.predicted; });
   };
   constexpr double hopeless = 2.5;  // in the logarithm of the predicted variance
   for (std::uint64_t to = 2 * first;; to *= 2) {
-    const double limit = smallest()->predicted + hopeless;
+    const double limit = lowest()->predicted + hopeless;
     std::vector<Pilot*> alive;
     for (Pilot& p : pilots)
       if (p.predicted <= limit && p.length == to / 2) alive.push_back(&p);
     if (alive.size() < 2 || spent + double(to / 2 * passes * alive.size()) > budget) break;
     for (Pilot* p : alive) grow(*p, to);
   }
-  const Pilot& best = *smallest();
+  const Pilot& best = *lowest();
   Choice choice{best.method, explain(pilots, best, gain)};
   for (const Pilot& p : pilots) {
     choice.evaluations += p.evaluations();

@@ -55,17 +55,17 @@ void DensitySampler::tabulate() {
     for (std::size_t i = 0; i < total; ++i) mass[i] += checked(values[i]);
   }
   // A cell that seems empty next to one that is not may contain a little: it gets a small share, so that it is sampled.
-  std::vector<double> smallest(total);
+  std::vector<double> floors(total);
   std::size_t stride = 1;
   for (std::size_t d = 0; d < dimension_; ++d, stride *= cells_)
     for (std::size_t i = 0; i < total; ++i) {
       const std::size_t place = i / stride % cells_;
-      if (place > 0) smallest[i] = std::max(smallest[i], 1e-3 * mass[i - stride]);
-      if (place + 1 < cells_) smallest[i] = std::max(smallest[i], 1e-3 * mass[i + stride]);
+      if (place > 0) floors[i] = std::max(floors[i], 1e-3 * mass[i - stride]);
+      if (place + 1 < cells_) floors[i] = std::max(floors[i], 1e-3 * mass[i + stride]);
     }
   double sum = 0;
   cumulated_.push_back(0);
-  for (std::size_t i = 0; i < total; ++i) cumulated_.push_back(sum += std::max(mass[i], smallest[i]));
+  for (std::size_t i = 0; i < total; ++i) cumulated_.push_back(sum += std::max(mass[i], floors[i]));
   if (!(sum > 0)) throw std::invalid_argument("a density is 0 at all tested points");
   for (double& c : cumulated_) c /= sum;
 }

@@ -39,8 +39,8 @@ std::uint64_t planned_samples(const Budget& budget) {
 
 // A share of the samples small enough to cost little if it is useless, and no more than a map can use.
 std::uint64_t training_plan(std::uint64_t samples) {
-  constexpr std::uint64_t smallest = 128, largest = 1u << 16;
-  return std::clamp<std::uint64_t>(samples / 6, smallest, largest);
+  constexpr std::uint64_t min_samples = 128, max_samples = 1u << 16;
+  return std::clamp<std::uint64_t>(samples / 6, min_samples, max_samples);
 }
 
 // The state of a run before its first pass.
@@ -102,12 +102,12 @@ void probe_if_needed(const Problem& problem, IntegralState& state) {
 
 MissedRegion measure_missed(const Integrand& integrand, const BatchFunction& support, std::uint64_t seed,
                             std::uint64_t samples) {
-  const std::size_t dimension = integrand.dimension, largest = batch_size(dimension);
-  std::vector<double> points(dimension * largest), p(largest), f(largest);
+  const std::size_t dimension = integrand.dimension, capacity = batch_size(dimension);
+  std::vector<double> points(dimension * capacity), p(capacity), f(capacity);
   MissedRegion region;
   Moments moments;
   for (std::uint64_t done = 0; done < samples;) {
-    const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, samples - done));
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(capacity, samples - done));
     const PointBatch batch{std::span(points).first(dimension * n), dimension, n};
     fill_independent(CubeKey::of(seed, ~0u).fork(0xdec1a7edu), {dimension, done, n, points.data()});
     support(batch, std::span(p).first(n));
@@ -188,16 +188,16 @@ bool DensityReport::normalised() const { return std::abs(integral - 1) <= std::m
 
 DensityReport inspect_density(const Problem& problem, std::size_t which, std::uint64_t samples, std::uint64_t seed) {
   const UserDensity& density = problem.densities.at(which);
-  const std::size_t dimension = problem.integrand.dimension, largest = batch_size(dimension);
+  const std::size_t dimension = problem.integrand.dimension, batch = batch_size(dimension);
   constexpr std::uint32_t passes = 16;
   DensityReport report;
   Moments over_passes;
-  std::vector<double> points(dimension * largest), p(largest);
-  const std::uint64_t length = std::bit_ceil(std::max<std::uint64_t>(samples / passes, largest));
+  std::vector<double> points(dimension * batch), p(batch);
+  const std::uint64_t length = std::bit_ceil(std::max<std::uint64_t>(samples / passes, batch));
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     Moments inside;
     for (std::uint64_t done = 0; done < length;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, length - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch, length - done));
       fill_sobol(CubeKey::of(seed, ~0u).fork(pass), {dimension, done, n, points.data()});
       density.density({std::span(points).first(dimension * n), dimension, n}, std::span(p).first(n));
       for (std::size_t i = 0; i < n; ++i) {

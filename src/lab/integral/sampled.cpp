@@ -40,14 +40,14 @@ void add_terms(std::span<const double> terms, double& sum, double& magnitude) {
 
 // Buffers of one part: points by coordinate, and the values at them.
 struct Batch {
-  std::size_t dimension, largest;
+  std::size_t dimension, capacity;
   std::vector<double> points, values, jacobian, control;
 
   Batch(std::size_t d, std::uint64_t count)
       : dimension(d),
-        largest(std::size_t(std::min<std::uint64_t>(batch_size(d), count))),
-        points(d * largest),
-        values(largest) {}
+        capacity(std::size_t(std::min<std::uint64_t>(batch_size(d), count))),
+        points(d * capacity),
+        values(capacity) {}
   std::span<double> coordinates(std::size_t n) { return std::span(points).first(dimension * n); }
 };
 
@@ -87,7 +87,7 @@ class Sampled final : public Technique {
     TermSums sums;
     if (map_) add_uniform_share(part, batch, sums);
     for (std::uint64_t done = 0; done < part.count;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, part.count - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.capacity, part.count - done));
       fill(part, shape, {integrand_.dimension, part.first + done, n, batch.points.data()});
       evaluate(batch, n, sums);
       done += n;
@@ -125,9 +125,9 @@ class Sampled final : public Technique {
   void add_uniform_share(const PassPart& part, Batch& batch, TermSums& sums) const {
     const CubeKey key = part.key.fork(uniform_purpose);
     const std::uint64_t first = part.first / points_per_uniform, all = part.count / points_per_uniform;
-    std::vector<double> density(batch.largest);
+    std::vector<double> density(batch.capacity);
     for (std::uint64_t done = 0; done < all;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, all - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.capacity, all - done));
       fill_points(key, {integrand_.dimension, first + done, n, batch.points.data()});
       map_->density(batch.coordinates(n), std::span(density).first(n));
       const std::span<double> values = std::span(batch.values).first(n);
@@ -195,7 +195,7 @@ StepSums squares_in_bins(const Integrand& integrand, const AdaptiveMap& map, Cub
   std::vector<double> sums(dimension * bins), uniform;
   double mean = 0, mapped_square = 0, plain_square = 0;
   for (std::uint64_t done = 0; done < samples;) {
-    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.largest, samples - done));
+    const std::size_t n = std::size_t(std::min<std::uint64_t>(batch.capacity, samples - done));
     fill_sobol(key, {dimension, done, n, batch.points.data()});
     uniform.assign(batch.points.begin(), batch.points.begin() + std::ptrdiff_t(dimension * n));
     batch.jacobian.assign(n, 1.0);
@@ -228,8 +228,8 @@ constexpr std::array<double, MapTraining::steps> step_shares{0.4, 0.031, 0.047, 
 // A power of two: the edges of the bins, where the map is not smooth, are then also edges of the strata of a Sobol'
 // net, which reduces its error by a factor of tens.
 std::size_t bins_for(std::uint64_t samples) {
-  constexpr std::uint64_t smallest = 8, largest = 128, samples_per_bin = 24;
-  return std::size_t(std::bit_floor(std::clamp(samples / samples_per_bin, smallest, largest)));
+  constexpr std::uint64_t min_bins = 8, max_bins = 128, samples_per_bin = 24;
+  return std::size_t(std::bit_floor(std::clamp(samples / samples_per_bin, min_bins, max_bins)));
 }
 
 }  // namespace

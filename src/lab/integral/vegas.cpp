@@ -79,15 +79,15 @@ class Vegas final : public Technique {
 
   // Uniform samples in the boxes, as many as stated, in the order of the boxes.
   std::vector<BoxSums> sample_boxes(CubeKey key, std::span<const std::uint64_t> samples, TermSums& sums) const {
-    const std::size_t dimension = integrand_.dimension, largest = batch_size(dimension);
-    std::vector<double> points(dimension * largest), values(largest), jacobian(largest);
-    std::vector<std::uint32_t> box_of(largest);
+    const std::size_t dimension = integrand_.dimension, batch = batch_size(dimension);
+    std::vector<double> points(dimension * batch), values(batch), jacobian(batch);
+    std::vector<std::uint32_t> box_of(batch);
     std::vector<Moments> boxes(samples.size());
     std::uint64_t total = 0, left = samples[0];
     for (std::uint64_t n : samples) total += n;
     std::size_t box = 0;
     for (std::uint64_t done = 0; done < total;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, total - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch, total - done));
       for (std::size_t i = 0; i < n; ++i) {
         while (left == 0) left = samples[++box];
         box_of[i] = std::uint32_t(box), --left;

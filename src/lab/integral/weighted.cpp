@@ -22,11 +22,11 @@ class Importance final : public Technique {
     return [this](PointBatch points, std::span<double> values) { sampler_.density(points, values); };
   }
   TermSums run(const PassPart& part) const override {
-    const std::size_t dimension = integrand_.dimension, largest = batch_size(dimension);
-    std::vector<double> points(dimension * largest), values(largest), density(largest);
+    const std::size_t dimension = integrand_.dimension, batch = batch_size(dimension);
+    std::vector<double> points(dimension * batch), values(batch), density(batch);
     TermSums sums;
     for (std::uint64_t done = 0; done < part.count;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, part.count - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch, part.count - done));
       const std::span<double> x = std::span(points).first(dimension * n), v = std::span(values).first(n);
       sums.proposed += sampler_.sample(part.key, part.first + done, n, x).proposed;
       integrand_.evaluate({x, dimension, n}, v);
@@ -75,10 +75,10 @@ class MultipleImportance final : public Technique {
 
   TermSums run(const PassPart& part) const override {
     const std::uint64_t techniques = samplers_.size(), rounds = part.count / techniques;
-    const std::size_t largest = std::max<std::size_t>(16, batch_size(integrand_.dimension) / techniques);
+    const std::size_t batch = std::max<std::size_t>(16, batch_size(integrand_.dimension) / techniques);
     TermSums sums;
     for (std::uint64_t done = 0; done < rounds;) {
-      const std::size_t n = std::size_t(std::min<std::uint64_t>(largest, rounds - done));
+      const std::size_t n = std::size_t(std::min<std::uint64_t>(batch, rounds - done));
       for (std::size_t k = 0; k < techniques; ++k) run_technique(part, k, part.first / techniques + done, n, sums);
       done += n;
     }
@@ -138,10 +138,10 @@ class Resampled final : public Technique {
     };
   }
   TermSums run(const PassPart& part) const override {
-    const std::uint64_t largest = std::max<std::uint64_t>(1, batch_size(integrand_.dimension) / candidates_);
+    const std::uint64_t batch = std::max<std::uint64_t>(1, batch_size(integrand_.dimension) / candidates_);
     TermSums sums;
     for (std::uint64_t done = 0; done < part.count;) {
-      const std::uint64_t n = std::min(largest, part.count - done);
+      const std::uint64_t n = std::min(batch, part.count - done);
       estimates(part.key, part.first + done, std::size_t(n), sums);
       done += n;
     }

@@ -79,7 +79,7 @@ TEST(WarmUp, has_its_own_seconds_whatever_the_number_of_threads) {
     const RenderResult r = render(timed, settings(clock, {2, 3}, threads), silent);
     EXPECT_EQ(r.warm_up, 3 * timed.warm_up_seconds());
     EXPECT_EQ(r.shown_seconds(), 3 * (begin_seconds + 2 * frame_seconds));
-    // Planted faults: the time is shared out by the number of frames; a series's beginning is taken for warm-up.
+    // Planted faults: the time is shared out by the number of frames; the beginning of a series is taken for warm-up.
     EXPECT_NE(r.warm_up, r.seconds * warm_up / (warm_up + 2));
     EXPECT_NE(r.warm_up, 3 * (timed.warm_up_seconds() + begin_seconds));
   }
