@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PICTURES, CHAINS, SEEDS = 6, 8, 8
+PICTURES, SERIES, SEEDS = 6, 8, 8
 STUDENT = 2.365  # 97.5 %, one degree of freedom less than seeds
 WAYS = ["candidates=1,neighbours=0", "candidates=1", "candidates=8,visibility-reuse=off"]
 SCENES = ["pan-grey", "pan-colour"]
@@ -29,7 +29,7 @@ def render(settings, scene, way, seed):
     """The first and the last picture."""
     pattern = settings.folder / "picture.#.pfm"
     subprocess.run([settings.montelux, "render", scene, "--frames", f"0:{PICTURES - 1}/{PICTURES}", "--integrator",
-                    f"restir-di:frames=1,{way}", "--spp", str(CHAINS), "--seed", str(seed), "--quiet", "-o", pattern],
+                    f"restir-di:frames=1,{way}", "--spp", str(SERIES), "--seed", str(seed), "--quiet", "-o", pattern],
                    check=True, stdout=subprocess.DEVNULL)
     return [read_pfm(settings.folder / f"picture.{k}.pfm") for k in (0, PICTURES - 1)]
 
@@ -40,7 +40,7 @@ def relative_error(sums, squares, n):
     for s, q in zip(sums, squares):
         mean = s / n
         total += (q - s * mean) / (n - 1) / (mean * mean + 0.01)
-    return total * CHAINS / len(sums)
+    return total * SERIES / len(sums)
 
 
 def error(pictures):

@@ -51,7 +51,8 @@ Result<MethodText> read_method(const std::string& typed, const std::vector<Setti
   if (Status named = read_name(typed, method); !named) return named.failure();
   auto choice = parse_choice(method.text);
   if (!choice) return choice.failure();
-  for (const Setting& setting : common)
+  *choice = with_present_names(*std::move(choice));
+  for (const Setting& setting : with_present_names({choice->name, common}).settings)
     if (!has_setting(*choice, setting.first)) choice->settings.push_back(setting);
   method.integrator = *choice;
   std::erase_if(method.integrator.settings, [](const Setting& s) { return s.first == "sampler"; });

@@ -65,6 +65,7 @@ Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& opt
       parse_choice(options.integrator.value_or(preset ? std::string(preset->integrator) : picture.integrator));
   if (!choice) return choice.failure();
   choice->settings.insert(choice->settings.end(), options.settings.begin(), options.settings.end());
+  *choice = with_present_names(*std::move(choice));
   const Stopwatch since_choice;
   if (choice->name == "auto") {
     if (Status good = plan_automatic(*choice, parts, options, plan); !good) return good;

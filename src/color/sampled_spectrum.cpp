@@ -74,7 +74,7 @@ double photometric_scale(const SampledSpectrum& emission) {
   return y > 0.0 ? 1.0 / y : 0.0;
 }
 
-// Of a reflectance under this light, relative to a perfect white.
+// The colour of a reflectance under this light, relative to a perfect white.
 static Rgb seen_under(const SampledSpectrum& light, const SampledSpectrum& reflectance) {
   Xyz white, seen;
   for_each_nanometre([&](double w, const Xyz& matching) {

@@ -443,6 +443,12 @@ Result<std::pair<const Row*, ParameterList>> read_choice(const ChoiceText& choic
 
 }  // namespace
 
+ChoiceText with_present_names(ChoiceText choice) {
+  if (const EntitySpec* spec = find_entity(integrator_catalogue(), choice.name))
+    choice.settings = with_present_names(*spec, std::move(choice.settings));
+  return choice;
+}
+
 Status check_integrator(const ChoiceText& choice) {
   auto read = read_choice(choice);
   if (!read) return read.failure();

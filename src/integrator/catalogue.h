@@ -60,6 +60,8 @@ void note_missing_light(ChosenIntegrator& chosen, const IntegratorDefaults& defa
 
 // How an integrator of the catalogue looks for light; `text`: its name, perhaps with settings.
 LightSearch light_search(std::string_view text);
+// The same choice, whose settings have their present names where they were stated by earlier ones.
+ChoiceText with_present_names(ChoiceText choice);
 // Its ChosenIntegrator::chain_length.
 int chain_length(std::string_view text);
 

@@ -63,6 +63,8 @@ class ClampedCoupledIntegrator final : public CoupledIntegrator {
       return counts;
     }
     std::unique_ptr<SeriesMemory> remember(int frames) override { return inner_->remember(frames); }
+    // Not measured_bias(), which is that of samples that are not scaled down.
+    std::optional<MixingFigures> mixing() const override { return inner_->mixing(); }
 
    private:
     std::unique_ptr<FrameSeries> inner_;

@@ -112,9 +112,13 @@ class LayerTally {
     brightness = 0;
   }
 
-  // Takes back a sample that is done, of a tile with one sample for each pixel, because something that was added later
-  // is not finite.
-  void leave_out(std::uint32_t output) {
+  // The sample of a pixel is complete, to which light was added in several parts, each with a finish() of its own: of a
+  // tile with one sample for each pixel. One that is not finite, or beyond what the sums can hold, is in no layer.
+  void settle(std::uint32_t output, PixelSample& sample) {
+    bool good = true;
+    for (float x : sample.radiance.c) good = good && x < ExactSum::largest && -x < ExactSum::largest;
+    if (good) return;
+    sample.radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
     std::fill_n(sums_.begin() + std::ptrdiff_t(output * stride_), stride_, ExactRgb{});
   }
 

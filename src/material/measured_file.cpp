@@ -117,13 +117,18 @@ Numbers tables(const FieldReader& file, std::string_view name, std::vector<std::
 
 AzimuthSymmetry symmetry_of(const std::vector<float>& azimuths) {
   const float first = azimuths.front(), range = azimuths.back() - first;
-  const long parts = std::lround(std::min(2 * pi / range, 100.0f));
-  if (parts == 1) return AzimuthSymmetry::none;
-  if (std::abs(first + pi) < 0.01f && parts == 2) return AzimuthSymmetry::half_turn;
-  if (std::abs(first + pi) < 0.01f && parts == 4) return AzimuthSymmetry::two_mirrors;
-  throw Invalid(fmt::format(
-      "field 'phi_i' is from {:.4g} to {:.4g}; it should be the whole circle, or a half or a quarter of it from -pi",
-      first, azimuths.back()));
+  // The last azimuth may be that of the end, or one step before it.
+  const float step = range / float(azimuths.size() - 1);
+  const auto covers = [&](float part) {
+    return std::abs(first + pi) < 0.01f && range > part - 1.5f * step - 0.01f && range < part + 0.01f;
+  };
+  if (covers(pi / 2)) return AzimuthSymmetry::two_mirrors;
+  if (covers(pi)) return AzimuthSymmetry::half_turn;
+  if (covers(2 * pi)) return AzimuthSymmetry::none;
+  throw Invalid(
+      fmt::format("field 'phi_i' is from {:.4g} to {:.4g}; it should begin at -pi and be the whole circle, a half or a "
+                  "quarter of it",
+                  first, azimuths.back()));
 }
 
 // Red, green and blue side by side, from channels that are tables.

@@ -66,14 +66,6 @@ bool in_range(const ParameterSpec& spec, float value) {
   return std::isfinite(value) && value >= float(spec.low) && value <= float(spec.high);
 }
 
-// By its name or its earlier one.
-const ParameterSpec* find_setting(const EntitySpec& entity, const std::string& name) {
-  if (const ParameterSpec* spec = find_parameter(entity, name)) return spec;
-  for (const ParameterSpec& spec : entity.parameters)
-    if (!spec.formerly.empty() && spec.formerly == name) return &spec;
-  return nullptr;
-}
-
 using TypedValues = std::pair<ParameterType, Values>;
 
 // The value in the first of the parameter's types that can hold it.
@@ -111,13 +103,23 @@ Result<ChoiceText> parse_choice(std::string_view text) {
   return choice;
 }
 
-Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<Setting>& settings,
+std::vector<Setting> with_present_names(const EntitySpec& entity, std::vector<Setting> settings) {
+  for (auto& [name, text] : settings) {
+    if (find_parameter(entity, name)) continue;
+    for (const ParameterSpec& spec : entity.parameters)
+      if (!spec.formerly.empty() && spec.formerly == name) name = spec.name;
+  }
+  return settings;
+}
+
+Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<Setting>& stated,
                                     std::string_view family) {
+  const std::vector<Setting> settings = with_present_names(entity, stated);
   ParameterList list;
   std::string wrong;
   const auto complain = [&](const std::string& message) { wrong += (wrong.empty() ? "" : "; ") + message; };
   for (const auto& [name, text] : settings) {
-    const ParameterSpec* spec = find_setting(entity, name);
+    const ParameterSpec* spec = find_parameter(entity, name);
     if (!spec) {
       std::vector<std::string_view> names;
       for (const ParameterSpec& p : entity.parameters) names.push_back(p.name);
@@ -129,7 +131,7 @@ Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<
     const bool may_be_none = std::ranges::find(spec->choices, "none") != spec->choices.end();
     if (may_be_none && text == "none" && spec->types.front() != ParameterType::string) continue;
     if (auto typed = read_value(*spec, text))
-      list.add({std::string(spec->name), typed->first, std::move(typed->second), {}});
+      list.add({name, typed->first, std::move(typed->second), {}});
     else
       complain(fmt::format("{} takes {}; found \"{}\"{}", name, expected(*spec), text,
                            did_you_mean(text, {spec->choices.begin(), spec->choices.end()})));

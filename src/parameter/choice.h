@@ -17,9 +17,13 @@ struct ChoiceText {
 // separate.
 Result<ChoiceText> parse_choice(std::string_view text);
 
-// The typed values of the settings. Fails with one message that lists everything that is wrong: unknown names (with the
-// closest valid one), values of another type, out of range, or not among the choices (likewise). `none` is accepted by
-// parameters whose choices contain "none", whatever their type, and is omitted from the list.
+// The settings by the present names of their parameters, where they are stated by earlier ones.
+std::vector<Setting> with_present_names(const EntitySpec& entity, std::vector<Setting> settings);
+
+// The typed values of the settings, which may have earlier names. Fails with one message that lists everything that is
+// wrong: unknown names (with the closest valid one), values of another type, out of range, or not among the choices
+// (likewise). `none` is accepted by parameters whose choices contain "none", whatever their type, and is omitted from
+// the list.
 Result<ParameterList> read_settings(const EntitySpec& entity, const std::vector<Setting>& settings,
                                     std::string_view family);
 

@@ -149,7 +149,7 @@ class SeriesJob final : public WatchedWork {
 
   // What follows is called with the mutex held.
 
-  // When all tiles of a step are done.
+  // When all units of a step are done.
   void finish_step() {
     if (++step_.stage == integrator_.stages()) finish_frame();
   }

@@ -4,7 +4,7 @@
 
 namespace montelux {
 
-// Implements render() for coupled integrators. Threads share the tiles of each step of a series, and wait for each
+// Implements render() for coupled integrators. Threads share the units of each step of a series, and wait for each
 // other between steps. A render that is stopped ends between frames. Its last series counts as a pass with fewer
 // frames: it has the right mean, and passes are independent, so that their spread is still a valid error bar.
 RenderResult render_series(const CoupledIntegrator& integrator, const RenderSettings& settings,

@@ -29,9 +29,8 @@ struct Arriving {
   Mask<F> on;        // nothing blocks it
 };
 // From a point at that distance along the unit wi; `v` is a Vertex or a StoredVertex. `in_media`: the scene has
-// participating media. `random` decides for surfaces that are interfaces at times. Without
-// `with_passing` that probability is not computed. Adds the rays that are traced to
-// `traced`.
+// participating media. `random` decides for surfaces that are interfaces at times. Without `with_passing` that
+// probability is not computed. Adds the rays that are traced to `traced`.
 template <class F, bool in_media = false, bool with_passing = true, class V, class Rays>
 MONTELUX_INLINE Arriving<F> arriving_from(const Scene& scene, const Rays& rays, const V& v, const Vec3<F>& wi,
                                           F distance, Mask<F> on, const RandomStream<F>& random,

@@ -71,11 +71,12 @@ struct DirectLight {
   BsdfValue<F> scattered(const Vec3<F>& wi, M on) const {
     return evaluate<F>(at.bsdf.lanes(on), at.wo, at.bsdf.frame.to_local(wi), at.context);
   }
-  // What arrives of light that comes along wi from that distance.
-  Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on) const {
+  // What arrives of light that comes along wi from that distance. `is_left`: what bodies of glass take on the way has
+  // been taken from it.
+  Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on, bool is_left = false) const {
     const Arriving<F> seen = arriving_from<F>(scene, rays, at, wi, distance, M(on & (max_component(light) > F(0.0f))),
                                               at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
-    return select(seen.on, light * seen.left, gray(F(0.0f)));
+    return select(seen.on, is_left ? light : light * seen.left, gray(F(0.0f)));
   }
 
   // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
@@ -158,8 +159,10 @@ struct DirectLight {
     const ResampledLight<F> chosen = resample_light<F>(
         settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
-        [&](const LightSample<F>& light, M queries) { return scattered(light.wi, queries).f_cos * light.radiance; });
-    const Spectrum<F> contribution = arriving(chosen.wi, chosen.distance, chosen.value, on);
+        [&](const LightSample<F>& light, M queries) {
+          return scattered(light.wi, queries).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);
+        });
+    const Spectrum<F> contribution = arriving(chosen.wi, chosen.distance, chosen.value, on, true);
     record_sample(chosen.u_choice, contribution, on & (max_component(contribution) > F(0.0f)));
     return contribution;
   }

@@ -21,16 +21,16 @@ class BiasPairs {
   // Paths of the unbiased estimate at each sample, in strata.
   static HemisphereStrata strata() { return HemisphereStrata::of(16); }
 
-  // Which samples of a tile are compared, by output: a random share of them. Empty if there are none.
+  // Which samples of a tile are compared, by their number in the tile: a random share of them. Empty if there are none.
   static std::vector<std::uint8_t> choose(const PointSet& points, int frame, const PixelBounds& tile, float share) {
     const RandomStream<float> all =
         RandomStream<float>(mix_bits(points.seed ^ 0x3c6ef372u), points.pass).fork(std::uint32_t(frame));
     std::vector<std::uint8_t> compared(std::size_t(tile.area()));
-    std::size_t output = 0, count = 0;
+    std::size_t number = 0, count = 0;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const bool chosen = all.fork(std::uint32_t(y)).at(std::uint32_t(x)) < share;
-        compared[output++] = chosen ? 1 : 0, count += chosen ? 1 : 0;
+        compared[number++] = chosen ? 1 : 0, count += chosen ? 1 : 0;
       }
     return count > 0 ? compared : std::vector<std::uint8_t>{};
   }

@@ -22,16 +22,16 @@ class CachedPaths {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
-  // `slots`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
+  // `outputs`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
   // `compared`: by output, 1 where cached() keeps what the cache shows; empty: nowhere.
-  CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t slots, bool by_depth,
+  CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t outputs, bool by_depth,
               std::span<const std::uint8_t> compared = {})
       : starts_(starts),
         cache_(cache),
         by_depth_(by_depth),
         compared_(compared),
-        deepest_(slots, endless),
-        is_smooth_(slots, 1) {}
+        deepest_(outputs, endless),
+        is_smooth_(outputs, 1) {}
 
   // Points where the cache has no record, on paths that arrived there by mirrors and smooth glass alone. All paths
   // without a record continue.

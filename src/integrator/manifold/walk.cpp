@@ -39,8 +39,8 @@ ChainMiss miss_of(const SpecularChain& c, const DeltaLight& light) {
   const Vec3d way = light.place - c.p;
   const double distance = light.is_distant ? 1 : std::max(norm(way), 1e-30);
   const Vec3d l = light.is_distant ? light.place : way * (1 / distance);
-  const Vec3d smallest = abs_of(l).x < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  const Vec3d s = unit(cross(l, smallest)), t = cross(l, s);
+  const Vec3d axis = abs_of(l).x < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d s = unit(cross(l, axis)), t = cross(l, s);
   // (2 s.d, 2 t.d) / (1 + d.l), twice the tangent of half the angle: its derivative, with axes that turn with l.
   const double cosine = dot(c.d, l), scale = 2 / std::max(1 + cosine, 1e-6);
   const std::array<double, 2> across{dot(s, c.d), dot(t, c.d)};

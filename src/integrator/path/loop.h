@@ -40,6 +40,12 @@ MONTELUX_INLINE F survival_probability(const PathSettings& settings, const PathS
   return survival_by_throughput(path);
 }
 
+// How much a vertex scatters of light from one direction, and what bodies of glass leave of it on its way.
+template <class F>
+struct ScatteredLight {
+  BsdfValue<F> value;
+  Spectrum<F> left;
+};
 // A vertex that receives light, as resampled_light takes it.
 template <class F>
 struct LitVertex {
@@ -52,7 +58,7 @@ struct LitVertex {
 // BSDF sampling has in a light is decided by the density of the candidates, which is known wherever a path may meet
 // the light: the weights of the two sum to 1 in every direction, and resampling estimates the integral of its own share
 // without bias whatever that is (Veach and Guibas 1995; Talbot, Cline and Egbert 2005, sec. 3). evaluate(light, lanes)
-// gives the BsdfValue for light from there.
+// gives a ScatteredLight.
 template <class F, class Evaluate>
 ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& settings, const LitVertex<F>& at,
                                   Evaluate evaluate_light) {
@@ -60,10 +66,11 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       settings.candidates, at.random.fork(Uint<F>(resampling_stream)), at.on,
       [&](F u_choice, Vec2<F> u) { return lights.template sample<F>(at.p, at.light_normal, u_choice, u, at.on); },
       [&](const LightSample<F>& light, Mask<F> wanted) {
-        const BsdfValue<F> scattered = evaluate_light(light, wanted);
-        const F share = select(light.delta, F(1.0f),
-                               weight_of_light_sample(settings.light_weights(), light.density, scattered.density));
-        return scattered.f_cos * light.radiance * share;
+        const ScatteredLight<F> scattered = evaluate_light(light, wanted);
+        const F share =
+            select(light.delta, F(1.0f),
+                   weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density));
+        return scattered.value.f_cos * light.radiance * scattered.left * share;
       });
 }
 
@@ -212,11 +219,14 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     M shadow = lit & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
-      const ResampledLight<F> chosen =
-          resampled_light<F>(lights, settings, {v.x.point.p, v.bsdf.light_normal, context.random, wants_light},
-                             [&](const LightSample<F>& sample, M wanted) {
-                               return evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
-                             });
+      const ResampledLight<F> chosen = resampled_light<F>(
+          lights, settings, {v.x.point.p, v.bsdf.light_normal, context.random, wants_light},
+          [&](const LightSample<F>& sample, M wanted) -> ScatteredLight<F> {
+            const BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
+            // In media the shadow ray finds the transmittance.
+            if constexpr (in_media) return {value, gray(F(1.0f))};
+            return {value, v.left_of_light(sample.wi, sample.distance)};
+          });
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
       light_choice = chosen.u_choice;
       shadow = wants_light & (max_component(direct) > F(0.0f));
@@ -225,7 +235,9 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       const Arriving<F> seen =
           arriving_from<F, in_media, false>(scene, rays, v, light.wi, light.distance, shadow,
                                             context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
-      gather_light(path, seen.on, direct * seen.left, tally, [&] {
+      // What is resampled has been weighed by what bodies of glass leave of it.
+      const bool is_left = !in_media && settings.candidates > 0;
+      gather_light(path, seen.on, is_left ? direct : direct * seen.left, tally, [&] {
         // The choice is made once more: the same numbers give the same light.
         const U chosen = lights.template choose<F>(v.x.point.p, v.bsdf.light_normal, light_choice, wants_light).light;
         return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};

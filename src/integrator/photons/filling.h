@@ -39,8 +39,10 @@ inline std::optional<float> shared_shutter_sample(const Scene& scene, const Seri
 }
 
 // A flux that is not a number has no place in the picture: it shows in the first pixel.
-inline void show_broken(std::span<PixelSample> out) {
+// `sums`: of the layers of the tile, as FrameSeries::run_layers() has them; empty without layers.
+inline void show_broken(std::span<PixelSample> out, std::span<ExactRgb> sums) {
   out[0].radiance = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(sums.begin(), sums.size() / out.size(), ExactRgb{});
 }
 
 template <class F, class Rays>

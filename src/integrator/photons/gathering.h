@@ -1,7 +1,6 @@
 // Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
 #pragma once
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "integrator/first_vertex.h"
@@ -82,7 +81,7 @@ class PhotonGathering {
     gather(pass);
     for (std::size_t i = 0; i < gathered_.size(); ++i) {
       out[i].radiance += to_rgb(gathered_[i]);
-      if (tallies_ && !std::isfinite(max_component(gathered_[i]))) (*tallies_)[0].leave_out(std::uint32_t(i));
+      if (tallies_) (*tallies_)[0].settle(std::uint32_t(i), out[i]);
     }
     return counts_;
   }

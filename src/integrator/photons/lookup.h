@@ -46,7 +46,7 @@ struct PhotonRules {
 class PhotonLookup {
  public:
   // `nearest`: so many photons at most, within the distance of the next one; 0: all within the map's radius.
-  // `light_of_path`: for light_of(), whose map keeps the paths of its photons.
+  // `light_of_path`: the light of each path, for light_of(), which also needs a map that keeps paths.
   PhotonLookup(const PhotonMap& map, PhotonKernel kernel, int nearest = 0, const std::uint32_t* light_of_path = nullptr)
       : map_(map), kernel_(kernel), nearest_(std::size_t(nearest)), light_of_path_(light_of_path) {}
 

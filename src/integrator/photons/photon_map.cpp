@@ -28,12 +28,12 @@ double cells_per_length(float radius) { return 0.5 / (double(radius) * (1 + 1e-6
 
 }  // namespace
 
-PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes, bool weighted)
+PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes, bool keeps_paths)
     : mask_(std::uint32_t(std::bit_ceil(std::clamp<std::size_t>(expected, 1024, std::size_t{1} << 26))) - 1),
       counts_(std::size_t(mask_) + 1),
       starts_(std::size_t(mask_) + 2),
       boxes_(boxes),
-      weighted_(weighted) {}
+      keeps_paths_(keeps_paths) {}
 
 std::uint32_t PhotonMap::hash(std::int64_t x, std::int64_t y, std::int64_t z) const {
   return mix_bits(std::uint32_t(x) * 0x9e3779b9u ^
@@ -59,7 +59,7 @@ void PhotonMap::lay_out(float radius) {
   dealt_.resize(sum);
   for (std::vector<float>* all : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) all->resize(sum + padding);
   photons_.resize(sum + 1);
-  if (weighted_) weights_.resize(sum + 1), paths_.resize(sum + 1);
+  if (keeps_paths_) weights_.resize(sum + 1), paths_.resize(sum + 1);
 }
 
 void PhotonMap::deal(std::size_t number) {
@@ -82,7 +82,7 @@ void PhotonMap::put_in_order(std::size_t part, std::size_t parts) {
       x_[i] = photon.p.x, y_[i] = photon.p.y, z_[i] = photon.p.z;
       nx_[i] = photon.ng.x, ny_[i] = photon.ng.y, nz_[i] = photon.ng.z;
       photons_[i] = {photon.wi, photon.flux, photon.events};
-      if (weighted_) weights_[i] = photon.weights, paths_[i] = photon.path;
+      if (keeps_paths_) weights_[i] = photon.weights, paths_[i] = photon.path;
     }
   }
 }

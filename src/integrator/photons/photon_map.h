@@ -59,8 +59,8 @@ struct NearPhotons {
 // whatever the threads did, so that sums over them have the same bits.
 class PhotonMap {
  public:
-  // For about so many photons, in so many boxes; `weighted`: their weights and paths are kept.
-  PhotonMap(std::size_t expected, std::size_t boxes, bool weighted = false);
+  // For about so many photons, in so many boxes; `keeps_paths`: with their weights and paths.
+  PhotonMap(std::size_t expected, std::size_t boxes, bool keeps_paths = false);
 
   // By its number, below that of boxes. One thread at a time has it.
   std::vector<Photon>& box(std::size_t number) { return boxes_[number]; }
@@ -100,7 +100,7 @@ class PhotonMap {
   float radius() const { return radius_; }
   const GatheredPhoton* photons() const { return photons_.data(); }
   const PhotonWeights* weights() const { return weights_.data(); }
-  const std::uint32_t* paths() const { return paths_.data(); }  // their numbers; of a weighted map
+  const std::uint32_t* paths() const { return paths_.data(); }  // their numbers; of a map that keeps them
   // Finds the photons within the radius of p that lie near the plane across n, on surfaces with similar normals, in a
   // fixed order.
   void near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const;
@@ -122,7 +122,7 @@ class PhotonMap {
   std::vector<Dealt> dealt_;
   std::vector<float> x_, y_, z_, nx_, ny_, nz_;  // places and normals, for lanes
   std::vector<GatheredPhoton> photons_;
-  bool weighted_;
+  bool keeps_paths_;
   std::vector<PhotonWeights> weights_;  // of the same photons
   std::vector<std::uint32_t> paths_;    // likewise
 };

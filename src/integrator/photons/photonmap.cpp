@@ -61,7 +61,7 @@ class PhotonMapSeries final : public FrameSeries {
                                         caustics_ ? std::optional(global) : std::nullopt, tallies.get());
     const RayCounts counts = gathering.run(pass, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
-    if (is_first && (global_.take_broken() || (caustics_ && caustics_->take_broken()))) show_broken(out);
+    if (is_first && (global_.take_broken() || (caustics_ && caustics_->take_broken()))) show_broken(out, sums);
     return counts;
   }
 

@@ -43,7 +43,7 @@ class SppmSeries final : public FrameSeries {
                                   tallies.get())
             .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.shutter_sample, pass_.grid}, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
-    if (is_first && photons_.take_broken()) show_broken(out);
+    if (is_first && photons_.take_broken()) show_broken(out, sums);
     return counts;
   }
 

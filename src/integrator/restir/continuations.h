@@ -17,8 +17,8 @@ class Continuations {
     for_each_lane(on, [&](int k) {
       PathState<float>& one = paths_.emplace_back();
       get_lane_words(path, k, one);
-      slots_.push_back(one.output);
-      one.output = std::uint32_t(slots_.size()) - 1;
+      outputs_.push_back(one.output);
+      one.output = std::uint32_t(outputs_.size()) - 1;
       silent_depths_.push_back(lane(counts, k) ? ~0u : one.depth);
     });
   }
@@ -40,12 +40,12 @@ class Continuations {
   // Adds what the loop has written to `results`, one for each path.
   std::size_t count() const { return paths_.size(); }
   void add_results(std::span<const PixelSample> results, std::span<PixelSample> out) const {
-    for (std::size_t i = 0; i < results.size(); ++i) out[slots_[i]].radiance += results[i].radiance;
+    for (std::size_t i = 0; i < results.size(); ++i) out[outputs_[i]].radiance += results[i].radiance;
   }
 
  private:
   std::vector<PathState<float>> paths_;
-  std::vector<std::uint32_t> slots_, silent_depths_;
+  std::vector<std::uint32_t> outputs_, silent_depths_;
   std::size_t next_ = 0;
 };
 

@@ -40,7 +40,7 @@ struct LanePixels {
   }
 };
 
-// The next pixels of the tile for which wanted(pixel) holds, from output `next` on, which moves.
+// The next pixels of the tile for which wanted(pixel) holds, from number `next` of the tile on, which moves.
 template <class F, class Wanted>
 LanePixels<F> gather_pixels(const PixelBounds& picture, const PixelBounds& tile, std::uint32_t& next, Wanted wanted) {
   LanePixels<F> at{tile};

@@ -9,11 +9,11 @@ namespace montelux::pbrt {
 namespace {
 
 bool is_usable(const Transform& transform) {
-  constexpr double unlimited = 1e30;
+  constexpr double max_element = 1e30;
   for (const Matrix4* m : {&transform.matrix(), &transform.inverse_matrix()})
     for (const auto& row : m->m)
       for (double x : row)
-        if (!(std::abs(x) <= unlimited)) return false;
+        if (!(std::abs(x) <= max_element)) return false;
   return true;
 }
 

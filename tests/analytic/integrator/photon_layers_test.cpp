@@ -19,6 +19,28 @@ TEST(PhotonLayers, sum_to_the_image_bit_for_bit_for_any_number_of_threads) {
   for (const std::string& way : ways) expect_layers_of_image(scene, way, plan, 1e-5);
 }
 
+// Light that exact sums cannot hold makes samples that do not count: they are in no layer, whichever part of them it
+// was.
+TEST(PhotonLayers, leave_out_samples_that_do_not_count) {
+  const TestScene scene(replaced(three_lights, "[ 5 5 4 ]", "[ 1e20 1e20 1e20 ]"));
+  const LayerPlan plan = all_layers(scene.scene(), 2);
+  for (const std::string& way : ways) {
+    const Film film = film_of(scene, way, plan, {1, 2});
+    EXPECT_TRUE(families_sum_to_all(film, plan)) << way;
+    int without = 0;
+    const PixelBounds& b = film.bounds();
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x) {
+        const PixelEstimate pixel = film.pixel(x, y);
+        for (int c = 0; c < rgb_size; ++c) EXPECT_TRUE(std::isfinite(pixel.mean[c])) << way;
+        if (pixel.non_finite < 2) continue;
+        ++without;
+        EXPECT_EQ(film.layers()->all_light(x, y), ExactRgb{}) << way;
+      }
+    EXPECT_GT(without, 30) << way;
+  }
+}
+
 // The kernel lies on a sphere of radius 1, whose curvature changes densities by less than its square.
 TEST(PhotonLayers, of_bounces_have_the_closed_form_of_a_furnace) {
   const TestScene scene(furnace);

@@ -315,9 +315,9 @@ TEST(BidirectionalInMedia, agrees_with_path_in_a_liquid_and_around_a_lamp_in_a_c
 TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
   const TestScene scene(foggy_room());
   for (const int depth : {0, 1, 2}) {
-    const std::string largest = ":maxdepth=" + std::to_string(depth);
+    const std::string limit = ":maxdepth=" + std::to_string(depth);
     const Comparison c =
-        compared(measured(scene, "bdpt" + largest, 16, 40, 2), measured(scene, "path" + largest, 32, 60, 1));
+        compared(measured(scene, "bdpt" + limit, 16, 40, 2), measured(scene, "path" + limit, 32, 60, 1));
     EXPECT_FALSE(c.differ()) << depth << ": " << c.smallest << " of " << c.tests;
   }
 }
@@ -325,10 +325,10 @@ TEST(BidirectionalInMedia, ends_where_maxdepth_says) {
 TEST(Bidirectional, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string largest = "maxdepth=" + std::to_string(depth);
-    const PassMeans path = measured(scene, "path:" + largest, 16, 60, 1);
+    const std::string limit = "maxdepth=" + std::to_string(depth);
+    const PassMeans path = measured(scene, "path:" + limit, 16, 60, 1);
     for (const std::string way : {"bdpt:", "metropolis:strategies=bdpt,"}) {
-      const Comparison c = compared(measured(scene, way + largest, 16, 40, 2), path);
+      const Comparison c = compared(measured(scene, way + limit, 16, 40, 2), path);
       EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
     }
   }
@@ -481,9 +481,9 @@ TEST(Merging, ends_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3})
     for (const char* connect : {",connect=on", ",connect=off"}) {
-      const std::string largest = "maxdepth=" + std::to_string(depth);
-      const Comparison c = compared(measured(scene, merging + connect + "," + largest, 8, 40, 2),
-                                    measured(scene, "path:" + largest, 16, 60, 1));
+      const std::string limit = "maxdepth=" + std::to_string(depth);
+      const Comparison c = compared(measured(scene, merging + connect + "," + limit, 8, 40, 2),
+                                    measured(scene, "path:" + limit, 16, 60, 1));
       EXPECT_FALSE(c.differ()) << connect << depth << ": " << c.smallest << " of " << c.tests;
     }
 }

@@ -211,10 +211,10 @@ TEST(Photons, agree_with_path_where_things_move) {
 TEST(Photons, end_where_maxdepth_says) {
   const TestScene scene(room(lens, gaussian));
   for (const int depth : {0, 1, 2, 3}) {
-    const std::string largest = "maxdepth=" + std::to_string(depth);
-    const PassMeans path = measured(scene, "path:" + largest, 16, 60, 1);
+    const std::string limit = "maxdepth=" + std::to_string(depth);
+    const PassMeans path = measured(scene, "path:" + limit, 16, 60, 1);
     for (const std::string& way : {small, small + ",nee=off", gathering, gathering + ",nee=off"}) {
-      const Comparison c = compared(measured(scene, way + "," + largest, 8, 40, 2), path);
+      const Comparison c = compared(measured(scene, way + "," + limit, 8, 40, 2), path);
       EXPECT_FALSE(c.differ()) << way << depth << ": " << c.smallest << " of " << c.tests;
     }
   }

@@ -77,6 +77,14 @@ TEST(IntegratorCatalogue, reads_every_setting) {
   EXPECT_GT(count, 90);
 }
 
+TEST(IntegratorCatalogue, knows_settings_by_their_earlier_names) {
+  const ChoiceText choice = with_present_names({"restir-di", {{"chain", "4"}, {"rounds", "2"}}});
+  EXPECT_EQ(choice.settings, (std::vector<Setting>{{"frames", "4"}, {"rounds", "2"}}));
+  EXPECT_EQ(with_present_names({"none", {{"chain", "4"}}}).settings, (std::vector<Setting>{{"chain", "4"}}));
+  const TestScene scene(room);
+  EXPECT_EQ(scene.integrator("restir-di:chain=4").coupled->frames(), 4);
+}
+
 TEST(IntegratorCatalogue, states_the_defaults_of_the_settings_themselves) {
   const auto meaning = [](std::string_view integrator, std::string_view setting) {
     for (const EntitySpec& spec : integrator_catalogue())

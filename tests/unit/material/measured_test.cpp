@@ -297,7 +297,10 @@ TEST(MeasuredFile, states_which_field_is_wrong) {
             "the grids of fields 'rgb' and 'luminance' differ: 1 x 1 x 3 x 2 x 2 and 1 x 1 x 2 x 3");
   EXPECT_EQ(error("ndf", {1, 65537}, std::vector<float>(65537)),
             "field 'ndf' is 1 x 65537; at most 65536 points along a side are read");
-  EXPECT_NE(error("phi_i", {3}, {0, 1, 2}).find("it should be the whole circle"), std::string::npos);
+  // A part of the circle that is none of the three, and the whole circle from elsewhere.
+  for (const std::vector<float>& azimuths :
+       {std::vector<float>{0, 1, 2}, {0, pi, 2 * pi}, {-pi, -0.9f * pi, -0.8f * pi}})
+    EXPECT_NE(error("phi_i", {3}, azimuths).find("it should begin at -pi and be the whole circle"), std::string::npos);
 }
 
 TEST(MeasuredFile, of_a_huge_stated_size_is_an_error) {

@@ -149,13 +149,14 @@ TEST(Series, do_not_show_their_warm_up) {
   EXPECT_EQ(r.film.samples(5, 5), 4);
   EXPECT_EQ(r.film.image().passes, 2);
   // A frame after two that are not shown is the third of three, which is what these have more than the first two.
-  const auto series = [](const char* way, int frames) {
+  const auto of_frames = [](const char* way, int frames) {
     const ChosenIntegrator chosen = scene().integrator(way);
     RenderObserver silent;
     return render(chosen.any(), scene().settings(PointSetKind::independent, {frames, 1}, 5, 2), silent).film;
   };
   const char* way = "restir-di:candidates=2";
-  const Film shown = series("restir-di:candidates=2,warm-up=2", 1), two = series(way, 2), three = series(way, 3);
+  const Film shown = of_frames("restir-di:candidates=2,warm-up=2", 1), two = of_frames(way, 2),
+             three = of_frames(way, 3);
   int differ = 0;
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {

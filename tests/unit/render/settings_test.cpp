@@ -124,7 +124,7 @@ TEST(IntegratorSettings, change_the_picture) {
 
 // The picture is a function of the settings, so that a difference is that of the setting; and what is said to change
 // nothing changes nothing.
-TEST(IntegratorSettings, leave_the_picture_alone_where_they_are_stated_as_they_are) {
+TEST(IntegratorSettings, alone_decide_the_picture_and_some_do_not) {
   const TestScene scene{std::string_view(room)};
   for (const char* way : {"path", "bdpt", "sppm", "restir-di"})
     EXPECT_EQ(picture(scene, way), picture(scene, way)) << way;
