@@ -32,50 +32,29 @@ BsdfRow bench_row(BsdfKind kind) {
   const auto put = [&](int slot, std::initializer_list<float> values) {
     for (float v : values) row.v[slot++] = v;
   };
-  switch (kind) {
-    case BsdfKind::diffuse:
-      put(DiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
-      break;
-    case BsdfKind::conductor:
-      put(ConductorSlots::alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
-      break;
-    case BsdfKind::dielectric:
-      put(DielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
-      break;
-    case BsdfKind::coated_diffuse:
-    case BsdfKind::coated_conductor:
-      put(LayeredSlots::alpha_x, {0.3f, 0.3f, 1.5f, 0.01f, 0, 0, 0, 0, 10, 1});
-      if (kind == BsdfKind::coated_diffuse)
-        put(CoatedDiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
-      else
-        put(CoatedConductorSlots::conductor_alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
-      break;
-    case BsdfKind::diffuse_transmission:
-      put(DiffuseTransmissionSlots::reflectance, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f});
-      break;
-    case BsdfKind::thin_dielectric:
-      put(ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
-      break;
-    case BsdfKind::phong:
-      put(PhongSlots::diffuse, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f, 30});
-      break;
-    case BsdfKind::metallic_roughness:
-    case BsdfKind::coated_metallic_roughness:
-      put(MetallicRoughnessSlots::base, {0.5f, 0.5f, 0.5f});
-      put(MetallicRoughnessSlots::metallic, {0.5f, 0.3f, 1});
-      put(MetallicRoughnessSlots::specular_color, {1, 1, 1});
-      put(MetallicRoughnessSlots::reflected, {0.04f});
-      if (kind == BsdfKind::metallic_roughness) break;
-      put(CoatedMetallicRoughnessSlots::grain_x, {1, 0, 1, 0, 1, 0.1f, 1, 0, 0, 1});
-      break;
-    case BsdfKind::tinted_dielectric:
-      put(TintedDielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
-      put(TintedDielectricSlots::tint, {1, 1, 1});
-      break;
-    case BsdfKind::measured:
-      put_address(&bench_table(), row.v + MeasuredSlots::table);
-      break;
+  const auto is = [kind](auto... kinds) { return ((kind == kinds) || ...); };
+  if (is(kind_of<Diffuse>)) put(DiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
+  if (is(kind_of<Conductor>)) put(ConductorSlots::alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
+  if (is(kind_of<Dielectric>, kind_of<TintedDielectric>)) put(DielectricSlots::alpha_x, {0.3f, 0.3f, 1.5f});
+  if (is(kind_of<TintedDielectric>)) put(TintedDielectricSlots::tint, {1, 1, 1});
+  if (is(kind_of<CoatedDiffuse>, kind_of<CoatedConductor>))
+    put(LayeredSlots::alpha_x, {0.3f, 0.3f, 1.5f, 0.01f, 0, 0, 0, 0, 10, 1});
+  if (is(kind_of<CoatedDiffuse>)) put(CoatedDiffuseSlots::reflectance, {0.5f, 0.5f, 0.5f});
+  if (is(kind_of<CoatedConductor>))
+    put(CoatedConductorSlots::conductor_alpha_x, {0.3f, 0.3f, 0.2f, 0.9f, 1.1f, 3.9f, 2.5f, 2.1f});
+  if (is(kind_of<DiffuseTransmission>))
+    put(DiffuseTransmissionSlots::reflectance, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f});
+  if (is(kind_of<ThinDielectric>)) put(ThinDielectricSlots::eta, {1.5f, 1, 1, 1});
+  if (is(kind_of<Phong>)) put(PhongSlots::diffuse, {0.4f, 0.4f, 0.4f, 0.3f, 0.3f, 0.3f, 30});
+  if (is(kind_of<MetallicRoughness>, kind_of<CoatedMetallicRoughness>)) {
+    put(MetallicRoughnessSlots::base, {0.5f, 0.5f, 0.5f});
+    put(MetallicRoughnessSlots::metallic, {0.5f, 0.3f, 1});
+    put(MetallicRoughnessSlots::specular_color, {1, 1, 1});
+    put(MetallicRoughnessSlots::reflected, {0.04f});
   }
+  if (is(kind_of<CoatedMetallicRoughness>))
+    put(CoatedMetallicRoughnessSlots::grain_x, {1, 0, 1, 0, 1, 0.1f, 1, 0, 0, 1});
+  if (is(kind_of<Measured>)) put_address(&bench_table(), row.v + MeasuredSlots::table);
   return row;
 }
 

@@ -1,7 +1,5 @@
 #include "material/bound_material.h"
 
-#include "material/measured_table.h"
-
 namespace montelux {
 
 namespace {
@@ -35,24 +33,12 @@ bool uses_parameters(const Material& material) {
   if (!material.is_plain()) return true;
   // A grain: different roughness along u and v.
   const float* v = material.row.v;
-  switch (material.kind) {
-    case BsdfKind::conductor:
-      return v[ConductorSlots::alpha_x] != v[ConductorSlots::alpha_y];
-    case BsdfKind::dielectric:
-    case BsdfKind::tinted_dielectric:
-      return v[DielectricSlots::alpha_x] != v[DielectricSlots::alpha_y];
-    case BsdfKind::coated_metallic_roughness:
-      return v[CoatedMetallicRoughnessSlots::anisotropy] != 0;
-    case BsdfKind::coated_diffuse:
-      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y];
-    case BsdfKind::coated_conductor:
-      return v[LayeredSlots::alpha_x] != v[LayeredSlots::alpha_y] ||
-             v[CoatedConductorSlots::conductor_alpha_x] != v[CoatedConductorSlots::conductor_alpha_y];
-    case BsdfKind::measured:
-      return material.table && !material.table->is_isotropic();
-    default:
-      return false;
-  }
+  bool has_grain = false;
+  for_each_present_model<float>(std::uint32_t(material.kind), true, [&]<class Model>(bool) {
+    for (const FacetSlots& facets : Model::facet_slots) has_grain = has_grain || v[facets.u] != v[facets.v];
+    if constexpr (HasGrain<Model>) has_grain = has_grain || Model::has_grain(BsdfRows<float>{&material.row});
+  });
+  return has_grain;
 }
 
 template <class F>

@@ -40,7 +40,7 @@ struct Mixture {
 };
 
 struct Material {
-  BsdfKind kind = BsdfKind::diffuse;
+  BsdfKind kind = kind_of<Diffuse>;
   BsdfRow row;
   std::vector<RowBinding> bindings;
   std::optional<Mixture> mixture;

@@ -1,7 +1,9 @@
 // The interface of every scattering model. Local frame: z is the shading normal; wo and wi are unit and point away from
 // the surface; wo.z may have either sign. A model is a template over F, constructed from the rows of the points.
 #pragma once
+#include <array>
 #include <concepts>
+#include <span>
 #include <string_view>
 
 #include "color/spectrum.h"
@@ -78,12 +80,45 @@ struct BsdfSample {
   Mask<F> delta;  // sampled from a delta distribution
 };
 
+// The facets of a surface in a row: the slots of their roughness along u and v, whose power is GGX's alpha.
+struct FacetSlots {
+  int u, v;
+  float power = 1;
+  bool is_covered = false;  // by a coat: where these facets are smooth, the surface need not be
+};
+inline constexpr std::array<FacetSlots, 0> no_facets{};
+
+// One event at a perfect mirror or at smooth glass that is given rather than sampled: for paths whose events are chosen
+// before their directions are known.
+template <class F>
+struct SpecularLobe {
+  // The factor of the light (TransportMode::radiance): reflectance or transmittance, tint, and the squared ratio of the
+  // indices. Black where there is no such event.
+  Spectrum<F> weight = gray(F(0.0f));
+  F relative_eta = F(1.0f);  // of refraction: index on the side of wi over that on the side of wo; 1: straight on
+};
+
 // Besides these two functions, models define:
 //   static constexpr std::string_view name;
 //   static constexpr bool has_reflection, has_transmission;
 //   static constexpr int slot_count: how many slots of the row it reads, starting with the first;
+//   static constexpr std::array<FacetSlots, N> facet_slots;
+//   using Stated: what a scene states of it, as parts.h describes;
 //   explicit Model(const BsdfRows<F>&);
 //   Mask<F> is_delta(): where the model consists only of deltas, so that connecting it to a light is useless.
+// Some also define:
+//   SpecularLobe<F> specular_lobe(F cos_o, bool reflects): where facets are smooth, the model has one delta for each of
+//     reflection and transmission, and nothing else, so that connections through specular chains may pass it. `cos_o`
+//     is of wo with the shading normal, negative below;
+//   static bool has_grain(const BsdfRows<float>&): whether u and v differ otherwise than by the slots of facets.
+template <class Model, class F>
+concept HasSpecularLobe = requires(const Model& model, F cos_o) {
+  { model.specular_lobe(cos_o, true) } -> std::same_as<SpecularLobe<F>>;
+};
+template <class Model>
+concept HasGrain = requires(const BsdfRows<float>& rows) {
+  { Model::has_grain(rows) } -> std::same_as<bool>;
+};
 template <class Model, class F>
 concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, const BsdfContext<F>& context) {
   requires std::constructible_from < Model, const BsdfRows<F>
@@ -93,6 +128,8 @@ concept BsdfModel = requires(const Model& model, Vec3<F> w, F u, Vec2<F> u2, con
   { Model::has_transmission } -> std::convertible_to<bool>;
   { Model::slot_count } -> std::convertible_to<int>;
   requires Model::slot_count <= bsdf_row_size;
+  typename Model::Stated;
+  { std::span(Model::facet_slots) } -> std::convertible_to<std::span<const FacetSlots>>;
   { model.is_delta() } -> std::same_as<Mask<F>>;
   { model.evaluate(w, w, context) } -> std::same_as<BsdfValue<F>>;
   { model.sample(w, u, u2, context) } -> std::same_as<BsdfSample<F>>;

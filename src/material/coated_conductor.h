@@ -65,11 +65,30 @@ class MetalUnderCoat {
   GgxFacets<F> facets_;
 };
 
+// A metal under a dielectric coat.
+struct CoatedConductorDesc {
+  MetalDesc metal{};
+  FacetsDesc metal_facets{};
+  IndexInput coat_eta = 1.5f;
+  FacetsDesc coat_facets{};
+  bool maps_roughness = true;  // of both
+  LayerDesc layer{};
+
+  static constexpr std::string_view meaning = "a metal under a rough dielectric coat";
+  static Fields<CoatedConductorDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const CoatedConductorDesc&) const = default;
+};
+
 template <class F>
 class CoatedConductor : public Layered<F, Conductor<F>, MetalUnderCoat<F>> {
  public:
   static constexpr std::string_view name = "coatedconductor";
   static constexpr int slot_count = CoatedConductorSlots::end;
+  using Stated = CoatedConductorDesc;
+  static constexpr std::array<FacetSlots, 2> facet_slots{
+      {{LayeredSlots::alpha_x, LayeredSlots::alpha_y},
+       {CoatedConductorSlots::conductor_alpha_x, CoatedConductorSlots::conductor_alpha_y, 1, true}}};
   using Layered<F, Conductor<F>, MetalUnderCoat<F>>::Layered;
 };
 

@@ -20,6 +20,20 @@ struct CosineLobe {
   MONTELUX_INLINE F density(Vec3<F>, Vec3<F> wi) const { return cosine_density(wi); }
 };
 
+// A diffuse base under a dielectric coat.
+struct CoatedDiffuseDesc {
+  SpectrumInput albedo = gray_value(0.5f);  // of the base
+  IndexInput eta = 1.5f;                    // of the coat
+  FacetsDesc facets{};                      // of the coat
+  bool maps_roughness = true;
+  LayerDesc layer{};
+
+  static constexpr std::string_view meaning = "a diffuse base under a rough dielectric coat";
+  static Fields<CoatedDiffuseDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const CoatedDiffuseDesc&) const = default;
+};
+
 // If the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law does not
 // depend on where light came from, so after n reflections at the base, between which the coat returns the fraction K,
 // r (r K)^(n - 1) of the entering light remains, distributed by the cosine. Only one facet for the way in and one for
@@ -30,6 +44,8 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
   static constexpr std::string_view name = "coateddiffuse";
   static constexpr int slot_count = CoatedDiffuseSlots::end;
+  using Stated = CoatedDiffuseDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots{{{LayeredSlots::alpha_x, LayeredSlots::alpha_y}}};
 
   explicit CoatedDiffuse(const BsdfRows<F>& rows)
       : Layered<F, Diffuse<F>, CosineLobe<F>>(rows),

@@ -23,6 +23,25 @@ struct CoatedMetallicRoughnessSlots {
                                     {coat_normal, 3}}));
 };
 
+// The same with a grain, and under a clear coat of index 1.5.
+struct CoatedMetallicRoughnessDesc {
+  MetallicRoughnessDesc base{};
+  NumberInput coat = 1.0f;            // share of the coat
+  NumberInput coat_roughness = 0.0f;  // GGX's alpha is its square
+  NormalMapDesc coat_normals{};
+  NumberInput anisotropy = 0.0f;   // strength of the grain
+  float grain_rotation = 0;        // from u towards v, in degrees
+  NumberInput grain_x = 1.0f;      // the unrotated grain's component along u, from 0 (-1) to 1 (1)
+  NumberInput grain_y = 0.5f;      // the same along v
+  bool grain_is_mirrored = false;  // v is against n x u
+
+  static constexpr std::string_view meaning =
+      "metallicroughness with a grain and a clear coat of index 1.5, as in extensions of glTF (Montelux alone)";
+  static Fields<CoatedMetallicRoughnessDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const CoatedMetallicRoughnessDesc&) const = default;
+};
+
 // f = (1 - c F(cos o)) (1 - c F(cos i)) f_base + c D V F(wo.h): the share c of a coat of GGX facets of index 1.5, with
 // alpha the square of its roughness and Schlick's F from 0.04. KHR_materials_clearcoat has only the first factor, which
 // is not reciprocal: light passes the coat on its way in and on its way out. The coat has a normal of its own, to which
@@ -34,6 +53,12 @@ class CoatedMetallicRoughness {
   static constexpr std::string_view name = "coatedmetallicroughness";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = CoatedMetallicRoughnessSlots::end;
+  using Stated = CoatedMetallicRoughnessDesc;
+  static constexpr std::array<FacetSlots, 2> facet_slots{
+      {{MetallicRoughnessSlots::roughness, MetallicRoughnessSlots::roughness, 2},
+       {CoatedMetallicRoughnessSlots::coat_roughness, CoatedMetallicRoughnessSlots::coat_roughness, 2}}};
+
+  static bool has_grain(const BsdfRows<float>& rows) { return rows.number(S::anisotropy) != 0; }
 
   MONTELUX_INLINE explicit CoatedMetallicRoughness(const BsdfRows<F>& rows)
       : coat_(rows.number(S::coat)),

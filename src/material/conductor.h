@@ -4,12 +4,24 @@
 #include "material/fresnel.h"
 #include "material/ggx.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
 struct ConductorSlots {
   static constexpr int alpha_x = 0, alpha_y = 1, eta = 2, k = eta + spectrum_size, end = k + spectrum_size;
   static_assert(fill_bsdf_row(end, {{alpha_x, 1}, {alpha_y, 1}, {eta, spectrum_size}, {k, spectrum_size}}));
+};
+
+struct ConductorDesc {
+  MetalDesc metal{};
+  FacetsDesc facets{};
+  bool maps_roughness = true;
+
+  static constexpr std::string_view meaning = "a rough or smooth metal (GGX)";
+  static Fields<ConductorDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const ConductorDesc&) const = default;
 };
 
 // f = D G F / (4 cos cos) (Cook and Torrance 1982, Walter et al. 2007), on both sides; a mirror where both roughnesses
@@ -20,6 +32,8 @@ class Conductor {
   static constexpr std::string_view name = "conductor";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = ConductorSlots::end;
+  using Stated = ConductorDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots{{{ConductorSlots::alpha_x, ConductorSlots::alpha_y}}};
 
   MONTELUX_INLINE explicit Conductor(const BsdfRows<F>& rows)
       : Conductor({rows.number(ConductorSlots::alpha_x), rows.number(ConductorSlots::alpha_y)},
@@ -28,6 +42,10 @@ class Conductor {
       : facets_(facets), eta_(eta), k_(k) {}
 
   MONTELUX_INLINE Mask<F> is_delta() const { return facets_.is_smooth(); }
+  SpecularLobe<F> specular_lobe(F cos_o, bool reflects) const {
+    if (!reflects) return {};
+    return {fresnel_conductor(F(abs(cos_o)), eta_, k_)};
+  }
 
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
     Vec3<F> sum = wo + wi, up{F(0.0f), F(0.0f), F(1.0f)};

@@ -4,6 +4,7 @@
 #include "material/fresnel.h"
 #include "material/ggx.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
@@ -15,6 +16,18 @@ struct DielectricSlots {
 // Which lobes of an interface are wanted. If one is excluded, the other is sampled with certainty.
 enum class Lobes { both, reflection, transmission };
 
+// Glass.
+struct DielectricDesc {
+  IndexInput eta = 1.5f;
+  FacetsDesc facets{};
+  bool maps_roughness = true;
+
+  static constexpr std::string_view meaning = "rough or smooth glass (GGX)";
+  static Fields<DielectricDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const DielectricDesc&) const = default;
+};
+
 // Reflection and refraction by microfacets (Walter et al. 2007, eq. 20 and 21). `eta` is the index below the surface
 // over that above. A plane interface if both roughnesses are below 1e-3, or if the indices match. Samples visible
 // normals, then reflects with the probability of the Fresnel reflectance there.
@@ -24,6 +37,8 @@ class Dielectric {
   static constexpr std::string_view name = "dielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
   static constexpr int slot_count = DielectricSlots::end;
+  using Stated = DielectricDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots{{{DielectricSlots::alpha_x, DielectricSlots::alpha_y}}};
 
   MONTELUX_INLINE explicit Dielectric(const BsdfRows<F>& rows)
       : Dielectric({rows.number(DielectricSlots::alpha_x), rows.number(DielectricSlots::alpha_y)},
@@ -33,6 +48,12 @@ class Dielectric {
 
   MONTELUX_INLINE Mask<F> is_delta() const { return smooth_; }
   MONTELUX_INLINE F eta() const { return eta_; }
+  SpecularLobe<F> specular_lobe(F cos_o, bool reflects) const {
+    const F reflected = fresnel_dielectric(cos_o, eta_);
+    if (reflects) return {gray(reflected)};
+    const F relative = select(cos_o < F(0.0f), F(1.0f) / eta_, eta_);
+    return {gray(F((F(1.0f) - reflected) / (relative * relative))), relative};
+  }
 
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
     LobeValue value = evaluate_lobes<Lobes::both>(wo, wi, context.mode);

@@ -2,12 +2,22 @@
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
 struct DiffuseSlots {
   static constexpr int reflectance = 0, end = spectrum_size;
   static_assert(fill_bsdf_row(end, {{reflectance, spectrum_size}}));
+};
+
+struct DiffuseDesc {
+  SpectrumInput albedo = gray_value(0.5f);
+
+  static constexpr std::string_view meaning = "Lambertian reflection";
+  static Fields<DiffuseDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const DiffuseDesc&) const = default;
 };
 
 // Reflects uniformly into all directions, on both sides: f = reflectance / pi.
@@ -17,6 +27,8 @@ class Diffuse {
   static constexpr std::string_view name = "diffuse";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = DiffuseSlots::end;
+  using Stated = DiffuseDesc;
+  static constexpr auto facet_slots = no_facets;
 
   MONTELUX_INLINE explicit Diffuse(const BsdfRows<F>& rows) : reflectance_(rows.spectrum(DiffuseSlots::reflectance)) {}
   MONTELUX_INLINE explicit Diffuse(const Spectrum<F>& reflectance) : reflectance_(reflectance) {}

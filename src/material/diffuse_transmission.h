@@ -2,12 +2,23 @@
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
 struct DiffuseTransmissionSlots {
   static constexpr int reflectance = 0, transmittance = spectrum_size, end = transmittance + spectrum_size;
   static_assert(fill_bsdf_row(end, {{reflectance, spectrum_size}, {transmittance, spectrum_size}}));
+};
+
+struct DiffuseTransmissionDesc {
+  SpectrumInput reflected = gray_value(0.25f), transmitted = gray_value(0.25f);  // albedos
+  float scale = 1;                                                               // factor of both
+
+  static constexpr std::string_view meaning = "Lambertian reflection and transmission";
+  static Fields<DiffuseTransmissionDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const DiffuseTransmissionDesc&) const = default;
 };
 
 // f = reflectance / pi on the side of wo, transmittance / pi on the other.
@@ -17,6 +28,8 @@ class DiffuseTransmission {
   static constexpr std::string_view name = "diffusetransmission";
   static constexpr bool has_reflection = true, has_transmission = true;
   static constexpr int slot_count = DiffuseTransmissionSlots::end;
+  using Stated = DiffuseTransmissionDesc;
+  static constexpr auto facet_slots = no_facets;
 
   MONTELUX_INLINE explicit DiffuseTransmission(const BsdfRows<F>& rows)
       : reflectance_(rows.spectrum(DiffuseTransmissionSlots::reflectance)),

@@ -1,56 +1,11 @@
-// The closed list of scattering models, and the operations of the path loop over packs of mixed models: each model
-// that is present among the lanes runs once, masked.
+// The operations of the path loop over packs of mixed scattering models: each model that is present among the lanes
+// runs once, masked.
 #pragma once
-#include <tuple>
 #include <utility>
 
-#include "material/coated_conductor.h"
-#include "material/coated_diffuse.h"
-#include "material/coated_metallic_roughness.h"
-#include "material/conductor.h"
-#include "material/dielectric.h"
-#include "material/diffuse.h"
-#include "material/diffuse_transmission.h"
-#include "material/measured.h"
-#include "material/metallic_roughness.h"
-#include "material/phong.h"
-#include "material/thin_dielectric.h"
-#include "material/tinted_dielectric.h"
+#include "material/models.h"
 
 namespace montelux {
-
-// In the order of BsdfModels.
-enum class BsdfKind : std::uint32_t {
-  diffuse,
-  conductor,
-  dielectric,
-  coated_diffuse,
-  coated_conductor,
-  diffuse_transmission,
-  thin_dielectric,
-  phong,
-  metallic_roughness,
-  coated_metallic_roughness,
-  tinted_dielectric,
-  measured
-};
-
-template <class F>
-using BsdfModels = std::tuple<Diffuse<F>, Conductor<F>, Dielectric<F>, CoatedDiffuse<F>, CoatedConductor<F>,
-                              DiffuseTransmission<F>, ThinDielectric<F>, Phong<F>, MetallicRoughness<F>,
-                              CoatedMetallicRoughness<F>, TintedDielectric<F>, Measured<F>>;
-inline constexpr std::size_t bsdf_kind_count = std::tuple_size_v<BsdfModels<float>>;
-static_assert(bsdf_kind_count == std::size_t(BsdfKind::measured) + 1);
-
-template <BsdfKind kind, class F>
-using BsdfOf = std::tuple_element_t<std::size_t(kind), BsdfModels<F>>;
-
-template <class F>
-inline constexpr bool all_are_bsdf_models = []<std::size_t... I>(std::index_sequence<I...>) {
-  return (BsdfModel<std::tuple_element_t<I, BsdfModels<F>>, F> && ...);
-}
-(std::make_index_sequence<bsdf_kind_count>());
-static_assert(all_are_bsdf_models<float> && all_are_bsdf_models<NativeFloats>);
 
 // Calls visitor.template operator()<Model>(mask) for each model that is present among the lanes `on`; `kind` is a
 // BsdfKind in each lane.
@@ -77,7 +32,7 @@ struct BsdfLanes {
 // Whether a coat has another normal than the surface under it.
 template <class F>
 MONTELUX_INLINE Mask<F> has_bent_coat(Uint<F> kind, const BsdfSlots<F>& slots) {
-  const Mask<F> coated = kind == Uint<F>(std::uint32_t(BsdfKind::coated_metallic_roughness));
+  const Mask<F> coated = kind == Uint<F>(std::uint32_t(kind_of<CoatedMetallicRoughness>));
   if (!any(coated)) return coated;
   using Slots = CoatedMetallicRoughnessSlots;
   return coated & (slots.v[Slots::coat] > F(0.0f)) & (slots.v[Slots::coat_normal + 2] < F(1.0f));
@@ -86,12 +41,12 @@ MONTELUX_INLINE Mask<F> has_bent_coat(Uint<F> kind, const BsdfSlots<F>& slots) {
 // Whether the surface bounds a body of glass, and its absorption per unit of length.
 template <class F>
 MONTELUX_INLINE Mask<F> bounds_body(Uint<F> kind) {
-  return (kind == Uint<F>(std::uint32_t(BsdfKind::dielectric))) |
-         (kind == Uint<F>(std::uint32_t(BsdfKind::tinted_dielectric)));
+  return (kind == Uint<F>(std::uint32_t(kind_of<Dielectric>))) |
+         (kind == Uint<F>(std::uint32_t(kind_of<TintedDielectric>)));
 }
 template <class F>
 MONTELUX_INLINE Spectrum<F> absorption_within(Uint<F> kind, const BsdfSlots<F>& slots) {
-  const Mask<F> absorbs = kind == Uint<F>(std::uint32_t(BsdfKind::tinted_dielectric));
+  const Mask<F> absorbs = kind == Uint<F>(std::uint32_t(kind_of<TintedDielectric>));
   const Spectrum<F> nothing = gray(F(0.0f));
   if (!any(absorbs)) return nothing;
   return select(absorbs, BsdfRows<F>{&slots}.spectrum(TintedDielectricSlots::absorption), nothing);

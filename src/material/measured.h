@@ -2,6 +2,7 @@
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
@@ -37,7 +38,18 @@ struct MeasuredSample {
   Vec3f wi;
   BsdfValue<float> value;  // zero below the surface
 };
+bool is_anisotropic(const MeasuredTable* table);  // false without a table
 MeasuredSample sample_measured(const MeasuredTable& table, Vec3f wo, Vec2f u, TransportMode mode);
+
+// A tabulated reflection, of both sides alike.
+struct MeasuredDesc {
+  std::string file{};  // *.bsdf of the RGL material database
+
+  static constexpr std::string_view meaning = "a tabulated reflection (Dupuy and Jakob 2018), the same on both sides";
+  static Fields<MeasuredDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const MeasuredDesc&) const = default;
+};
 
 // f as tabulated for wo, which need not be reciprocal: importance scatters from wo to wi by f(wi, wo). No light passes
 // the surface. A row without a table is black. Lanes are looked up one after the other.
@@ -47,6 +59,10 @@ class Measured {
   static constexpr std::string_view name = "measured";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = MeasuredSlots::end;
+  using Stated = MeasuredDesc;
+  static constexpr auto facet_slots = no_facets;
+
+  static bool has_grain(const BsdfRows<float>& rows) { return is_anisotropic(Measured<float>(rows).table_of(0)); }
 
   MONTELUX_INLINE explicit Measured(const BsdfRows<F>& rows) {
     for (int i = 0; i < AddressSlots::size; ++i) address_[i] = rows.number(MeasuredSlots::table + i);
@@ -80,13 +96,14 @@ class Measured {
     return {wi, value.f_cos / max(value.density.value, F(1e-30f)), value.density, F(1.0f), valid, Mask<F>(false)};
   }
 
- private:
+  // Of a lane.
   const MeasuredTable* table_of(int k) const {
     float slots[AddressSlots::size];
     for (int i = 0; i < AddressSlots::size; ++i) slots[i] = lane(address_[i], k);
     return address_in<MeasuredTable>(slots);
   }
 
+ private:
   F address_[AddressSlots::size];
 };
 

@@ -3,6 +3,7 @@
 #include "material/bsdf.h"
 #include "material/ggx.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
@@ -18,6 +19,22 @@ struct MetallicRoughnessSlots {
                                     {reflected, 1}}));
 };
 
+// The material of glTF 2.0: a dielectric coat over a diffuse base, or a metal.
+struct MetallicRoughnessDesc {
+  SpectrumInput base_color = gray_value(1);  // albedo of the diffuse part, and colour of the metal
+  NumberInput metallic = 1.0f;               // share of the metal
+  NumberInput roughness = 1.0f;              // GGX's alpha is its square
+  NumberInput specular = 1.0f;               // strength of the dielectric's reflection
+  SpectrumInput specular_color = gray_value(1);
+  IndexInput eta = 1.5f;  // of the dielectric
+
+  static constexpr std::string_view meaning =
+      "the material of glTF 2.0: a dielectric coat over a diffuse base, or a metal (Montelux alone)";
+  static Fields<MetallicRoughnessDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const MetallicRoughnessDesc&) const = default;
+};
+
 // f = (1 - metallic) base / pi (1 - F') + D V F (glTF 2.0, appendix B.3): GGX of alpha = roughness^2 with Smith's
 // height-correlated masking, and Schlick's F = f0 + (f90 - f0) (1 - wo.h)^5, where f0 is that of the dielectric mixed
 // with the base colour by metallic (KHR_materials_specular). On both sides; a mirror where alpha is below 1e-3.
@@ -31,6 +48,9 @@ class MetallicRoughness {
   static constexpr std::string_view name = "metallicroughness";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = MetallicRoughnessSlots::end;
+  using Stated = MetallicRoughnessDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots{
+      {{MetallicRoughnessSlots::roughness, MetallicRoughnessSlots::roughness, 2}}};
 
   MetallicRoughness() = default;
   MONTELUX_INLINE explicit MetallicRoughness(const BsdfRows<F>& rows)

@@ -2,6 +2,7 @@
 #pragma once
 #include "material/bsdf.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 #include "mc/phong_lobe.h"
 
 namespace montelux {
@@ -9,6 +10,17 @@ namespace montelux {
 struct PhongSlots {
   static constexpr int diffuse = 0, specular = spectrum_size, exponent = specular + spectrum_size, end = exponent + 1;
   static_assert(fill_bsdf_row(end, {{diffuse, spectrum_size}, {specular, spectrum_size}, {exponent, 1}}));
+};
+
+// Lafortune's energy-conserving Phong model.
+struct PhongDesc {
+  SpectrumInput diffuse_albedo = gray_value(0.5f), glossy_albedo = gray_value(0.3f);
+  NumberInput exponent = 32.0f;  // of the glossy lobe
+
+  static constexpr std::string_view meaning = "Lafortune's energy-conserving Phong model";
+  static Fields<PhongDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const PhongDesc&) const = default;
 };
 
 // f = kd / pi + ks (n + 2) / (2 pi) cos^n alpha, alpha the angle between wi and the mirror direction of wo; on both
@@ -19,6 +31,8 @@ class Phong {
   static constexpr std::string_view name = "phong";
   static constexpr bool has_reflection = true, has_transmission = false;
   static constexpr int slot_count = PhongSlots::end;
+  using Stated = PhongDesc;
+  static constexpr auto facet_slots = no_facets;
 
   MONTELUX_INLINE explicit Phong(const BsdfRows<F>& rows)
       : kd_(rows.spectrum(PhongSlots::diffuse)),

@@ -4,12 +4,26 @@
 #include "material/fresnel.h"
 #include "material/ggx.h"
 #include "material/lobe.h"
+#include "material/parts.h"
 
 namespace montelux {
 
 struct ThinDielectricSlots {
   static constexpr int eta = 0, tint = 1, alpha = tint + spectrum_size, end = alpha + 1;
   static_assert(fill_bsdf_row(end, {{eta, 1}, {tint, spectrum_size}, {alpha, 1}}));
+};
+
+// A pane without refraction.
+struct ThinDielectricDesc {
+  IndexInput eta = 1.5f;
+  SpectrumInput tint = gray_value(1);  // factor of transmitted light
+  NumberInput roughness = 0.0f;        // of reflection and transmission
+  bool maps_roughness = true;
+
+  static constexpr std::string_view meaning = "a thin pane without refraction";
+  static Fields<ThinDielectricDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const ThinDielectricDesc&) const = default;
 };
 
 // Reflects R' = R + T^2 R / (1 - R^2), the sum over all internal reflections (Stokes 1862), and transmits the rest,
@@ -22,6 +36,8 @@ class ThinDielectric {
   static constexpr std::string_view name = "thindielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
   static constexpr int slot_count = ThinDielectricSlots::end;
+  using Stated = ThinDielectricDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots{{{ThinDielectricSlots::alpha, ThinDielectricSlots::alpha}}};
 
   MONTELUX_INLINE explicit ThinDielectric(const BsdfRows<F>& rows)
       : eta_(rows.number(ThinDielectricSlots::eta)),
@@ -29,6 +45,11 @@ class ThinDielectric {
         facets_(rows.number(ThinDielectricSlots::alpha), rows.number(ThinDielectricSlots::alpha)) {}
 
   MONTELUX_INLINE Mask<F> is_delta() const { return facets_.is_smooth(); }
+  SpecularLobe<F> specular_lobe(F cos_o, bool reflects) const {
+    const F reflected = reflectance(F(abs(cos_o)));
+    if (reflects) return {gray(reflected)};
+    return {tint_ * (F(1.0f) - reflected)};
+  }
 
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
     if (all(facets_.is_smooth())) return {gray(F(0.0f)), {F(0.0f)}};

@@ -13,6 +13,20 @@ struct TintedDielectricSlots {
       fill_bsdf_row(end, {{alpha_x, 1}, {alpha_y, 1}, {eta, 1}, {tint, spectrum_size}, {absorption, spectrum_size}}));
 };
 
+// Glass that tints transmitted light and absorbs inside.
+struct TintedDielectricDesc {
+  IndexInput eta = 1.5f;
+  SpectrumInput tint = gray_value(1);        // factor of transmitted light
+  SpectrumValue absorption = gray_value(0);  // inside, per unit of length
+  FacetsDesc facets{};
+  bool maps_roughness = true;
+
+  static constexpr std::string_view meaning = "glass that tints transmitted light and absorbs inside (Montelux alone)";
+  static Fields<TintedDielectricDesc> rows();
+  void fill(RowBuilder& row) const;
+  bool operator==(const TintedDielectricDesc&) const = default;
+};
+
 // A Dielectric whose transmission is multiplied by `tint` (KHR_materials_transmission).
 template <class F>
 class TintedDielectric {
@@ -20,12 +34,19 @@ class TintedDielectric {
   static constexpr std::string_view name = "tinteddielectric";
   static constexpr bool has_reflection = true, has_transmission = true;
   static constexpr int slot_count = TintedDielectricSlots::end;
+  using Stated = TintedDielectricDesc;
+  static constexpr std::array<FacetSlots, 1> facet_slots = Dielectric<F>::facet_slots;
 
   MONTELUX_INLINE explicit TintedDielectric(const BsdfRows<F>& rows)
       : glass_(rows), tint_(rows.spectrum(TintedDielectricSlots::tint)) {}
 
   MONTELUX_INLINE Mask<F> is_delta() const { return glass_.is_delta(); }
   MONTELUX_INLINE F eta() const { return glass_.eta(); }
+  SpecularLobe<F> specular_lobe(F cos_o, bool reflects) const {
+    SpecularLobe<F> lobe = glass_.specular_lobe(cos_o, reflects);
+    if (!reflects) lobe.weight = lobe.weight * tint_;
+    return lobe;
+  }
 
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
     const BsdfValue<F> value = glass_.evaluate(wo, wi, context);

@@ -7,56 +7,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "math/result.h"
 #include "parameter/input.h"
+#include "parameter/setting_text.h"
 #include "parameter/spec.h"
 
 namespace montelux {
 
-// Values as a person types them: "on", "0.001".
-std::string setting_text(bool value);
-std::string setting_text(int value);
-std::string setting_text(float value);
-std::string setting_text(const TextureName& value);
-std::string setting_text(Vec3f value);                 // "0 0 1"
-std::string setting_text(const SpectrumValue& value);  // "0.5", "0.25 0.5 1", "metal-Cu-eta", "6500"
-template <std::size_t N>
-std::string setting_text(const std::array<float, N>& values) {
-  std::string text;
-  for (float value : values) {
-    if (!text.empty()) text += ' ';
-    text += setting_text(value);
-  }
-  return text;
-}
-template <class... T>
-std::string setting_text(const Input<T...>& input) {
-  return std::visit([](const auto& v) { return setting_text(v); }, input.value);
-}
-
 // The row with its default at the end of the meaning.
 ParameterSpec with_default(ParameterSpec row, const std::string& value);
-
-// Values as parameters.
-Parameter parameter_of(std::string_view name, bool value);
-Parameter parameter_of(std::string_view name, int value);
-Parameter parameter_of(std::string_view name, float value);
-Parameter parameter_of(std::string_view name, std::string value);
-Parameter parameter_of(std::string_view name, SpectrumValue value);
-Parameter parameter_of(std::string_view name, std::vector<int> values);
-Parameter parameter_of(std::string_view name, std::vector<float> values);
-Parameter parameter_of(std::string_view name, std::vector<std::string> values);
-template <class T, std::size_t N>
-Parameter parameter_of(std::string_view name, const std::array<T, N>& values) {
-  return parameter_of(name, std::vector<T>(values.begin(), values.end()));
-}
-template <class... T>
-Parameter parameter_of(std::string_view name, const Input<T...>& input) {
-  return InputConversion<Input<T...>>::write(name, input);
-}
 
 // A name for each value of an enumeration.
 template <class E>
@@ -207,7 +170,8 @@ class Fields {
       if (!place(s).empty() && place(defaults).empty())
         list.add({std::string(name), type, Values(place(s)), SourceLocation{}});
     };
-    rows_.push_back({{name, {type}, std::move(meaning), -1e30, 1e30, {}, true},
+    ParameterSpec row{name, {type}, std::move(meaning), -1e30, 1e30, {}, true};
+    rows_.push_back({std::move(row),
                      {},
                      [name, place](const ParameterList& list, S& s) -> Status {
                        if (list.find(name)) place(s) = list.array<T>(name);
@@ -221,7 +185,8 @@ class Fields {
     const auto write = [name, place](S& s, S& defaults, ParameterList& list) {
       if (place(s) != place(defaults)) list.add(parameter_of(name, place(s)));
     };
-    rows_.push_back({{name, {ParameterType::string}, std::move(meaning), 0, 0},
+    ParameterSpec row{name, {ParameterType::string}, std::move(meaning), 0, 0};
+    rows_.push_back({std::move(row),
                      {},
                      [name, place](const ParameterList& list, S& s) -> Status {
                        place(s) = list.string(name, place(s));
@@ -251,8 +216,8 @@ class Fields {
       std::string text = written ? written(s) : std::string();
       if (!text.empty() && text != written(defaults)) list.add(parameter_of(name, std::move(text)));
     };
-    rows_.push_back({{name, {ParameterType::string}, std::move(meaning), 0, 0, std::move(choices)},
-                     std::move(shown),
+    ParameterSpec row{name, {ParameterType::string}, std::move(meaning), 0, 0, std::move(choices)};
+    rows_.push_back({std::move(row), std::move(shown),
                      [name, read](const ParameterList& list, S& s) -> Status {
                        return list.find(name) ? read(list.string(name, ""), s) : Status(Done{});
                      },
@@ -267,6 +232,29 @@ class Fields {
   // A row whose meaning states the default, since that is no value of its own, and that is read elsewhere.
   Fields& other(ParameterSpec row) {
     rows_.push_back({std::move(row), {}, [](const ParameterList&, S&) -> Status { return Done{}; }, {}});
+    return *this;
+  }
+  // The rows of a part P of the struct after these.
+  template <class P>
+  Fields& part(std::type_identity_t<Place<P>> place, const Fields<P>& more) {
+    for (const typename Fields<P>::Row& row : more.rows_) {
+      Row own{row.spec, {}, [place, row](const ParameterList& list, S& s) { return row.read(list, place(s)); }, {}};
+      if (row.shown)
+        own.shown = [place, row](const S& s) {
+          S copy = s;
+          return row.shown(place(copy));
+        };
+      if (row.write)
+        own.write = [place, row](S& s, S& defaults, ParameterList& list) {
+          row.write(place(s), place(defaults), list);
+        };
+      if (row.has_effect)
+        own.has_effect = [place, row](const S& s) {
+          S copy = s;
+          return row.has_effect(place(copy));
+        };
+      rows_.push_back(std::move(own));
+    }
     return *this;
   }
   // The rows of another table after these.
@@ -309,6 +297,8 @@ class Fields {
   }
 
  private:
+  template <class T>
+  friend class Fields;
   struct Row {
     ParameterSpec spec;
     std::function<std::string(const S&)> shown;  // the default; empty: the meaning states it

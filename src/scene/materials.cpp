@@ -85,7 +85,7 @@ void MaterialSet::look_up(const Material& material, const SurfacePoint<F>& at, c
     const LocalFrame<F> turned = with_normal<F>(plain, at.dpdu, mapped_normal<F>(material, *textures_, points, on));
     s.frame = {select<F>(on, turned.s, plain.s), select<F>(on, turned.t, plain.t), select<F>(on, turned.n, plain.n)};
   }
-  if (material.kind != BsdfKind::coated_metallic_roughness) return;
+  if (material.kind != kind_of<CoatedMetallicRoughness>) return;
   const LocalFrame<F> coat =
       material.coat_normal_texture
           ? with_normal<F>(plain, at.dpdu, mapped_coat_normal<F>(material, *textures_, points, on))

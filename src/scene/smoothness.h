@@ -9,8 +9,8 @@ namespace montelux {
 bool may_be_smooth(const MaterialSet& materials, std::size_t number);
 // The same, combined with something rough, as under a clear coat.
 bool may_be_partly_smooth(const MaterialSet& materials, std::size_t number);
-// Whether it may be smooth, and then is a conductor, a dielectric or a thin dielectric with the normals of the geometry
-// and one index of refraction: light that it reflects or refracts has the differentials of NormalGradient.
+// Whether it may be smooth, and then has the events of specular_lobe() and the normals of the geometry: light that it
+// reflects or refracts has the differentials of NormalGradient.
 bool is_plain_specular(const MaterialSet& materials, std::size_t number);
 
 }  // namespace montelux

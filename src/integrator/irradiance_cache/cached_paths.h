@@ -45,7 +45,7 @@ class CachedPaths {
 
   // Light that other surfaces send to a vertex and that it scatters toward the path.
   Spectrum<F> indirect_light(const PathState<F>& path, const Vertex<F>& v, M scatters) {
-    const M diffuse = scatters & (v.bsdf.kind == U(std::uint32_t(BsdfKind::diffuse))) & !v.x.ray_facing & !v.in_medium;
+    const M diffuse = scatters & (v.bsdf.kind == U(std::uint32_t(kind_of<Diffuse>))) & !v.x.ray_facing & !v.in_medium;
     Spectrum<F> irradiance = gray(F(0.0f));
     M known(false);
     if (any(diffuse)) {

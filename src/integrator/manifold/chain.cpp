@@ -78,7 +78,7 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
     }
     if (!v.bsdf.is_delta || !caster_[v.x.material] || v.x.ray_facing) return false;
     const bool reflects = kind.reflects(events);
-    const SpecularLobe lobe = specular_lobe(BsdfKind(v.bsdf.kind), v.bsdf.slots, v.wo.z, reflects);
+    const SpecularLobe<float> lobe = specular_lobe(BsdfKind(v.bsdf.kind), v.bsdf.slots, v.wo.z, reflects);
     chain.left *= lobe.weight;
     if (!(max_component(chain.left) > 0)) return false;
 

@@ -76,7 +76,7 @@ class PhotonLookup {
                        const PhotonRules<F>& rules) {
     if (!any(on)) return gray(F(0.0f));
     const F radius_squared = find<F>(at, on);
-    const Mask<F> diffuse = on & (at.bsdf.kind == Uint<F>(std::uint32_t(BsdfKind::diffuse)));
+    const Mask<F> diffuse = on & (at.bsdf.kind == Uint<F>(std::uint32_t(kind_of<Diffuse>)));
     Spectrum<F> sum = gray(F(0.0f));
     if (any(diffuse)) {
       const F side = copysign(F(1.0f), at.wo.z);

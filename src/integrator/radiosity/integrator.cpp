@@ -184,7 +184,7 @@ std::optional<std::string> not_diffuse(const Scene& scene) {
     if (m.is_interface) return "a surface is an interface of media";
     if (m.mixture) return "a material is a mixture";
     if (m.has_normal_map()) return "a material has a normal map";
-    if (m.kind != BsdfKind::diffuse) return "a material is not \"diffuse\"";
+    if (m.kind != kind_of<Diffuse>) return "a material is not \"diffuse\"";
   }
   return {};
 }

@@ -36,7 +36,7 @@ template <BsdfKind kind>
 struct CasesOf;
 
 template <>
-struct CasesOf<BsdfKind::diffuse> {
+struct CasesOf<kind_of<Diffuse>> {
   static std::vector<BsdfCase> all() {
     BsdfCase grey{"coloured", {}}, white{"white", {}, true};
     put(grey.row, DiffuseSlots::reflectance, {Rgb{{0.8f, 0.5f, 0.1f}}});
@@ -46,7 +46,7 @@ struct CasesOf<BsdfKind::diffuse> {
 };
 
 template <>
-struct CasesOf<BsdfKind::phong> {
+struct CasesOf<kind_of<Phong>> {
   static std::vector<BsdfCase> all() {
     BsdfCase broad{"broad", {}}, sharp{"sharp", {}}, pure{"without a diffuse part", {}};
     put(broad.row, PhongSlots::diffuse, {Rgb{{0.3f, 0.2f, 0.1f}}, Rgb{{0.4f, 0.5f, 0.6f}}, 5});
@@ -65,7 +65,7 @@ inline BsdfCase metallic_roughness_case(std::string label, const Rgb& base, floa
   return c;
 }
 template <>
-struct CasesOf<BsdfKind::metallic_roughness> {
+struct CasesOf<kind_of<MetallicRoughness>> {
   static std::vector<BsdfCase> all() {
     BsdfCase tinted = metallic_roughness_case("strong tinted reflection", {{0.6f, 0.7f, 0.8f}}, 0.1f, 0.5f, 0.7f);
     put(tinted.row, MetallicRoughnessSlots::specular_color, {Rgb{{9, 4, 1}}});
@@ -90,7 +90,7 @@ inline BsdfCase coated_metallic_case(std::string label, float metallic, float ro
   return c;
 }
 template <>
-struct CasesOf<BsdfKind::coated_metallic_roughness> {
+struct CasesOf<kind_of<CoatedMetallicRoughness>> {
   static std::vector<BsdfCase> all() {
     BsdfCase white = coated_metallic_case("white under a rough coat", 0, 0.8f, 0, 1, 1);
     put(white.row, MetallicRoughnessSlots::base, {gray_rgb(1)});
@@ -118,7 +118,7 @@ inline BsdfCase conductor_case(std::string label, float alpha_x, float alpha_y, 
   return c;
 }
 template <>
-struct CasesOf<BsdfKind::conductor> {
+struct CasesOf<kind_of<Conductor>> {
   static std::vector<BsdfCase> all() {
     return {conductor_case("rough", 0.5f, 0.5f), conductor_case("glossy", 0.15f, 0.15f),
             conductor_case("anisotropic", 0.1f, 0.5f), conductor_case("smooth", 0, 0)};
@@ -131,7 +131,7 @@ inline BsdfCase dielectric_case(std::string label, float alpha_x, float alpha_y,
   return c;
 }
 template <>
-struct CasesOf<BsdfKind::dielectric> {
+struct CasesOf<kind_of<Dielectric>> {
   static std::vector<BsdfCase> all() {
     return {dielectric_case("rough", 0.5f, 0.5f, 1.5f), dielectric_case("glossy", 0.15f, 0.15f, 1.5f, 3),
             dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f), dielectric_case("rarer below", 0.3f, 0.3f, 0.75f),
@@ -141,7 +141,7 @@ struct CasesOf<BsdfKind::dielectric> {
 
 // What absorbs on its way to the surface does so whatever comes then, and is tested on paths.
 template <>
-struct CasesOf<BsdfKind::tinted_dielectric> {
+struct CasesOf<kind_of<TintedDielectric>> {
   static std::vector<BsdfCase> all() {
     std::vector<BsdfCase> cases{dielectric_case("rough", 0.5f, 0.5f, 1.5f),
                                 dielectric_case("anisotropic", 0.2f, 0.6f, 1.33f),
@@ -155,7 +155,7 @@ struct CasesOf<BsdfKind::tinted_dielectric> {
 };
 
 template <>
-struct CasesOf<BsdfKind::thin_dielectric> {
+struct CasesOf<kind_of<ThinDielectric>> {
   static std::vector<BsdfCase> all() {
     BsdfCase pane{"pane", {}, true}, green{"green pane", {}};
     put(pane.row, ThinDielectricSlots::eta, {1.5f, gray_rgb(1)});
@@ -168,7 +168,7 @@ struct CasesOf<BsdfKind::thin_dielectric> {
 };
 
 template <>
-struct CasesOf<BsdfKind::diffuse_transmission> {
+struct CasesOf<kind_of<DiffuseTransmission>> {
   static std::vector<BsdfCase> all() {
     BsdfCase leaf{"leaf", {}}, lossless{"lossless", {}, true};
     put(leaf.row, DiffuseTransmissionSlots::reflectance, {Rgb{{0.3f, 0.2f, 0.1f}}, Rgb{{0.1f, 0.6f, 0.2f}}});
@@ -204,7 +204,7 @@ inline BsdfCase coated_conductor_case(std::string label, const CoatCase& coat, f
 }
 
 template <>
-struct CasesOf<BsdfKind::coated_diffuse> {
+struct CasesOf<kind_of<CoatedDiffuse>> {
   static std::vector<BsdfCase> all() {
     return {coated_diffuse_case("smooth coat", {}, 0.8f),
             coated_diffuse_case("rough coat", {.alpha_x = 0.4f, .alpha_y = 0.4f}, 0.8f),
@@ -222,7 +222,7 @@ struct CasesOf<BsdfKind::coated_diffuse> {
 };
 
 template <>
-struct CasesOf<BsdfKind::coated_conductor> {
+struct CasesOf<kind_of<CoatedConductor>> {
   static std::vector<BsdfCase> all() {
     return {coated_conductor_case("smooth coat", {}, 0.4f, 0.4f),
             coated_conductor_case("rough coat, smooth base", {.alpha_x = 0.4f, .alpha_y = 0.4f}, 0, 0),
@@ -235,7 +235,7 @@ struct CasesOf<BsdfKind::coated_conductor> {
 
 // Interpolation is not reciprocal. The tables live as long as the program.
 template <>
-struct CasesOf<BsdfKind::measured> {
+struct CasesOf<kind_of<Measured>> {
   static std::vector<BsdfCase> all() {
     static const std::vector<MeasuredTable> tables = [] {
       std::vector<MeasuredTable> made;

@@ -12,8 +12,8 @@ struct Model {
 };
 
 std::vector<Model> models() {
-  Model metal{BsdfKind::conductor, {}}, glass{BsdfKind::dielectric, {}}, tinted{BsdfKind::tinted_dielectric, {}},
-      pane{BsdfKind::thin_dielectric, {}};
+  Model metal{kind_of<Conductor>, {}}, glass{kind_of<Dielectric>, {}}, tinted{kind_of<TintedDielectric>, {}},
+      pane{kind_of<ThinDielectric>, {}};
   for (int i = 0; i < spectrum_size; ++i) {
     metal.slots.v[ConductorSlots::eta + i] = 0.2f + 0.3f * float(i),
                                         metal.slots.v[ConductorSlots::k + i] = 3 - 0.5f * float(i);
@@ -44,7 +44,7 @@ TEST(SpecularLobe, has_the_mean_and_the_direction_of_what_is_sampled) {
         directions[which] = s.wi;
       }
       for (const bool reflects : {false, true}) {
-        const SpecularLobe lobe = specular_lobe(m.kind, m.slots, cos_o, reflects);
+        const SpecularLobe<float> lobe = specular_lobe(m.kind, m.slots, cos_o, reflects);
         for (int c = 0; c < spectrum_size; ++c)
           EXPECT_NEAR(sum[reflects ? 1 : 0][std::size_t(c)], double(lobe.weight.c[c]), 2e-4);
         if (reflects || !(max_component(lobe.weight) > 0)) continue;
@@ -56,8 +56,8 @@ TEST(SpecularLobe, has_the_mean_and_the_direction_of_what_is_sampled) {
 
 TEST(SpecularLobe, is_black_of_other_models_and_of_metal_that_would_refract) {
   const BsdfSlots<float> slots{};
-  EXPECT_EQ(max_component(specular_lobe(BsdfKind::diffuse, slots, 0.5f, true).weight), 0);
-  EXPECT_EQ(max_component(specular_lobe(BsdfKind::conductor, models()[0].slots, 0.5f, false).weight), 0);
+  EXPECT_EQ(max_component(specular_lobe(kind_of<Diffuse>, slots, 0.5f, true).weight), 0);
+  EXPECT_EQ(max_component(specular_lobe(kind_of<Conductor>, models()[0].slots, 0.5f, false).weight), 0);
 }
 
 }  // namespace
