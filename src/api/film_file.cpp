@@ -196,6 +196,21 @@ MixingOfPasses mixing_from(const Json& json) {
   return mixing;
 }
 
+// The channels of the table of features, whose sums the film has.
+Texts feature_names() {
+  Texts names;
+  for (const FeatureRow& row : feature_rows)
+    for (char channel : row.channels)
+      names.push_back(std::string(row.layer).append(row.layer.empty() ? "" : ".") + channel);
+  return names;
+}
+void check_features(const Json& j) {
+  const Texts first_version{"Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z"};
+  const auto stated = j.find("features");
+  if ((stated == j.end() ? first_version : stated->get<Texts>()) != feature_names())
+    throw std::invalid_argument("it has other feature layers than films of this version");
+}
+
 // All but the film itself.
 Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
@@ -208,6 +223,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   json["rays"] = rays_json(snapshot.rays);
   if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
   if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
+  json["features"] = feature_names();
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
@@ -226,6 +242,7 @@ Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& lay
 }
 
 SavedFilm saved_from(const Json& j, std::string_view bytes) {
+  check_features(j);
   const SavedScene scene = scene_from(j);
   const FilmSettings settings = settings_from(j.at("settings"));
   const PictureFacts facts = facts_from(j.at("picture"), settings);

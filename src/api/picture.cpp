@@ -57,12 +57,13 @@ struct LayerRow {
   std::vector<std::string_view> channels;
   bool fits_half;  // 16-bit floats keep what it is for, unlike that of an error or a position
   double (*value)(const PixelView& at, int channel);
+  int first = 0;  // the number that `value` takes for the first channel
 };
 
-// The one table of these layers, in their order.
-const std::vector<LayerRow>& layer_rows() {
+// These layers, in their order: those of light, the features, and what is known of the samples.
+std::vector<LayerRow> all_layer_rows() {
   using At = const PixelView&;
-  static const std::vector<LayerRow> rows{
+  std::vector<LayerRow> rows{
       {"",
        {"R", "G", "B"},
        true,
@@ -73,13 +74,21 @@ const std::vector<LayerRow>& layer_rows() {
        {"A"},
        true,
        [](At at, int) { return at.features.samples > 0 ? at.features.hits / at.features.samples : 0; }},
-      {"stderr", {"R", "G", "B"}, false, [](At at, int c) { return std::sqrt(at.estimate.variance_of_mean(c)); }},
-      {"albedo", {"R", "G", "B"}, true, [](At at, int c) { return at.per_hit(at.features.albedo[c]); }},
-      {"N", {"X", "Y", "Z"}, true, [](At at, int c) { return at.per_hit(at.features.normal[c]); }},
-      {"P", {"X", "Y", "Z"}, false, [](At at, int c) { return at.per_hit(at.features.position[c]); }},
-      {"", {"Z"}, false, [](At at, int) { return at.per_hit(at.features.depth); }},
-      {"", {"samples"}, false, [](At at, int) { return at.samples; }},
-      {"", {"id"}, false, [](At at, int) { return double(at.features.object); }}};
+      {"stderr", {"R", "G", "B"}, false, [](At at, int c) { return std::sqrt(at.estimate.variance_of_mean(c)); }}};
+  int first = 0;
+  for (const FeatureRow& feature : feature_rows) {
+    std::vector<std::string_view> channels;
+    for (std::size_t c = 0; c < feature.channels.size(); ++c) channels.push_back(feature.channels.substr(c, 1));
+    rows.push_back({feature.layer, channels, feature.fits_half,
+                    [](At at, int c) { return at.per_hit(at.features.sums[std::size_t(c)]); }, first});
+    first += int(channels.size());
+  }
+  rows.push_back({"", {"samples"}, false, [](At at, int) { return at.samples; }});
+  rows.push_back({"", {"id"}, false, [](At at, int) { return double(at.features.object); }});
+  return rows;
+}
+const std::vector<LayerRow>& layer_rows() {
+  static const std::vector<LayerRow> rows = all_layer_rows();
   return rows;
 }
 
@@ -189,7 +198,7 @@ PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
                   const int px = bounds.x0 + x, py = bounds.y0 + y;
                   const PixelView at{rendering, x, y, film.pixel(px, py), film.features(px, py), film.samples(px, py)};
                   for (const LayerRow& row : layer_rows())
-                    for (int c = 0; c < int(row.channels.size()); ++c) *values++ = float(row.value(at, c));
+                    for (int c = 0; c < int(row.channels.size()); ++c) *values++ = float(row.value(at, row.first + c));
                 });
   // The samples are those of the pixel itself.
   if (const int of_samples = samples_channel(); film.grid().stride > 1)

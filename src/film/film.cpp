@@ -65,13 +65,12 @@ void PixelFeatures::add(const Features& f) {
   samples += 1;
   if (f.coverage <= 0) return;
   hits += 1;
-  for (int i = 0; i < rgb_size; ++i) {
-    emission += std::isfinite(f.emission.c[i]) ? f.emission.c[i] / rgb_size : 0;
-    albedo[i] += std::isfinite(f.albedo.c[i]) ? f.albedo.c[i] : 0;
+  const auto finite = [](float x) { return std::isfinite(x) ? x : 0; };
+  for (float channel : f.emission.c) emission += finite(channel / rgb_size);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((sums[I] += finite(feature_rows[feature_channels[I].row].value(f, feature_channels[I].channel))), ...);
   }
-  const float n[3] = {f.normal.x, f.normal.y, f.normal.z}, p[3] = {f.position.x, f.position.y, f.position.z};
-  for (int i = 0; i < 3; ++i) normal[i] += n[i], position[i] += p[i];
-  depth += f.depth;
+  (std::make_index_sequence<feature_channel_count>());
   if (object == 0) object = f.object;
 }
 
@@ -85,9 +84,9 @@ void PixelPass::add(const PixelSample& sample) {
   for (int i = 0; i < rgb_size; ++i) sum[i] += sample.radiance.c[i];
 }
 
-void PixelSums::add(int pass, const PixelPass& sums) {
-  const PixelFeatures& f = sums.features;
-  samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(sums.non_finite);
+void PixelSums::add(int pass, const PixelPass& added) {
+  const PixelFeatures& f = added.features;
+  samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(added.non_finite);
   if (f.hits == 0) return;
   for_each_feature(*this, f, [&](auto& sum, double of_pass, double limit) {
     sum.add(within(of_pass, std::min(limit * f.hits, double(ExactSum::largest))));

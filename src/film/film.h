@@ -4,16 +4,16 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "film/half_sums.h"
 #include "film/layer_film.h"
-#include "film/limits.h"
 #include "film/picture_error.h"
 #include "image/pixel_sample.h"
 #include "mc/exact_moments.h"
@@ -45,12 +45,23 @@ struct PixelEstimate {
 
 struct PixelFeatures {
   double emission = 0;  // sum over samples of the mean of the channels
-  // Sums over samples that hit.
-  double depth = 0, position[3] = {}, albedo[rgb_size] = {}, normal[3] = {};
+  // Sums over samples that hit, by channel of the table of features.
+  std::array<double, feature_channel_count> sums{};
   double hits = 0, samples = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
+
+  double depth() const { return sums[feature_channel("Z")]; }
+  double position(int c) const { return sums[feature_channel("P") + std::size_t(c)]; }
+  double albedo(int c) const { return sums[feature_channel("albedo") + std::size_t(c)]; }
+  double normal(int c) const { return sums[feature_channel("N") + std::size_t(c)]; }
 };
+
+// Exact sums of the channels of the table of features: small ones where samples are limited.
+template <std::size_t... I>
+auto feature_sums_of(std::index_sequence<I...>)
+    -> std::tuple<std::conditional_t<(feature_limit(I) < no_feature_limit), SmallExactSum, ExactSum>...>;
+using FeatureSums = decltype(feature_sums_of(std::make_index_sequence<feature_channel_count>()));
 
 // The samples of one pixel in one pass, summed: the radiance of those that are finite, and the features.
 struct PixelPass {
@@ -64,15 +75,15 @@ struct PixelPass {
 struct PixelSums {
   ExactMoments radiance[rgb_size];  // of the pass means
   ExactSum half;
-  ExactSum emission, position[3], depth;  // of the sums over the samples of a pass, as PixelFeatures has them
-  SmallExactSum albedo[rgb_size], normal[3];
+  ExactSum emission;  // of the sums over the samples of a pass, as PixelFeatures has them
+  FeatureSums sums;
   std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
   std::uint32_t hits = 0, samples = 0;
   std::uint32_t object = 0;
   int object_pass = 0;  // the first pass in which a sample hit, and so the pass of the object
 
   // Adds a pass. Its radiance is the mean of its finite samples, if there are any.
-  void add(int pass, const PixelPass& sums);
+  void add(int pass, const PixelPass& added);
   void add_mean(int pass, const double (&mean)[rgb_size]);
   void merge(const PixelSums& other);
   PixelEstimate estimate() const;
@@ -80,15 +91,15 @@ struct PixelSums {
   PixelFeatures features() const;
 };
 
-// The one list of the features that a film sums: calls f(a, b, limit) for each channel of each, with the members of two
-// structs that have them, and the largest absolute value of one sample; values beyond it count as it.
+// Calls f(a, b, limit) for the emission and each channel of the table of features, with the members of two structs that
+// have them, and the largest absolute value of one sample; values beyond it count as it.
 template <class A, class B, class Function>
 void for_each_feature(A& a, B& b, Function f) {
-  f(a.emission, b.emission, std::numeric_limits<double>::infinity());
-  f(a.depth, b.depth, std::numeric_limits<double>::infinity());
-  for (int c = 0; c < 3; ++c) f(a.position[c], b.position[c], std::numeric_limits<double>::infinity());
-  for (int c = 0; c < rgb_size; ++c) f(a.albedo[c], b.albedo[c], max_film_albedo);
-  for (int c = 0; c < 3; ++c) f(a.normal[c], b.normal[c], 1.0);
+  f(a.emission, b.emission, no_feature_limit);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (f(std::get<I>(a.sums), std::get<I>(b.sums), feature_limit(I)), ...);
+  }
+  (std::make_index_sequence<feature_channel_count>());
 }
 
 // The mean of the whole image over passes, with an error that includes correlations between pixels.

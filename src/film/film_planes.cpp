@@ -37,9 +37,9 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
       for (int c = 0; c < rgb_size; ++c) {
         mean[std::size_t(c)][i] = float(pixel.mean[c]);
         variance[std::size_t(c)][i] = pixel.passes < 2 ? 0.0f : float(pixel.variance_of_mean(c));
-        albedo[std::size_t(c)][i] = float(features.albedo[c] / hits);
+        albedo[std::size_t(c)][i] = float(features.albedo(c) / hits);
       }
-      for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal[c] / hits);
+      for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal(int(c)) / hits);
       emission[i] = float(features.emission / samples);
       object[i] = float(features.object);
       const double all = mean_of(pixel.mean), half = pixel.half_sum;

@@ -14,8 +14,9 @@ void HalfSums::add(const PixelPass& sums) {
   const PixelFeatures& f = sums.features;
   hits += std::uint32_t(f.hits);
   if (f.hits == 0) return;
-  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo[c], max_film_albedo * f.hits));
-  for (int c = 0; c < 3; ++c) normal[c].add(within(f.normal[c], f.hits));
+  constexpr double max_albedo = feature_limit(feature_channel("albedo"));
+  for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo(c), max_albedo * f.hits));
+  for (int c = 0; c < 3; ++c) normal[c].add(within(f.normal(c), f.hits));
 }
 
 void HalfSums::merge(const HalfSums& other) {
@@ -29,19 +30,20 @@ std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
   const bool both = first > 0 && second > 0;
   const double rest = double(all.hits) - hits;
   const std::array<double, rgb_size> mean = all.mean();
+  const PixelFeatures whole = all.features();
   PixelHalf a, b;
   a.share = both ? first / passes : 1, b.share = both ? second / passes : 1;
   // A half of the features is the whole where it has none.
-  const auto split = [&](double part, double whole, double& of_a, double& of_b) {
-    const double average = all.hits > 0 ? whole / all.hits : 0;
-    of_a = hits > 0 ? part / hits : average, of_b = rest > 0 ? (whole - part) / rest : average;
+  const auto split = [&](double part, double sum, double& of_a, double& of_b) {
+    const double average = all.hits > 0 ? sum / all.hits : 0;
+    of_a = hits > 0 ? part / hits : average, of_b = rest > 0 ? (sum - part) / rest : average;
   };
   for (int c = 0; c < rgb_size; ++c) {
     const double sum = radiance[c].value(), m = mean[std::size_t(c)];
     a.mean[c] = both ? sum / first : m, b.mean[c] = both ? (m * passes - sum) / second : m;
-    split(albedo[c].value(), all.albedo[c].value(), a.albedo[c], b.albedo[c]);
+    split(albedo[c].value(), whole.albedo(c), a.albedo[c], b.albedo[c]);
   }
-  for (int c = 0; c < 3; ++c) split(normal[c].value(), all.normal[c].value(), a.normal[c], b.normal[c]);
+  for (int c = 0; c < 3; ++c) split(normal[c].value(), whole.normal(c), a.normal[c], b.normal[c]);
   return {a, b};
 }
 

@@ -4,8 +4,6 @@
 
 namespace montelux {
 
-inline constexpr double max_film_albedo = 64;
-
 // The number clamped to the bounds; 0 for NaN.
 inline double within(double x, double bound) { return x >= -bound ? std::min(x, bound) : x < -bound ? -bound : 0; }
 

@@ -1,9 +1,7 @@
 // One sample of a pixel, and sets of pixels: types that integrators, film and scheduler share.
 #pragma once
-#include <cstdint>
-
 #include "color/rgb.h"
-#include "math/vec.h"
+#include "image/features.h"
 
 namespace montelux {
 
@@ -39,17 +37,6 @@ struct PixelGrid {
     const int pixel = first + cell * stride + stride / 2;
     return pixel < end ? pixel : end - 1;
   }
-};
-
-// The first surface on a camera path; coverage 0: the path left the scene.
-struct Features {
-  Rgb emission{};    // radiance that reaches the camera directly from an emitter, as part of the sample's
-  Rgb albedo{};      // estimate of the directional albedo: the weight of one scattered direction
-  Vec3f normal{};    // shading normal, world space, facing the camera
-  Vec3f position{};  // world space
-  float depth = 0;   // distance along the ray from the camera's origin
-  float coverage = 0;
-  std::uint32_t object = 0;  // number of the object, from 1; 0: none
 };
 
 // One sample of a pixel: what an integrator returns.

@@ -117,7 +117,7 @@ class Render {
         film_.emplace(std::move(film));
     }
     // The picture may show x from left to right or from right to left.
-    flipped_ = film_->features(0, 0).position[0] > 0;
+    flipped_ = film_->features(0, 0).position(0) > 0;
   }
 
   int size() const { return size_; }

@@ -54,7 +54,7 @@ TEST(LayersOfASparsePicture, are_those_of_the_film) {
       const auto value = [&](std::string_view name) { return image.at(x - bounds.x0, y - bounds.y0, channel(name)); };
       EXPECT_EQ(value("R"), float(film.pixel(x, y).mean[0])) << x << ", " << y;
       EXPECT_EQ(value("B"), float(film.pixel(x, y).mean[2])) << x << ", " << y;
-      EXPECT_EQ(value("Z"), float(film.features(x, y).depth / 2)) << x << ", " << y;
+      EXPECT_EQ(value("Z"), float(film.features(x, y).depth() / 2)) << x << ", " << y;
       EXPECT_EQ(value("samples"), float(film.samples(x, y))) << x << ", " << y;
       taken += double(value("samples"));
     }

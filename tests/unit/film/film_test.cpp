@@ -59,7 +59,7 @@ void expect_same(const Film& a, const Film& b, double tolerance) {
       EXPECT_EQ(a.samples(x, y), b.samples(x, y));
       EXPECT_EQ(a.features(x, y).hits, b.features(x, y).hits);
       EXPECT_EQ(a.features(x, y).object, b.features(x, y).object);
-      expect_near_relative(a.features(x, y).depth, b.features(x, y).depth, tolerance);
+      expect_near_relative(a.features(x, y).depth(), b.features(x, y).depth(), tolerance);
     }
   const ImageEstimate i = a.image(), j = b.image();
   EXPECT_EQ(i.passes, j.passes);

@@ -54,11 +54,10 @@ bool same_bits(const Film& a, const Film& b) {
       const PixelEstimate &p = a.pixel(x, y), &q = b.pixel(x, y);
       const PixelFeatures &f = a.features(x, y), &g = b.features(x, y);
       if (p.passes != q.passes || p.non_finite != q.non_finite || f.object != g.object || f.hits != g.hits ||
-          f.depth != g.depth)
+          f.sums != g.sums)
         return false;
       for (int c = 0; c < rgb_size; ++c)
-        if (p.mean[c] != q.mean[c] || p.m2[c] != q.m2[c] || f.albedo[c] != g.albedo[c] || f.normal[c] != g.normal[c])
-          return false;
+        if (p.mean[c] != q.mean[c] || p.m2[c] != q.m2[c]) return false;
     }
   const ImageEstimate i = a.image(), j = b.image();
   for (int c = 0; c < rgb_size; ++c)

@@ -34,7 +34,7 @@ void expect_same(const Film& a, const Film& b) {
       for (int c = 0; c < rgb_size; ++c) {
         ASSERT_EQ(a.pixel(x, y).mean[c], b.pixel(x, y).mean[c]) << x << " " << y;
         ASSERT_EQ(a.pixel(x, y).m2[c], b.pixel(x, y).m2[c]) << x << " " << y;
-        ASSERT_EQ(a.features(x, y).albedo[c], b.features(x, y).albedo[c]) << x << " " << y;
+        ASSERT_EQ(a.features(x, y).albedo(c), b.features(x, y).albedo(c)) << x << " " << y;
       }
   EXPECT_EQ(a.image().passes, b.image().passes);
   EXPECT_EQ(a.image().mean[0], b.image().mean[0]);

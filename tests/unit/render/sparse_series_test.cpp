@@ -124,7 +124,7 @@ TEST(SparseSeries, see_what_the_pixels_see_that_they_represent) {
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       if (!sparse.is_sampled(x, y)) continue;
-      ASSERT_EQ(sparse.features(x, y).depth, whole.features(x, y).depth) << x << " " << y;
+      ASSERT_EQ(sparse.features(x, y).depth(), whole.features(x, y).depth()) << x << " " << y;
       ASSERT_EQ(sparse.pixel(x, y).mean[0], whole.pixel(x, y).mean[0]) << x << " " << y;
     }
 }
