@@ -2,27 +2,18 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <variant>
 
-#include "parameter/value.h"
-#include "phase/phase.h"
+#include "medium/homogeneous.h"
 
 namespace montelux {
 
-// The same everywhere. Coefficients are per unit of length.
-struct HomogeneousMediumDesc {
-  std::string preset = "Wholemilk";           // of measured_media(), whose coefficients are per millimetre
-  std::optional<SpectrumValue> absorption{};  // sigma_a; none: the preset's
-  std::optional<SpectrumValue> scattering{};  // sigma_s; none: the preset's
-  float scale = 1;                            // factor of both
-  PhaseKind phase = PhaseKind::henyey_greenstein;
-  float mean_cosine = 0;                   // of the phase function of Henyey and Greenstein
-  SpectrumValue emission = gray_value(0);  // radiance, times sigma_a per unit of length
-  float emission_scale = 1;                // factor of the emission
-};
+// The closed list of models.
+using MediumModel = std::variant<HomogeneousMediumDesc>;
 
 struct MediumDesc {
   std::string name;
-  std::optional<HomogeneousMediumDesc> model{};  // none: it was left out by a lenient reading, and is empty space
+  std::optional<MediumModel> model{};  // none: it was left out by a lenient reading, and is empty space
   SourceLocation where{};
 };
 

@@ -7,7 +7,7 @@
 
 namespace montelux {
 
-const Models<HomogeneousMediumDesc>& medium_models();
-inline std::string_view name_of(const HomogeneousMediumDesc&) { return "homogeneous"; }
+const Models<MediumModel>& medium_models();
+std::string_view name_of(const MediumModel& model);
 
 }  // namespace montelux

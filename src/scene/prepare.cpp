@@ -6,7 +6,6 @@
 
 #include "material/build.h"
 #include "material/measured_file.h"
-#include "medium/build.h"
 #include "scene/geometry_builder.h"
 #include "scene/spectra.h"
 #include "texture/build.h"
@@ -122,9 +121,10 @@ std::shared_ptr<const MeasuredTable> Preparation::measured_table(const std::stri
 // A medium that a lenient reading has left out is empty space.
 MediumSet Preparation::make_media() {
   MediumSet media;
+  const MediumInputs inputs{unbounded_rgb, emission_rgb};
+  const auto add = [&](const auto& stated) { return media.add(stated.build(inputs)); };
   for (const MediumDesc& medium : desc_.media)
-    medium_numbers_.push_back(medium.model ? media.add(build_medium(*medium.model, {unbounded_rgb, emission_rgb}))
-                                           : empty_space);
+    medium_numbers_.push_back(medium.model ? std::visit(add, *medium.model) : empty_space);
   return media;
 }
 
