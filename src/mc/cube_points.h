@@ -32,17 +32,6 @@ struct CubeBlock {
 void fill_independent(CubeKey key, CubeBlock block);
 // Points 2k and 2k + 1 are mirror images of each other in the centre of the cube.
 void fill_antithetic(CubeKey key, CubeBlock block);
-// The Sobol' sequence, Owen-scrambled by a hash and shifted digit by digit, so that each point is exactly uniform.
-// Indices below 2^32, dimensions up to sobol_dimensions.
-void fill_sobol(CubeKey key, CubeBlock block);
-// Progressive multi-jittered (0,2)-sequences (mc/pmj02.h), one for each pair of dimensions. Indices below 2^32.
-void fill_pmj02(CubeKey key, CubeBlock block);
-// The Halton sequence with nested random digits. Indices below 2^32, dimensions up to halton_dimensions.
-void fill_halton(CubeKey key, CubeBlock block);
-// A lattice sequence with a random shift: the first 2^m points are a rank-1 lattice, and so are those after them, for
-// every m (mc/lattice.h has the generating vector). Indices below 2^32, dimensions up to lattice_dimensions.
-void fill_lattice(CubeKey key, CubeBlock block);
-
 // n points in a Latin hypercube: each coordinate has one of them in each of n equal parts (McKay, Beckman and Conover
 // 1979). The block lies within [0, n); n < 2^31.
 void fill_latin(CubeKey key, std::uint64_t n, CubeBlock block);

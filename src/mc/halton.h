@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "mc/cube_points.h"
 #include "mc/digital.h"
 
 namespace montelux {
@@ -56,5 +57,8 @@ F halton(Uint<F> index, Uint<F> dimension, std::uint32_t count, Uint<F> key) {
              scrambled_radical_inverse(lane(index, k), halton_bases[lane(dimension, k)], count, lane(key, k)));
   return result;
 }
+
+// The Halton sequence with nested random digits. Indices below 2^32, dimensions up to halton_dimensions.
+void fill_halton(CubeKey key, CubeBlock block);
 
 }  // namespace montelux

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "mc/cube_lanes.h"
 #include "mc/digital.h"
 
 namespace montelux {
@@ -84,6 +85,18 @@ std::vector<std::uint32_t> construct_lattice(const LatticeSearch& search) {
       products[i] *= kernel_factor(reverse_bits(i) * generator.back(), j);
   }
   return generator;
+}
+
+void fill_lattice(CubeKey key, CubeBlock block) {
+  const CubeWords lanes = lane_index<NativeFloats>();
+  for (std::size_t d = 0; d < block.dimension; ++d) {
+    const CubeKey own = key.fork(std::uint32_t(d));
+    const std::uint32_t z = lattice_generator[d];
+    fill_coordinate(block.out + d * block.count, block.count, [&](std::size_t i) {
+      const CubeWords index = CubeWords(std::uint32_t(block.first + i)) + lanes;
+      return unit_doubles(lattice_word(index, CubeWords(z), CubeWords(own.high)), CubeWords(own.low));
+    });
+  }
 }
 
 }  // namespace montelux

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mc/cube_points.h"
 #include "mc/digital.h"
 
 namespace montelux {
@@ -33,5 +34,9 @@ struct LatticeSearch {
   std::uint32_t candidates = 128, seed = 1;
 };
 std::vector<std::uint32_t> construct_lattice(const LatticeSearch& search);
+
+// A lattice sequence with a random shift: the first 2^m points are a rank-1 lattice, and so are those after them, for
+// every m (lattice_generator). Indices below 2^32, dimensions up to lattice_dimensions.
+void fill_lattice(CubeKey key, CubeBlock block);
 
 }  // namespace montelux

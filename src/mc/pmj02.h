@@ -1,5 +1,6 @@
 // Progressive multi-jittered (0,2)-points (Christensen, Kensler and Kilpatrick 2018), computed one by one from digits.
 #pragma once
+#include "mc/cube_points.h"
 #include "mc/digital.h"
 
 namespace montelux {
@@ -23,5 +24,8 @@ MONTELUX_INLINE U pmj02_digits(U index, int bits, U key) {
   for (int j = 0; j < bits; ++j) flips = flips | (drawn(U(index & U((1u << j) - 1u))) & U(1u << j));
   return index ^ flips;
 }
+
+// Progressive multi-jittered (0,2)-sequences, one for each pair of dimensions. Indices below 2^32.
+void fill_pmj02(CubeKey key, CubeBlock block);
 
 }  // namespace montelux

@@ -31,6 +31,21 @@ std::optional<PointSetKind> point_set_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<CubeFill> cube_fill(PointSetKind kind) {
+  switch (kind) {
+    case PointSetKind::halton:
+      return CubeFill{fill_halton, false};
+    case PointSetKind::sobol:
+      return CubeFill{fill_sobol, true};
+    case PointSetKind::pmj02:
+      return CubeFill{fill_pmj02, true};
+    case PointSetKind::lattice:
+      return CubeFill{fill_lattice, true};
+    default:
+      return std::nullopt;
+  }
+}
+
 namespace {
 
 template <class F>

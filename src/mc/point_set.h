@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "mc/cube_points.h"
 #include "mc/random.h"
 
 namespace montelux {
@@ -53,6 +54,15 @@ inline constexpr std::uint32_t grid_dimensions = 256;
 std::uint32_t grid_columns(std::uint32_t n);
 
 std::string_view name_of(PointSetKind kind);
+
+// How a set of points fills blocks of the unit cube for integrals.
+struct CubeFill {
+  void (*fill)(CubeKey, CubeBlock);
+  bool by_powers_of_two;  // the first 2^m points are best, for every m
+};
+// None: the set has no points for integrals.
+std::optional<CubeFill> cube_fill(PointSetKind kind);
+
 // Whether the points are the same in every pass, which biases every estimate.
 bool is_fixed(PointSetKind kind);
 std::optional<PointSetKind> point_set_named(std::string_view name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mc/cube_points.h"
 #include "mc/digital.h"
 
 namespace montelux {
@@ -128,5 +129,9 @@ MONTELUX_INLINE U sobol_reversed(U index, U dimension) {
   }
   return digits;
 }
+
+// The Sobol' sequence, Owen-scrambled by a hash and shifted digit by digit, so that each point is exactly uniform.
+// Indices below 2^32, dimensions up to sobol_dimensions.
+void fill_sobol(CubeKey key, CubeBlock block);
 
 }  // namespace montelux

@@ -81,7 +81,7 @@ struct Pilot {
   }
 };
 
-Method qmc(QmcPoints points, bool baker, bool adapt) {
+Method qmc(PointSetKind points, bool baker, bool adapt) {
   Method m;
   m.kind = MethodKind::qmc, m.points = points, m.baker = baker, m.adapt = adapt;
   return m;
@@ -93,12 +93,13 @@ bool maps_without_trial(double gain, std::size_t dimension) { return gain >= (di
 
 // The points that are usually best: lattices in few dimensions, in more of them without a map.
 Method by_rule(std::size_t dimension, bool adapt) {
-  return dimension <= (adapt ? 3 : 6) ? qmc(QmcPoints::lattice, true, adapt) : qmc(QmcPoints::sobol, false, adapt);
+  return dimension <= (adapt ? 3 : 6) ? qmc(PointSetKind::lattice, true, adapt)
+                                      : qmc(PointSetKind::sobol, false, adapt);
 }
 
 Method other_points(const Method& m) {
-  return m.points == QmcPoints::lattice ? qmc(QmcPoints::sobol, false, m.adapt)
-                                        : qmc(QmcPoints::lattice, true, m.adapt);
+  return m.points == PointSetKind::lattice ? qmc(PointSetKind::sobol, false, m.adapt)
+                                           : qmc(PointSetKind::lattice, true, m.adapt);
 }
 
 // The methods that may win, given the gain of the map so far.
@@ -151,7 +152,7 @@ Choice choose_by_pilots(const Problem& problem, std::uint64_t seed, std::uint64_
   for (const Method& method : methods) {
     Pilot p;
     p.method = method, p.weight = trains(method) ? 1.2 : method.kind == MethodKind::qmc ? 1 : 2;
-    if (method.points == QmcPoints::lattice) p.bonus = lattice_bonus(problem.integrand.dimension, trains(method));
+    if (method.points == PointSetKind::lattice) p.bonus = lattice_bonus(problem.integrand.dimension, trains(method));
     p.technique = make_technique(problem, method, seed, &training);
     pilots.push_back(std::move(p));
   }
@@ -198,7 +199,7 @@ Choice choose_method(const Problem& problem, std::uint64_t seed, std::uint64_t s
   // Too few samples to train a map.
   const bool too_few = samples <= 16 * problem.integrand.dimension * problem.integrand.dimension && !problem.control &&
                        problem.densities.empty();
-  if (too_few) return {qmc(QmcPoints::sobol, false, false), "there are too few samples for pilots"};
+  if (too_few) return {qmc(PointSetKind::sobol, false, false), "there are too few samples for pilots"};
   // The error of quasi-Monte Carlo points depends on the distance of the closest one to a singularity; boxes with many
   // independent samples each are better there.
   const TailProbe probe = probe_tail(problem.integrand, seed, std::min(samples, max_samples_to_probe) / 32);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "lab/integral/technique.h"
+#include "mc/sobol.h"
 
 namespace montelux::lab {
 namespace {

@@ -14,6 +14,7 @@
 #include "lab/integral/singularity.h"
 #include "lab/integral/summary.h"
 #include "lab/integral/technique.h"
+#include "mc/sobol.h"
 
 namespace montelux::lab {
 namespace {

@@ -12,7 +12,14 @@ namespace {
 using enum ParameterType;
 
 constexpr std::array<std::string_view, 2> strata_names{"grid", "latin"};
-constexpr std::array<std::string_view, 4> points_names{"sobol", "halton", "lattice", "pmj02"};
+
+// The samplers that have points for integrals.
+std::vector<std::string_view> points_names() {
+  std::vector<std::string_view> names;
+  for (const NamedPointSet& entry : point_set_names)
+    if (cube_fill(entry.kind)) names.push_back(entry.name);
+  return names;
+}
 
 // "max" is the short name of the heuristic that mc calls maximum.
 std::vector<std::string_view> heuristic_names() {
@@ -50,15 +57,14 @@ std::vector<EntitySpec> make_table() {
       {"mis", "points of several densities, weighted by a heuristic",
        with_passes({{"heuristic", {string}, "default balance", -1e30, 1e30, heuristic_names()}})},
       {"qmc", "randomised quasi-Monte Carlo",
-       with_passes(
-           {{"points",
-             {string},
-             "Owen-scrambled Sobol' or Halton points, a shifted lattice, or multi-jittered pairs; default sobol",
-             -1e30,
-             1e30,
-             {points_names.begin(), points_names.end()}},
-            {"baker", {boolean}, "fold each coordinate, which makes the integrand periodic; default false"},
-            {"adapt", {boolean}, "through an adaptive map of each coordinate; default false"}})},
+       with_passes({{"points",
+                     {string},
+                     "randomised points, like those of the sampler with the same name; default sobol",
+                     -1e30,
+                     1e30,
+                     points_names()},
+                    {"baker", {boolean}, "fold each coordinate, which makes the integrand periodic; default false"},
+                    {"adapt", {boolean}, "through an adaptive map of each coordinate; default false"}})},
       {"vegas", "adaptive map of each coordinate and adaptive stratification (Lepage 2021)", with_passes()},
       {"miser", "recursive stratification (Press and Farrar 1990)", with_passes()},
       {"ris", "importance resampling by a target that need not be normalised",
@@ -82,7 +88,7 @@ std::optional<std::size_t> place_of(const std::array<std::string_view, N>& names
 void assign(Method& method, const Parameter& p, const ParameterList& list) {
   if (p.name == "passes") method.passes = std::uint32_t(list.integer(p.name, 0));
   if (p.name == "strata") method.strata = Strata(*place_of(strata_names, list.string(p.name, "grid")));
-  if (p.name == "points") method.points = QmcPoints(*place_of(points_names, list.string(p.name, "sobol")));
+  if (p.name == "points") method.points = *point_set_named(list.string(p.name, "sobol"));
   if (p.name == "coefficient") method.coefficient = double(list.number(p.name, 1));
   if (p.name == "baker") method.baker = list.boolean(p.name, false);
   if (p.name == "adapt") method.adapt = list.boolean(p.name, false);
@@ -133,7 +139,7 @@ std::string to_text(const Method& method) {
   add("strata", method.strata != plain.strata, strata_names[std::size_t(method.strata)]);
   add("coefficient", method.coefficient.has_value(), float(method.coefficient.value_or(0)));
   add("heuristic", method.heuristic != plain.heuristic, mis_heuristic_names[std::size_t(method.heuristic)].name);
-  add("points", method.points != plain.points, points_names[std::size_t(method.points)]);
+  add("points", method.points != plain.points, name_of(method.points));
   add("baker", method.baker, "true");
   add("adapt", method.adapt, "true");
   add("candidates", method.candidates != plain.candidates, method.candidates);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "mc/mis.h"
+#include "mc/point_set.h"
 #include "parameter/choice.h"
 
 namespace montelux::lab {
@@ -26,7 +27,6 @@ enum class MethodKind : std::uint8_t {
   automatic
 };
 enum class Strata : std::uint8_t { grid, latin };
-enum class QmcPoints : std::uint8_t { sobol, halton, lattice, pmj02 };
 
 // A method with its parameters; those of other methods are ignored.
 struct Method {
@@ -35,7 +35,7 @@ struct Method {
   Strata strata = Strata::grid;
   std::optional<double> coefficient;  // of the control variate; absent: the best one, fitted on the other passes
   MisHeuristic heuristic = MisHeuristic::balance;
-  QmcPoints points = QmcPoints::sobol;
+  PointSetKind points = PointSetKind::sobol;  // one with cube_fill()
   bool baker = false;  // fold each coordinate by the baker's transformation, which makes the integrand periodic
   bool adapt = false;  // qmc: through an adaptive map of each coordinate
   std::uint32_t candidates = 16, resamples = 1;  // ris: M and N

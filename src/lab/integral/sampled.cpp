@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mc/sobol.h"
+
 namespace montelux::lab {
 namespace {
 
@@ -54,7 +56,10 @@ struct Batch {
 class Sampled final : public Technique {
  public:
   Sampled(const Problem& problem, const Method& method, const MapTraining* training)
-      : integrand_(problem.integrand), control_(problem.control), method_(method) {
+      : integrand_(problem.integrand),
+        control_(problem.control),
+        method_(method),
+        points_(cube_fill(method.points).value()) {
     if (method.kind != MethodKind::qmc || !method.adapt || training == nullptr) return;
     map_ = training->map();
     training_evaluations_ = training->evaluations();
@@ -71,7 +76,7 @@ class Sampled final : public Technique {
   }
 
   std::uint64_t fitting(std::uint64_t samples) const override {
-    if (method_.kind == MethodKind::qmc && method_.points != QmcPoints::halton) return std::bit_floor(samples);
+    if (method_.kind == MethodKind::qmc && points_.by_powers_of_two) return std::bit_floor(samples);
     if (map_) return samples / points_per_uniform * points_per_uniform;
     if (method_.kind == MethodKind::antithetic) return samples / 2 * 2;
     if (method_.kind == MethodKind::stratified && method_.strata == Strata::grid)
@@ -114,10 +119,7 @@ class Sampled final : public Technique {
   }
 
   void fill_points(CubeKey key, CubeBlock block) const {
-    if (method_.points == QmcPoints::sobol) fill_sobol(key, block);
-    if (method_.points == QmcPoints::halton) fill_halton(key, block);
-    if (method_.points == QmcPoints::lattice) fill_lattice(key, block);
-    if (method_.points == QmcPoints::pmj02) fill_pmj02(key, block);
+    points_.fill(key, block);
     if (method_.baker) fold({block.out, block.dimension * block.count});
   }
 
@@ -179,6 +181,7 @@ class Sampled final : public Technique {
   Integrand integrand_;
   std::optional<ControlVariate> control_;
   Method method_;
+  CubeFill points_;  // of qmc
   std::optional<AdaptiveMap> map_;
   std::uint64_t training_evaluations_ = 0;
 };

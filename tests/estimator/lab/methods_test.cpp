@@ -4,6 +4,7 @@
 #include "integral_coverage.h"
 #include "lab/integral/sampled.h"
 #include "mc/cube_points.h"
+#include "mc/sobol.h"
 #include "statistics.h"
 
 namespace montelux::test {

@@ -8,8 +8,11 @@
 #include <numbers>
 #include <set>
 
+#include "mc/halton.h"
 #include "mc/lattice.h"
+#include "mc/pmj02.h"
 #include "mc/random.h"
+#include "mc/sobol.h"
 
 namespace montelux {
 namespace {

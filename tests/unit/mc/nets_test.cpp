@@ -10,6 +10,7 @@
 #include "mc/digital.h"
 #include "mc/halton.h"
 #include "mc/lattice.h"
+#include "mc/pmj02.h"
 #include "mc/point_set.h"
 
 namespace montelux {
