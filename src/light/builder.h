@@ -100,11 +100,17 @@ class LightSetBuilder {
   // The image is square and equal-area.
   LightId add_image_infinite(const Transform& to_world, Rgb factor, std::shared_ptr<const LightImage> image);
 
+  // For lights that make their own rows. `power` is for the choice of a light; `bounds`: none for lights without a
+  // place.
+  LightId add_row(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
+  // What a row has of an image, with a table for drawing texels by their mean component, and of a transform.
+  std::uint32_t number_of_directions(std::shared_ptr<const LightImage> image);
+  std::uint32_t number_of(const Transform& to_world);
+
   // Infinite lights are assumed to be on the bounding sphere of the scene.
   LightSet build(LightSettings settings, Vec3f scene_centre, float scene_radius) &&;
 
  private:
-  LightId add_row(LightKind kind, const LightRow& row, std::optional<LightBounds> bounds, float power);
   // Sets the group of the lights that follow.
   void begin_group(const std::string& name);
   // What a surface of this area stores, and what the light selection needs of it.
@@ -117,9 +123,6 @@ class LightSetBuilder {
   LightId add_quadric(LightKind kind, const Transform& to_world, LightRow own, float own_area, bool flip,
                       const Emission& emission);
   std::uint32_t number_of(std::shared_ptr<const LightImage> image);
-  // With a table for drawing texels by their mean component.
-  std::uint32_t number_of_directions(std::shared_ptr<const LightImage> image);
-  std::uint32_t number_of(const Transform& to_world);
 
   LightTables tables_;
   std::string group_ = "default";

@@ -2,11 +2,38 @@
 #pragma once
 #include "light/image.h"
 #include "light/row.h"
+#include "light/stated.h"
 #include "math/square_maps.h"
 #include "mc/hemisphere.h"
 #include "mc/piecewise.h"
 
 namespace montelux {
+
+// Parallel rays in the direction of `to` - `from`.
+struct DistantLightDesc {
+  SpectrumValue irradiance = gray_value(1);  // at normal incidence, W/m^2
+  Vec3f from{0, 0, 0}, to{0, 0, 1};
+  std::optional<float> illuminance{};  // lux, to which the light is scaled; as `power`
+
+  static constexpr std::string_view name = "distant", meaning = "parallel rays";
+  static Fields<DistantLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
+
+// How an image shows the sphere: `automatic` decides by the aspect ratio.
+enum class EnvironmentMapping { equal_area, latlong, automatic };
+
+// An environment.
+struct InfiniteLightDesc {
+  SpectrumValue radiance = gray_value(1);
+  std::string file{};  // instead of `radiance`
+  EnvironmentMapping mapping = EnvironmentMapping::equal_area;
+  std::optional<float> illuminance{};  // lux of the upward plane, to which the light is scaled; as `power`
+
+  static constexpr std::string_view name = "infinite", meaning = "an environment";
+  static Fields<InfiniteLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
 
 // A point of the closed square, moved off the upper edges.
 template <class F>

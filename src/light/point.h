@@ -6,6 +6,7 @@
 #include "light/image.h"
 #include "light/infinite.h"
 #include "light/row.h"
+#include "light/stated.h"
 #include "math/square_maps.h"
 #include "mc/hemisphere.h"
 #include "mc/piecewise.h"
@@ -37,9 +38,21 @@ struct LeavingDirection {
   Density<SolidAngle, F> density;
 };
 
+// The same intensity in all directions.
+struct PointLightDesc {
+  SpectrumValue intensity = gray_value(1);  // W/sr
+  Vec3f from{0, 0, 0};
+  std::optional<float> power{};  // W, to which the light is scaled; none, or not positive: as stated
+
+  static constexpr std::string_view name = "point", meaning = "the same intensity in all directions";
+  static Fields<PointLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
+
 // The same in all directions.
 template <class F>
 struct PointEmitter {
+  using Stated = PointLightDesc;
   Vec3<F> p;
   Spectrum<F> emission;
 
@@ -53,6 +66,24 @@ struct PointEmitter {
   MONTELUX_INLINE Vec2<F> leaving_numbers(Vec3<F> d, Mask<F>) const { return invert_sphere(d); }
 };
 
+// How the intensity of a spot falls from the inner cone to its edge: by a smooth step of the cosine, or by the square
+// of a linear ramp of the cosine.
+enum class SpotFalloff { smooth, squared };
+
+// A cone with a soft edge.
+struct SpotLightDesc {
+  SpectrumValue intensity = gray_value(1);  // W/sr
+  Vec3f from{0, 0, 0}, to{0, 0, 1};
+  float cone_angle = 30;       // half-angle in degrees
+  float cone_delta_angle = 5;  // width of the edge in degrees, inside the cone
+  SpotFalloff falloff = SpotFalloff::smooth;
+  std::optional<float> power{};
+
+  static constexpr std::string_view name = "spot", meaning = "a cone with a soft edge";
+  static Fields<SpotLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
+
 // 0 below `low`, 1 above `high`, between them t^2 (1 + bend - bend t): a bend of 2 gives a cubic with zero end slopes,
 // 0 a square. A step if low and high are equal.
 template <class F>
@@ -64,6 +95,7 @@ MONTELUX_INLINE F soft_step(F x, F low, F high, F bend) {
 // A cone with a soft edge, by the cosines of its whole half angle and of where the edge begins.
 template <class F>
 struct SpotEmitter {
+  using Stated = SpotLightDesc;
   enum Slot { place = light_slot::shape, axis = place + 3, cos_end = axis + 3, cos_edge, bend, end };
   static_assert(fill_light_row(end, {{place, 3}, {axis, 3}, {cos_end, 1}, {cos_edge, 1}, {bend, 1}}));
   Vec3<F> p;
@@ -90,6 +122,17 @@ struct SpotEmitter {
   MONTELUX_INLINE LocalFrame<F> about_axis() const { return LocalFrame<F>::from_normal(rows.vec3(axis)); }
 };
 
+// An intensity by direction.
+struct GoniometricLightDesc {
+  SpectrumValue intensity = gray_value(1);  // W/sr, times the image
+  std::string file{};                       // square and equal-area; empty: constant
+  std::optional<float> power{};
+
+  static constexpr std::string_view name = "goniometric", meaning = "an intensity by direction, given by an image";
+  static Fields<GoniometricLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
+
 // Lights whose intensity is given by an image, by direction: the images of all lights, and which of them a row uses.
 template <class F>
 struct ImagedLights {
@@ -112,6 +155,7 @@ struct ImagedLights {
 // A measured luminaire: the mean of the components of a square equal-area image over the sphere of directions.
 template <class F>
 struct GoniometricEmitter {
+  using Stated = GoniometricLightDesc;
   Vec3<F> p;
   ImagedLights<F> light;
 
@@ -160,6 +204,18 @@ struct GoniometricEmitter {
   }
 };
 
+// A slide projector along +z.
+struct ProjectionLightDesc {
+  std::string file{};  // the slide; it is needed
+  SpectrumValue factor = gray_value(1);
+  float fov = 90;  // of the shorter side, in degrees
+  std::optional<float> power{};
+
+  static constexpr std::string_view name = "projection", meaning = "a slide projector along +z";
+  static Fields<ProjectionLightDesc> rows();
+  std::optional<LightId> add(LightAdder& adder) const;
+};
+
 // Slots of a projection light.
 enum ProjectionSlot {
   projection_place = light_slot::shape,
@@ -205,6 +261,7 @@ struct ProjectionPlane {
 // A slide projector along the light's +z: the image is on the plane z = 1, its shorter side within the field of view.
 template <class F>
 struct ProjectionEmitter {
+  using Stated = ProjectionLightDesc;
   Vec3<F> p;
   ImagedLights<F> light;
 
@@ -252,10 +309,12 @@ struct ProjectionEmitter {
   }
 };
 
-// The interface of every light at one point, made from its row and the images of all lights: leave() draws the
-// direction of a ray, leaving_density() is its density (0 where none leaves), leaving_numbers() the inverse of leave().
+// The interface of every light at one point: what a scene states of it (stated.h); and, made from its row and the
+// images of all lights, leave() draws the direction of a ray, leaving_density() is its density (0 where none leaves),
+// leaving_numbers() the inverse of leave().
 template <class Light, class F>
 concept PointLight = requires(const Light& light, Vec3<F> d, Vec2<F> u, Mask<F> on) {
+  typename Light::Stated;
   Light(LightRows<F>{}, LightImages{});
   { light.p } -> std::convertible_to<Vec3<F>>;
   { light.intensity(d, on) } -> std::same_as<Spectrum<F>>;
