@@ -108,6 +108,33 @@ TEST(Film, image_estimate_is_that_of_the_pass_means_of_the_whole_image) {
   expect_near_relative(image.standard_error[2], std::sqrt(squares / (passes - 1) / passes), 1e-12);
 }
 
+TEST(Film, sums_every_channel_of_the_table_of_features_and_leaves_out_what_is_not_finite) {
+  constexpr PixelBounds pixel{0, 0, 1, 1};
+  RandomStream<float> random(3, 0);
+  std::array<double, feature_channel_count> expected{};
+  Film film(pixel);
+  for (int pass = 0; pass < 4; ++pass) {
+    std::vector<PixelSample> samples(1);
+    Features& f = samples[0].features;
+    f.coverage = 1, f.depth = 10 * random.next();
+    f.position = {random.next(), -random.next(), random.next()};
+    f.normal = {random.next(), random.next(), -random.next()};
+    for (float& c : f.albedo.c) c = random.next();
+    if (pass == 3) f.albedo.c[1] = f.depth = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 0; i < feature_channel_count; ++i) {
+      const float value = feature_rows[feature_channels[i].row].value(f, feature_channels[i].channel);
+      expected[i] += std::isfinite(value) ? double(value) : 0;
+    }
+    film.add_pass(pixel, pass, 1, samples);
+  }
+  const PixelFeatures sums = film.features(0, 0);
+  EXPECT_EQ(sums.hits, 4);
+  for (std::size_t i = 0; i < feature_channel_count; ++i) EXPECT_NEAR(sums.sums[i], expected[i], 1e-7) << i;
+  EXPECT_GT(sums.depth(), 1);
+  EXPECT_LT(sums.normal(2), -0.1);
+  EXPECT_EQ(sums.albedo(1), sums.sums[feature_channel("albedo") + 1]);
+}
+
 TEST(Film, a_mean_far_from_zero_keeps_its_small_variance) {
   PixelSums sums;
   const double base = 1e8;

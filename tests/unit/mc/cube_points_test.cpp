@@ -6,11 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <set>
 
-#include "mc/halton.h"
 #include "mc/lattice.h"
 #include "mc/pmj02.h"
+#include "mc/point_set.h"
 #include "mc/random.h"
 #include "mc/sobol.h"
 
@@ -21,16 +22,23 @@ using Fill = std::function<void(CubeKey, CubeBlock)>;
 constexpr std::size_t dimension = 5;
 constexpr std::size_t n = 1024;
 
-const std::vector<std::pair<const char*, Fill>> fills{
-    {"independent", fill_independent},
-    {"antithetic", fill_antithetic},
-    {"sobol", fill_sobol},
-    {"halton", fill_halton},
-    {"lattice", fill_lattice},
-    {"pmj02", fill_pmj02},
-    {"latin", [](CubeKey key, CubeBlock block) { fill_latin(key, n, block); }},
-    {"grid", [](CubeKey key, CubeBlock block) { fill_grid(key, GridShape::of(dimension, n), block); }},
-};
+// Those of the samplers that integrals can use, and those of other methods.
+const std::vector<std::pair<std::string_view, Fill>> fills = [] {
+  std::vector<std::pair<std::string_view, Fill>> all{{"independent", fill_independent},
+                                                     {"antithetic", fill_antithetic}};
+  for (const NamedPointSet& entry : point_set_names)
+    if (const auto cube = cube_fill(entry.kind)) all.emplace_back(entry.name, cube->fill);
+  all.emplace_back("latin", [](CubeKey key, CubeBlock block) { fill_latin(key, n, block); });
+  all.emplace_back("grid", [](CubeKey key, CubeBlock block) { fill_grid(key, GridShape::of(dimension, n), block); });
+  return all;
+}();
+
+TEST(CubePoints, of_four_samplers_serve_integrals) {
+  std::set<std::string_view> names;
+  for (const NamedPointSet& entry : point_set_names)
+    if (cube_fill(entry.kind)) names.insert(entry.name);
+  EXPECT_EQ(names, (std::set<std::string_view>{"halton", "lattice", "pmj02", "sobol"}));
+}
 
 std::vector<double> points_of(const Fill& fill, std::uint64_t seed, std::uint64_t first = 0, std::size_t count = n) {
   std::vector<double> points(dimension * count);
@@ -75,12 +83,13 @@ TEST(CubePoints, other_seeds_give_other_points) {
 
 TEST(CubePoints, nets_lattices_and_latin_hypercubes_have_one_point_in_each_part_of_every_axis) {
   for (const auto& [name, fill] : fills) {
-    const std::string_view who = name;
-    const bool promised = who == "sobol" || who == "lattice" || who == "pmj02" || who == "latin";
+    const auto kind = point_set_named(name);
+    const std::optional<CubeFill> cube = kind ? cube_fill(*kind) : std::nullopt;
+    const bool promised = (cube && cube->by_powers_of_two) || name == "latin";
     if (promised) {
       EXPECT_TRUE(one_in_each_part(points_of(fill, 5), n)) << name;
     }
-    if (who == "independent") {
+    if (name == "independent") {
       EXPECT_FALSE(one_in_each_part(points_of(fill, 5), n));
     }
   }
