@@ -152,7 +152,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
                               kept.chosen = choose_integrator(kept.choice, defaults, parts.scene, *parts.accel).value();
                             return kept.chosen->any();
                           },
-                          costs.ray_cost, costs.sample_cost, costs.making});
+                          costs.ray_cost, costs.sample_cost, costs.making, kept.chosen && kept.chosen->any().splats()});
   }
 
   ChoiceSettings by{

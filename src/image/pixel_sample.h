@@ -1,5 +1,7 @@
 // One sample of a pixel, and sets of pixels: types that integrators, film and scheduler share.
 #pragma once
+#include <algorithm>
+
 #include "color/rgb.h"
 #include "image/features.h"
 
@@ -19,6 +21,9 @@ struct PixelBounds {
 struct PixelGrid {
   PixelBounds bounds;
   int stride = 1;
+  // Cells show the mean of their pixels, as those of a coarser image do: each sample is of a pixel that is drawn in the
+  // cell. Else they show what one pixel shows.
+  bool is_mean = false;
 
   PixelBounds cells() const {
     if (stride == 1) return bounds;
@@ -27,6 +32,12 @@ struct PixelGrid {
   // The pixel that represents a cell: the middle one, or the last one if the image ends within the cell.
   int pixel_x(int cell) const { return stride == 1 ? cell : middle(bounds.x0, bounds.x1, cell); }
   int pixel_y(int cell) const { return stride == 1 ? cell : middle(bounds.y0, bounds.y1, cell); }
+  // The pixels of a cell.
+  PixelBounds pixels(int cell_x, int cell_y) const {
+    if (stride == 1) return {cell_x, cell_y, cell_x + 1, cell_y + 1};
+    const int x = bounds.x0 + cell_x * stride, y = bounds.y0 + cell_y * stride;
+    return {x, y, std::min(x + stride, bounds.x1), std::min(y + stride, bounds.y1)};
+  }
   // The cell of a pixel.
   int cell_x(int x) const { return stride == 1 ? x : (x - bounds.x0) / stride; }
   int cell_y(int y) const { return stride == 1 ? y : (y - bounds.y0) / stride; }

@@ -83,7 +83,7 @@ class SeriesMemory {
 
 // One pass of a coupled integrator: the pixels of the picture or of its crop. Every pixel takes one sample in each of
 // points.samples_per_pass frames. With a grid the pass is that of a smaller picture whose pixels are the cells: bounds
-// and tiles count cells, and a cell shows what the pixel shows that represents it.
+// and tiles count cells, and a cell shows what the pixel shows that represents it, or the mean of its pixels.
 struct SeriesPass {
   PixelBounds bounds;
   PointSet points;
@@ -149,6 +149,9 @@ class CoupledIntegrator {
   virtual int stages() const = 0;
   // Whether its series have layers.
   virtual bool has_layers() const { return false; }
+  // Whether paths from the lights add light to any pixel, so that a part of the picture takes as many of them as all of
+  // it.
+  virtual bool splats() const { return false; }
   virtual std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const = 0;
 };
 
@@ -161,6 +164,7 @@ class AnyIntegrator {
   const PixelIntegrator* pixel() const { return pixel_; }        // null: it is the other kind
   const CoupledIntegrator* coupled() const { return coupled_; }  // likewise
   bool has_layers() const { return pixel_ ? pixel_->has_layers() : coupled_->has_layers(); }
+  bool splats() const { return coupled_ && coupled_->splats(); }
 
  private:
   const PixelIntegrator* pixel_ = nullptr;

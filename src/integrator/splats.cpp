@@ -4,7 +4,7 @@
 
 namespace montelux {
 
-PixelBounds SplatPlane::cells_near(Vec2f raster) const {
+PixelBounds SplatPlane::pixels_near(Vec2f raster) const {
   const Vec2f radius = filter_.radius();
   const PixelBounds& b = grid_.bounds;
   const auto first = [](float at, float reach, int low) { return std::max(int(std::ceil(at - reach - 0.5f)), low); };
@@ -14,12 +14,18 @@ PixelBounds SplatPlane::cells_near(Vec2f raster) const {
   const int x0 = first(raster.x, radius.x, b.x0), x1 = last(raster.x, radius.x, b.x1);
   const int y0 = first(raster.y, radius.y, b.y0), y1 = last(raster.y, radius.y, b.y1);
   if (x0 > x1 || y0 > y1) return {};
-  PixelBounds cells{grid_.cell_x(x0), grid_.cell_y(y0), grid_.cell_x(x1) + 1, grid_.cell_y(y1) + 1};
+  return {x0, y0, x1 + 1, y1 + 1};
+}
+
+PixelBounds SplatPlane::represented_cells(const PixelBounds& near) const {
+  if (near.area() == 0) return {};
+  PixelBounds cells{grid_.cell_x(near.x0), grid_.cell_y(near.y0), grid_.cell_x(near.x1 - 1) + 1,
+                    grid_.cell_y(near.y1 - 1) + 1};
   // The cells at the ends may have their pixels outside.
-  if (grid_.pixel_x(cells.x0) < x0) ++cells.x0;
-  if (grid_.pixel_y(cells.y0) < y0) ++cells.y0;
-  if (grid_.pixel_x(cells.x1 - 1) > x1) --cells.x1;
-  if (grid_.pixel_y(cells.y1 - 1) > y1) --cells.y1;
+  if (grid_.pixel_x(cells.x0) < near.x0) ++cells.x0;
+  if (grid_.pixel_y(cells.y0) < near.y0) ++cells.y0;
+  if (grid_.pixel_x(cells.x1 - 1) >= near.x1) --cells.x1;
+  if (grid_.pixel_y(cells.y1 - 1) >= near.y1) --cells.y1;
   if (cells.x0 >= cells.x1 || cells.y0 >= cells.y1) return {};
   return cells;
 }
@@ -47,18 +53,29 @@ void SplatPlane::add_to_layers(int x, int y, const Rgb& value, float weight, con
 template <class Visit>
 void SplatPlane::for_each_pixel_near(Vec2f raster, Visit visit) {
   using F = NativeFloats;
-  const PixelBounds cells = cells_near(raster);
-  const int across = cells.width(), count = cells.area();
+  const PixelBounds pixels = pixels_near(raster);
+  // All pixels, or those that represent cells: by the coordinates of what is visited.
+  const PixelBounds all = grid_.is_mean ? pixels : represented_cells(pixels);
+  const int across = all.width(), count = all.area();
+  const auto pixel_x = [&](int x) { return grid_.is_mean ? x : grid_.pixel_x(x); };
+  const auto pixel_y = [&](int y) { return grid_.is_mean ? y : grid_.pixel_y(y); };
   for (int begin = 0; begin < count; begin += lanes_of<F>) {
     Vec2<F> offset{F(0.0f), F(0.0f)};
     const int n = std::min(count - begin, lanes_of<F>);
     for (int k = 0; k < n; ++k) {
-      set_lane(offset.x, k, raster.x - (float(grid_.pixel_x(cells.x0 + (begin + k) % across)) + 0.5f));
-      set_lane(offset.y, k, raster.y - (float(grid_.pixel_y(cells.y0 + (begin + k) / across)) + 0.5f));
+      set_lane(offset.x, k, raster.x - (float(pixel_x(all.x0 + (begin + k) % across)) + 0.5f));
+      set_lane(offset.y, k, raster.y - (float(pixel_y(all.y0 + (begin + k) / across)) + 0.5f));
     }
     const F weight = filter_.evaluate(offset);
-    for (int k = 0; k < n; ++k)
-      visit(cells.x0 + (begin + k) % across, cells.y0 + (begin + k) / across, lane(weight, k));
+    for (int k = 0; k < n; ++k) {
+      const int x = all.x0 + (begin + k) % across, y = all.y0 + (begin + k) / across;
+      if (!grid_.is_mean) {
+        visit(x, y, lane(weight, k));
+        continue;
+      }
+      const int cell_x = grid_.cell_x(x), cell_y = grid_.cell_y(y);
+      visit(cell_x, cell_y, lane(weight, k) / float(grid_.pixels(cell_x, cell_y).area()));
+    }
   }
 }
 

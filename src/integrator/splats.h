@@ -18,8 +18,8 @@ namespace montelux {
 class SplatPlane {
  public:
   SplatPlane(const PixelBounds& bounds, const Filter& filter) : SplatPlane(PixelGrid{bounds}, filter) {}
-  // Holds only the pixels that represent cells of the grid. `layers`: the plan of the layers that it keeps as well,
-  // which must outlive it.
+  // Holds only the pixels that represent cells of the grid, or the means of all pixels of each. `layers`: the plan of
+  // the layers that it keeps as well, which must outlive it.
   SplatPlane(const PixelGrid& grid, const Filter& filter, const LayerPlan* layers = nullptr)
       : grid_(grid),
         cells_(grid.cells()),
@@ -64,15 +64,18 @@ class SplatPlane {
   SharedExactSum* layer_sums(int x, int y, std::size_t layer) {
     return &layer_sums_[(pixel_number(x, y) * std::size_t(layers_->count()) + layer) * rgb_size];
   }
-  // Calls visit(x, y, weight) for the cell of each pixel that a splat at this place reaches, with the filter's weight.
+  // Calls visit(x, y, weight) for the cell of each pixel that a splat at this place reaches, with the filter's weight,
+  // which counts in part where cells show means.
   template <class Visit>
   void for_each_pixel_near(Vec2f raster, Visit visit);
   // Whether the pixel can hold it.
   static bool add_to(Pixel& pixel, const Rgb& value, float weight);
   void add_to_layers(int x, int y, const Rgb& value, float weight, const LightOrigin<float>& from);
   void take_into(int x, int y, PixelSample& sample, std::span<ExactRgb> sums);
-  // The cells whose pixels a splat at this place reaches; with an area of 0 if there are none.
-  PixelBounds cells_near(Vec2f raster) const;
+  // The pixels that a splat at this place reaches; with an area of 0 if there are none.
+  PixelBounds pixels_near(Vec2f raster) const;
+  // The cells that these pixels represent.
+  PixelBounds represented_cells(const PixelBounds& near) const;
 
   PixelGrid grid_;
   PixelBounds cells_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -17,6 +16,8 @@ namespace {
 constexpr int first_choice_pass = (1 << 30) + (1 << 20);
 // Fewer windows have no usable interval.
 constexpr std::size_t min_windows = 10;
+// Of a coarse image: a caustic should cover some windows, and the windows of a pilot some hundreds.
+constexpr int min_cells = 2048, max_cells = 32768, coarse_window = 4;
 
 class Pilots {
  public:
@@ -34,6 +35,7 @@ class Pilots {
     if (candidates_.size() < 2) return choice_;
     choice_.reason = ChoiceReason::too_short;
     if (settings_.target && !predict_samples()) return choice_;
+    compare_coarse_images();
     if (const std::vector<std::size_t> others = survivors(); !others.empty()) compare_longer(others);
     decide();
     if (observer_.stop_requested()) choice_ = {0, ChoiceReason::interrupted, {}, 0, 0};
@@ -74,7 +76,8 @@ class Pilots {
   }
 
   // The pilots of these candidates, the first of which is the first candidate, on these windows.
-  std::vector<CandidatePilot> measure(const Plan& plan, std::span<const PixelBounds> windows) {
+  std::vector<CandidatePilot> measure(const Plan& plan, std::span<const PixelBounds> windows,
+                                      const std::optional<PixelGrid>& grid = {}) {
     std::vector<CandidatePilot> pilots;
     for (const auto& [candidate, samples] : plan) {
       (void)integrator(candidate);
@@ -85,7 +88,7 @@ class Pilots {
       WindowPilot& window = pilot.windows[unit / pilots.size()];
       for (std::size_t pass = 0; pass < window.passes.size(); ++pass) {
         const RayCounts rays = trace_window(*made_[pilot.candidate], settings_.image, windows[unit / pilots.size()],
-                                            next_pass_ + int(pass), pilot.samples_per_pass, window.passes[pass]);
+                                            next_pass_ + int(pass), pilot.samples_per_pass, window.passes[pass], grid);
         window.cost += candidates_[pilot.candidate].ray_cost * double(rays.all());
       }
     };
@@ -125,14 +128,13 @@ class Pilots {
     constexpr double part = 0.01;  // of the predicted work, for one more pilot
     const std::size_t count = std::min(min_windows, windows_.size());
     const std::vector<PixelBounds> windows = part_of_windows(0, count);
-    Sample all(count);
-    std::iota(all.begin(), all.end(), std::size_t(0));
+    const std::vector<double> once(count, 1.0);
     const double max_samples = settings_.samples, error = settings_.target->error;
     for (int samples = 1;; samples *= growth) {
       const std::vector<CandidatePilot> pilots = measure({{0, samples}}, windows);
       if (pilots.empty()) return false;
       const double predicted =
-          samples_for_unit_error(pairs_of(pilots, windows)[0].other, all, *settings_.target, windows_.size()) /
+          samples_for_unit_error(pairs_of(pilots, windows)[0].other, once, *settings_.target, windows_.size()) /
           (error * error);
       settings_.samples = std::isfinite(predicted) ? std::clamp(predicted, 1.0, max_samples) : max_samples;
       if (growth * pilots[0].samples() * pixels_of(windows) > part * settings_.samples * pixels()) return true;
@@ -150,6 +152,31 @@ class Pilots {
     return plan_of(others, 4 * samples, samples);
   }
 
+  // Compares those whose paths splat light with the first candidate, as far as there is time for it: on coarser images,
+  // since they are as costly in a window as in the whole image.
+  void compare_coarse_images() {
+    constexpr double share = 0.4;  // of the budget, for each
+    for (std::size_t k = 1; k < candidates_.size(); ++k) {
+      if (!candidates_[k].splats) continue;
+      const double cell_work = work_of(long_plan({k})) / window_pixels();
+      const double cells = (share * budget() - candidates_[k].making) / cell_work;
+      if (cells < std::min(double(min_cells), pixels())) continue;
+      const PixelGrid grid = coarse_image(settings_.image.bounds, std::min(cells, double(max_cells)));
+      const PixelBounds whole = grid.cells();
+      int samples = 1;
+      while (2 * samples * whole.area() <= cells) samples *= 2;
+      std::vector<CandidatePilot> pilots = measure(long_plan({k}, samples), std::span(&whole, 1), grid);
+      if (pilots.empty()) return;
+      std::vector<PixelBounds> windows;
+      for (CandidatePilot& pilot : pilots) {
+        windows.clear();
+        pilot.windows = split_pilot(pilot.windows.front(), whole, coarse_window, windows);
+      }
+      pairs_[k] = pairs_of(pilots, windows)[1];
+      pairs_[k].is_whole_image = true;
+    }
+  }
+
   // Those of the other candidates that may be more efficient, by pilots on a few windows; all that there is time for if
   // that is only enough for one.
   std::vector<std::size_t> survivors() {
@@ -157,6 +184,7 @@ class Pilots {
     std::vector<std::size_t> others;
     double making = 0;
     for (std::size_t k = 1; k < candidates_.size(); ++k) {
+      if (candidates_[k].splats) continue;
       std::vector<std::size_t> with = others;
       with.push_back(k);
       const double all_making = making + candidates_[k].making;
@@ -166,7 +194,9 @@ class Pilots {
       others = with, making = all_making;
     }
     const bool has_first = !others.empty() && others.front() == 1;
-    if (!has_first && candidates_[1].making + work_of(long_plan({1})) * double(min_windows) <= budget()) return {1};
+    if (!has_first && !candidates_[1].splats &&
+        candidates_[1].making + work_of(long_plan({1})) * double(min_windows) <= budget())
+      return {1};
     if (others.empty()) return {};
     const double affordable = std::max(share * budget() - making, 0.0) / work_of(short_plan(others));
     compare(short_plan(others), std::max(std::size_t(affordable), min_windows));
@@ -212,19 +242,24 @@ class Pilots {
     return ratio_of(candidates_[candidate].name, pair->second, target(), windows_.size());
   }
 
-  // The best of those that are better than the first candidate with confidence, if there is one.
+  // The best of those that are better than the first candidate with confidence, if there is one. What finds light that
+  // the first candidate's pilot lacks is better than what does not, whose error lacks that light, too.
   void decide() {
     // Pilots favour a candidate that shares samples by up to 2.5 (in a Cornell box): they have seen few of its rare
     // bright pixels, and passes of an image are longer, from which the first candidate gains most.
     constexpr double min_ratio = 2;
     if (pairs_.empty()) return;
     choice_.reason = ChoiceReason::none_better;
-    double best = min_ratio;
+    std::optional<CandidateRatio> best;
     for (const auto& [candidate, pair] : pairs_) {
       const CandidateRatio r = ratio(candidate);
       choice_.ratios.push_back(r);
-      if (r.low <= min_ratio || r.is_unsure || r.ratio < best) continue;
-      best = r.ratio, choice_.chosen = candidate;
+      // Few bright samples may determine its error; where they are more numerous than those of the first candidate,
+      // which lacks them, it is better all the same.
+      const bool is_unsure = r.is_unsure && !(candidates_[candidate].splats && r.finds_more_light);
+      if (r.low <= min_ratio || is_unsure) continue;
+      if (best && std::pair(r.finds_more_light, r.ratio) < std::pair(best->finds_more_light, best->ratio)) continue;
+      best = r, choice_.chosen = candidate;
       choice_.reason = r.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;
     }
     // The chosen one first, or the best one.

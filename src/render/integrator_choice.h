@@ -20,6 +20,7 @@ struct Candidate {
   double ray_cost = 1;                  // the time of a ray, relative to that of the first candidate
   double sample_cost = 1;  // about the time of a sample, likewise: whether there is time for a pilot; measured after
   double making = 0;       // samples of the first candidate that take as long as making it
+  bool splats = false;     // CoupledIntegrator::splats()
 };
 
 struct ChoiceSettings {

@@ -108,6 +108,41 @@ double significance(const std::vector<MissingLightOfPilot>& missing, double Miss
   return moments.mean / std::max(moments.standard_error(), 1e-30);
 }
 
+// Limits the light of the two in a hundred windows where it is largest, so that single bright samples of the other
+// pilot neither show light nor hide it.
+void limit_light(std::vector<MissingLightOfPilot>& missing) {
+  constexpr double kept = 0.98;
+  std::vector<double> sizes;
+  for (const MissingLightOfPilot& m : missing) sizes.push_back(std::abs(m.light));
+  const auto limit = sizes.begin() + std::ptrdiff_t(kept * double(sizes.size() - 1));
+  std::ranges::nth_element(sizes, limit);
+  for (MissingLightOfPilot& m : missing) m.light = std::clamp(m.light, -*limit, *limit);
+}
+
+// Light that is missing from a pilot of so many samples of each pixel, with significance, and does not show in the
+// spread of its samples either: it is rare in them. Adds to the errors what they are at least.
+//
+// Were this light found by hits of the size h, relative to the expectation, then there would be D / h of them per
+// sample, where D is the sum of the missing light over the pixels, and their squared error would be D h. Fewer than 3
+// hits were expected, or some would have been seen (with a probability of 0.95): so h is at least samples D / 3. It
+// counts in each window by its share of the light.
+bool add_rare_light(std::vector<MissingLightOfPilot> missing, double samples, std::vector<WindowError>& errors) {
+  constexpr double significant = 3, unseen_hits = 3;
+  // Where hits have been seen, but fewer than expected, the spread shows more than a small part of the error.
+  constexpr double max_part_seen = 1.0 / 30;
+  limit_light(missing);
+  const double deviations = significance(missing, &MissingLightOfPilot::light);
+  if (deviations < significant) return false;
+  double light = 0, positive = 0, seen = 0;
+  for (const MissingLightOfPilot& m : missing) light += m.light / rgb_size, positive += std::max(m.light, 0.0);
+  for (const WindowError& e : errors) seen += e.relative;
+  const double at_least = light * (1 - 2 / deviations), error = samples * at_least * at_least / unseen_hits;
+  if (seen > max_part_seen * error) return false;
+  for (std::size_t w = 0; w < errors.size(); ++w)
+    errors[w].relative += error * std::max(missing[w].light, 0.0) / positive;
+  return true;
+}
+
 // Whether light is missing from a pilot with significance. Then its errors are those against the mean of the other one.
 bool adds_missing_light(const std::vector<MissingLightOfPilot>& missing, std::vector<WindowError>& errors) {
   constexpr double significant = 3;
@@ -136,6 +171,7 @@ std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::spa
     const std::vector<PixelMean> expectation = expectation_of(pilots, weights, w, windows[w]);
     for (std::size_t k = 0; k < pilots.size(); ++k) {
       PilotPair& pair = pairs[k];
+      pair.first_samples = pilots[0].samples();
       pair.other.push_back(error_of(pilots[k], w, expectation, pair.largest));
       pair.first.push_back(pairs[0].other[w]);
       pair.first_misses.push_back(missing_light(pilots[0], pilots[k], w, expectation));
@@ -145,19 +181,22 @@ std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::spa
   return pairs;
 }
 
-double samples_for_unit_error(const std::vector<WindowError>& errors, const Sample& windows, const ErrorTarget& target,
-                              std::size_t all_windows) {
+double samples_for_unit_error(const std::vector<WindowError>& errors, std::span<const double> weights,
+                              const ErrorTarget& target, std::size_t all_windows) {
   WindowError sum;
-  for (std::size_t w : windows)
-    sum.pixels += errors[w].pixels, sum.relative += errors[w].relative, sum.of_sum += errors[w].of_sum,
-        sum.sum += errors[w].sum;
+  double windows = 0;
+  for (std::size_t w = 0; w < errors.size(); ++w) {
+    windows += weights[w];
+    sum.pixels += weights[w] * errors[w].pixels, sum.relative += weights[w] * errors[w].relative;
+    sum.of_sum += weights[w] * errors[w].of_sum, sum.sum += weights[w] * errors[w].sum;
+  }
   switch (target.measure) {
     case TargetMeasure::relative:
       return sum.relative / sum.pixels;
     case TargetMeasure::mean:
       // The windows' errors are independent: of the sum over all windows it is that of these times a number, and the
       // square of the sum is that of these times its square.
-      return sum.of_sum / (sum.sum * sum.sum) * double(windows.size()) / double(all_windows);
+      return sum.of_sum / (sum.sum * sum.sum) * windows / double(all_windows);
     case TargetMeasure::pixels:
       break;
   }
@@ -165,9 +204,9 @@ double samples_for_unit_error(const std::vector<WindowError>& errors, const Samp
   double low = 0, high = 1;
   const auto within = [&](double samples) {
     double pixels = 0;
-    for (std::size_t w : windows) {
+    for (std::size_t w = 0; w < errors.size(); ++w) {
       const double deviation = std::sqrt(errors[w].relative / errors[w].pixels / samples);
-      pixels += errors[w].pixels * (deviation > 0 ? 2 * special::normal_cdf(1 / deviation) - 1 : 1.0);
+      pixels += weights[w] * errors[w].pixels * (deviation > 0 ? 2 * special::normal_cdf(1 / deviation) - 1 : 1.0);
     }
     return pixels / sum.pixels;
   };
@@ -182,28 +221,30 @@ double samples_for_unit_error(const std::vector<WindowError>& errors, const Samp
 CandidateRatio ratio_of(const std::string& name, PilotPair pair, const ErrorTarget& target, std::size_t all_windows) {
   CandidateRatio result{name};
   std::vector<WindowError>&first = pair.first, &other = pair.other;
-  result.finds_more_light = adds_missing_light(pair.first_misses, first);
+  result.finds_more_light = (pair.is_whole_image && add_rare_light(pair.first_misses, pair.first_samples, first)) ||
+                            adds_missing_light(pair.first_misses, first);
   adds_missing_light(pair.first_shows, other);
   result.is_unsure = hill_index(pair.largest.sorted()) < 1;
-  const auto ratio = [&](const Sample& windows) {
-    double cost = 0, of_other = 0;
-    for (std::size_t w : windows) cost += first[w].cost, of_other += other[w].cost;
-    const double of_first = samples_for_unit_error(first, windows, target, all_windows) * cost;
-    return of_first / (samples_for_unit_error(other, windows, target, all_windows) * of_other);
-  };
   const std::size_t count = first.size();
-  Sample windows(count);
-  std::iota(windows.begin(), windows.end(), std::size_t(0));
-  result.ratio = ratio(windows);
+  std::vector<double> weights(count, 1.0);
+  const auto ratio = [&] {
+    double cost = 0, of_other = 0;
+    for (std::size_t w = 0; w < count; ++w) cost += weights[w] * first[w].cost, of_other += weights[w] * other[w].cost;
+    const double of_first = samples_for_unit_error(first, weights, target, all_windows) * cost;
+    return of_first / (samples_for_unit_error(other, weights, target, all_windows) * of_other);
+  };
+  result.ratio = ratio();
   // Without noise there is nothing to gain.
   if (!std::isfinite(result.ratio) || !(result.ratio > 0)) return {result.name, 1, 0, 1, false};
   constexpr int resamples = 400;
   constexpr double tail = 0.025;
+  // The Bayesian bootstrap (Rubin 1981): weights are exponentially distributed. A sum that one window determines, where
+  // the only rare bright sample is, may then be far smaller, but not as if that had never been seen.
   RandomStream<float> random(std::uint32_t(count), 0x5eedu);
   std::vector<double> ratios;
   for (int i = 0; i < resamples; ++i) {
-    for (std::size_t& w : windows) w = std::min(std::size_t(random.next() * float(count)), count - 1);
-    if (const double one = ratio(windows); std::isfinite(one)) ratios.push_back(one);
+    for (double& weight : weights) weight = -std::log1p(-double(random.next()));
+    if (const double one = ratio(); std::isfinite(one)) ratios.push_back(one);
   }
   if (ratios.size() < resamples / 2) return {result.name, 1, 0, 1, false};
   std::ranges::sort(ratios);

@@ -31,6 +31,10 @@ struct PilotPair {
   std::vector<WindowError> first, other;
   std::vector<MissingLightOfPilot> first_misses, first_shows;
   LargestTerms largest{};  // of the relative squared errors of the other one's pixels
+  // The windows are all of a coarse image. Rare light is then looked for: errors of windows are independent, and what
+  // is rare for the other one, whose strategies are to include those of the first one, is rare for the first one, too.
+  bool is_whole_image = false;
+  double first_samples = 0;  // of a pixel or cell
   // Adds what pilots of the same candidates show of more windows.
   void append(const PilotPair& more);
 };
@@ -38,13 +42,10 @@ struct PilotPair {
 // Pilot 0 beside each of the pilots, beginning with itself.
 std::vector<PilotPair> pairs_of(std::span<const CandidatePilot> pilots, std::span<const PixelBounds> windows);
 
-// Windows by their numbers; the same one may be there more than once.
-using Sample = std::vector<std::size_t>;
-
 // The number of samples of a pixel at which the error is 1: inversely proportional to the squared error that is
-// requested. Infinite where the windows do not show it.
-double samples_for_unit_error(const std::vector<WindowError>& errors, const Sample& windows, const ErrorTarget& target,
-                              std::size_t all_windows);
+// requested. Infinite where the windows do not show it. `weights`: how much each window counts, on average once.
+double samples_for_unit_error(const std::vector<WindowError>& errors, std::span<const double> weights,
+                              const ErrorTarget& target, std::size_t all_windows);
 
 // The efficiency of a candidate, 1 / (squared error x cost), over that of the first one, with an interval for about
 // 95 %, by its last pilot.

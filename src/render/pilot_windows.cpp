@@ -36,19 +36,26 @@ std::vector<PixelBounds> windows_of(const PixelBounds& bounds, std::uint32_t see
   return windows;
 }
 
+PixelGrid coarse_image(const PixelBounds& bounds, double cells) {
+  PixelGrid grid{bounds, 1, true};
+  while (PixelGrid{bounds, grid.stride + 1, true}.cells().area() >= cells) ++grid.stride;
+  return grid;
+}
+
 RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& image, const PixelBounds& window, int pass,
-                       int samples, std::vector<PixelMean>& means) {
+                       int samples, std::vector<PixelMean>& means, const std::optional<PixelGrid>& grid) {
   const FlushDenormals flush;
   std::vector<PixelPass> sums(std::size_t(window.area()));
   RayCounts rays;
   if (const PixelIntegrator* pixels = integrator.pixel()) {
     std::vector<PixelSample> out(sums.size() * std::size_t(samples));
-    rays = pixels->trace({window, image.points(pass, samples), image.shutter}, out);
+    rays = pixels->trace({window, image.points(pass, samples), image.shutter, {}, {}, grid}, out);
     for (std::size_t i = 0; i < out.size(); ++i) sums[i / std::size_t(samples)].add(out[i]);
   } else {
     const CoupledIntegrator& coupled = *integrator.coupled();
     const int frames = coupled.warm_up() + samples;
-    const std::unique_ptr<FrameSeries> series = coupled.begin({window, image.points(pass, frames), image.shutter});
+    const std::unique_ptr<FrameSeries> series =
+        coupled.begin({window, image.points(pass, frames), image.shutter, {}, grid});
     std::vector<PixelSample> out(sums.size());
     for (int frame = 0; frame < frames; ++frame) {
       out.assign(out.size(), {});
@@ -60,6 +67,22 @@ RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& ima
   means.reserve(sums.size());
   for (const PixelPass& sum : sums) means.push_back(mean_of(sum));
   return rays;
+}
+
+std::vector<WindowPilot> split_pilot(const WindowPilot& whole, const PixelBounds& cells, int side,
+                                     std::vector<PixelBounds>& windows) {
+  std::vector<WindowPilot> parts;
+  for (const PixelBounds& window : tiles_of(cells, side)) {
+    windows.push_back(window);
+    WindowPilot& part = parts.emplace_back();
+    part.cost = whole.cost * window.area() / cells.area();
+    for (std::size_t pass = 0; pass < whole.passes.size(); ++pass)
+      for (int y = window.y0; y < window.y1; ++y)
+        for (int x = window.x0; x < window.x1; ++x)
+          part.passes[pass].push_back(
+              whole.passes[pass][std::size_t(y - cells.y0) * std::size_t(cells.width()) + std::size_t(x - cells.x0)]);
+  }
+  return parts;
 }
 
 }  // namespace montelux

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "integrator/integrator.h"
@@ -30,8 +31,16 @@ struct CandidatePilot {
 // Squares of the image, in an order whose first ones are spread over it.
 std::vector<PixelBounds> windows_of(const PixelBounds& bounds, std::uint32_t seed);
 
-// The means of the pixels of a window in one pass, as those of an image of its own. Returns the rays.
+// A coarser image of about so many cells, at least one pixel each, that show the mean of their pixels.
+PixelGrid coarse_image(const PixelBounds& bounds, double cells);
+
+// The means of the pixels of a window in one pass, as those of an image of its own; with a grid, of its cells. Returns
+// the rays.
 RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& image, const PixelBounds& window, int pass,
-                       int samples, std::vector<PixelMean>& means);
+                       int samples, std::vector<PixelMean>& means, const std::optional<PixelGrid>& grid = {});
+
+// A pilot of a whole image of cells as pilots of its squares of `side` cells, which are added to `windows`.
+std::vector<WindowPilot> split_pilot(const WindowPilot& whole, const PixelBounds& cells, int side,
+                                     std::vector<PixelBounds>& windows);
 
 }  // namespace montelux

@@ -10,8 +10,10 @@ namespace {
 // 32 pixels of each of 256 blocks, 8 samples each, of paths that no roulette ends.
 constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
 
-constexpr AutomaticCandidate candidates[] = {
-    {"restir-pt", 1.1, 8, 0}, {"path:roulette=efficiency", 1, 1, survival_pilot_samples}, {"restir-di", 0.9, 3, 0}};
+constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
+                                             {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
+                                             {"restir-di", 0.9, 3, 0},
+                                             {"bdpt", 1.5, 4, 0}};
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts{""};

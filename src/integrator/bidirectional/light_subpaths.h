@@ -37,7 +37,12 @@ struct BidirectionalFrame {
 
   float light_paths() const { return float(light_path_count); }
   // As many as are connected with the lens: no light arrives where camera rays go through the centres of pixels alone.
-  float splat_paths() const { return scene.pixel_centres || !paths.connect ? 0.0f : light_paths(); }
+  // For each path from the eye at a pixel: where cells show means, a pixel has only its share of the cell's.
+  float splat_paths() const {
+    if (scene.pixel_centres || !paths.connect) return 0;
+    if (!pass.grid || !pass.grid->is_mean) return light_paths();
+    return light_paths() * float(pass.grid->bounds.area()) / float(pass.grid->cells().area());
+  }
   std::uint32_t path_number(int x, int y) const {
     return std::uint32_t(y - pass.bounds.y0) * std::uint32_t(pass.bounds.width()) + std::uint32_t(x - pass.bounds.x0);
   }
@@ -58,14 +63,14 @@ struct BidirectionalFrame {
   template <class F>
   F shutter_sample_of(const PathSite<F>& site) const {
     if (shutter_sample) return F(*shutter_sample);
-    Uint<F> x(0u), y(0u);
+    Uint<F> cell_x(0u), cell_y(0u);
     const PixelBounds& b = pass.bounds;
     for (int k = 0; k < lanes_of<F>; ++k) {
       const auto number = lane(site.index, k), width = std::uint32_t(b.width());
-      const PixelGrid& grid = plane.grid();
-      set_lane(x, k, std::uint32_t(grid.pixel_x(b.x0 + int(number % width))));
-      set_lane(y, k, std::uint32_t(grid.pixel_y(b.y0 + int(number / width))));
+      set_lane(cell_x, k, std::uint32_t(b.x0) + number % width);
+      set_lane(cell_y, k, std::uint32_t(b.y0) + number / width);
     }
+    const auto [x, y] = pixels_of<F>(pass.grid, pass.points, cell_x, cell_y, Uint<F>(frame));
     return numbers_of<F>(pass.points, PathSite<F>{x, y, Uint<F>(frame)}).get1(Uint<F>(path_dimension::time));
   }
 };

@@ -24,6 +24,7 @@ class LightTracer final : public CoupledIntegrator {
   int warm_up() const override { return 0; }
   int stages() const override { return 2; }
   bool has_layers() const override { return true; }
+  bool splats() const override { return true; }
   std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:

@@ -43,7 +43,7 @@ class PathFunction {
     c.y = take_pixel<F>(film.last(lanes_of<F>), bounds_.y0, bounds_.height());
     std::array<PixelSample, lanes_of<F>> out{};
     const RecordedNumbers<F> numbers(numbers_, point.beyond);
-    const auto [x, y] = pixels_of<F>(pass_, c.x, c.y);
+    const auto [x, y] = pixels_of<F>(pass_.grid, pass_.points, c.x, c.y, Uint<F>(0u));
     const Mask<F> all(true);
     GivenPaths<F, Rays> paths(scene_, rays_, {pass_, {x, y, U(0u)}, numbers, all, all}, out);
     counts.camera += lanes_of<F>;

@@ -256,7 +256,7 @@ class StrategyFunction {
                   RayCounts& counts) {
     std::ranges::fill(out_, PixelSample{});
     if (!any(starts)) return;
-    const auto [x, y] = pixels_of<F>(pass_, c.x, c.y);
+    const auto [x, y] = pixels_of<F>(pass_.grid, pass_.points, c.x, c.y, U(0u));
     GivenPaths<F, Rays> paths(scene_, rays_, {pass_, {x, y, U(0u)}, frame.eye, starts, starts & wants_sky}, out_);
     counts.camera += std::uint64_t(count(starts));
     counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, vertices).run(paths, out_);

@@ -58,13 +58,25 @@ constexpr int block_width() {
   return lanes_of<F> == 16 ? 4 : lanes_of<F> >= 4 ? lanes_of<F> / 2 : 1;
 }
 
-// The pixels that cells of the pass stand for.
+// The pixels that cells of the pass stand for in the samples of these numbers. Where cells show means, a pixel is drawn
+// for each sample of each cell and pass. Lanes beyond the grid have any pixel.
 template <class F>
-std::pair<Uint<F>, Uint<F>> pixels_of(const TilePass& pass, Uint<F> x, Uint<F> y) {
-  if (!pass.grid || pass.grid->stride == 1) return {x, y};
+std::pair<Uint<F>, Uint<F>> pixels_of(const std::optional<PixelGrid>& grid, const PointSet& points, Uint<F> x,
+                                      Uint<F> y, Uint<F> index) {
+  if (!grid || grid->stride == 1) return {x, y};
   for (int k = 0; k < lanes_of<F>; ++k) {
-    set_lane(x, k, std::uint32_t(pass.grid->pixel_x(int(lane(x, k)))));
-    set_lane(y, k, std::uint32_t(pass.grid->pixel_y(int(lane(y, k)))));
+    const auto cell_x = int(lane(x, k)), cell_y = int(lane(y, k));
+    const PixelBounds pixels = grid->pixels(cell_x, cell_y);
+    if (!grid->is_mean || pixels.width() <= 0 || pixels.height() <= 0) {
+      set_lane(x, k, std::uint32_t(grid->pixel_x(cell_x)));
+      set_lane(y, k, std::uint32_t(grid->pixel_y(cell_y)));
+      continue;
+    }
+    const std::uint32_t place = std::uint32_t(cell_y) * 0x10000u + std::uint32_t(cell_x);
+    RandomStream<float> drawn(mix_bits(points.seed ^ mix_bits(points.pass)) + lane(index, k), place);
+    const float u = drawn.next(), v = drawn.next();
+    set_lane(x, k, std::uint32_t(pixels.x0 + std::min(int(u * float(pixels.width())), pixels.width() - 1)));
+    set_lane(y, k, std::uint32_t(pixels.y0 + std::min(int(v * float(pixels.height())), pixels.height() - 1)));
   }
   return {x, y};
 }
@@ -133,7 +145,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
       for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
         Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
-        const auto [pixel_x, pixel_y] = pixels_of<F>(pass, x, y);
+        const auto [pixel_x, pixel_y] = pixels_of<F>(pass.grid, pass.points, x, y, U(first + sample));
         PathStart<F> state = start_of_path<F>(scene, pass, {pixel_x, pixel_y, U(first + sample)});
         state.output =
             ((y - U(std::uint32_t(tile.y0))) * U(std::uint32_t(tile.width())) + x - U(std::uint32_t(tile.x0))) *

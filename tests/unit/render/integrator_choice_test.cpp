@@ -165,6 +165,81 @@ TEST(IntegratorChoice, sees_that_the_pilot_of_the_first_candidate_lacks_light) {
   EXPECT_GE(observed, 9);
 }
 
+// Series whose pictures are the same for any part of the image, so that a part takes as many rays as all of it: pilots
+// of windows would never choose it.
+class Splats final : public CoupledIntegrator {
+ public:
+  explicit Splats(Law law, std::uint32_t seed = 0) : law_(std::move(law)), seed_(seed) {}
+  int frames() const override { return 16; }
+  int warm_up() const override { return 0; }
+  int stages() const override { return 1; }
+  bool splats() const override { return true; }
+  std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override {
+    return std::make_unique<Frames>(law_, seed_, pass);
+  }
+
+ private:
+  class Frames final : public FrameSeries {
+   public:
+    Frames(const Law& law, std::uint32_t seed, const SeriesPass& pass) : noise_(law, seed), pass_(pass) {}
+    RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+      PointSet points = pass_.points;
+      points.pass += 1000 * std::uint32_t(step.frame), points.samples_per_pass = 1;
+      const RayCounts rays = noise_.trace({tile, points, {}, {}, {}, pass_.grid}, out);
+      const bool is_whole = pass_.grid && pass_.grid->bounds == bounds;
+      return is_whole ? rays : RayCounts{1000 * rays.camera, 0, 0};
+    }
+
+   private:
+    Noise noise_;
+    SeriesPass pass_;
+  };
+  Law law_;
+  std::uint32_t seed_;
+};
+
+IntegratorChoice choose_splats(const AnyIntegrator& first, const AnyIntegrator& other, const ChoiceSettings& settings) {
+  RenderObserver silent;
+  return choose_by_pilots({{"first", [&] { return first; }}, {"other", [&] { return other; }, 1, 4, 0, true}}, settings,
+                          silent);
+}
+
+// A caustic on a twentieth of the image, which the first candidate hardly ever finds.
+TEST(IntegratorChoice, finds_a_caustic_by_pilots_of_the_whole_image) {
+  // Cells of the coarse image are counted, and the law is of cells.
+  const auto in_caustic = [](int x, int y) { return x >= 10 && x < 20 && y >= 10 && y < 25; };
+  constexpr float chance = 1e-7f;
+  const Noise first({[&](float u, int x, int y) {
+    return 0.2f + 0.01f * u + (in_caustic(x, y) && u < chance ? 0.8f / chance : 0.0f);
+  }});
+  const auto other = [&](std::uint32_t seed) {
+    return Splats(
+        {[&](float u, int x, int y) { return 0.205f + 0.05f * (u - 0.5f) + (in_caustic(x, y) ? 0.8f : 0.0f); }, 3},
+        seed);
+  };
+  int chosen = 0, observed = 0;
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const Splats splats = other(seed);
+    const IntegratorChoice choice = choose_splats(first, splats, settings_for(600, seed));
+    chosen += choice.chosen == 1, observed += choice.reason == ChoiceReason::more_light;
+    EXPECT_LE(choice.share, max_pilot_share);
+  }
+  EXPECT_EQ(chosen, 10);
+  EXPECT_EQ(observed, 10);
+}
+
+// Without that light the same integrator is 25 times as noisy for three times the rays.
+TEST(IntegratorChoice, keeps_the_first_candidate_where_there_is_no_caustic) {
+  const Noise first(uniform(0.1));
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const Splats splats(uniform(0.5, 3), seed);
+    const IntegratorChoice choice = choose_splats(first, splats, settings_for(600, seed));
+    EXPECT_EQ(choice.chosen, 0u);
+    EXPECT_NEAR(choice.ratios.at(0).ratio, 1 / 75.0, 0.2 / 75);
+    EXPECT_LT(choice.ratios.at(0).low, 1 / 75.0);
+  }
+}
+
 // A candidate whose noise is small, except for rare samples without bound: no pilot tells its error.
 TEST(IntegratorChoice, keeps_the_first_candidate_where_few_bright_samples_determine_the_error_of_the_other_one) {
   const Noise first(uniform(0.5));

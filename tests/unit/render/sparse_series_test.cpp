@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "pass_means.h"
+#include "render/pilot_windows.h"
 #include "render/timed_plan.h"
 #include "reuse_scenes.h"
 #include "work_clock.h"
@@ -100,6 +101,70 @@ TEST(SparseSeries, that_take_cells_for_pixels_have_another_mean) {
     const ChosenIntegrator chosen = scene().integrator(way);
     const WithoutGrid faulty(*chosen.coupled);
     EXPECT_TRUE(compare_means(sparse_passes(scene(), faulty, 8, 48, 2), truth, 0.01).differ) << way;
+  }
+}
+
+// The pixels of passes over a coarse image, whose cells show the mean of their pixels.
+PassMeans coarse_passes(const TestScene& of, const AnyIntegrator& integrator, const PixelGrid& grid, int samples,
+                        int passes, std::uint32_t seed) {
+  PassMeans means;
+  const PixelBounds cells = grid.cells();
+  for (int pass = 0; pass < passes; ++pass) {
+    const ImageSettings image = of.settings(PointSetKind::blue_noise, {samples, 1}, seed, 0).image;
+    std::vector<PixelMean> values;
+    trace_window(integrator, image, cells, pass, samples, values, grid);
+    Film film(cells);
+    film.name_tile(cells);
+    std::vector<PixelPass> sums(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      PixelSample sample;
+      for (std::size_t c = 0; c < rgb_size; ++c) sample.radiance.c[c] = float(values[i][c]);
+      sums[i].add(sample);
+    }
+    film.add_pass(cells, pass, sums);
+    add_pass(film, {3, 3}, means);
+  }
+  return means;
+}
+
+TEST(CoarseImages, show_the_means_of_their_cells) {
+  // The last cells are smaller: 36 is no multiple of 5.
+  const PixelGrid coarse{{0, 0, size, size}, 5, true};
+  const double level = sidak_level(0.01, 4);
+  // The truth: means over 5 x 5 pixels of whole images.
+  PassMeans truth;
+  RenderObserver silent;
+  for (int pass = 0; pass < 48; ++pass) {
+    RenderSettings s = scene().settings(PointSetKind::blue_noise, {64, 1}, 1, 0);
+    s.plan.first_pass = pass;
+    const Film film = render(scene().integrator("path").any(), s, silent).film;
+    Film cells(coarse.cells());
+    cells.name_tile(coarse.cells());
+    std::vector<PixelPass> sums;
+    for (int y = 0; y < coarse.cells().height(); ++y)
+      for (int x = 0; x < coarse.cells().width(); ++x) {
+        const PixelBounds pixels = coarse.pixels(x, y);
+        PixelSample mean;
+        for (int v = pixels.y0; v < pixels.y1; ++v)
+          for (int u = pixels.x0; u < pixels.x1; ++u)
+            for (int c = 0; c < rgb_size; ++c)
+              mean.radiance.c[c] += float(film.pixel(u, v).mean[c]) / float(pixels.area());
+        sums.emplace_back().add(mean);
+      }
+    cells.add_pass(coarse.cells(), pass, sums);
+    add_pass(cells, {3, 3}, truth);
+  }
+  std::uint32_t seed = 2;
+  for (const auto& [way, passes] : {std::pair("path", 400), std::pair("light", 800), std::pair("bdpt", 400)}) {
+    const ChosenIntegrator chosen = scene().integrator(way);
+    const PassMeans means = coarse_passes(scene(), chosen.any(), coarse, 8, passes, ++seed);
+    const MeansVerdict v = compare_means(means, truth, level);
+    EXPECT_FALSE(v.differ) << way << ": " << v.smallest_p << " at " << v.where << ", " << v.difference;
+    EXPECT_LT(v.image_error, 0.03) << way;
+    // A planted fault: a pixel shown for its cell.
+    PixelGrid one = coarse;
+    one.is_mean = false;
+    EXPECT_TRUE(compare_means(coarse_passes(scene(), chosen.any(), one, 8, passes, seed), truth, level).differ) << way;
   }
 }
 
