@@ -30,7 +30,9 @@ MONTELUX_INLINE Sampler<F> numbers_of(const PointSet& points, const PathSite<F>&
 }
 
 // A point of primary sample space (Kelemen et al. 2002): the first coordinates of the sample point are given, the
-// others and the streams belong to `beyond`.
+// others belong to `beyond`. So do the streams, of which each dimension has several: its coordinate decides which. So
+// points that are close together share most of their streams, and a chain on the coordinates walks from stream to
+// stream.
 template <class F>
 class RecordedNumbers {
  public:
@@ -47,7 +49,12 @@ class RecordedNumbers {
     return select(known, value, beyond_.at(dimension));
   }
   Vec2<F> get2(U dimension) const { return {get1(dimension), get1(dimension + U(1u))}; }
-  RandomStream<F> stream(U dimension) const { return beyond_.fork(dimension); }
+  RandomStream<F> stream(U dimension) const {
+    const U cell = to_uint(get1(dimension) * F(float(cells)));
+    return beyond_.fork(dimension + cell * U(0x9e3779b9u));  // the first is that of the dimension alone
+  }
+  // Streams of a dimension, each for as much of its coordinate.
+  static constexpr int cells = 16;
 
  private:
   std::span<const float> values_;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
 #include "integrator/path/loop.h"
@@ -122,6 +123,23 @@ void expect_replay_is_exact() {
 
 TEST(RecordedNumbers, replay_a_path_exactly) { expect_replay_is_exact<float>(); }
 TEST(RecordedNumbers, replay_a_pack_of_paths_exactly) { expect_replay_is_exact<NativeFloats>(); }
+
+TEST(RecordedNumbers, choose_a_stream_by_its_coordinate) {
+  const RandomStream<float> beyond(3, 4);
+  const auto first_number = [&](float coordinate) {
+    const std::vector<float> values{0.5f, coordinate};
+    return RecordedNumbers<float>(values, beyond).stream(1).at(0);
+  };
+  EXPECT_EQ(first_number(0), beyond.fork(1).at(0));
+  constexpr int cells = RecordedNumbers<float>::cells, within = 8;
+  std::set<float> all;
+  for (int i = 0; i < cells * within; ++i) {
+    const float number = first_number((float(i) + 0.5f) / (cells * within));
+    EXPECT_EQ(number, first_number(float(i / within) / cells));
+    all.insert(number);
+  }
+  EXPECT_EQ(all.size(), std::size_t(cells));
+}
 
 TEST(RecordedNumbers, beyond_the_record_are_those_of_the_stream) {
   const std::vector<float> values{0.25f, 0.5f};
