@@ -8,6 +8,7 @@
 #include "lab/compare/measure.h"
 #include "lab/compare/passes.h"
 #include "lab/compare/work.h"
+#include "mc/moments.h"
 
 namespace montelux::lab {
 
@@ -42,10 +43,9 @@ Pilot take_pilot(const ComparedMethod& compared_method, const ComparisonSettings
 // The mean of a function of the finite values; infinite if there are none.
 template <class Function>
 double mean_of_finite(std::size_t count, Function f) {
-  double sum = 0, values = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (const double v = f(i); std::isfinite(v)) sum += v, values += 1;
-  return values > 0 ? sum / values : infinite;
+  Moments moments;  // leaves out what is not finite
+  for (std::size_t i = 0; i < count; ++i) moments.add(f(i));
+  return moments.count > 0 ? moments.mean : infinite;
 }
 
 double mse_of(const Pilot::Half& half) {

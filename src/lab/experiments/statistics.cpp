@@ -6,23 +6,19 @@
 #include <cmath>
 
 #include "math/special.h"
+#include "mc/moments.h"
 
 namespace montelux::lab {
 
 Spread spread_of(std::span<const double> values) {
-  Spread s;
-  s.count = double(values.size());
-  for (double v : values) s.mean += v;
-  s.mean /= s.count;
-  double second = 0, fourth = 0;
-  for (double v : values) {
-    const double square = (v - s.mean) * (v - s.mean);
-    second += square, fourth += square * square;
-  }
-  s.variance = second / (s.count - 1);
-  s.mean_error = std::sqrt(s.variance / s.count);
-  s.variance_error = std::sqrt(std::max(0.0, fourth / s.count - s.variance * s.variance) / s.count);
-  return s;
+  Moments moments, fourth_powers;
+  for (double v : values) moments.add(v);
+  for (double v : values) fourth_powers.add(std::pow(v - moments.mean, 4));
+  if (moments.non_finite > 0) moments.mean = std::nan("");  // no check holds then
+  const double variance = moments.variance();
+  const double spread = std::max(0.0, fourth_powers.mean - variance * variance);
+  return {moments.mean, moments.standard_error(), variance, std::sqrt(spread / double(moments.count)),
+          double(moments.count)};
 }
 
 std::vector<double> realisations(const Setup& setup, std::uint32_t purpose, std::uint32_t count,
