@@ -39,19 +39,34 @@ MONTELUX_INLINE void for_each_sky_light(const LightSet& lights, const ReferenceP
     f(lights.template escaped<F>(i, from.p, from.n, d, on), Uint<F>(std::uint32_t(lights.infinite_light(i))));
 }
 
+// The sky that a ray meets where it leaves the scene. `left` of its light reaches the ray's origin, `passing` is as
+// MetLight has it, and `crossings` are the interfaces before it.
+template <class F>
+struct SkyOnRay {
+  Spectrum<F> left;
+  F passing;
+  Uint<F> crossings;
+};
+
 // The light from beyond the scene, each infinite light weighted by weight(density), the density with which light
 // sampling at `from` would have drawn d. sink(on, light, number, technique) receives each.
 template <class F, class Weight, class Sink>
-Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, const Vec3<F>& d, Mask<F> on,
-                      Weight weight, Sink sink, F passing = F(1.0f)) {
+Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, const Vec3<F>& d, const SkyOnRay<F>& met,
+                      Mask<F> on, Weight weight, Sink sink) {
   Spectrum<F> sum = gray(F(0.0f));
   for_each_sky_light<F>(lights, from, d, on, [&](const LightHit<F>& sky, const Uint<F>& number) {
-    const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on, passing});
-    const Spectrum<F> light = select(on, from.media.left(F(ray_infinity)) * sky.radiance * share, gray(F(0.0f)));
+    const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on, met.passing});
+    const Spectrum<F> light = select(on, met.left * (sky.radiance * share), gray(F(0.0f)));
     sum += light;
     sink(on, light, number, Technique::environment);
   });
   return sum;
+}
+// The same for rays that cross no interface, through the media of `from`.
+template <class F, class Weight, class Sink>
+Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, const Vec3<F>& d, Mask<F> on,
+                      Weight weight, Sink sink) {
+  return sky_light<F>(lights, from, d, {from.media.left(F(ray_infinity)), F(1.0f), Uint<F>(0u)}, on, weight, sink);
 }
 
 }  // namespace montelux

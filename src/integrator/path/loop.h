@@ -10,7 +10,7 @@
 #include "integrator/resampled_light.h"
 #include "mc/roulette.h"
 #include "transport/connection.h"
-#include "transport/light_met.h"
+#include "transport/next_vertex.h"
 #include "transport/numbers.h"
 
 namespace montelux {
@@ -111,6 +111,44 @@ MONTELUX_INLINE NumberSource<F> auto numbers_of(const Source& source, const Tile
     return numbers_of(pass.points, path);
 }
 
+// Light that the paths meet, by its share in multiple importance sampling.
+template <class F, class Source, class Tally>
+struct PathLight {
+  static constexpr bool sees_media = true;
+  const LightSet& lights;
+  const LightWeights weights;
+  const Source& source;
+  PathState<F>& path;
+  Tally& tally;
+
+  MONTELUX_INLINE void emitter(const EmitterOnRay<F>& met, Mask<F> on) {
+    on = counts_light(source, path, on);
+    if (!any(on)) return;
+    const LightHit<F> light = emission_met<F>(lights, {path.p, path.n}, met.v.x, path.d, on);
+    gather_light(path, on, met.left * light.radiance * share(light), tally, [&] {
+      return LightOrigin<F>{path.depth, met.v.x.light - Uint<F>(1u), Technique::bsdf_sampling};
+    });
+  }
+  MONTELUX_INLINE void sky(const SkyOnRay<F>& met, Mask<F> on) {
+    on = counts_light(source, path, on);
+    for_each_sky_light<F>(lights, {path.p, path.n}, path.d, on, [&](const LightHit<F>& light, const Uint<F>& number) {
+      gather_light(path, on, met.left * light.radiance * share(light), tally, [&] {
+        return LightOrigin<F>{path.depth, number, Technique::environment};
+      });
+    });
+  }
+  MONTELUX_INLINE void medium(const Spectrum<F>& light, Mask<F> on) {
+    gather_light(path, on, light, tally, [&] {
+      return LightOrigin<F>{path.depth, Uint<F>(lights.count()), Technique::bsdf_sampling};  // after all lights
+    });
+  }
+
+ private:
+  F share(const LightHit<F>& light) const {
+    return weight_of_light_hit(weights, path.density, by_delta(path), light.density);
+  }
+};
+
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
 // off as long as there are paths left, and gives the lanes that are on. `rays` has trace() and occluded() as
 // Accel does; benchmarks and tests pass others. `lights` are the scene's, chosen as the settings state.
@@ -124,16 +162,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
   const LightWeights weights = settings.light_weights();
   PathState<F> path{};
-  // The light from beyond the scene; `left` of it reaches the vertex before.
-  const auto gather_sky = [&](M escapes, const Spectrum<F>& left) {
-    escapes = counts_light(source, path, escapes);
-    for_each_sky_light<F>(lights, {path.p, path.n}, path.d, escapes, [&](const LightHit<F>& sky, const U& number) {
-      const F weight = weight_of_light_hit(weights, path.density, by_delta(path), sky.density);
-      gather_light(path, escapes, path.throughput * left * sky.radiance * weight, tally, [&] {
-        return LightOrigin<F>{path.depth, number, Technique::environment};
-      });
-    });
-  };
+  PathLight<F, Source, Tally> met{lights, weights, source, path, tally};
   const auto finish = [&](M ended) {
     if (!any(ended)) return;
     const Spectrum<F> radiance = path.radiance * path.weight;
@@ -149,50 +178,28 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const auto numbers = numbers_of<F>(source, pass, path);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U segment = dimension + path.crossings * U(path_dimension::per_crossing);
-    const BsdfContext<F> context{TransportMode::radiance, numbers.stream(segment + U(path_dimension::own))};
     // Interfaces are no events: they are crossed by the last ray, too.
     const M may_scatter = path.depth < deepest_of<F>(source, path, max_depth);
 
-    // The vertex: a point of a surface, or of a medium before it.
-    VertexLanes<F> lanes{on, M(false)};
+    // The vertex: a point of a surface, or of a medium before it. Light counts by the throughput of the path.
+    RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
+    const SegmentEnd<F> end = [&] {
+      const RandomStream<F> random = numbers.stream(segment + U(path_dimension::own));
+      if constexpr (in_media)
+        return end_segment<F>(scene, way, {on, may_scatter}, random, met,
+                              MediumDistances<F, std::remove_cv_t<decltype(numbers)>>{
+                                  numbers, dimension + U(path_dimension::distance), gray(F(1.0f))});
+      else
+        return end_segment<F>(scene, way, {on, may_scatter}, random, met);
+    }();
+    const Vertex<F>& v = end.v;
+    path.throughput = way.left;
     if constexpr (in_media) {
-      lanes.on_surface = on & (path.hit.t < F(ray_infinity));
-      if (scene.media.emits())
-        gather_light(path, on, path.throughput * scene.media.emitted<F>(path.media.medium, path.hit.t), tally, [&] {
-          return LightOrigin<F>{path.depth, U(lights.count()), Technique::bsdf_sampling};  // after all lights
-        });
-      const DistanceSample<F> way = scene.media.sample_distance<F>(path.media.medium, path.throughput, path.hit.t,
-                                                                   numbers.get2(segment + U(path_dimension::distance)));
-      path.throughput = select(on, path.throughput * way.weight, path.throughput);
-      lanes.in_medium = on & way.is_event, lanes.on_surface = lanes.on_surface & !lanes.in_medium;
-      lanes.distance = way.distance;
-    }
-    lanes.scatters = lanes.on_surface & (may_scatter | M(scene.materials.has_interfaces()));
-    const Vertex<F> v(scene, {ray_of(path), path.hit, path.media}, lanes, context, InMedia<in_media>{});
-    // What the segment leaves of light; a medium that scatters is in the throughput already.
-    const auto left_of = [&](const Media<F>& media, F distance) {
-      if constexpr (!in_media) return media.left(distance);
-      return select(media.medium == U(empty_space), media.left(distance), gray(F(1.0f)));
-    };
-
-    // The light that the vertex sends back by itself, or the sky where nothing is met.
-    if constexpr (in_media) {
-      const M escapes = on & !lanes.on_surface & !lanes.in_medium;
-      gather_sky(escapes, left_of(path.media, F(ray_infinity)));
+      const M escapes = on & !end.exists();
       finish(escapes);
       on = on & !escapes;
     }
-    const M emits = counts_light(source, path, lanes.on_surface & (v.x.light != U(0u)));
-    if (any(emits)) {
-      const LightHit<F> light = emission_met<F>(lights, {path.p, path.n}, v.x, path.d, emits);
-      const F weight = weight_of_light_hit(weights, path.density, by_delta(path), light.density);
-      const Spectrum<F> left = left_of(path.media, v.x.distance);
-      gather_light(path, emits, path.throughput * left * light.radiance * weight, tally, [&] {
-        return LightOrigin<F>{path.depth, v.x.light - U(1u), Technique::bsdf_sampling};
-      });
-    }
-    const M passes = lanes.on_surface & v.bsdf.is_interface, scatters = on & may_scatter & !v.bsdf.is_interface;
-    path.throughput = select(on, path.throughput * left_of(v.media.along_wo(), v.x.distance), path.throughput);
+    const M passes = end.passes, scatters = on & may_scatter & !v.bsdf.is_interface;
     [[maybe_unused]] const Spectrum<F> arriving = path.throughput;
 
     // A direction toward a light, and one by the BSDF.
@@ -220,7 +227,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     M shadow = lit & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
       const ResampledLight<F> chosen = resampled_light<F>(
-          lights, settings, {v.x.point.p, v.bsdf.light_normal, context.random, wants_light},
+          lights, settings, {v.x.point.p, v.bsdf.light_normal, v.context.random, wants_light},
           [&](const LightSample<F>& sample, M wanted) -> ScatteredLight<F> {
             const BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
             // In media the shadow ray finds the transmittance.
@@ -234,7 +241,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     if (any(shadow)) {
       const Arriving<F> seen =
           arriving_from<F, in_media, false>(scene, rays, v, light.wi, light.distance, shadow,
-                                            context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+                                            v.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
       // What is resampled has been weighed by what bodies of glass leave of it.
       const bool is_left = !in_media && settings.candidates > 0;
       gather_light(path, seen.on, is_left ? direct : direct * seen.left, tally, [&] {
@@ -275,7 +282,9 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // The next vertex, or the sky. In media a ray that meets no surface may still scatter.
     const M found = trace_path(path, rays, moves, counts.scattered);
-    if constexpr (!in_media) gather_sky(moves & !found, path.media.left(F(ray_infinity)));
+    if constexpr (!in_media)
+      if (const M escapes = moves & !found; any(escapes))
+        met.sky({path.throughput * path.media.left(F(ray_infinity)), F(1.0f), path.crossings}, escapes);
     const M goes_far = in_media ? moves : found;
     finish(on & !goes_far);
     on = on & goes_far;

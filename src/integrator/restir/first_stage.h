@@ -7,6 +7,7 @@
 #include "integrator/restir/first_candidates.h"
 #include "integrator/restir/history.h"
 #include "integrator/restir/path_candidates.h"
+#include "transport/next_vertex.h"
 
 namespace montelux {
 
@@ -27,6 +28,7 @@ struct RestirScene {
 // The streams of one pixel in one frame.
 namespace restir_stream {
 inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
+inline constexpr std::uint32_t interfaces = 1u << 31;  // a fork of `met`
 }  // namespace restir_stream
 
 // Results go to `keep`: keep.lights(vertex, origin, reservoir, output, mask) and, where paths are reused,
@@ -72,33 +74,44 @@ class FirstStage {
  private:
   using Candidates = FirstCandidates<F, Rays>;
 
-  // One vertex of every path; gives the lanes that continue to another.
+  // Light that a path sees, which no other technique finds.
+  struct SeenLight {
+    const LightSet& lights;
+    PathState<F>& path;
+
+    void emitter(const EmitterOnRay<F>& met, M on) {
+      const SurfaceHit<F>& x = met.v.x;
+      const U number = select(on, x.light - U(1u), U(0u));
+      add(met.left, lights.template hit_radiance<F>(number, x.point.ng, x.point.uv, path.d, on), on);
+    }
+    void sky(const SkyOnRay<F>& met, M on) { add(met.left, lights.template escaped_radiance<F>(path.d, on), on); }
+
+   private:
+    void add(const Spectrum<F>& left, const Spectrum<F>& light, M on) {
+      path.radiance += select(on, left * light, gray(F(0.0f)));
+    }
+  };
+
+  // One surface of every path; gives the lanes that continue to another.
   M step(PathState<F>& path, M on) {
-    const Scene& scene = shared_.scene;
-    const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
     const M may_scatter = path.depth < max_depth_;
     const auto sampler = numbers_of(pass_.points, path);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
-    const BsdfContext<F> context{TransportMode::radiance, sampler.stream(dimension + own), on, Densities::exact};
-    const Vertex<F> v(scene, {origin.ray, origin.hit, path.media},
-                      {on, M(on & (may_scatter | M(scene.materials.has_interfaces())))}, context);
-    const SurfaceHit<F>& x = v.x;
-    const SurfaceScattering<F>& bsdf = v.bsdf;
-    if (const M emits = on & (x.light != U(0u)); any(emits)) {
-      const Spectrum<F> light = scene.lights.template hit_radiance<F>(select(emits, x.light - U(1u), U(0u)), x.point.ng,
-                                                                      x.point.uv, path.d, emits);
-      path.radiance += select(emits, path.throughput * path.media.left(x.distance) * light, gray(F(0.0f)));
-    }
-    const M passes = on & bsdf.is_interface, scatters = on & may_scatter & !bsdf.is_interface;
-    const M rough = scatters & !bsdf.is_delta;
-    path.throughput = select(on, path.throughput * v.media.along_wo().left(x.distance), path.throughput);
-    path.media = select_media<F>(on, v.media.along_wo(), path.media);
+    const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
+    RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
+    SeenLight seen{shared_.scene.lights, path};
+    SegmentEnd<F> end = end_segment<F>(shared_.scene, way, {on, may_scatter}, sampler.stream(dimension + own), seen);
+    Vertex<F>& v = end.v;
+    v.context.on = on, v.context.densities = Densities::exact;
+    const M passes = end.passes, scatters = on & may_scatter & !v.bsdf.is_interface;
+    const M rough = scatters & !v.bsdf.is_delta;
+    path.throughput = way.left, path.media = way.segment.media;
     const RandomStream<F> numbers = sampler.stream(U(path_dimension::reuse));
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
     const BsdfSample<F> next = leave(v, sampler, dimension, path_numbers, scatters);
     if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
-      write_features(first_sight(path, x, select(next.valid & scatters, next.weight, gray(F(0.0f)))), path, first,
+      write_features(first_sight(path, v.x, select(next.valid & scatters, next.weight, gray(F(0.0f)))), path, first,
                      out_);
 
     // The vertex whose light is reused.
@@ -116,7 +129,7 @@ class FirstStage {
     const M lives = survive_roulette(path, select(plays, survival_probability(shared_.settings.path, path), F(1.0f)),
                                      sampler.get1(dimension + U(path_dimension::roulette)), continues);
     const M offers = rough & continues & !next.delta & M(shared_.settings.bsdf_candidate);
-    leave_vertex(path, v, select(passes, path.d, bsdf.frame.to_world(next.wi)), next, continues, passes);
+    leave_vertex(path, v, select(passes, path.d, v.bsdf.frame.to_world(next.wi)), next, continues, passes);
     const M moves = passes | lives | offers;
     const M found = trace_path(path, shared_.rays, moves, counts_.scattered);
 
@@ -128,11 +141,7 @@ class FirstStage {
       if (const M walks = rough & lives & (counts_next | (path.depth < max_depth_)); any(walks))
         paths_.begin(vertex, event_at(vertex, next, walks), path_numbers, path, found, walks);
     const M left = (moves & !found) & (passes | (lives & !rough) | (counts_next & !M(reuses_paths())));
-    if (any(left))
-      path.radiance += select(
-          left,
-          path.throughput * path.media.left(F(ray_infinity)) * scene.lights.template escaped_radiance<F>(path.d, left),
-          gray(F(0.0f)));
+    if (any(left)) seen.sky({path.throughput * path.media.left(F(ray_infinity)), F(1.0f), path.crossings}, left);
     const M remains = rough & lives & found & (counts_next | (path.depth < max_depth_));
     if (any(remains) && !reuses_paths()) hand_over(path, remains, counts_next);
 
@@ -173,24 +182,24 @@ class FirstStage {
     continuations_.add(rest, on, counts);
   }
 
-  // The emitters along the direction of the BSDF, through interfaces.
-  void offer(Candidates& candidates, const PathState<F>& path, M found, M left, const RandomStream<F>& numbers) {
-    Segment<F> segment{ray_of(path), path.hit, path.media};
-    for (std::uint32_t crossing = 0;; ++crossing) {
-      const RandomStream<F> stream = numbers.fork(U(2 * crossing)), sky = numbers.fork(U(2 * crossing + 1));
-      if (any(left)) candidates.add_sky(path.d, sky, left);
-      if (!any(found)) return;
-      const M has_interfaces(shared_.scene.materials.has_interfaces());
-      const Vertex<F> v(shared_.scene, segment, {found, M(found & has_interfaces)},
-                        BsdfContext<F>{TransportMode::radiance, stream.fork(U(1u))});
-      if (const M emits = found & (v.x.light != U(0u)); any(emits)) candidates.add_hit(v.x, path.d, stream, emits);
-      const M passes = found & has_interfaces & v.bsdf.is_interface;
-      if (!any(passes)) return;
-      cross_interface(segment, v, passes);
-      counts_.scattered += std::uint64_t(count(passes));
-      const auto [further, next] = shared_.rays.template trace<F>(segment.ray, passes);
-      segment.hit = next, found = passes & further, left = passes & !further;
+  // The emitters along the direction of the BSDF, through interfaces, as candidates: each with a stream of its own.
+  struct OfferedLight {
+    Candidates& candidates;
+    const Vec3<F>& d;
+    const RandomStream<F>& numbers;
+
+    void emitter(const EmitterOnRay<F>& met, M on) {
+      candidates.add_hit(met.v.x, d, numbers.fork(met.crossings * U(2u)), on);
     }
+    void sky(const SkyOnRay<F>& met, M on) { candidates.add_sky(d, numbers.fork(met.crossings * U(2u) + U(1u)), on); }
+  };
+  void offer(Candidates& candidates, const PathState<F>& path, M found, M left, const RandomStream<F>& numbers) {
+    OfferedLight offered{candidates, path.d, numbers};
+    if (any(left)) offered.sky({gray(F(1.0f)), F(1.0f), U(0u)}, left);
+    if (!any(found)) return;
+    RayProgress<F> way{{ray_of(path), path.hit, path.media}, gray(F(1.0f))};
+    follow_segment<F>(shared_.scene, shared_.rays, way, {found, M(false)}, numbers.fork(U(restir_stream::interfaces)),
+                      counts_.scattered, offered);
   }
 
   struct FoundVertex {

@@ -5,6 +5,7 @@
 
 #include "integrator/path/loop.h"
 #include "integrator/restir/path_shift.h"
+#include "transport/next_vertex.h"
 
 namespace montelux {
 
@@ -88,32 +89,44 @@ class PathCandidates {
     return mask_of_bits<F>(running);
   }
 
+  // Light that a path meets.
+  struct MetLights {
+    PathCandidates& candidates;
+    const EventNumbers<F>& numbers;
+
+    void emitter(const EmitterOnRay<F>& met, M on) { candidates.meet_surface(met, on, numbers); }
+    void sky(const SkyOnRay<F>& met, M on) { candidates.meet_sky(met.left, on, numbers); }
+  };
+
   // One surface of every path, or the sky; gives the lanes that have ended.
   M step(M on) {
     PathWalk<F>& w = walk_;
     const EventNumbers<F> led_here(w.numbers, w.events - U(1u));
+    RayProgress<F> way{{{w.o, w.d, F(ray_infinity), w.from.time}, w.hit, w.from.media_toward(w.d)},
+                       gray(F(1.0f)),
+                       F(1.0f),
+                       w.crossings};
+    MetLights met{*this, led_here};
     const M left = on & (w.found == U(0u));
-    meet_sky(left, led_here);
+    if (any(left)) met.sky({way.segment.media.left(F(ray_infinity)), F(1.0f), w.crossings}, left);
     on = on & !left;
     if (!any(on)) return left;
 
-    const Vertex<F> v(shared_.scene, {{w.o, w.d, F(ray_infinity), w.from.time}, w.hit, w.from.media_toward(w.d)},
-                      {on, on}, BsdfContext<F>{TransportMode::radiance, led_here.surface().fork(w.crossings)});
-    const SurfaceHit<F>& x = v.x;
-    const M passes = on & v.bsdf.is_interface;
+    const SegmentEnd<F> end =
+        end_segment<F>(shared_.scene, way, {on, M(true)}, led_here.surface().fork(w.crossings), met);
+    const Vertex<F>& v = end.v;
     const ReuseVertex<F> vertex = vertex_behind<F>(w.from, v);
-    absorb(vertex.media.left(x.distance), on);
-    if (const M emits = on & (x.light != U(0u)); any(emits)) meet_surface(x, passes, emits, led_here);
+    absorb(way.left, on);
 
-    const M scatters = on & !passes & (w.from.events + w.events < U(shared_.max_events));
-    const Leg<F> leg = leg_between<F>(w.from.p, x, w.d, w.density, w.by_delta == U(0u), w.pixels);
+    const M scatters = on & !end.passes & (w.from.events + w.events < U(shared_.max_events));
+    const Leg<F> leg = leg_between<F>(w.from.p, v.x, w.d, w.density, w.by_delta == U(0u), w.pixels);
     if (const M lit = scatters & !v.bsdf.is_delta; any(lit)) sample_light(vertex, leg, lit);
     const M continues = scatter(vertex, leg, scatters);
 
     // The next surface, or the sky.
-    const M moves = continues | passes;
+    const M moves = continues | end.passes;
     w.o = select(moves, v.origin_toward(w.d), w.o);
-    w.crossings = select(continues, U(0u), w.crossings + select(passes, U(1u), U(0u)));
+    w.crossings = select(continues, U(0u), w.crossings + select(end.passes, U(1u), U(0u)));
     counts_.scattered += std::uint64_t(count(moves));
     const auto [found, hit] = shared_.rays.template trace<F>({w.o, w.d, F(ray_infinity), w.from.time}, moves);
     w.hit = hit, w.found = select(found, U(1u), U(0u));
@@ -129,57 +142,63 @@ class PathCandidates {
 
   // ---- ends of the path
 
-  void meet_surface(const SurfaceHit<F>& x, M passes, M on, const EventNumbers<F>& numbers) {
+  void meet_surface(const EmitterOnRay<F>& emitter, M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
+    const SurfaceHit<F>& x = emitter.v.x;
     const U light = select(on, x.light - U(1u), U(0u));
     const LightHit<F> hit = emission_met<F>(shared_.lights, {w.from.p, w.from.light_normal}, x, w.d, on);
     const M shines = on & !is_black(hit.radiance);
-    meet(shared_.lights.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), hit, passes,
-         numbers.surface().fork(w.crossings).fork(U(resampling_stream)).at(U(0u)), shines);
+    meet({shared_.lights.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), hit, emitter.left,
+          emitter.passes},
+         numbers.surface().fork(emitter.crossings).fork(U(resampling_stream)).at(U(0u)), shines);
   }
-  void meet_sky(M on, const EventNumbers<F>& numbers) {
+  void meet_sky(const Spectrum<F>& left, M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
-    if (!any(on)) return;
-    absorb(w.from.media_toward(w.d).left(F(ray_infinity)), on);
     // What a delta meets is found again as a whole. Choice 0 is that of next-event estimation where the event was.
     if (const M smooth = on & (w.by_delta != U(0u)); any(smooth)) {
       const LightHit<F> all{shared_.lights.template escaped_radiance<F>(w.d, smooth), {F(0.0f)}};
-      meet({}, all, M(false), numbers.choice(1), smooth);
+      meet({{}, all, left, M(false)}, numbers.choice(1), smooth);
     }
     const M spread = on & (w.by_delta == U(0u));
     std::uint32_t choice = 0;
     for_each_sky_light<F>(shared_.lights, {w.from.p, w.from.light_normal}, w.d, spread,
                           [&](const LightHit<F>& sky, const U& number) {
                             const LightPoint<F> point{w.d, w.d, sky.radiance, number, U(light_point::infinite)};
-                            meet(point, sky, M(false), numbers.choice(++choice), spread);
+                            meet({point, sky, left, M(false)}, numbers.choice(++choice), spread);
                           });
   }
 
-  // Light along the ray. What an event at the pixel's own vertex meets is direct light, which other reservoirs
-  // have, except after deltas.
-  void meet(const LightPoint<F>& point, const LightHit<F>& hit, M on_the_way, F u, M on) {
+  // Light along the ray, of which `left` reaches `from`; `passes`: the ray continues. What an event at the pixel's own
+  // vertex meets is direct light, which other reservoirs have, except after deltas.
+  struct MetPoint {
+    const LightPoint<F>& point;
+    const LightHit<F>& hit;
+    const Spectrum<F>& left;
+    M passes;
+  };
+  void meet(const MetPoint& met, F u, M on) {
     const PathWalk<F>& w = walk_;
     const M is_delta = w.by_delta != U(0u);
     const M counts = on & (is_delta | (w.events > U(1u)));
-    const F share = weight_of_light_hit(settings_.light_weights(), w.density, is_delta, hit.density);
-    const Spectrum<F> contribution = w.weight * hit.radiance * share;
+    const F share = weight_of_light_hit(settings_.light_weights(), w.density, is_delta, met.hit.density);
+    const Spectrum<F> contribution = w.weight * met.left * met.hit.radiance * share;
 
     const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
-    const M met = counts & !joined & is_delta, point_of_light = counts & !joined & !is_delta;
+    const M replays = counts & !joined & is_delta, point_of_light = counts & !joined & !is_delta;
     PathSample<F> sample = sample_so_far(w.events);
-    sample.light = w.tail * hit.radiance * select(straight, F(1.0f), share);
+    sample.light = w.tail * met.left * met.hit.radiance * select(straight, F(1.0f), share);
     sample.contribution = w.until * sample.light;
-    sample.end = select(met, U(path_end::met), select(point_of_light, U(path_end::light), sample.end));
-    sample.replayed = select(joined, sample.replayed, select(met, w.events, w.events - U(1u)));
-    sample.point = point;
-    sample.contribution = select(met, contribution, sample.contribution);
+    sample.end = select(replays, U(path_end::met), select(point_of_light, U(path_end::light), sample.end));
+    sample.replayed = select(joined, sample.replayed, select(replays, w.events, w.events - U(1u)));
+    sample.point = met.point;
+    sample.contribution = select(replays, contribution, sample.contribution);
     if (any(point_of_light)) {
-      const LightConnection<F> to = connect(shared_.lights, w.from, point, point_of_light);
+      const LightConnection<F> to = connect(shared_.lights, w.from, met.point, point_of_light);
       sample.contribution = select(point_of_light, w.before * to.value, sample.contribution);
     }
     // Scattered again, a delta would meet with all emitters on its way at once.
-    offer(sample, contribution, counts & !(met & on_the_way), u);
-    if (const M alone = met & on_the_way; any(alone)) add_plain(contribution, alone);
+    offer(sample, contribution, counts & !(replays & met.passes), u);
+    if (const M alone = replays & met.passes; any(alone)) add_plain(contribution, alone);
   }
 
   void sample_light(const ReuseVertex<F>& vertex, const Leg<F>& leg, M on) {
