@@ -1,6 +1,7 @@
 // The path loop: the whole estimator, for one path (F = float) and for a pack of them.
 #pragma once
 #include "integrator/features.h"
+#include "integrator/guiding/guided_scattering.h"
 #include "integrator/manifold/chain_light.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
@@ -152,10 +153,11 @@ struct PathLight {
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
 // off as long as there are paths left, and gives the lanes that are on. `rays` has trace() and occluded() as
 // Accel does; benchmarks and tests pass others. `lights` are the scene's, chosen as the settings state.
-// `in_media`: the scene has participating media; without it they cost nothing.
-template <class F, bool in_media = false, class Rays, class Source, class Tally>
+// `in_media`: the scene has participating media; without it they cost nothing. `guide`: NoGuide or FieldGuide.
+template <class F, bool in_media = false, class Rays, class Source, class Tally, class Guide = NoGuide>
 RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
-                    const TilePass& pass, std::span<PixelSample> out, Source& source, Tally& tally) {
+                    const TilePass& pass, std::span<PixelSample> out, Source& source, Tally& tally,
+                    [[maybe_unused]] const Guide& guide = {}) {
   using U = Uint<F>;
   using M = Mask<F>;
   RayCounts counts;
@@ -183,7 +185,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // The vertex: a point of a surface, or of a medium before it. Light counts by the throughput of the path.
     RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
-    const SegmentEnd<F> end = [&] {
+    SegmentEnd<F> end = [&] {
       const RandomStream<F> random = numbers.stream(segment + U(path_dimension::own));
       if constexpr (in_media)
         return end_segment<F>(scene, way, {on, may_scatter}, random, met,
@@ -192,6 +194,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       else
         return end_segment<F>(scene, way, {on, may_scatter}, random, met);
     }();
+    if constexpr (Guide::guides) end.v.context.densities = Densities::exact;
     const Vertex<F>& v = end.v;
     path.throughput = way.left;
     if constexpr (in_media) {
@@ -209,11 +212,16 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
                                                      numbers.get2(dimension + U(path_dimension::light_point)),
                                                      settings.candidates > 0 ? M(false) : wants_light);
     const M lit = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
-    const Scattering<F> scattered = scatter_at<F, in_media>(
-        scene, v,
-        {v.wo, v.bsdf.frame.to_local(light.wi), lit, numbers.get1(dimension + U(path_dimension::lobe)),
-         numbers.get2(dimension + U(path_dimension::direction))},
-        scatters);
+    const F lobe = numbers.get1(dimension + U(path_dimension::lobe));
+    const Vec2<F> u2 = numbers.get2(dimension + U(path_dimension::direction));
+    const auto choice = guide_choice(guide, v, wants_light, lobe);
+    Scattering<F> scattered =
+        scatter_at<F, in_media>(scene, v, {v.wo, v.bsdf.frame.to_local(light.wi), lit, choice.rest, u2}, scatters);
+    [[maybe_unused]] GuidedDirection<F> guided;
+    if constexpr (Guide::guides) {
+      choice.mix(light.wi, scattered.toward_light.density);
+      guided = guide_scattering<F, in_media>(scene, v, choice, u2, wants_light, scattered.next);
+    }
     if (M first = on & (path.depth == U(0u)) & !passes; any(first))
       write_features(
           first_sight(path, v.x, select(scattered.next.valid & scatters, scattered.next.weight, gray(F(0.0f)))), path,
@@ -229,7 +237,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       const ResampledLight<F> chosen = resampled_light<F>(
           lights, settings, {v.x.point.p, v.bsdf.light_normal, v.context.random, wants_light},
           [&](const LightSample<F>& sample, M wanted) -> ScatteredLight<F> {
-            const BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
+            BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
+            if constexpr (Guide::guides) choice.mix(sample.wi, value.density);
             // In media the shadow ray finds the transmittance.
             if constexpr (in_media) return {value, gray(F(1.0f))};
             return {value, v.left_of_light(sample.wi, sample.distance)};
@@ -270,6 +279,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const BsdfSample<F>& next = scattered.next;
     M continues = scatter_path(path, next, M(scatters & next.valid));
     if constexpr (requires { tally.scattered(path, continues); }) tally.scattered(path, continues);
+    if constexpr (requires { Tally::trains_guide; })
+      tally.train(path, v, arriving, guided, M(continues & wants_light & !next.delta));
     const M plays = continues & (path.depth > U(std::uint32_t(settings.roulette_depth)));
     const F chance = select(plays, survival_probability(settings, path), F(1.0f));
     continues = survive_roulette(path, chance, numbers.get1(dimension + U(path_dimension::roulette)), continues);
@@ -292,11 +303,11 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 }
 
 // A tile's paths, from their camera rays on.
-template <class F, bool in_media = false, class Rays, class Tally>
+template <class F, bool in_media = false, class Rays, class Tally, class Guide = NoGuide>
 RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
-                      const TilePass& pass, std::span<PixelSample> out, Tally& tally) {
+                      const TilePass& pass, std::span<PixelSample> out, Tally& tally, const Guide& guide = {}) {
   FirstHits<F> first_hits(scene, rays, pass, out, tally);
-  RayCounts counts = run_paths<F, in_media>(scene, lights, rays, settings, pass, out, first_hits, tally);
+  RayCounts counts = run_paths<F, in_media>(scene, lights, rays, settings, pass, out, first_hits, tally, guide);
   counts.camera += first_hits.rays();
   return counts;
 }

@@ -8,13 +8,15 @@
 namespace montelux {
 
 std::optional<TracedPath> PathTracer::trace_path(const TilePass& pass) const {
-  const LightSet& lights = own_lights_ ? *own_lights_ : scene_.lights;
   std::array<PixelSample, 1> out{};
   PathRecorder recorder;
-  if (scene_.media.empty())
-    trace_paths<float>(scene_, lights, accel_, settings_, pass, out, recorder);
-  else
-    trace_paths<float, true>(scene_, lights, accel_, settings_, pass, out, recorder);
+  const auto trace = [&](auto in_media, const auto& guide) {
+    trace_paths<float, in_media()>(scene_, lights(), accel_, settings_, pass, out, recorder, guide);
+  };
+  const auto trace_with = [&](const auto& guide) {
+    scene_.media.empty() ? trace(std::false_type{}, guide) : trace(std::true_type{}, guide);
+  };
+  settings_.guide ? trace_with(FieldGuide{settings_.guide.get()}) : trace_with(NoGuide{});
   TracedPath path = std::move(recorder).take();
   path.radiance = out[0].radiance;  // also of rays that meet nothing, or that are not finite
   const auto x = std::uint32_t(pass.tile.x0), y = std::uint32_t(pass.tile.y0);

@@ -96,7 +96,10 @@ Fields<PathSettings> light_fields() {
       .choice<int>("manifold", &PathSettings::manifold,
                    "specular events at most between a rough surface and a point, spot, goniometric, projection or "
                    "distant light, whose light is looked for there by walks on manifolds",
-                   {{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"off", 0}});
+                   {{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"off", 0}})
+      .boolean("guiding", &PathSettings::guiding,
+               "directions also by a distribution of light over places and directions, learned before the render")
+      .integer("guiding-paths", &PathSettings::guiding_paths, "paths from which guiding learns", 1024, 1 << 30);
   return fields;
 }
 

@@ -9,6 +9,7 @@
 
 namespace montelux {
 
+class GuideField;
 class ManifoldLight;
 class SurvivalMap;
 
@@ -51,6 +52,10 @@ struct PathSettings {
   // 0: none. What looks for it, made where there is none.
   int manifold = 0;
   std::shared_ptr<const ManifoldLight> manifold_light;
+  // Directions by a field that is learned before the render from so many paths; the field, made where there is none.
+  bool guiding = false;
+  int guiding_paths = 1 << 20;
+  std::shared_ptr<const GuideField> guide;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;

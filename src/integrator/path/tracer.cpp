@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/guiding/training.h"
 #include "integrator/manifold/manifold_light.h"
 #include "integrator/path/loop.h"
 #include "integrator/path/media_paths.h"
@@ -15,6 +16,8 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
   if (settings.manifold > 0 && !settings.manifold_light)
     settings_.manifold_light = ManifoldLight::make(scene, accel, settings.manifold);
+  if (settings.guiding && !settings.guide)
+    settings_.guide = std::make_shared<GuideField>(train_guide(scene, lights(), accel, settings_));
   if (settings.roulette == PathRoulette::efficiency && !settings.survival)
     settings_.survival = std::make_shared<SurvivalMap>(run_pilot());
 }
@@ -55,10 +58,11 @@ SurvivalMap PathTracer::run_pilot() const {
 
 template <class Tally>
 RayCounts PathTracer::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
-  const LightSet& lights = own_lights_ ? *own_lights_ : scene_.lights;
-  if (!scene_.media.empty()) return trace_paths_in_media(scene_, lights, accel_, settings_, pass, out, tally);
-  return settings_.lanes == Lanes::one ? trace_paths<float>(scene_, lights, accel_, settings_, pass, out, tally)
-                                       : trace_paths<NativeFloats>(scene_, lights, accel_, settings_, pass, out, tally);
+  if (settings_.guide) return trace_guided_paths(scene_, lights(), accel_, settings_, pass, out, tally);
+  if (!scene_.media.empty()) return trace_paths_in_media(scene_, lights(), accel_, settings_, pass, out, tally);
+  return settings_.lanes == Lanes::one
+             ? trace_paths<float>(scene_, lights(), accel_, settings_, pass, out, tally)
+             : trace_paths<NativeFloats>(scene_, lights(), accel_, settings_, pass, out, tally);
 }
 
 template class LayeredIntegrator<PathTracer>;

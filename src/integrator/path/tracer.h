@@ -21,6 +21,7 @@ class PathTracer final : public LayeredIntegrator<PathTracer> {
   SurvivalMap run_pilot() const;
   template <class Tally>
   RayCounts trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const;
+  const LightSet& lights() const { return own_lights_ ? *own_lights_ : scene_.lights; }
   const Scene& scene_;
   const Accel& accel_;
   PathSettings settings_;
