@@ -1,5 +1,7 @@
 #include "integrator/automatic/settings.h"
 
+#include <algorithm>
+
 #include "integrator/path/settings.h"
 #include "parameter/fields.h"
 
@@ -9,6 +11,9 @@ namespace {
 
 // 32 pixels of each of 256 blocks, 8 samples each, of paths that no roulette ends.
 constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
+
+// The paths that teach a guide (guiding-paths; its default), each of which takes longer than one of path.
+constexpr double guide_training_samples = 1.5 * (1 << 20);
 
 constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
                                              {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
@@ -57,6 +62,10 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
   for (const AutomaticCandidate& candidate : automatic_candidates())
     if (name(candidate.text) == name(text)) found = {text, candidate.ray_cost, candidate.sample_cost, 0};
   if (text.find("roulette=efficiency") != std::string_view::npos) found.making = survival_pilot_samples;
+  if (text.find("guiding=on") != std::string_view::npos) {
+    found.ray_cost = std::max(found.ray_cost, 1.4), found.sample_cost = std::max(found.sample_cost, 1.4);
+    found.making += guide_training_samples;
+  }
   return found;
 }
 

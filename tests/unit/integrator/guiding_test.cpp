@@ -133,6 +133,7 @@ TEST(PathGuiding, is_a_setting_of_path_and_its_misspelling_is_none) {
   const TestScene scene("Film \"rgb\" \"integer xresolution\" [ 4 ] \"integer yresolution\" [ 4 ]\nWorldBegin\n");
   EXPECT_NO_THROW(scene.integrator("path:guiding=on,guiding-paths=1024"));
   EXPECT_THROW(scene.integrator("path:guidance=on"), std::runtime_error);
+  EXPECT_THROW(scene.integrator("path:guiding-paths=4096"), std::runtime_error);
   EXPECT_THROW(scene.integrator("path:guiding=on,guiding-paths=0"), std::runtime_error);
   EXPECT_THROW(scene.integrator("naive:guiding=on"), std::runtime_error);
 }
