@@ -128,8 +128,7 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
   s.max_depth = max_depth;
   for (const Fields<PathSettings>& fields : {light_fields(), common_fields()})
     if (Status read = fields.read(list, s); !read) return read.failure();
-  if (!s.guiding && list.find("guiding-paths"))
-    return Failure{"guiding-paths is for path guiding: guiding must be on"};
+  if (!s.guiding && list.find("guiding-paths")) return Failure{"guiding-paths is for path guiding: guiding must be on"};
   if (s.roulette == PathRoulette::off && !s.max_depth)
     return Failure{"without roulette paths may never end: maxdepth must also be set"};
   return s;

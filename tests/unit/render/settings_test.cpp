@@ -52,6 +52,7 @@ std::vector<std::string> values_of(const ParameterSpec& row) {
   if (name == "light-selection") return {"uniform", "ris:4"};
   if (name == "manifold") return {"1"};
   if (name == "roulette") return {"proportional"};
+  if (name == "guiding-paths") return {"4096"};
   std::vector<std::string> all;
   for (std::string_view choice : row.choices)
     if (choice != "none") all.emplace_back(choice);
@@ -80,6 +81,7 @@ std::string companions(std::string_view integrator, std::string_view setting) {
   if (setting == "mis" && integrator == "direct") return "strategy=mis";
   if (setting == "caustic-radius" || setting == "caustic-photons") return "gather-rays=2";
   if (setting == "alpha") return "frames=8";
+  if (setting == "guiding-paths") return "guiding=on";
   return "";
 }
 
