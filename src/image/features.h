@@ -11,11 +11,12 @@
 
 namespace montelux {
 
-// The first surface on a camera path; coverage 0: the path left the scene.
+// The first surface on a camera path; coverage 0: the path left the scene. Albedo and normal are those of the first
+// surface that scatters, where the path comes to it by way of perfect mirrors and smooth glass alone.
 struct Features {
-  Rgb emission{};    // radiance that reaches the camera directly from an emitter, as part of the sample's
-  Rgb albedo{};      // estimate of the directional albedo: the weight of one scattered direction
-  Vec3f normal{};    // shading normal, world space, facing the camera
+  Rgb emission{};  // radiance that reaches the camera directly from an emitter, as part of the sample's
+  Rgb albedo{};    // estimate of the directional albedo, multiplied by what mirrors and glass before it leave of light
+  Vec3f normal{};  // shading normal, world space, facing the ray that met the surface
   Vec3f position{};  // world space
   float depth = 0;   // distance along the ray from the camera's origin
   float coverage = 0;

@@ -34,22 +34,36 @@ void write_features(const NextVertex<F>& at, const Numbers& numbers, const PathS
   write_features(at, sampled_albedo<F>(at, {lobe, u.x, u.y}, at.found), path, at.found, out);
 }
 
-// The features of all samples of a pass; nothing of its light.
+// Mirrors and smooth glass in a row at most beyond which write_first_vertices() looks.
+inline constexpr std::uint32_t deepest_shown = 16;
+
+// The features of all samples of a pass, as paths write them, and nothing of its light.
 template <class F, class Rays>
 RayCounts write_first_vertices(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out) {
   using U = Uint<F>;
+  using M = Mask<F>;
   FirstHits<F> first_hits(scene, rays, pass, out);
   RayCounts counts;
   counts.camera = first_hits.rays();
   PathState<F> path{};
-  const U first = U(path_dimension::first_vertex);
-  for (;;) {
-    const Mask<F> on = first_hits.refill(path, Mask<F>(false));
+  for (M on(false);;) {
+    on = first_hits.refill(path, on);
     if (!any(on)) return counts;
     const auto numbers = numbers_of(pass.points, path);
+    const U vertex = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const NextVertex<F> at =
-        first_vertex<F>(scene, rays, path, on, numbers.stream(first + U(path_dimension::own)), counts);
-    write_features(at, numbers, path, out);
+        follow_ray<F>(scene, rays, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
+                      numbers.stream(vertex + U(path_dimension::own)), counts.scattered, FullWeight{});
+    path.throughput = select(on, path.throughput * at.left, path.throughput);
+    const Vec2<F> u = numbers.get2(vertex + U(path_dimension::direction));
+    const F lobe = numbers.get1(vertex + U(path_dimension::lobe));
+    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(at.found), at.wo, Vec3<F>{lobe, u.x, u.y}, at.context);
+    write_features(at, albedo_of(at, next, u, at.found), path, at.found, out);
+
+    M moves = at.found & at.bsdf.is_delta & next.valid & (path.depth < U(deepest_shown));
+    moves = scatter_path(path, next, moves);
+    leave_vertex(path, at, at.bsdf.frame.to_world(next.wi), next, moves, M(false));
+    on = moves & trace_path(path, rays, moves, counts.scattered);
   }
 }
 

@@ -110,7 +110,10 @@ struct SpecularLobe {
 //   SpecularLobe<F> specular_lobe(F cos_o, bool reflects): where facets are smooth, the model has one delta for each of
 //     reflection and transmission, and nothing else, so that connections through specular chains may pass it. `cos_o`
 //     is of wo with the shading normal, negative below;
-//   static bool has_grain(const BsdfRows<float>&): whether u and v differ otherwise than by the slots of facets.
+//   static bool has_grain(const BsdfRows<float>&): whether u and v differ otherwise than by the slots of facets;
+//   Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2, const BsdfContext<F>&): of a model that
+//     mixes lobes an estimate of the directional albedo of less variance than the weight of `drawn`, which sample()
+//     drew: one that chooses no lobe.
 template <class Model, class F>
 concept HasSpecularLobe = requires(const Model& model, F cos_o) {
   { model.specular_lobe(cos_o, true) } -> std::same_as<SpecularLobe<F>>;

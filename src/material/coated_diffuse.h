@@ -55,6 +55,8 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
 
   BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
+  // Where the walks are summed, without a choice between coat and base; elsewhere of one walk.
+  Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2, const BsdfContext<F>& context) const;
 
  private:
   using Walk = Layered<F, Diffuse<F>, CosineLobe<F>>;
@@ -158,6 +160,19 @@ BsdfSample<F> CoatedDiffuse<F>::summed_sample(Vec3<F> wo, F u, Vec2<F> u2, const
   const Spectrum<F> weight =
       select(delta, gray(facet.weight / max(share, F(1e-30f))), v.f_cos * (F(1.0f) / max(v.density.value, F(1e-30f))));
   return {i * side, weight, v.density, F(1.0f), valid, delta};
+}
+
+template <class F>
+Spectrum<F> CoatedDiffuse<F>::albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2,
+                                     const BsdfContext<F>& context) const {
+  const Vec3<F> o = wo * copysign(F(1.0f), wo.z);
+  const auto facet = coat_.template sample_lobes<Lobes::reflection>(o, F(0.0f), u2, context.mode);
+  const WalkDraws<F> draws{context.random.fork(Uint<F>(albedo_walk))};
+  const F in = passes(o, draws.pair(0), context.mode);
+  const F out = passes(sample_cosine_hemisphere(u2), draws.pair(2), adjoint(context.mode));
+  const F mirrored = select(facet.valid & (facet.wi.z > F(0.0f)), facet.weight, F(0.0f));
+  const Spectrum<F> walked = select(drawn.valid, drawn.weight, gray(F(0.0f)));
+  return select(internal_ > F(0.0f), gray(mirrored) + reflections_ * (in * out), walked);
 }
 
 }  // namespace montelux

@@ -111,6 +111,18 @@ class CoatedMetallicRoughness {
     const Mask<F> valid = kept & (delta | (value.density.value > F(0.0f)));
     return {wi, weight, value.density, F(1.0f), valid, delta};
   }
+  MONTELUX_INLINE Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>&, Vec2<F> u2, const BsdfContext<F>&) const {
+    const Vec3<F> o = coat_frame_.to_local(wo);
+    const Spectrum<F> below = base_.albedo_under(
+        along_grain(wo), u2, [&](const Vec3<F>& wi) { return passed(coat_frame_.to_local(off_grain(wi))); });
+    Vec3<F> m{F(0.0f), F(0.0f), F(1.0f)};
+    const Mask<F> smooth = facets_.is_smooth();
+    if (!all(smooth)) m = select(smooth, m, facets_.sample(o, u2));
+    const Vec3<F> mirrored = reflect(o, m);
+    const F unshadowed = select(smooth, F(1.0f), facets_.unshadowed(o, mirrored));
+    const F coat = select(same_side(o, mirrored), coat_ * fresnel(abs_dot(o, m)) * unshadowed, F(0.0f));
+    return below * passed(o) + gray(coat);
+  }
 
  private:
   using S = CoatedMetallicRoughnessSlots;

@@ -55,6 +55,9 @@ class DiffuseTransmission {
     Spectrum<F> weight = select(reflects, reflectance_, transmittance_) / max(chance, F(1e-30f));
     return {wi, weight, {cosine_density(wi) * chance}, F(1.0f), valid, Mask<F>(false)};
   }
+  MONTELUX_INLINE Spectrum<F> albedo(Vec3<F>, const BsdfSample<F>&, Vec2<F>, const BsdfContext<F>&) const {
+    return reflectance_ + transmittance_;
+  }
 
  private:
   Spectrum<F> reflectance_, transmittance_;

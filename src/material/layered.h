@@ -97,7 +97,8 @@ enum LayerPurpose : std::uint32_t {
   evaluation_walk = 11,
   sampling_walk = 12,
   evaluated_density = 13,
-  sampled_density = 14
+  sampled_density = 14,
+  albedo_walk = 15
 };
 
 MONTELUX_INLINE TransportMode adjoint(TransportMode mode) {

@@ -70,6 +70,17 @@ BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, c
 }
 
 template <class F>
+Spectrum<F> albedo(const BsdfLanes<F>& lanes, Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2,
+                   const BsdfContext<F>& context) {
+  Spectrum<F> all = select(lanes.on & drawn.valid, drawn.weight * drawn.eta_scale, gray(F(0.0f)));
+  for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
+    if constexpr (requires(const Model& model) { model.albedo(wo, drawn, u2, context); })
+      all = select(mask, Model(BsdfRows<F>{lanes.slots}).albedo(wo, drawn, u2, context.in(mask)), all);
+  });
+  return all;
+}
+
+template <class F>
 Mask<F> is_delta(const BsdfLanes<F>& lanes) {
   Mask<F> all = Mask<F>(false);
   for_each_present_model<F>(lanes.kind, lanes.on, [&]<class Model>(Mask<F> mask) {
@@ -95,6 +106,8 @@ bool transmits(BsdfKind kind) {
 template Scattering<float> scatter(const BsdfLanes<float>&, const ScatterQuery<float>&, const BsdfContext<float>&);
 template BsdfValue<float> evaluate(const BsdfLanes<float>&, Vec3f, Vec3f, const BsdfContext<float>&);
 template BsdfSample<float> sample(const BsdfLanes<float>&, Vec3f, const Vec3f&, const BsdfContext<float>&);
+template Spectrum<float> albedo(const BsdfLanes<float>&, Vec3f, const BsdfSample<float>&, Vec2f,
+                                const BsdfContext<float>&);
 template Mask<float> is_delta(const BsdfLanes<float>&);
 template Scattering<NativeFloats> scatter(const BsdfLanes<NativeFloats>&, const ScatterQuery<NativeFloats>&,
                                           const BsdfContext<NativeFloats>&);
@@ -102,6 +115,9 @@ template BsdfValue<NativeFloats> evaluate(const BsdfLanes<NativeFloats>&, Vec3<N
                                           const BsdfContext<NativeFloats>&);
 template BsdfSample<NativeFloats> sample(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>, const Vec3<NativeFloats>&,
                                          const BsdfContext<NativeFloats>&);
+template Spectrum<NativeFloats> albedo(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>,
+                                       const BsdfSample<NativeFloats>&, Vec2<NativeFloats>,
+                                       const BsdfContext<NativeFloats>&);
 template Mask<NativeFloats> is_delta(const BsdfLanes<NativeFloats>&);
 
 }  // namespace montelux

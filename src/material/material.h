@@ -73,6 +73,25 @@ template <class F>
 BsdfValue<F> evaluate(const BsdfLanes<F>& lanes, Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context);
 template <class F>
 BsdfSample<F> sample(const BsdfLanes<F>& lanes, Vec3<F> wo, const Vec3<F>& u3, const BsdfContext<F>& context);
+// The directional albedo: the part of unit light from everywhere that is scattered along wo, or an unbiased estimate of
+// little variance, by u2. `drawn` is what sample() drew; the estimate is its weight where the model has no albedo().
+// Squared indices of refraction are left out. Black in the other lanes.
+template <class F>
+Spectrum<F> albedo(const BsdfLanes<F>& lanes, Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2,
+                   const BsdfContext<F>& context);
+// Whether the model has an albedo() of its own: elsewhere the estimate is the weight of what was drawn.
+template <class F>
+MONTELUX_INLINE Mask<F> estimates_albedo(Uint<F> kind) {
+  Mask<F> all(false);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto visit = [&]<std::size_t i, class Model>() {
+      if constexpr (requires { &Model::albedo; }) all = all | (kind == Uint<F>(std::uint32_t(i)));
+    };
+    (visit.template operator()<I, std::tuple_element_t<I, BsdfModels<F>>>(), ...);
+  }
+  (std::make_index_sequence<bsdf_kind_count>());
+  return all;
+}
 // Where a connection to a light is useless: the model consists only of deltas.
 template <class F>
 Mask<F> is_delta(const BsdfLanes<F>& lanes);
@@ -86,6 +105,8 @@ extern template Scattering<float> scatter(const BsdfLanes<float>&, const Scatter
                                           const BsdfContext<float>&);
 extern template BsdfValue<float> evaluate(const BsdfLanes<float>&, Vec3f, Vec3f, const BsdfContext<float>&);
 extern template BsdfSample<float> sample(const BsdfLanes<float>&, Vec3f, const Vec3f&, const BsdfContext<float>&);
+extern template Spectrum<float> albedo(const BsdfLanes<float>&, Vec3f, const BsdfSample<float>&, Vec2f,
+                                       const BsdfContext<float>&);
 extern template Mask<float> is_delta(const BsdfLanes<float>&);
 extern template Scattering<NativeFloats> scatter(const BsdfLanes<NativeFloats>&, const ScatterQuery<NativeFloats>&,
                                                  const BsdfContext<NativeFloats>&);
@@ -93,6 +114,9 @@ extern template BsdfValue<NativeFloats> evaluate(const BsdfLanes<NativeFloats>&,
                                                  const BsdfContext<NativeFloats>&);
 extern template BsdfSample<NativeFloats> sample(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>,
                                                 const Vec3<NativeFloats>&, const BsdfContext<NativeFloats>&);
+extern template Spectrum<NativeFloats> albedo(const BsdfLanes<NativeFloats>&, Vec3<NativeFloats>,
+                                              const BsdfSample<NativeFloats>&, Vec2<NativeFloats>,
+                                              const BsdfContext<NativeFloats>&);
 extern template Mask<NativeFloats> is_delta(const BsdfLanes<NativeFloats>&);
 
 }  // namespace montelux

@@ -100,6 +100,23 @@ class MetallicRoughness {
     const Mask<F> valid = same_side(wo, wi) & (delta | (value.density.value > F(0.0f)));
     return {wi, weight, value.density, F(1.0f), valid, delta};
   }
+  MONTELUX_INLINE Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>&, Vec2<F> u2, const BsdfContext<F>&) const {
+    return albedo_under(wo, u2, [](const Vec3<F>&) { return F(1.0f); });
+  }
+  // With passed(wi), the fraction that a coat lets through along wi. One direction of the diffuse part and one of the
+  // facets, by the same numbers.
+  template <class Passed>
+  MONTELUX_INLINE Spectrum<F> albedo_under(Vec3<F> wo, Vec2<F> u2, Passed passed) const {
+    const Vec3<F> up{F(0.0f), F(0.0f), F(1.0f)}, spread = sample_cosine_side(wo, u2);
+    const F o_h = abs_dot(wo, face_forward(normalize(wo + spread), up));
+    const Mask<F> smooth = facets_.is_smooth();
+    Vec3<F> m = up;
+    if (!all(smooth)) m = select(smooth, up, facets_.sample(wo, u2));
+    const Vec3<F> wi = reflect(wo, m);
+    const F unshadowed = select(smooth, F(1.0f), facets_.unshadowed(wo, wi));
+    const F mirrored = select(same_side(wo, wi) & !is_matt_, unshadowed * passed(wi), F(0.0f));
+    return diffuse_ * (under(o_h, wo, spread) * passed(spread)) + fresnel(abs_dot(wo, m)) * mirrored;
+  }
 
  private:
   MONTELUX_INLINE Spectrum<F> fresnel(F cos) const {

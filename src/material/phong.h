@@ -61,6 +61,12 @@ class Phong {
     Mask<F> valid = value.density.value > F(0.0f);
     return {wi, value.f_cos / max(value.density.value, F(1e-30f)), value.density, F(1.0f), valid, Mask<F>(false)};
   }
+  // The lobe's directions have its density.
+  MONTELUX_INLINE Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>&, Vec2<F> u2, const BsdfContext<F>&) const {
+    const Vec3<F> wi = LocalFrame<F>::from_normal(mirrored(wo)).to_world(sample_phong_lobe(exponent_, u2));
+    const F scale = (exponent_ + 2.0f) / (exponent_ + 1.0f) * abs(wi.z);
+    return kd_ + ks_ * select(same_side(wo, wi), scale, F(0.0f));
+  }
 
  private:
   static MONTELUX_INLINE Vec3<F> mirrored(Vec3<F> wo) { return {-wo.x, -wo.y, wo.z}; }

@@ -81,6 +81,15 @@ class ThinDielectric {
     const Mask<F> valid = same_side(wo, mirrored) & (smooth | (density > F(0.0f)));
     return {wi, select(reflects, gray(F(1.0f)), tint_) * unshadowed, {density}, F(1.0f), valid, smooth};
   }
+  // Of the facet that was drawn, both lobes.
+  MONTELUX_INLINE Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F>, const BsdfContext<F>&) const {
+    const Vec3<F> mirrored = onto_side(drawn.wi, wo), up{F(0.0f), F(0.0f), F(1.0f)};
+    const Vec3<F> m = normalize(select(drawn.valid, wo + mirrored, up));
+    const F reflected = reflectance(abs_dot(wo, m));
+    const F unshadowed = select(facets_.is_smooth(), F(1.0f), facets_.unshadowed(wo, mirrored));
+    const Spectrum<F> both = gray(reflected) + tint_ * (F(1.0f) - reflected);
+    return select(drawn.valid, both * unshadowed, gray(F(0.0f)));
+  }
 
  private:
   // R + (1 - R)^2 R / (1 - R^2) = 2 R / (1 + R).

@@ -19,10 +19,11 @@ struct PathState {
   Media<F> media;                  // along d
   Vec3<F> p, n;                    // the previous vertex and its normal, as the lights' densities take them
   Density<SolidAngle, F> density;  // of the direction d at the previous vertex, where it is not
-  Uint<F> by_delta;                // 1: that of a delta, or of the camera
+  Uint<F> by_delta;                // 0: no; 1: that of a delta; 3: only deltas since the camera
   F weight;                        // of the camera and the filter (which may be negative), for the result
   F time;                          // at which the camera looked
   F eta_scale;                     // squared relative indices of refraction crossed; roulette takes it out
+  F survival;                      // probability with which roulette let the path come so far
   Uint<F> depth;                   // scattering events so far
   Uint<F> crossings;               // interfaces gone through so far
   Uint<F> x, y, index;             // pixel, and number of the sample there
@@ -32,6 +33,11 @@ struct PathState {
 template <class F>
 MONTELUX_INLINE Mask<F> by_delta(const PathState<F>& path) {
   return path.by_delta != Uint<F>(0u);
+}
+// All vertices before the present one are perfect mirrors and smooth glass, or there are none.
+template <class F>
+MONTELUX_INLINE Mask<F> only_by_deltas(const PathState<F>& path) {
+  return path.by_delta == Uint<F>(3u);
 }
 
 template <class F>
@@ -82,8 +88,8 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
   path.media = select_media<F>(fresh, media, path.media);
   put(path.p, start.o), put(path.n, zero);
-  put_one(path.density.value, F(0.0f)), put_one(path.by_delta, U(1u));
-  put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f));
+  put_one(path.density.value, F(0.0f)), put_one(path.by_delta, U(3u));
+  put_one(path.weight, start.weight), put_one(path.eta_scale, F(1.0f)), put_one(path.survival, F(1.0f));
   put_one(path.time, start.time);
   put_one(path.depth, U(0u)), put_one(path.crossings, U(0u)), put_one(path.x, start.x), put_one(path.y, start.y);
   put_one(path.index, start.index), put_one(path.output, start.output);
@@ -110,6 +116,7 @@ MONTELUX_INLINE Mask<F> survive_roulette(PathState<F>& path, const F& chance, co
   const Roulette<F> survival = roulette(chance, u);
   const Mask<F> lives = on & survival.survives;
   path.throughput = select(lives, path.throughput * survival.weight, path.throughput);
+  path.survival = select(lives, path.survival * chance, path.survival);
   return lives;
 }
 
@@ -120,7 +127,8 @@ MONTELUX_INLINE void leave_vertex(PathState<F>& path, const V& v, const Vec3<F>&
   path.media = select_media<F>(scattered | passes, v.media_toward(wi), path.media);
   path.p = select(scattered, v.x.point.p, path.p), path.n = select(scattered, v.bsdf.light_normal, path.n);
   path.density.value = select(scattered, event.density.value, path.density.value);
-  path.by_delta = select(scattered, select(event.delta, Uint<F>(1u), Uint<F>(0u)), path.by_delta);
+  const Uint<F> delta = select(v.bsdf.is_delta, path.by_delta | Uint<F>(1u), Uint<F>(1u));
+  path.by_delta = select(scattered, select(event.delta, delta, Uint<F>(0u)), path.by_delta);
   path.o = v.origin_toward(wi), path.d = wi;
   path.crossings = path.crossings + select(passes, Uint<F>(1u), Uint<F>(0u));
 }

@@ -118,14 +118,14 @@ class EyeSubpaths {
         wants_light & choice.valid);
     const LightPointView<F> view =
         lights.template view<F>(draw.point, from.p, from.n, wants_light & choice.valid & draw.valid);
+    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
     const Scattering<F> scattered = scatter_at<F, in_media>(
         scene_, at,
-        {at.wo, at.bsdf.frame.to_local(view.wi), view.valid, sampler.get1(dimension + U(path_dimension::lobe)),
-         sampler.get2(dimension + U(path_dimension::direction))},
+        {at.wo, at.bsdf.frame.to_local(view.wi), view.valid, sampler.get1(dimension + U(path_dimension::lobe)), u},
         scatters);
     const BsdfSample<F>& next = scattered.next;
-    if (any(first & at.found))
-      write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, M(first & at.found), out);
+    if (const M shown = is_shown(path, M(on & at.found), scatters); any(shown))
+      write_features(at, albedo_of(at, next, u, M(scatters & shown)), path, shown, out);
     if (any(view.valid)) connect_light(path, here, draw, choice.mass * draw.density, view, scattered.toward_light);
     if (frame_.paths.connect && frame_.by_power) connect_subpath(path, here);
     if (photons_) merge(path, at, here.rough & !at.in_medium);

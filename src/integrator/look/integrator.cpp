@@ -101,7 +101,7 @@ RayCounts LookIntegrator::trace(const TilePass& pass, std::span<PixelSample> out
     const Spectrum<F> radiance =
         select(at.found, sum * (1.0f / float(n)), gray(F(beyond))) * (path.weight / scene_.imaging_ratio);
     for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
-    write_features(at, view.albedo(0), path, at.found, out);
+    write_features(at, sampler, path, out);
   }
 }
 

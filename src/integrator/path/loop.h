@@ -222,10 +222,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       choice.mix(light.wi, scattered.toward_light.density);
       guided = guide_scattering<F, in_media>(scene, v, choice, u2, wants_light, scattered.next);
     }
-    if (M first = on & (path.depth == U(0u)) & !passes; any(first))
-      write_features(
-          first_sight(path, v.x, select(scattered.next.valid & scatters, scattered.next.weight, gray(F(0.0f)))), path,
-          first, out);
+    if (const M shown = is_shown(path, M(on & !passes), scatters); any(shown))
+      write_features(first_sight(path, v.x, albedo_of(v, scattered.next, u2, scatters & shown)), path, shown, out);
 
     // Next-event estimation.
     F light_weight =

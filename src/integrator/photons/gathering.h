@@ -202,14 +202,14 @@ class PhotonGathering {
     const LightSample<F> light = scene_.lights.template sample<F>(
         from.p, from.n, u_choice, sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
     const M queries = wants_light & light.valid;
-    const Scattering<F> scattered =
-        scatter<F>(at.bsdf.lanes(scatters),
-                   {at.wo, at.bsdf.frame.to_local(light.wi), queries, sampler.get1(dimension + U(path_dimension::lobe)),
-                    sampler.get2(dimension + U(path_dimension::direction))},
-                   context);
+    const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
+    const Scattering<F> scattered = scatter<F>(
+        at.bsdf.lanes(scatters),
+        {at.wo, at.bsdf.frame.to_local(light.wi), queries, sampler.get1(dimension + U(path_dimension::lobe)), u},
+        context);
     const BsdfSample<F>& next = scattered.next;
-    if (const M first = on & (path.depth == U(0u)) & at.found; any(first))
-      write_features(at, select(scatters & next.valid, next.weight, gray(F(0.0f))), path, first, out);
+    if (const M shown = is_shown(path, M(on & at.found), scatters); any(shown))
+      write_features(at, albedo_of(at, next, u, M(scatters & shown)), path, shown, out);
     if (any(queries)) add_direct(path, at, {light, u_choice, queries}, scattered.toward_light);
     if (any(rough)) {
       add_photons(path, in_view_, at, context, rough, layers);

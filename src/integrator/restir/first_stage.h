@@ -110,9 +110,10 @@ class FirstStage {
     const RandomStream<F> numbers = sampler.stream(U(path_dimension::reuse));
     const RandomStream<F> path_numbers = numbers.fork(U(restir_stream::path));
     const BsdfSample<F> next = leave(v, sampler, dimension, path_numbers, scatters);
-    if (const M first = on & (path.depth == U(0u)) & !passes; any(first))
-      write_features(first_sight(path, v.x, select(next.valid & scatters, next.weight, gray(F(0.0f)))), path, first,
-                     out_);
+    if (const M shown = is_shown(path, M(on & !passes), scatters); any(shown)) {
+      const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
+      write_features(first_sight(path, v.x, albedo_of(v, next, u, scatters & shown)), path, shown, out_);
+    }
 
     // The vertex whose light is reused.
     const ReuseVertex<F> vertex = reuse_vertex(path, v, numbers);
