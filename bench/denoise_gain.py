@@ -37,13 +37,13 @@ def main():
     parser.add_argument("--resolution", default="256x144")
     arguments = parser.parse_args()
     gains = {}
-    print("| scene | samples | relMSE | denoised | gain | stated / true error |\n| --- | ---: | ---: | ---: | ---: | ---: |")
+    print("| scene | samples | relMSE | denoised | gain | stated / true error | FLIP | denoised |\n| --- |" + " ---: |" * 7)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
 
         def run(*options):
             command = [arguments.montelux, *map(str, options), "--json"]
-            return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+            return json.loads(subprocess.run(command, check=options[0] != "diff", capture_output=True, text=True).stdout)
 
         for scene in arguments.scenes:
             render = ["render", scene, "--integrator", "path", "--resolution", arguments.resolution]
@@ -54,9 +54,11 @@ def main():
                     folder / "noisy.pfm")
                 stated = run("denoise", folder / "noisy.exr", "-o", folder / "clean.pfm")["denoised"]["relative_mse"]
                 before, after = (relative_error(read_pfm(folder / f"{k}.pfm"), true, variance) for k in ("noisy", "clean"))
+                flip = [run("diff", folder / f"{k}.pfm", folder / "true.pfm")["flip"] for k in ("noisy", "clean")]
                 gains.setdefault(samples, []).append(before / after)
                 ratio = math.sqrt(stated / after)
-                print(f"| {scene.stem} | {samples} | {before:.3g} | {after:.3g} | {before / after:.1f} | {ratio:.2f} |", flush=True)
+                print(f"| {scene.stem} | {samples} | {before:.3g} | {after:.3g} | {before / after:.1f} | {ratio:.2f} | "
+                      f"{flip[0]:.3f} | {flip[1]:.3f} |", flush=True)
     for samples, all_gains in gains.items():
         mean = math.exp(sum(map(math.log, all_gains)) / len(all_gains))
         print(f"\n{samples} samples: geometric mean {mean:.1f}, least {min(all_gains):.1f}")

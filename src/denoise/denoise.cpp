@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "denoise/box_mean.h"
 #include "denoise/squared_error.h"
@@ -21,10 +22,11 @@ NoisyImage::NoisyImage(int w, int h) : width(w), height(h), halves{HalfPlanes(pi
 
 namespace {
 
-constexpr int choice_reach = 3;  // pixels over which estimated errors are averaged to choose a filter,
-constexpr int error_reach = 10;  // and to be stated: the estimate at one pixel has the noise of the unfiltered image
-constexpr std::size_t candidates = filter_count + 1;
-constexpr std::size_t unfiltered = filter_count;  // the number of the image itself among the candidates
+constexpr int choice_reach = 3;   // pixels over which estimated errors are averaged to choose a filter,
+constexpr int error_reach = 10;   // and to be stated: the estimate at one pixel has the noise of the unfiltered image
+constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
+// The candidates: the filters, the means of the first of them and the image, the image.
+constexpr std::size_t halved = 2, unfiltered = filter_count + halved, candidates = unfiltered + 1;
 
 float relative_scale(float brightness) { return 1 / (brightness * brightness + 0.01f); }
 
@@ -60,8 +62,13 @@ class Denoiser {
       const Noisy n = noisy(c, i);
       return {n.first, n.second, 1, 1};
     }
+    if (k >= filter_count) return mean(candidate(k - filter_count, c, i), candidate(unfiltered, c, i));
     const FilteredHalf &a = filtered_[0][k], &b = filtered_[1][k];
     return {double(a.color[c][i]), double(b.color[c][i]), double(a.own[i]), double(b.own[i])};
+  }
+  static Filtered mean(const Filtered& a, const Filtered& b) {
+    return {(a.first + b.first) / 2, (a.second + b.second) / 2, (a.own_first + b.own_first) / 2,
+            (a.own_second + b.own_second) / 2};
   }
   // Mean over the channels, relative.
   float error_of(std::size_t k, std::size_t i) const {
@@ -89,30 +96,22 @@ class Denoiser {
     for (std::size_t i = 0; i < gray.size(); ++i) relative_[i] = relative_scale(mean[i]);
   }
 
-  // The first filter, or another candidate whose error around the pixel is less by more than the standard error of the
-  // difference: what is common to both cancels. The choices are smoothed over 3 x 3 pixels.
+  // The candidate with the least error around the pixel. What one pixel chooses is a noisy decision: it is averaged.
   void choose() {
     const int w = image_.width, h = image_.height;
     std::vector<std::uint8_t> choice(image_.pixels(), 0);
-    Plane best(image_.pixels(), 0.0f), first(image_.pixels()), difference(image_.pixels()), square(image_.pixels());
-    for (std::size_t i = 0; i < first.size(); ++i) first[i] = has_halves(i) ? error_of(0, i) : 0;
-    constexpr float side = 2 * choice_reach + 1, independent = side * side / 4;  // errors of neighbours are correlated
-    for (std::size_t k = 1; k < candidates; ++k) {
-      for (std::size_t i = 0; i < first.size(); ++i) {
-        difference[i] = has_halves(i) ? error_of(k, i) - first[i] : 0;
-        square[i] = difference[i] * difference[i];
-      }
-      const Plane mean = box_mean(difference, w, h, choice_reach), squares = box_mean(square, w, h, choice_reach);
-      for (std::size_t i = 0; i < first.size(); ++i) {
-        const float high = mean[i] + std::sqrt(std::max(squares[i] - mean[i] * mean[i], 0.0f) / independent);
-        if (high < best[i]) best[i] = high, choice[i] = std::uint8_t(k);
-      }
+    Plane least(image_.pixels(), std::numeric_limits<float>::infinity()), error(image_.pixels());
+    for (std::size_t k = 0; k < candidates; ++k) {
+      for (std::size_t i = 0; i < error.size(); ++i) error[i] = has_halves(i) ? error_of(k, i) : 0;
+      const Plane mean = box_mean(error, w, h, choice_reach);
+      for (std::size_t i = 0; i < error.size(); ++i)
+        if (mean[i] < least[i]) least[i] = mean[i], choice[i] = std::uint8_t(k);
     }
     for (std::size_t k = 0; k < candidates; ++k) {
       Plane chosen(image_.pixels());
       for (std::size_t i = 0; i < chosen.size(); ++i)
         chosen[i] = (has_halves(i) ? choice[i] : unfiltered) == k ? 1.0f : 0.0f;
-      shares_[k] = box_mean(chosen, w, h, 1);
+      shares_[k] = box_mean(chosen, w, h, choice_spread);
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <span>
 
 #include "film/film_planes.h"
 
@@ -39,13 +40,17 @@ struct DenoisedImage {
 struct DenoiseSettings {
   int threads = 0;                  // 0: all of the machine
   std::function<bool()> stop = {};  // queried now and then: true ends it early
+  // Images of other samples, of the same size, whose pixels are averaged too where they are alike: earlier ones of a
+  // sequence, reprojected. Pixels without a pass have the share 0.
+  std::span<const NoisyImage> others = {};
 };
 
 // Filters each half by weights that come from the other half alone: differences of its colours, relative to their
 // variance (Buades, Coll and Morel 2005; Rousselle, Knaus and Zwicker 2012), of its albedos and normals. Because the
 // weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Of three
-// filters and the unfiltered image each pixel takes the one with the least estimated error around it. The same bits for
-// any number of threads. Throws std::runtime_error if it was stopped.
+// filters, the unfiltered image and means of both each pixel takes the one with the least estimated error around it,
+// averaged over what its neighbours take. The same bits for any number of threads. Throws std::runtime_error if it was
+// stopped.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

@@ -63,11 +63,17 @@ std::array<PaddedPlane, n> padded(const std::array<Plane, n>& planes, int width,
   return all;
 }
 
+struct PaddedFeature {
+  std::array<PaddedPlane, 3> mean;
+  PaddedPlane variance;  // summed over the components
+};
+
 struct PaddedHalf {
-  PaddedColors color, variance, albedo;
-  std::array<PaddedPlane, 3> normal;
+  PaddedColors color, variance;
+  PaddedFeature albedo, normal;
   PaddedPlane exists;  // 1 for pixels of the image that have a pass, else 0
 };
+using PaddedImage = std::array<PaddedHalf, 2>;
 
 // The variance of a half, half of it that of the 3 x 3 pixels: that of single pixels is known too badly.
 ColorPlanes variance_of_half(const NoisyImage& image, const HalfPlanes& half) {
@@ -80,12 +86,32 @@ ColorPlanes variance_of_half(const NoisyImage& image, const HalfPlanes& half) {
   return variance;
 }
 
-PaddedHalf padded_half(const NoisyImage& image, const HalfPlanes& half) {
+// A feature of a half. The variance of the mean over all passes is known by how much both halves differ, here over 5 x
+// 5 pixels.
+PaddedFeature padded_feature(const NoisyImage& image, std::size_t half, std::array<Plane, 3> HalfPlanes::*feature) {
+  const auto& [a, b] = image.halves;
+  const HalfPlanes& own = image.halves[half];
+  Plane variance(image.pixels());
+  for (std::size_t i = 0; i < variance.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      variance[i] += a.share[i] * b.share[i] * square((a.*feature)[c][i] - (b.*feature)[c][i]);
+  variance = box_mean(variance, image.width, image.height, 2);
+  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = own.share[i] > 0 ? variance[i] / own.share[i] : 0;
+  return {padded(own.*feature, image.width, image.height), PaddedPlane(variance, image.width, image.height)};
+}
+
+PaddedImage padded_image(const NoisyImage& image) {
   const int w = image.width, h = image.height;
-  Plane exists(image.pixels());
-  for (std::size_t i = 0; i < exists.size(); ++i) exists[i] = half.share[i] > 0 ? 1.0f : 0.0f;
-  return {padded(half.color, w, h), padded(variance_of_half(image, half), w, h), padded(half.albedo, w, h),
-          padded(half.normal, w, h), PaddedPlane(exists, w, h, false)};
+  PaddedImage both;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const HalfPlanes& half = image.halves[k];
+    Plane exists(image.pixels());
+    for (std::size_t i = 0; i < exists.size(); ++i) exists[i] = half.share[i] > 0 ? 1.0f : 0.0f;
+    both[k] = {padded(half.color, w, h), padded(variance_of_half(image, half), w, h),
+               padded_feature(image, k, &HalfPlanes::albedo), padded_feature(image, k, &HalfPlanes::normal),
+               PaddedPlane(exists, w, h, false)};
+  }
+  return both;
 }
 
 // Sums over the neighbours of the pixels of a tile, for each filter.
@@ -95,22 +121,28 @@ struct TileSums {
   std::array<std::array<float, size>, filter_count> weight;
 };
 
-// One tile: `source` is filtered by the weights of `guide`.
+struct PixelPair {
+  int x, y, other_x, other_y;
+};
+
+// One tile of a half of the first image: the mean over pixels of that half of all images, by the weights of the other
+// half.
 class TileFilter {
  public:
-  TileFilter(const PaddedHalf& source, const PaddedHalf& guide, int x0, int y0)
-      : source_(source), guide_(guide), x0_(x0), y0_(y0) {}
+  TileFilter(const std::vector<PaddedImage>& images, std::size_t half, int x0, int y0)
+      : images_(images), half_(half), guide_(images[0][1 - half]), x0_(x0), y0_(y0) {}
 
   const TileSums& run() {
     sums_ = {};
-    for (int dy = -filter_reach; dy <= filter_reach; ++dy)
-      for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
-        constexpr float radius = filter_reach + 1;
-        const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
-        if (near <= 0) continue;
-        find_differences(dx, dy);
-        for (int row = 0; row < tile_height; ++row) add_row(row, dx, dy, near);
-      }
+    for (const PaddedImage& there : images_)
+      for (int dy = -filter_reach; dy <= filter_reach; ++dy)
+        for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
+          constexpr float radius = filter_reach + 1;
+          const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
+          if (near <= 0) continue;
+          find_differences(there[1 - half_], dx, dy);
+          for (int row = 0; row < tile_height; ++row) add_row(there, row, dx, dy, near);
+        }
     return sums_;
   }
 
@@ -120,15 +152,15 @@ class TileFilter {
   // The squared differences of the colours at each pixel and at its neighbour, without the part that their variances
   // explain, in units of these; sums over the channels. A neighbour counts with at most the pixel's own variance, or
   // one rare bright sample would make its pixel similar to all pixels around it.
-  void find_differences(int dx, int dy) {
+  void find_differences(const PaddedHalf& other, int dx, int dy) {
     for (int row = 0; row < tile_height + 2 * patch; ++row) {
       const int y = y0_ + row - patch;
       for (int i = 0; i < columns; i += native_lanes) {
         const int x = x0_ - patch + i;
         F sum = 0.0f;
         for (std::size_t c = 0; c < rgb_size; ++c) {
-          const F difference = load(guide_.color[c].at(x, y)) - load(guide_.color[c].at(x + dx, y + dy));
-          const F here = load(guide_.variance[c].at(x, y)), there = load(guide_.variance[c].at(x + dx, y + dy));
+          const F difference = load(guide_.color[c].at(x, y)) - load(other.color[c].at(x + dx, y + dy));
+          const F here = load(guide_.variance[c].at(x, y)), there = load(other.variance[c].at(x + dx, y + dy));
           const F variance = here + min(here, there);
           sum += (difference * difference - variance) / (variance + 1e-8f);
         }
@@ -137,7 +169,8 @@ class TileFilter {
     }
   }
 
-  void add_row(int row, int dx, int dy, float near) {
+  void add_row(const PaddedImage& there, int row, int dx, int dy, float near) {
+    const PaddedHalf &source = there[half_], &guide = there[1 - half_];
     const int y = y0_ + row;
     const auto first = std::size_t(row);
     // Sums over the rows of a patch, from the column before the tile on.
@@ -150,18 +183,12 @@ class TileFilter {
       const float* around = &rows[std::size_t(i)];
       const F difference =
           max((load(around) + load_across(around, 1) + load_across(around, 2)) * (1.0f / (9 * rgb_size)), F(0.0f));
-      F features = 0.0f;
-      for (std::size_t c = 0; c < rgb_size; ++c) {
-        const F d = load(guide_.albedo[c].at(x, y)) - load(guide_.albedo[c].at(x + dx, y + dy));
-        features += d * d * (1 / (albedo_scale * albedo_scale));
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        const F d = load(guide_.normal[c].at(x, y)) - load(guide_.normal[c].at(x + dx, y + dy));
-        features += d * d * (1 / (normal_scale * normal_scale));
-      }
-      const F exists = load(source_.exists.at(x + dx, y + dy)) * load(guide_.exists.at(x + dx, y + dy)) * near;
+      const PixelPair pair{x, y, x + dx, y + dy};
+      const F features = distance(guide_.albedo, guide.albedo, pair) * (1 / square(albedo_scale)) +
+                         distance(guide_.normal, guide.normal, pair) * (1 / square(normal_scale));
+      const F exists = load(source.exists.at(x + dx, y + dy)) * load(guide.exists.at(x + dx, y + dy)) * near;
       std::array<F, rgb_size> color;
-      for (std::size_t c = 0; c < rgb_size; ++c) color[c] = load(source_.color[c].at(x + dx, y + dy));
+      for (std::size_t c = 0; c < rgb_size; ++c) color[c] = load(source.color[c].at(x + dx, y + dy));
       const std::size_t place = std::size_t(row) * tile_width + std::size_t(i);
       for (std::size_t k = 0; k < filter_count; ++k) {
         const float scale = 1 / (color_scales[k] * color_scales[k]);
@@ -174,10 +201,22 @@ class TileFilter {
       }
     }
   }
+  // The squared distance of a feature at two pixels, without what their variances explain. As with colours, that of the
+  // second counts with at most the first one's.
+  static F distance(const PaddedFeature& first, const PaddedFeature& second, const PixelPair& at) {
+    const F here = load(first.variance.at(at.x, at.y)), there = load(second.variance.at(at.other_x, at.other_y));
+    F sum = F(0.0f) - here - min(here, there);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const F d = load(first.mean[c].at(at.x, at.y)) - load(second.mean[c].at(at.other_x, at.other_y));
+      sum += d * d;
+    }
+    return max(sum, F(0.0f));
+  }
   static F load_across(const float* from, int columns_on) { return load(from + columns_on); }
 
-  const PaddedHalf& source_;
-  const PaddedHalf& guide_;
+  const std::vector<PaddedImage>& images_;
+  std::size_t half_;
+  const PaddedHalf& guide_;  // of the first image
   int x0_, y0_;
   alignas(64) std::array<std::array<float, columns>, tile_height + 2 * patch> differences_{};
   alignas(64) TileSums sums_{};
@@ -204,7 +243,8 @@ void copy_tile(const TileSums& sums, const NoisyImage& image, const HalfPlanes& 
 }  // namespace
 
 FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings) {
-  const std::array<PaddedHalf, 2> halves{padded_half(image, image.halves[0]), padded_half(image, image.halves[1])};
+  std::vector<PaddedImage> images{padded_image(image)};
+  for (const NoisyImage& other : settings.others) images.push_back(padded_image(other));
   FilteredHalves filtered;
   for (auto& half : filtered)
     for (FilteredHalf& one : half) {
@@ -214,15 +254,15 @@ FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& set
   const int across = (image.width + tile_width - 1) / tile_width;
   const auto tiles = std::size_t(across) * std::size_t((image.height + tile_height - 1) / tile_height);
   Scheduler scheduler(settings.threads);
-  const std::size_t done = scheduler.run(
-      2 * tiles,
-      [&](std::size_t unit, int) {
-        const std::size_t half = unit % 2, tile = unit / 2;
-        const int x0 = int(tile % std::size_t(across)) * tile_width, y0 = int(tile / std::size_t(across)) * tile_height;
-        auto filter = std::make_unique<TileFilter>(halves[half], halves[1 - half], x0, y0);
-        copy_tile(filter->run(), image, image.halves[half], x0, y0, filtered[half]);
-      },
-      {0, settings.stop});
+  const std::size_t done = scheduler.run(2 * tiles,
+                                         [&](std::size_t unit, int) {
+                                           const std::size_t half = unit % 2, tile = unit / 2;
+                                           const int x0 = int(tile % std::size_t(across)) * tile_width,
+                                                     y0 = int(tile / std::size_t(across)) * tile_height;
+                                           auto filter = std::make_unique<TileFilter>(images, half, x0, y0);
+                                           copy_tile(filter->run(), image, image.halves[half], x0, y0, filtered[half]);
+                                         },
+                                         {0, settings.stop});
   if (done < 2 * tiles) throw std::runtime_error("the removal of noise was interrupted");
   return filtered;
 }
