@@ -21,7 +21,7 @@ namespace {
 
 struct DenoiseArguments {
   std::string picture;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, before;
   int threads = 0;
   bool json = false, quiet = false;
 };
@@ -30,6 +30,8 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --spp 64 --layers halves -o room.exr
   montelux denoise room.exr -o clean.exr -o clean.png
   montelux render room.pbrt --spp 64 --denoise                     in one step
+  montelux render walk.pbrt --frames 1:9 --layers halves,motion -o walk.####.exr
+  montelux denoise walk.0002.exr --before walk.0001.exr -o clean.0002.exr
 
 The .exr keeps all layers of the image, and adds denoised.R, .G, .B and denoised_error.R, .G, .B: the root of the
 estimated mean squared error that is left, bias included. R, G, B stay the unbiased estimate. Other formats contain the
@@ -46,7 +48,8 @@ Status write_output(const std::string& file, const DenoisedFile& denoised) {
 int run_denoise(const DenoiseArguments& arguments) {
   for (const std::string& file : arguments.outputs)
     if (Status good = check_picture_file(file); !good) return complain(good.error());
-  const Result<DenoisedFile> denoised = denoise_file(arguments.picture, {arguments.threads, {}});
+  const Result<DenoisedFile> denoised =
+      denoise_file(arguments.picture, {arguments.threads, {}, {arguments.before.begin(), arguments.before.end()}});
   if (!denoised) return complain(denoised.error());
   int status = done;
   for (const std::string& file : arguments.outputs)
@@ -76,6 +79,13 @@ void add_denoise(CLI::App& app, Action& chosen) {
       ->type_name("FILE");
   verb.add_option("-o,--output", arguments->outputs, "image (.exr .hdr .pfm .png .jpg); may be repeated")
       ->required()
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option(
+          "--before", arguments->before,
+          "the image of the sequence before this one (.exr); may be repeated, the latest first. Takes the layer "
+          "motion, and frames with independent samples")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -8,6 +8,7 @@
 
 #include "api/images.h"
 #include "denoise/denoise.h"
+#include "denoise/reproject.h"
 #include "film/film.h"
 #include "render/stopwatch.h"
 
@@ -126,12 +127,53 @@ PixelBuffer buffer_of(const DenoisedImage& image, int width, int height) {
   return buffer;
 }
 
-Result<DenoisedLayers> denoise(const NoisyImage& image, const DenoiseOptions& options) {
+Result<MotionPlanes> motion_of(const PixelBuffer& image) {
+  MotionPlanes motion;
+  for (auto [name, plane] : {std::pair{"motion.X", &motion.x}, std::pair{"motion.Y", &motion.y}}) {
+    const std::optional<int> channel = find_channel(image, name);
+    if (!channel) return Failure{fmt::format("it has no channel {}", name)};
+    plane->resize(image.pixel_count());
+    for (std::size_t i = 0; i < plane->size(); ++i)
+      (*plane)[i] = image.values[i * image.channels.size() + std::size_t(*channel)];
+  }
+  return motion;
+}
+
+Failure cannot_be_denoised(const std::filesystem::path& file, const std::string& why, std::string_view layers) {
+  return Failure{fmt::format("'{}' cannot be denoised: {}; render it with --layers {}", file.string(), why, layers)};
+}
+
+// Earlier images as the present one would show them.
+Result<std::vector<NoisyImage>> earlier_images(const std::filesystem::path& file, const PixelBuffer& present,
+                                               const std::vector<std::filesystem::path>& before) {
+  std::vector<NoisyImage> images;
+  std::filesystem::path shown = file;
+  PixelBuffer pixels = present;
+  MotionPlanes way;
+  for (const std::filesystem::path& earlier : before) {
+    Result<MotionPlanes> motion = motion_of(pixels);
+    if (!motion) return cannot_be_denoised(shown, motion.error(), "halves,motion");
+    way = images.empty() ? *std::move(motion) : composed(way, *motion, pixels.width, pixels.height);
+    Result<Image> image = read_image(earlier);
+    if (!image) return image.failure();
+    if (image->pixels.width != pixels.width || image->pixels.height != pixels.height)
+      return Failure{fmt::format("'{}' has {} x {} pixels, '{}' {} x {}", earlier.string(), image->pixels.width,
+                                 image->pixels.height, shown.string(), pixels.width, pixels.height)};
+    const Result<NoisyImage> noisy = noisy_image(image->pixels);
+    if (!noisy) return cannot_be_denoised(earlier, noisy.error(), "halves");
+    images.push_back(reprojected(*noisy, way));
+    pixels = std::move(image->pixels), shown = earlier;
+  }
+  return images;
+}
+
+Result<DenoisedLayers> denoise(const NoisyImage& image, const DenoiseOptions& options,
+                               std::span<const NoisyImage> others = {}) {
   if (!has_both_halves(image))
     return Failure{"noise cannot be removed: it takes two independent passes, in both halves of the layers"};
   const Stopwatch since_start;
   try {
-    const DenoisedImage done = denoise(image, DenoiseSettings{options.threads, options.stop});
+    const DenoisedImage done = denoise(image, DenoiseSettings{options.threads, options.stop, others});
     return DenoisedLayers{
         buffer_of(done, image.width, image.height),
         {done.noisy_mse, done.noisy_relative_mse, done.mse, done.relative_mse, done.filtered, since_start.seconds()}};
@@ -169,10 +211,10 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
   Result<Image> image = read_image(file);
   if (!image) return image.failure();
   const Result<NoisyImage> noisy = noisy_image(image->pixels);
-  if (!noisy)
-    return Failure{
-        fmt::format("'{}' cannot be denoised: {}; render it with --layers halves", file.string(), noisy.error())};
-  const Result<DenoisedLayers> denoised = denoise(*noisy, options);
+  if (!noisy) return cannot_be_denoised(file, noisy.error(), "halves");
+  const Result<std::vector<NoisyImage>> others = earlier_images(file, image->pixels, options.before);
+  if (!others) return others.failure();
+  const Result<DenoisedLayers> denoised = denoise(*noisy, options, *others);
   if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
   DenoisedFile result{*std::move(image), denoised->estimate};
   result.image.pixels = without_added(result.image.pixels);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "image/image_file.h"
 #include "math/result.h"
@@ -15,6 +16,9 @@ class Film;
 struct DenoiseOptions {
   int threads = 0;                  // 0: all of the machine
   std::function<bool()> stop = {};  // queried now and then: true ends it early
+  // Of a file: the images of the sequence before it, the latest first, rendered with independent samples and with the
+  // layers of both halves. The image has motion vectors, and so has each of these but the last.
+  std::vector<std::filesystem::path> before = {};
 };
 
 // Estimated mean squared errors before and after, over channels and pixels. The relative ones are divided by the square

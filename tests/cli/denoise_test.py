@@ -68,6 +68,35 @@ class DenoiseTest(ProgramTest):
         self.assertIn("noise cannot be removed", self.render("--spp", 1, "--denoise", "-o", "y.exr").stderr)
         self.assertTrue((self.folder / "y.exr").exists())
 
+    def test_earlier_frames_lower_the_error(self):
+        """Frames of a scene that stands still: three of them have a third of the variance."""
+        options = ["--frames", "0:2", "--layers", "halves,motion"]
+        self.render("--spp", 8, *options, "-o", "f.#.exr")
+        self.render("--spp", 2048, "--seed", 77, "-o", "true.pfm")
+        true = self.read("true.pfm")
+        errors, stated = [], []
+        for before in [], ["--before", "f.1.exr"], ["--before", "f.1.exr", "--before", "f.0.exr"]:
+            said = json.loads(self.run_program("denoise", "f.2.exr", *before, "-o", "c.pfm", "--json").stdout)
+            errors.append(relative_error(self.read("c.pfm"), true)), stated.append(said["denoised"]["relative_mse"])
+        self.assertLess(errors[1], 0.9 * errors[0])
+        self.assertLess(errors[2], errors[1])
+        self.assertLess(stated[2], stated[0])
+        self.assertLess(errors[2], 2 * stated[2])
+
+    def test_earlier_frames_that_do_not_fit_are_refused(self):
+        small = ["--spp", 4, "--layers", "halves"]
+        self.render(*small, "-o", "still.exr")
+        said = self.run_program("denoise", "still.exr", "--before", "still.exr", "-o", "x.exr", status=2).stderr
+        self.assertIn("motion.X", said)
+        self.assertIn("--layers halves,motion", said)
+        self.render("--frames", "0:1", "--spp", 4, "--layers", "halves,motion", "-o", "f.#.exr")
+        self.run_program("render", SCENE, "--resolution", "32x20", *small, "-o", "other.exr")
+        said = self.run_program("denoise", "f.1.exr", "--before", "other.exr", "-o", "x.exr", status=2).stderr
+        self.assertIn("32 x 20", said)
+        self.assertIn("no such file", self.run_program("denoise", "f.1.exr", "--before", "none.exr", "-o", "x.exr",
+                                                       status=2).stderr.lower())
+        self.assertFalse((self.folder / "x.exr").exists())
+
     def test_a_damaged_file_is_refused(self):
         self.render("--spp", 4, "--layers", "halves", "-o", "a.exr")
         data = (self.folder / "a.exr").read_bytes()
