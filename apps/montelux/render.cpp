@@ -457,7 +457,8 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
       verb,
       {"--layers", "bounces[:N],light-groups,strategies[:N],alone,errors,motion,halves,intervals",
        "layers in the .exr: of light, bounce0 ... bounceN and bounce_rest (N = 4 if not stated); Combined_GROUP for "
-       "each \"string group\" of the scene's lights; strategies: those of light, bdpt and vcm, strategy_sS_tT with S "
+       "each \"string group\" of the scene's lights; strategies: those of light, bdpt, vcm and "
+       "metropolis:strategies=bdpt, strategy_sS_tT with S "
        "vertices from the light and T from the eye, merging_sS_tT where they are merged, and strategy_rest beyond N "
        "bounces (3 if not stated); alone: each strategy also without its weight, as alone_sS_tT; errors: also "
        "NAME_stderr; motion: offset in pixels from here to where the same point was in the previous frame; halves: "

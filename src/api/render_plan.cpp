@@ -94,14 +94,14 @@ Result<LayerPlan> plan_layers(const LayerRequest& request, const ChosenIntegrato
     return Failure{fmt::format("the integrator {} has no layers; {} have them", chosen.name,
                                listed(integrators_with(Ability::layers)))};
   }
-  const std::vector<std::string_view> bidirectional = integrators_with(Ability::strategies);
-  if (request.strategies && std::ranges::find(bidirectional, chosen.name) == bidirectional.end())
+  if (request.strategies && !chosen.can(Ability::strategies))
     return Failure{
-        fmt::format("the integrator {} has no layers of strategies; {} have them", chosen.name, listed(bidirectional))};
+        fmt::format("the integrator {} has no layers of strategies; {} have them, and metropolis with strategies=bdpt",
+                    chosen.name, listed(integrators_with(Ability::strategies)))};
   LayerPlan plan;
   plan.bounces = request.bounces;
   plan.strategies = request.strategies, plan.alone = request.alone;
-  plan.mergings = std::ranges::count(integrators_with(Ability::mergings), chosen.name) > 0;
+  plan.mergings = chosen.can(Ability::mergings);
   plan.light_groups = request.light_groups;
   plan.spread = request.errors;
   state_light_groups(plan, scene);

@@ -332,9 +332,14 @@ Made make_metropolis(const Request& r) {
   return chosen;
 }
 
+bool from_both_ends(const ParameterList& list) {
+  return metropolis_settings(list, {}).strategies == MetropolisStrategies::bdpt;
+}
 LightSearch metropolis_search(const ParameterList& list) {
-  const bool from_both = metropolis_settings(list, {}).strategies == MetropolisStrategies::bdpt;
-  return from_both ? LightSearch::both_ends : LightSearch::any_length;
+  return from_both_ends(list) ? LightSearch::both_ends : LightSearch::any_length;
+}
+std::uint32_t metropolis_abilities(const ParameterList& list) {
+  return from_both_ends(list) ? std::uint32_t(Ability::strategies) : 0;
 }
 
 // Path, since nothing is known of the render: the choice is made where its length is known.
@@ -368,8 +373,12 @@ struct Row {
   LightSearch search = LightSearch::any_length;
   Content content = Content::light;
   std::uint32_t abilities = 0;
-  LightSearch (*search_by)(const ParameterList&) = nullptr;  // instead of `search`, where settings decide
+  LightSearch (*search_by)(const ParameterList&) = nullptr;         // instead of `search`, where settings decide
+  std::uint32_t (*more_abilities)(const ParameterList&) = nullptr;  // where settings add some
   LightSearch search_of(const ParameterList& list) const { return search_by ? search_by(list) : search; }
+  std::uint32_t abilities_of(const ParameterList& list) const {
+    return abilities | (more_abilities ? more_abilities(list) : 0);
+  }
   bool can(Ability ability) const { return (abilities & std::uint32_t(ability)) != 0; }
 };
 
@@ -378,7 +387,7 @@ constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
                         shared_samples = std::uint32_t(Ability::shared_samples),
                         shared_in_media = shared_samples | std::uint32_t(Ability::media),
                         bidirectional = shared_in_media | only_layers | std::uint32_t(Ability::strategies),
-                        by_photons = shared_samples | only_layers,
+                        shared_with_layers = shared_samples | only_layers,
                         with_mergings = bidirectional | std::uint32_t(Ability::mergings);
 
 // The one table of integrators.
@@ -395,13 +404,13 @@ const std::vector<Row>& rows() {
         {restir_pt_spec(), make_restir<restir_pt>, LightSearch::any_length, Content::light, shared_samples},
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, bidirectional},
-        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, by_photons},
-        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, by_photons},
+        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_with_layers},
+        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, shared_with_layers},
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, bidirectional},
-        {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_samples},
+        {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_with_layers},
         {vcm_spec(), make_vcm, LightSearch::photons, Content::light, with_mergings},
-        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media,
-         metropolis_search},
+        {metropolis_spec(), make_metropolis, LightSearch::any_length, Content::light, shared_in_media | only_layers,
+         metropolis_search, metropolis_abilities},
         {automatic_spec(), make_automatic, LightSearch::any_length, Content::light, all_abilities}};
     constexpr Made (*looks[])(const Request&) = {make_look<ao>, make_look<normal>, make_look<albedo>, make_look<depth>,
                                                  make_look<irradiance>};
@@ -542,6 +551,7 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   }
   // No light arrives where camera rays go through the centres of pixels alone.
   result->search = row->search_of(list), result->content = row->content;
+  result->abilities = row->abilities_of(list);
   if (scene.pixel_centres && result->search == LightSearch::both_ends) result->search = LightSearch::any_length;
   if (limit) {
     if (result->coupled)

@@ -28,6 +28,7 @@ enum class Ability : std::uint32_t {
   strategies = 16,  // its layers may be those of bidirectional strategies
   mergings = 32,    // which may merge vertices
 };
+// Those that can with any settings.
 std::vector<std::string_view> integrators_with(Ability ability);
 
 // What a scene file states for all integrators; a setting of the same name wins.
@@ -47,6 +48,8 @@ struct ChosenIntegrator {
   int chain_length = 0;                // of LightSearch::with_chains: specular events of a connection at most
   Content content = Content::light;    // what its pictures hold, and so how they are displayed
   std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
+  std::uint32_t abilities = 0;         // those of its row in the catalogue, and of its settings
+  bool can(Ability ability) const { return (abilities & std::uint32_t(ability)) != 0; }
   AnyIntegrator any() const { return coupled ? AnyIntegrator(*coupled) : AnyIntegrator(*integrator); }
 };
 

@@ -45,6 +45,10 @@ class SplatPlane {
   void add(Vec2f raster, const Rgb& value, const LightOrigin<float>& from);
   // Adds to the pixel of one cell alone: light that was drawn by the filter of this pixel.
   void add_to_pixel(int x, int y, const Rgb& value) { add_to(pixel(x, y), value, 1.0f); }
+  // The same where it comes from there: also to its layers. Requires layers().
+  void add_to_pixel(int x, int y, const Rgb& value, const LightOrigin<float>& from) {
+    if (add_to(pixel(x, y), value, 1.0f)) add_to_layers(x, y, value, 1.0f, from);
+  }
   // What was added to a pixel, stated by its cell, since the last time. Only while nobody adds.
   Rgb take(int x, int y);
   // The same of each pixel of a tile, in row-major order, added to its sample and, if there are layers, to its sums, as

@@ -260,6 +260,8 @@ class Render(ProgramTest):
             (["--layers", "alone"], "alone needs strategies"),
             (["--layers", "strategies:17", "--integrator", "bdpt"], "whole number from 0 to 16"),
             (["--layers", "strategies", "--integrator", "path"], "path has no layers of strategies; light, bdpt and vcm"),
+            (["--layers", "strategies", "--integrator", "metropolis"],
+             "metropolis has no layers of strategies; light, bdpt and vcm have them, and metropolis with strategies=bdpt"),
             (["--layers", "bounces", "--integrator", "restir-di"], "the integrator restir-di has no layers"),
             (["--layers", "bounces", "--integrator", "vcm:maxcomponent=2"], "maxcomponent=none"),
             (["--layers", "bounces", "-o", "room.png"], "need an .exr file"),

@@ -21,7 +21,7 @@ class EyeSubpaths {
   using U = Uint<F>;
   using M = Mask<F>;
   // `tally`: receives where the light comes from; null: nobody does.
-  EyeSubpaths(const Frame& frame, const LightVertices& light, LayerTally* tally = nullptr)
+  EyeSubpaths(const Frame& frame, const LightVertices& light, typename Frame::Tally* tally = nullptr)
       : frame_(frame), scene_(frame.scene), light_(light), tally_(tally) {
     if (frame.photons) photons_.emplace(*frame.photons, frame.kernel);
   }
@@ -86,9 +86,10 @@ class EyeSubpaths {
       tally_->template add<F>(met, path.throughput * light * path.weight,
                               {path.depth, number, technique, U(0u), false, share});
     };
+    const auto sink_of_met = [&](const M& met, const auto&... light) { sink(met & wants_met, light...); };
     const auto follow = [&](const auto& distances) {
       return follow_ray<F>(scene_, frame_.rays, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
-                           sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink,
+                           sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink_of_met,
                            distances);
     };
     NextVertex<F> at = [&] {
@@ -258,23 +259,12 @@ class EyeSubpaths {
                                                cos_light, squared, seen.passing);
     add_light(path, on, value * seen.left * weight, [&] {
       return LightOrigin<F>{path.depth + y.events + U(2u),
-                            light_of_pixel(path, on),
+                            frame_.template light_of_pair<F>(tile_, path.output),
                             Technique::light_sampling,
                             y.events + U(2u),
                             false,
                             weight};
     });
-  }
-
-  // The light where the pixel's own subpath from the lights starts.
-  U light_of_pixel(const PathState<F>& path, M on) const {
-    U number(0u);
-    const auto width = std::uint32_t(tile_.width());
-    for_each_lane(on, [&](int k) {
-      const std::uint32_t output = lane(path.output, k);
-      set_lane(number, k, frame_.path_number(tile_.x0 + int(output % width), tile_.y0 + int(output / width)));
-    });
-    return gather(frame_.light_of_path, number);
   }
 
   // Vertices of all subpaths from the lights that lie within the radius.
@@ -303,7 +293,7 @@ class EyeSubpaths {
   const Frame& frame_;
   const Scene& scene_;
   const LightVertices& light_;
-  LayerTally* tally_;
+  typename Frame::Tally* tally_;
   PixelBounds tile_{};
   std::optional<PhotonLookup> photons_;
   // Of the paths at hand: the weights so far, and whether all events were deltas.

@@ -49,6 +49,7 @@ struct BidirectionalFrame {
   PathLights path_lights() const { return {scene.lights, *by_power}; }
 
   static constexpr bool every_strategy = true;
+  using Tally = LayerTally;  // receives the layers of paths from the eye
   template <class F>
   Sampler<F> eye_numbers(const PathState<F>& path) const {
     return numbers_of(pass.points, path);
@@ -57,6 +58,17 @@ struct BidirectionalFrame {
   template <class F>
   void add_broken(const F& value, Mask<F> on) const {
     for_each_lane(on, [&](int k) { plane.add_to_pixel(pass.bounds.x0, pass.bounds.y0, gray_rgb(lane(value, k))); });
+  }
+  // The light of the path from the lights that belongs to a path from the eye, by the output of that in a tile.
+  template <class F>
+  Uint<F> light_of_pair(const PixelBounds& tile, const Uint<F>& outputs) const {
+    Uint<F> number(0u);
+    const auto width = std::uint32_t(tile.width());
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      const std::uint32_t output = lane(outputs, k);
+      set_lane(number, k, path_number(tile.x0 + int(output % width), tile.y0 + int(output / width)));
+    }
+    return gather(light_of_path, number);
   }
   PointSet light_points() const { return photon_points(pass.points, int(frame), light_path_count); }
   // The time of a path from a light is that of the pixel's path from the eye.

@@ -75,12 +75,17 @@ void IrradianceCache::clamp_neighbours(CacheRecord& record) {
 void IrradianceCache::insert(CacheRecord record) {
   record.distance = bounded(record.distance);
   if (rules_.clamping) clamp_neighbours(record);
-  // Noise may make a gradient larger than irradiance, which is not negative, can have over the record's radius.
   const float radius = rules_.accuracy * record.distance;
+  // Noise may make a gradient larger than irradiance, which is not negative, can have over the record's radius. Those
+  // of the parts still sum to it.
   for (int c = 0; c < spectrum_size; ++c) {
-    Vec3f& gradient = record.gradients.translational[std::size_t(c)];
+    const auto i = std::size_t(c);
+    Vec3f& gradient = record.gradients.translational[i];
     const float change = length(gradient) * radius;
-    if (change > record.irradiance[c]) gradient = gradient * (record.irradiance[c] / change);
+    if (!(change > record.irradiance[c])) continue;
+    const float share = record.irradiance[c] / change;
+    gradient = gradient * share;
+    for (CachePart& part : record.parts) part.gradients.translational[i] = part.gradients.translational[i] * share;
   }
   const auto number = std::uint32_t(records_.size());
   Grid& grid = grid_for(radius);
@@ -91,16 +96,39 @@ void IrradianceCache::insert(CacheRecord record) {
   records_.push_back(std::move(record));
 }
 
-Spectrum<float> IrradianceCache::extrapolated(const CacheRecord& record, const CacheQuery& at) const {
-  if (!rules_.gradients) return record.irradiance;
+template <class Part>
+Spectrum<float> IrradianceCache::continued(const CacheRecord& record, const Part& part, const CacheQuery& at) const {
+  if (!rules_.gradients) return part.irradiance;
   const Vec3f turn = cross(record.at.n, at.n), way = at.p - record.at.p;
   Spectrum<float> there;
   for (int c = 0; c < spectrum_size; ++c) {
     const auto i = std::size_t(c);
-    const float change = dot(turn, record.gradients.rotational[i]) + dot(way, record.gradients.translational[i]);
-    there[c] = std::max(record.irradiance[c] + change, 0.0f);
+    const float change = dot(turn, part.gradients.rotational[i]) + dot(way, part.gradients.translational[i]);
+    there[c] = part.irradiance[c] + change;
   }
   return there;
+}
+
+Spectrum<float> IrradianceCache::extrapolated(const CacheRecord& record, const CacheQuery& at) const {
+  Spectrum<float> there = continued(record, record, at);
+  for (int c = 0; c < spectrum_size; ++c) there[c] = std::max(there[c], 0.0f);
+  return there;
+}
+
+std::vector<LightPart> IrradianceCache::parts(const CacheQuery& at) const {
+  std::vector<LightPart> all;
+  float weights = 0;
+  for_each_near(at, [&](const CacheRecord& record, float w) {
+    const Spectrum<float> whole = extrapolated(record, at);
+    for (const CachePart& part : record.parts) {
+      Spectrum<float> there = continued(record, part, at);
+      for (int c = 0; c < spectrum_size; ++c) there[c] = whole[c] > 0 ? there[c] : 0;
+      add_part(all, part.from, there * w);
+    }
+    weights += w;
+  });
+  for (LightPart& part : all) part.light = part.light * (1 / weights);
+  return all;
 }
 
 }  // namespace montelux

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "integrator/irradiance_cache/hemisphere.h"
+#include "integrator/light_parts.h"
 
 namespace montelux {
 
@@ -21,11 +22,20 @@ struct CacheQuery {
   std::uint32_t depth = 0;
 };
 
+// What light of one origin contributes to the irradiance of a record; its bounces are those before the record's
+// surface, and the one there.
+struct CachePart {
+  LightOrigin<float> from;
+  Spectrum<float> irradiance;
+  IrradianceGradients gradients;
+};
+
 struct CacheRecord {
   CacheQuery at;
   Spectrum<float> irradiance;
   IrradianceGradients gradients;
-  float distance;  // harmonic mean of those to the surfaces around, bounded by the cache
+  float distance;                  // harmonic mean of those to the surfaces around, bounded by the cache
+  std::vector<CachePart> parts{};  // in a pass with layers
 };
 
 struct CacheRules {
@@ -84,6 +94,9 @@ class IrradianceCache {
     if (weights == 0) return std::nullopt;
     return sum * (1 / weights);
   }
+  // The same by origin, where the records have parts: these sum to it except for rounding, and each may be negative,
+  // since its gradients alone have no bound.
+  std::vector<LightPart> parts(const CacheQuery& at) const;
   bool covers(const CacheQuery& at) const {
     bool any = false;
     for_each_near(at, [&](const CacheRecord&, float) { any = true; });
@@ -109,7 +122,10 @@ class IrradianceCache {
 
   float bounded(float distance) const;
   void clamp_neighbours(CacheRecord& record);
-  // The irradiance of a record as its gradients continue it.
+  // The irradiance of a record, or of one of its parts, as its gradients continue it.
+  template <class Part>
+  Spectrum<float> continued(const CacheRecord& record, const Part& part, const CacheQuery& at) const;
+  // That of the record, which is not negative.
   Spectrum<float> extrapolated(const CacheRecord& record, const CacheQuery& at) const;
 
   CacheRules rules_;

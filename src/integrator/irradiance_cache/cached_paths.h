@@ -23,12 +23,14 @@ class CachedPaths {
   using U = Uint<F>;
   using M = Mask<F>;
   // `outputs`: the number of results of the path loop. `by_depth`: the number of scattering events is limited.
-  // `compared`: by output, 1 where cached() keeps what the cache shows; empty: nowhere.
+  // `compared`: by output, 1 where cached() keeps what the cache shows; empty: nowhere. `in_parts`: the records have
+  // parts, which are wanted.
   CachedPaths(Starts& starts, const IrradianceCache& cache, std::size_t outputs, bool by_depth,
-              std::span<const std::uint8_t> compared = {})
+              std::span<const std::uint8_t> compared = {}, bool in_parts = false)
       : starts_(starts),
         cache_(cache),
         by_depth_(by_depth),
+        in_parts_(in_parts),
         compared_(compared),
         deepest_(outputs, endless),
         is_smooth_(outputs, 1) {}
@@ -43,8 +45,10 @@ class CachedPaths {
   // After the surface where the cache had a record a path only looks for emission, which is direct light there.
   U deepest(const PathState<F>& path) const { return gather(deepest_.data(), path.output); }
 
-  // Light that other surfaces send to a vertex and that it scatters toward the path.
-  Spectrum<F> indirect_light(const PathState<F>& path, const Vertex<F>& v, M scatters) {
+  // Light that other surfaces send to a vertex and that it scatters toward the path: sink(on, light, origin) receives
+  // it.
+  template <class Sink>
+  void indirect_light(const PathState<F>& path, const Vertex<F>& v, M scatters, Sink sink) {
     const M diffuse = scatters & (v.bsdf.kind == U(std::uint32_t(kind_of<Diffuse>))) & !v.x.ray_facing & !v.in_medium;
     Spectrum<F> irradiance = gray(F(0.0f));
     M known(false);
@@ -66,11 +70,13 @@ class CachedPaths {
         // At the normal the cosine is 1.
         const BsdfValue<F> value = evaluate<F>(v.bsdf.lanes(known), v.wo, Vec3<F>{F(0.0f), F(0.0f), side}, v.context);
         if (!compared_.empty()) keep(path, v, n, known, irradiance, path.throughput * value.f_cos * path.weight);
-        irradiance = select(known, value.f_cos * irradiance, gray(F(0.0f)));
+        if (in_parts_)
+          send_parts(path, v, n, known, value.f_cos, sink);
+        else
+          sink(known, value.f_cos * irradiance, LightOrigin<F>{path.depth, U(0u), Technique::light_sampling});
       }
     }
     for_each_lane(scatters & !v.bsdf.is_delta, [&](int k) { is_smooth_[lane(path.output, k)] = 0; });
-    return irradiance;
   }
 
  private:
@@ -79,6 +85,15 @@ class CachedPaths {
   static void set_bit(M& mask, int k) { mask = mask | mask_of_bits<F>(1u << k); }
   CacheQuery query(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, int k) const {
     return {lane(v.x.point.p, k), lane(n, k), by_depth_ ? lane(path.depth, k) : 0};
+  }
+  template <class Sink>
+  void send_parts(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, M known, const Spectrum<F>& f_cos,
+                  Sink sink) {
+    for_each_lane(known, [&](int k) {
+      for (const LightPart& part : cache_.parts(query(path, v, n, k)))
+        sink(mask_of_bits<F>(1u << k), f_cos * splat<F>(part.light),
+             LightOrigin<F>{path.depth + U(part.from.bounces), U(part.from.light), part.from.technique});
+    });
   }
   void keep(const PathState<F>& path, const Vertex<F>& v, const Vec3<F>& n, M on, const Spectrum<F>& irradiance,
             const Spectrum<F>& weight) {
@@ -102,7 +117,7 @@ class CachedPaths {
 
   Starts& starts_;
   const IrradianceCache& cache_;
-  const bool by_depth_;
+  const bool by_depth_, in_parts_;
   const std::span<const std::uint8_t> compared_;
   std::vector<std::uint32_t> deepest_;   // by output: where the path ends
   std::vector<std::uint8_t> is_smooth_;  // by output: nothing rough so far

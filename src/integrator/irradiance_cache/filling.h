@@ -153,7 +153,7 @@ class CacheFilling {
     std::vector<CachePoint>& found = found_[number_of(tile.x0, tile.y0)];
     found = frame > 0 ? std::move(missed_[number_of(tile.x0, tile.y0)]) : points_of(tile, levels - 1 - level, counts);
     if (is_full()) found.clear();
-    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, numbers(frame), counts);
+    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, {numbers(frame)}, counts);
     for (CachePoint& point : found) point.distance = hemisphere.distance(point);
   }
   // Points without a record in view of every 2^spacing-th pixel of every 2^spacing-th row.
@@ -202,17 +202,16 @@ class CacheFilling {
   }
 
   void compute(int frame, std::size_t unit, RayCounts& counts) {
-    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, numbers(frame), counts);
+    HemispherePaths<F, Rays> hemisphere(scene_, rays_, path_, strata_, {numbers(frame), pass_.layers}, counts);
     const std::size_t first = unit * records_per_unit, end = std::min(first + records_per_unit, chosen_.size());
     for (std::size_t i = first; i < end; ++i) estimates_[i] = hemisphere.estimate(chosen_[i]);
   }
 
   void add() {
-    for (std::size_t i = 0; i < chosen_.size(); ++i) {
-      const HemisphereEstimate& estimate = estimates_[i];
+    for (CacheRecord& record : estimates_) {
       // A record that is not a number would spoil all around it: the paths there show it instead.
-      if (!is_finite(max_component(estimate.irradiance))) continue;
-      cache_.insert({chosen_[i].query, estimate.irradiance, estimate.gradients, estimate.distance});
+      if (!is_finite(max_component(record.irradiance))) continue;
+      cache_.insert(std::move(record));
     }
     chosen_.clear(), estimates_.clear();
   }
@@ -231,7 +230,7 @@ class CacheFilling {
   IrradianceCache cache_;
   std::vector<std::vector<CachePoint>> found_, missed_;  // by the first pixel of a tile
   std::vector<CachePoint> chosen_;
-  std::vector<HemisphereEstimate> estimates_;
+  std::vector<CacheRecord> estimates_;
 };
 
 }  // namespace montelux

@@ -1,6 +1,7 @@
 // Paths from a point of a diffuse surface into its hemisphere: what other surfaces send there.
 #pragma once
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "integrator/irradiance_cache/cache.h"
@@ -27,6 +28,12 @@ inline PointSet hemisphere_points(PointSet points, int frame, std::uint32_t purp
   return points;
 }
 
+// The numbers of the paths, and the plan of the layers into which their light is split; null: there are none.
+struct HemisphereNumbers {
+  PointSet points;
+  const LayerPlan* layers = nullptr;
+};
+
 // One direction in each cell of the strata, followed by the path loop. Emission that a direction meets is direct light
 // of the point, and does not count.
 template <class F, class Rays>
@@ -36,23 +43,34 @@ class HemispherePaths {
   using M = Mask<F>;
   // What is referred to must outlive this; adds the rays to `counts`.
   HemispherePaths(const Scene& scene, const Rays& rays, const PathSettings& settings, const HemisphereStrata& strata,
-                  const PointSet& points, RayCounts& counts)
-      : scene_(scene), rays_(rays), settings_(settings), strata_(strata), counts_(counts), pass_{{}, points} {}
+                  const HemisphereNumbers& numbers, RayCounts& counts)
+      : scene_(scene),
+        rays_(rays),
+        settings_(settings),
+        strata_(strata),
+        counts_(counts),
+        pass_{{}, numbers.points},
+        layers_(numbers.layers) {}
 
   // The harmonic mean distance of the surfaces around the point: that of estimate() at the cost of its first rays.
   float distance(const CachePoint& at) {
     begin(at);
     return harmonic_mean_distance(distances_);
   }
-  HemisphereEstimate estimate(const CachePoint& at) {
+  // A record for the point.
+  CacheRecord estimate(const CachePoint& at) {
     begin(at);
     results_.assign(distances_.size(), PixelSample{});
-    if (!starts_.empty())
-      counts_ += run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, results_, *this, no_tally);
+    std::optional<PartsTally> tally;
+    if (layers_) tally.emplace(*layers_, results_.size(), at.depth);
+    if (!starts_.empty()) counts_ += tally ? run(*tally) : run(no_tally);
     samples_.clear();
     for (std::size_t i = 0; i < results_.size(); ++i)
       samples_.push_back({from_rgb(results_[i].radiance), distances_[i]});
-    return integrate_hemisphere(strata_, samples_, LocalFrame<float>::from_normal(at.query.n));
+    const HemisphereEstimate all = integrate(at);
+    CacheRecord record{at.query, all.irradiance, all.gradients, all.distance};
+    if (tally) add_parts(at, *tally, record);
+    return record;
   }
 
   // For the path loop.
@@ -68,6 +86,31 @@ class HemispherePaths {
   M counts_light(const PathState<F>& path, M on) const { return on & (path.depth != U(first_depth_)); }
 
  private:
+  template <class Tally>
+  RayCounts run(Tally& tally) {
+    return run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, results_, *this, tally);
+  }
+  HemisphereEstimate integrate(const CachePoint& at) const {
+    return integrate_hemisphere(strata_, samples_, LocalFrame<float>::from_normal(at.query.n));
+  }
+  // What each origin alone sends there.
+  void add_parts(const CachePoint& at, PartsTally& tally, CacheRecord& record) {
+    std::vector<LightPart> origins;
+    std::vector<std::vector<LightPart>> by_cell(results_.size());
+    for (std::size_t i = 0; i < by_cell.size(); ++i) {
+      by_cell[i] = tally.take(i);
+      for (const LightPart& part : by_cell[i]) add_part(origins, part.from, part.light);
+    }
+    for (const LightPart& origin : origins) {
+      for (std::size_t i = 0; i < by_cell.size(); ++i) {
+        samples_[i].radiance = gray(0.0f);
+        for (const LightPart& part : by_cell[i])
+          if (same_origin(part.from, origin.from)) samples_[i].radiance = part.light;
+      }
+      const HemisphereEstimate estimate = integrate(at);
+      record.parts.push_back({origin.from, estimate.irradiance, estimate.gradients});
+    }
+  }
   // The paths at their first vertices, and the distances of these.
   void begin(const CachePoint& at) {
     starts_.clear(), next_ = 0, first_depth_ = at.depth + 1;
@@ -112,6 +155,7 @@ class HemispherePaths {
   const HemisphereStrata strata_;
   RayCounts& counts_;
   TilePass pass_;  // for its points alone
+  const LayerPlan* layers_;
   std::uint32_t first_depth_ = 0;
   std::size_t next_ = 0;
   std::vector<PathState<float>> starts_;

@@ -24,26 +24,37 @@ class IrradianceCacheSeries final : public FrameSeries {
   }
   RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
     if (step.stage < Filling::stages) return filling_.run(step.frame, step.stage, tile);
-    if (step.frame == 0) return {};
-    const TilePass pass = filling_.request(step.frame, tile);
-    FirstHits<F> starts(scene_, accel_, pass, out);
+    return show(step.frame, tile, out, no_tally);
+  }
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
+    if (step.stage < Filling::stages) return run(step, tile, out);
+    LayerTally tally(*filling_.pass().layers, 1, sums);
+    return show(step.frame, tile, out, tally);
+  }
+  std::optional<MeanDifference> measured_bias() override { return pairs_.take(); }
+
+ private:
+  template <class Tally>
+  RayCounts show(int frame, const PixelBounds& tile, std::span<PixelSample> out, Tally& tally) {
+    if (frame == 0) return {};
+    const TilePass pass = filling_.request(frame, tile);
+    FirstHits<F> starts(scene_, accel_, pass, out, tally);
     const PathSettings& settings = filling_.path();
-    const std::vector<std::uint8_t> compared =
-        BiasPairs::choose(filling_.pass().points, step.frame, tile, settings_.pairs);
-    CachedPaths<F, FirstHits<F>> paths(starts, filling_.cache(), out.size(), settings.max_depth.has_value(), compared);
-    RayCounts counts = run_paths<F>(scene_, scene_.lights, accel_, settings, pass, out, paths, no_tally);
+    const std::vector<std::uint8_t> compared = BiasPairs::choose(filling_.pass().points, frame, tile, settings_.pairs);
+    CachedPaths<F, FirstHits<F>> paths(starts, filling_.cache(), out.size(), settings.max_depth.has_value(), compared,
+                                       Tally::records);
+    RayCounts counts = run_paths<F>(scene_, scene_.lights, accel_, settings, pass, out, paths, tally);
     counts.camera += starts.rays();
     filling_.miss(tile, std::move(paths.missed()));
     pairs_.count(compared);
     const HemisphereStrata strata = BiasPairs::strata();
     HemispherePaths<F, Accel> unbiased(scene_, accel_, settings, strata,
-                                       hemisphere_points(filling_.pass().points, step.frame, 1, strata), counts);
+                                       {hemisphere_points(filling_.pass().points, frame, 1, strata)}, counts);
     pairs_.compare(paths.cached(), unbiased);
     return counts;
   }
-  std::optional<MeanDifference> measured_bias() override { return pairs_.take(); }
 
- private:
   const Scene& scene_;
   const Accel& accel_;
   const IrradianceCacheSettings& settings_;

@@ -21,6 +21,7 @@ class IrradianceCacheIntegrator final : public CoupledIntegrator {
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 1; }
   int stages() const override;
+  bool has_layers() const override { return true; }
   std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:

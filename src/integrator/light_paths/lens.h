@@ -30,7 +30,7 @@ inline bool has_one_sided_surfaces(const Scene& scene) {
 }
 
 // What the paths of a frame send to the lens; `rays` has the interface of Accel. `in_media`: the scene has
-// participating media. `Plane` is a SplatPlane, or keeps the splat of each lane by record(raster, light, on).
+// participating media. `Plane` is a SplatPlane, or keeps the splat of each lane by record(raster, light, on, origin).
 template <class F, class Rays, bool in_media = false, class Plane = SplatPlane>
 class LensSplats {
  public:
@@ -72,8 +72,8 @@ class LensSplats {
     return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
   void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
-    if constexpr (requires { plane_.record(raster, light, on); })
-      return plane_.record(raster, light, on);
+    if constexpr (requires { plane_.record(raster, light, on, origin); })
+      return plane_.record(raster, light, on, origin);
     else
       return splat_to_plane(raster, light, on, origin);
   }

@@ -16,11 +16,12 @@ struct GivenStart {
   const RecordedNumbers<F>& numbers;
   Mask<F> on, wants_sky;  // whose paths are wanted, and where they leave the scene at once their light
 };
-template <class F, class Rays>
+template <class F, class Rays, class Tally = const NoTally>
 class GivenPaths {
  public:
-  GivenPaths(const Scene& scene, const Rays& rays, const GivenStart<F>& given, std::span<PixelSample> out)
-      : scene_(scene), rays_(rays), given_(given), out_(out) {}
+  GivenPaths(const Scene& scene, const Rays& rays, const GivenStart<F>& given, std::span<PixelSample> out,
+             Tally& tally = no_tally)
+      : scene_(scene), rays_(rays), given_(given), out_(out), tally_(tally) {}
 
   Mask<F> refill(PathState<F>& path, Mask<F> on) {
     if (std::exchange(started_, true)) return on;
@@ -30,10 +31,7 @@ class GivenPaths {
         rays_.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, given_.on, RayUse::camera);
     start.hit = hit;
     const Mask<F> starts = found | (given_.on & Mask<F>(scene_.camera_medium != empty_space));
-    if (const Mask<F> left = given_.wants_sky & !starts; any(left)) {
-      const Spectrum<F> sky = scene_.lights.template escaped_radiance<F>(start.d, left) * start.weight;
-      for_each_lane(left, [&](int k) { out_[std::size_t(k)].radiance = to_rgb(lane(sky, k)); });
-    }
+    show_sky<F>(scene_, start, given_.wants_sky & !starts, out_, tally_);
     begin_paths(path, start, media_of<F>(scene_.media, Uint<F>(scene_.camera_medium)), starts);
     return starts;
   }
@@ -44,6 +42,7 @@ class GivenPaths {
   const Rays& rays_;
   const GivenStart<F> given_;
   std::span<PixelSample> out_;
+  Tally& tally_;
   bool started_ = false;
 };
 

@@ -56,7 +56,7 @@ class MetropolisSeries final : public FrameSeries {
         cells_across_((pass.bounds.width() + cell_side - 1) / cell_side),
         cells_down_((pass.bounds.height() + cell_side - 1) / cell_side),
         random_(U(mix_bits(pass.points.seed ^ 0x243f6a88u)), U(pass.points.pass)),
-        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter),
+        plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers),
         brightness_(std::size_t(pass.bounds.area()) * std::size_t(settings.bootstrap)),
         chains_(std::size_t(cells_across_ * cells_down_)),
         features_(std::size_t(pass.bounds.area())) {
@@ -79,9 +79,13 @@ class MetropolisSeries final : public FrameSeries {
     return counts;
   }
   RayCounts run(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out) override {
+    return run_layers(step, tile, out, {});
+  }
+  RayCounts run_layers(const SeriesStep& step, const PixelBounds& tile, std::span<PixelSample> out,
+                       std::span<ExactRgb> sums) override {
     RayCounts counts;
     if (step.frame == 0) look(tile, counts);
-    show(tile, out);
+    show(tile, out, sums);
     return counts;
   }
 
@@ -269,14 +273,20 @@ class MetropolisSeries final : public FrameSeries {
   void deposit(const Contribution<F>& c, const F& amount) {
     const F factor = amount / max(c.brightness, F(1e-37f));
     for_each_lane(M((c.brightness > F(0.0f)) & (amount > F(0.0f))), [&](int k) {
-      Rgb light = c.light[std::size_t(k)];
-      for (float& channel : light.c) channel *= lane(factor, k);
-      if (lane(c.splatted, k))
-        scene_.camera.for_each_place(lane(c.raster, k), [&](Vec2f place) { plane_.add(place, light); });
-      else
-        plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light);
+      const float scale = lane(factor, k);
+      if (c.parts.empty()) return put(c, k, c.light[std::size_t(k)], scale);
+      for (const LightPart& part : c.parts[std::size_t(k)]) put(c, k, to_rgb(part.light), scale, part.from);
     });
     deposit_broken(c, M(true));
+  }
+  // `origin`: one, in a pass with layers.
+  template <class... Origin>
+  void put(const Contribution<F>& c, int k, Rgb light, float scale, const Origin&... origin) {
+    for (float& channel : light.c) channel *= scale;
+    if (lane(c.splatted, k))
+      scene_.camera.for_each_place(lane(c.raster, k), [&](Vec2f place) { plane_.add(place, light, origin...); });
+    else
+      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light, origin...);
   }
   // Shows in the count of samples that are not finite.
   void deposit_broken(const Contribution<F>& c, M on) {
@@ -287,11 +297,12 @@ class MetropolisSeries final : public FrameSeries {
 
   // ---- the picture
 
-  void show(const PixelBounds& tile, std::span<PixelSample> out) {
+  void show(const PixelBounds& tile, std::span<PixelSample> out, std::span<ExactRgb> sums) {
     std::size_t i = 0;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x, ++i)
-        out[i].radiance = plane_.take(x, y), out[i].features = features_[pixel_number(x, y)];
+        out[i].radiance = gray_rgb(0), out[i].features = features_[pixel_number(x, y)];
+    plane_.take_tile(tile, out, sums);
   }
 
   const Scene& scene_;

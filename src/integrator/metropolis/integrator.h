@@ -22,6 +22,7 @@ class MetropolisIntegrator final : public CoupledIntegrator {
   int frames() const override { return 16; }
   int warm_up() const override { return 0; }
   int stages() const override { return 4; }
+  bool has_layers() const override { return true; }
   std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 
  private:

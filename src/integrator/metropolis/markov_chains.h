@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "image/pixel_sample.h"
 #include "integrator/integrator.h"
+#include "integrator/light_parts.h"
 #include "math/lanes.h"
 #include "mc/metropolis.h"
 #include "mc/random.h"
@@ -28,7 +30,8 @@ struct Contribution {
   Uint<F> x, y;                       // pixel, or cell of the grid of the pass
   Mask<F> splatted = Mask<F>(false);  // light that was not drawn by the filter of the pixel: it arrives at `raster`
   Vec2<F> raster{F(0.0f), F(0.0f)};
-  Mask<F> broken = Mask<F>(false);  // the light is not a number
+  Mask<F> broken = Mask<F>(false);              // the light is not a number
+  std::vector<std::vector<LightPart>> parts{};  // of the light, by lane; empty in a pass without layers
 };
 
 // Turns the number of a place in the picture along one axis, from `first` on, into that of the place within its pixel,
@@ -121,12 +124,16 @@ StepsMade<F> step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, cons
   evaluate.propose(proposal, chains.point, StepOfNumbers<F>{numbers, large, sizes});
   proposal.beyond = select_words(large, numbers, chains.point.beyond);
 
-  const Contribution<F> there = evaluate(proposal, counts);
+  Contribution<F> there = evaluate(proposal, counts);
   const F accepted = metropolis_acceptance(chains.value.brightness, there.brightness);
   deposit(there, accepted);
   deposit(chains.value, F(1.0f) - accepted);
   const Mask<F> moves = decisions.at(U(1u)) < accepted;
-  for_each_lane(moves, [&](int k) { chains.value.light[std::size_t(k)] = there.light[std::size_t(k)]; });
+  for_each_lane(moves, [&](int k) {
+    const auto i = std::size_t(k);
+    chains.value.light[i] = there.light[i];
+    if (!there.parts.empty()) chains.value.parts[i] = std::move(there.parts[i]);
+  });
   for (std::size_t d = 0; d * lanes_of<F> < proposal.values.size(); ++d)
     put_numbers(chains.point, d, select(moves, numbers_at(proposal, d), numbers_at(chains.point, d)));
   chains.point.beyond = select_words(moves, proposal.beyond, chains.point.beyond);

@@ -1,5 +1,7 @@
 // From the numbers of paths of `path` to their light.
 #pragma once
+#include <optional>
+
 #include "integrator/metropolis/given_paths.h"
 #include "integrator/metropolis/markov_chains.h"
 #include "integrator/path/loop.h"
@@ -20,7 +22,9 @@ class PathFunction {
         settings_(settings),
         bounds_(pass.bounds),
         pass_{pass.bounds, pass.points, pass.shutter, {}, {}, pass.grid},
-        numbers_(dimensions_of(settings) * std::size_t(lanes_of<F>)) {}
+        numbers_(dimensions_of(settings) * std::size_t(lanes_of<F>)) {
+    if (pass.layers) tally_.emplace(*pass.layers, std::size_t(lanes_of<F>));
+  }
 
   std::size_t dimensions() const { return numbers_.size() / lanes_of<F>; }
   Contribution<F> independent(const SamplePoint<F>& point, RayCounts& counts) { return (*this)(point, counts); }
@@ -45,24 +49,33 @@ class PathFunction {
     const RecordedNumbers<F> numbers(numbers_, point.beyond);
     const auto [x, y] = pixels_of<F>(pass_.grid, pass_.points, c.x, c.y, Uint<F>(0u));
     const Mask<F> all(true);
-    GivenPaths<F, Rays> paths(scene_, rays_, {pass_, {x, y, U(0u)}, numbers, all, all}, out);
+    const GivenStart<F> start{pass_, {x, y, U(0u)}, numbers, all, all};
     counts.camera += lanes_of<F>;
-    counts += scene_.media.empty()
-                  ? run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, std::span(out), paths, no_tally)
-                  : run_paths<F, true>(scene_, scene_.lights, rays_, settings_, pass_, std::span(out), paths, no_tally);
+    counts += tally_ ? trace(start, out, *tally_) : trace(start, out, no_tally);
     std::array<Rgb, lanes_of<F>> light;
-    for (std::size_t k = 0; k < light.size(); ++k) light[k] = out[k].radiance;
+    for (std::size_t k = 0; k < light.size(); ++k) {
+      light[k] = out[k].radiance;
+      if (tally_) c.parts.push_back(tally_->take(k));
+    }
     put_light<F>(c, light);
     return c;
   }
 
  private:
+  template <class Tally>
+  RayCounts trace(const GivenStart<F>& start, std::span<PixelSample> out, Tally& tally) const {
+    GivenPaths<F, Rays, Tally> paths(scene_, rays_, start, out, tally);
+    return scene_.media.empty() ? run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally)
+                                : run_paths<F, true>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally);
+  }
+
   const Scene& scene_;
   const Rays& rays_;
   const PathSettings& settings_;
   const PixelBounds bounds_;
   const TilePass pass_;
   std::vector<float> numbers_;
+  std::optional<PartsTally> tally_;  // of a pass with layers
 };
 
 }  // namespace montelux

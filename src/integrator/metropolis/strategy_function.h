@@ -8,7 +8,7 @@
 
 namespace montelux {
 
-// The splats of a pack of subpaths: the last one of each lane, and the brightness of all.
+// The splats of a pack of subpaths: the last one of each lane with its origin, and the brightness of all.
 template <class F>
 struct SplatRecord {
   const SplatPlane& plane;
@@ -16,10 +16,15 @@ struct SplatRecord {
   Spectrum<F> light = gray(F(0.0f));
   Mask<F> on = Mask<F>(false);
   F brightness = F(0.0f);
+  LightOrigin<F> from{Uint<F>(0u), Uint<F>(0u), Technique::light_sampling};
 
   Mask<F> reaches(const Vec2<F>& place) const { return plane.reaches(place); }
-  void record(const Vec2<F>& place, const Spectrum<F>& value, Mask<F> splatted) {
+  void record(const Vec2<F>& place, const Spectrum<F>& value, Mask<F> splatted, const LightOrigin<F>& origin) {
     raster = select<F>(splatted, place, raster), light = select(splatted, value, light), on = on | splatted;
+    from.bounces = select(splatted, origin.bounces, from.bounces),
+    from.light = select(splatted, origin.light, from.light);
+    from.light_vertices = select(splatted, origin.light_vertices, from.light_vertices);
+    from.weight = select(splatted, origin.weight, from.weight);
     for_each_lane(splatted,
                   [&](int k) { set_lane(brightness, k, lane(brightness, k) + brightness_of(to_rgb(lane(value, k)))); });
   }
@@ -39,6 +44,7 @@ template <class F, class Rays>
 struct PairFrame : BidirectionalFrame<Rays, StrategyWeights, SplatRecord<F>> {
   using U = Uint<F>;
   using M = Mask<F>;
+  using Tally = PartsTally;
 
   const RecordedNumbers<F>& eye;
   const RecordedNumbers<F>& light;
@@ -47,6 +53,11 @@ struct PairFrame : BidirectionalFrame<Rays, StrategyWeights, SplatRecord<F>> {
   const RecordedNumbers<F>& eye_numbers(const PathState<F>&) const { return eye; }
   GivenLightNumbers<F> light_points() const { return {light}; }
   void add_broken(const F& value, M on) const { broken = select(on, value, broken); }
+  // The path from the light of each lane has the number of the lane.
+  template <class>
+  U light_of_pair(const PixelBounds&, const U& output) const {
+    return gather(this->light_of_path, output);
+  }
   template <class>
   F shutter_sample_of(const PathSite<F>&) const {
     return eye.get1(U(path_dimension::time));
@@ -89,7 +100,10 @@ class StrategyFunction {
         pass_{pass.bounds, pass.points, pass.shutter, {}, {}, pass.grid},
         plane_(plane),
         values_(dimensions() * std::size_t(lanes_of<F>)),
-        out_(std::size_t(lanes_of<F>)) {}
+        out_(std::size_t(lanes_of<F>)),
+        light_of_path_(pass.layers ? out_.size() : 0) {
+    if (pass.layers) tally_.emplace(*pass.layers, out_.size());
+  }
 
   std::size_t dimensions() const { return eye_dimensions() + light_dimensions() + 2; }
   // Small steps keep the number of events. Every chain of the pack therefore mutates the numbers that the longest path
@@ -119,7 +133,7 @@ class StrategyFunction {
     const Pair pair(*this, point);
     Contribution<F> c = pair.place;
     const LightVertices vertices = follow_light(pair.frame, M(true), counts);
-    follow_eye(pair.frame, vertices, c, M(true), M(true), counts);
+    follow_eye(pair.frame, vertices, {c, M(true), M(true)}, counts, no_tally);
     std::array<Rgb, lanes_of<F>> found;
     for (int k = 0; k < lanes_of<F>; ++k)
       found[std::size_t(k)] = gray_rgb(brightness_of(out_[std::size_t(k)].radiance) + lane(pair.splats.brightness, k) +
@@ -159,7 +173,11 @@ class StrategyFunction {
     const StrategyFrame<F, Rays> frame{pair.frame, chosen.light_vertices, chosen.eye_vertices};
     Contribution<F> c = pair.place;
     const LightVertices vertices = follow_light(frame, frame.light_vertices > U(1u), counts);
-    follow_eye(frame, vertices, c, frame.eye_vertices > U(1u), frame.wants(U(0u), U(2u)), counts);
+    const EyeStart start{c, frame.eye_vertices > U(1u), frame.wants(U(0u), U(2u))};
+    if (tally_)
+      follow_eye(frame, vertices, start, counts, *tally_);
+    else
+      follow_eye(frame, vertices, start, counts, no_tally);
 
     const SplatRecord<F>& splats = pair.splats;
     std::array<Rgb, lanes_of<F>> found;
@@ -173,6 +191,7 @@ class StrategyFunction {
     c.splatted = splats.on, c.raster = splats.raster;
     place_splats(c);
     put_light<F>(c, found);
+    if (tally_) put_parts(c, splats, chosen.probability);
     return c;
   }
 
@@ -201,7 +220,10 @@ class StrategyFunction {
                  f.settings_.one_sided,
                  splats,
                  std::uint32_t(f.series_pass_.bounds.area()),
-                 f.settings_.light_media},
+                 f.settings_.light_media,
+                 nullptr,
+                 PhotonKernel::epanechnikov,
+                 f.light_of_path_.empty() ? nullptr : f.light_of_path_.data()},
                 eye,
                 light,
                 broken} {}
@@ -251,15 +273,32 @@ class StrategyFunction {
     });
     return vertices;
   }
-  template <class Frame>
-  void follow_eye(const Frame& frame, const LightVertices& vertices, const Contribution<F>& c, M starts, M wants_sky,
-                  RayCounts& counts) {
+  // Where paths from the eye start, the lanes that are wanted, and those whose sky is.
+  struct EyeStart {
+    const Contribution<F>& place;
+    M on, wants_sky;
+  };
+  template <class Frame, class Tally>
+  void follow_eye(const Frame& frame, const LightVertices& vertices, const EyeStart& start, RayCounts& counts,
+                  Tally& tally) {
     std::ranges::fill(out_, PixelSample{});
-    if (!any(starts)) return;
-    const auto [x, y] = pixels_of<F>(pass_.grid, pass_.points, c.x, c.y, U(0u));
-    GivenPaths<F, Rays> paths(scene_, rays_, {pass_, {x, y, U(0u)}, frame.eye, starts, starts & wants_sky}, out_);
-    counts.camera += std::uint64_t(count(starts));
-    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, vertices).run(paths, out_);
+    if (!any(start.on)) return;
+    const auto [x, y] = pixels_of<F>(pass_.grid, pass_.points, start.place.x, start.place.y, U(0u));
+    GivenPaths<F, Rays, Tally> paths(
+        scene_, rays_, {pass_, {x, y, U(0u)}, frame.eye, start.on, start.on & start.wants_sky}, out_, tally);
+    counts.camera += std::uint64_t(count(start.on));
+    typename Frame::Tally* layers = nullptr;
+    if constexpr (Tally::records) layers = &tally;
+    counts += EyeSubpaths<F, Frame, AdjointCorrection, in_media>(frame, vertices, layers).run(paths, out_);
+  }
+  // What was found by this probability, by its origins.
+  void put_parts(Contribution<F>& c, const SplatRecord<F>& splats, const F& probability) {
+    for (int k = 0; k < lanes_of<F>; ++k) {
+      std::vector<LightPart>& parts = c.parts.emplace_back(tally_->take(std::size_t(k)));
+      if (lane(splats.on, k))
+        add_part(parts, distinguished(*series_pass_.layers, lane_of(splats.from, k)), lane(splats.light, k));
+      for (LightPart& part : parts) part.light = part.light * (1 / lane(probability, k));
+    }
   }
   // The cells where splats arrive, or the nearest in the picture.
   void place_splats(Contribution<F>& c) const {
@@ -282,6 +321,9 @@ class StrategyFunction {
   const SplatPlane& plane_;
   std::vector<float> values_;
   std::vector<PixelSample> out_;
+  // Of a pass with layers: the lights of the paths, and where their light comes from.
+  std::vector<std::uint32_t> light_of_path_;
+  std::optional<PartsTally> tally_;
 };
 
 }  // namespace montelux

@@ -30,11 +30,6 @@ class FirstHits {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  // The sky that a camera ray sees, light by light.
-  template <class Tally>
-  static void tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
-                        Tally& tally);
-
   std::vector<PathStart<float>> starts_;
   Media<F> media_;  // of the camera
   const StopQuery* stop_ = nullptr;
@@ -110,23 +105,28 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathS
   return start_of_path<F>(scene, pass, site, numbers_of<F>(pass.points, site));
 }
 
-template <class F>
-template <class Tally>
-void FirstHits<F>::tally_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
-                             Tally& tally) {
-  const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
-  for (int i = 0; i < scene.lights.infinite_count(); ++i) {
-    const LightHit<F> sky = scene.lights.template escaped<F>(i, start.o, nowhere, start.d, left);
-    const Uint<F> light = Uint<F>(std::uint32_t(scene.lights.infinite_light(i)));
-    tally.template add<F>(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
+// Camera rays that leave the scene show the sky: in a tally light by light.
+template <class F, class Tally>
+void show_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
+              [[maybe_unused]] Tally& tally) {
+  if (!any(left)) return;
+  const Spectrum<F> all = scene.lights.template escaped_radiance<F>(start.d, left) * start.weight;
+  for_each_lane(left, [&](int k) { out[lane(start.output, k)].radiance = to_rgb(lane(all, k)); });
+  if constexpr (Tally::records) {
+    const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+    for (int i = 0; i < scene.lights.infinite_count(); ++i) {
+      const LightHit<F> sky = scene.lights.template escaped<F>(i, start.o, nowhere, start.d, left);
+      const Uint<F> light = Uint<F>(std::uint32_t(scene.lights.infinite_light(i)));
+      tally.template add<F>(left, sky.radiance * start.weight, LightOrigin<F>{Uint<F>(0u), light, Technique::emission});
+    }
+    for_each_lane(left, [&](int k) { tally.finish(k, lane(start.output, k), out[lane(start.output, k)]); });
   }
-  for_each_lane(left, [&](int k) { tally.finish(k, lane(start.output, k), out[lane(start.output, k)]); });
 }
 
 template <class F>
 template <class Rays, class Tally>
 FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out,
-                        [[maybe_unused]] Tally& tally) {
+                        Tally& tally) {
   using U = Uint<F>;
   stop_ = pass.stop;
   media_ = media_of<F>(scene.media, Uint<F>(scene.camera_medium));
@@ -158,12 +158,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         const Mask<F> starts = found | (on & in_medium);
         for_each_lane(starts, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });
 
-        Mask<F> left = on & !starts;
-        if (any(left)) {
-          Spectrum<F> sky = scene.lights.template escaped_radiance<F>(state.d, left) * state.weight;
-          for_each_lane(left, [&](int k) { out[lane(state.output, k)].radiance = to_rgb(lane(sky, k)); });
-          if constexpr (Tally::records) tally_sky(scene, state, left, out, tally);
-        }
+        show_sky<F>(scene, state, on & !starts, out, tally);
       }
 }
 

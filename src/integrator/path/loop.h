@@ -270,8 +270,10 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       }
 
     // Light that the source of the paths knows to come by way of other surfaces; it ends such paths.
-    if constexpr (requires { source.indirect_light(path, v, scatters); })
-      path.radiance += path.throughput * source.indirect_light(path, v, scatters);
+    if constexpr (requires { source.indirect_light(path, v, scatters, [](auto&&...) {}); })
+      source.indirect_light(path, v, scatters, [&](M known, const Spectrum<F>& sent, const LightOrigin<F>& from) {
+        gather_light(path, known, path.throughput * sent, tally, [&] { return from; });
+      });
 
     // Scatter; roulette.
     const BsdfSample<F>& next = scattered.next;
