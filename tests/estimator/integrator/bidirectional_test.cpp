@@ -2,6 +2,7 @@
 // weights and corrections are found.
 #include <gtest/gtest.h>
 
+#include "box_rooms.h"
 #include "integrator/bidirectional/eye_subpaths.h"
 #include "light_room.h"
 
@@ -128,33 +129,6 @@ Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 2 1  1 2 1 ]
   EXPECT_TRUE(compared(by_hand<NoCorrection>(scene, 16, 60, 3), path).differ());
 }
 
-// A box with a lamp in the ceiling.
-std::string box(const std::string& contents) {
-  return R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
-LookAt 0 1 -0.95   0 0.8 1   0 1 0
-Camera "perspective" "float fov" 75
-WorldBegin
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 3 2.5 2 ]
-  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
-  Shape "bilinearmesh" "point3 P" [ -0.5 1.98 -0.5  0.5 1.98 -0.5  -0.5 1.98 0.5  0.5 1.98 0.5 ]
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.7 0.7 0.6 ]
-Shape "bilinearmesh" "point3 P" [ -1 0 -1  1 0 -1  -1 0 1  1 0 1 ]
-Shape "bilinearmesh" "point3 P" [ -1 2 -1  1 2 -1  -1 2 1  1 2 1 ]
-Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 2 1  1 2 1 ]
-Shape "bilinearmesh" "point3 P" [ -1 0 -1  1 0 -1  -1 2 -1  1 2 -1 ]
-Material "diffuse" "rgb reflectance" [ 0.6 0.1 0.1 ]
-Shape "bilinearmesh" "point3 P" [ -1 0 -1  -1 2 -1  -1 0 1  -1 2 1 ]
-Material "diffuse" "rgb reflectance" [ 0.1 0.5 0.1 ]
-Shape "bilinearmesh" "point3 P" [ 1 0 -1  1 2 -1  1 0 1  1 2 1 ]
-)" + contents;
-}
-std::string ball(const std::string& material, double x, double z, const std::string& emission = "") {
-  return "AttributeBegin\n" + emission + "Material " + material + "\nTranslate " + std::to_string(x) + " 0.45 " +
-         std::to_string(z) + "\nShape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n";
-}
-
 TEST(Bidirectional, agrees_with_path_in_a_box_with_glass_and_metal) {
   const TestScene scene(box(ball("\"dielectric\"", -0.5, 0.1) + ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5)));
   const Comparison c = compared(measured(scene, "bdpt", 16, 60, 2), measured(scene, "path", 64, 60, 1));
@@ -226,28 +200,6 @@ TEST(Bidirectional, agrees_with_path_where_things_move) {
 
 // ---- participating media
 
-// A room that is full of fog, with a lamp, a spot light and a mirror in it, and clearer air in a ball.
-const std::string& foggy_room() {
-  static const std::string text = [] {
-    std::string t = box(ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5));
-    t.insert(t.find("LookAt"), R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 0.1 0.05 0.3 ]
-  "rgb sigma_s" [ 0.3 0.5 0.9 ] "float g" 0.4
-MakeNamedMedium "air" "string type" "homogeneous" "rgb sigma_a" [ 0 0 0 ] "rgb sigma_s" [ 0.2 0 0.1 ] "float g" -0.3
-MediumInterface "" "fog"
-)");
-    t.insert(t.find("WorldBegin") + 10, "\nMediumInterface \"fog\" \"fog\"");
-    t += R"(LightSource "spot" "rgb I" [ 2 3 4 ] "point3 from" [ 0.8 1.8 -0.8 ] "point3 to" [ -0.3 0 0.3 ]
-AttributeBegin
-Material "interface"
-MediumInterface "air" "fog"
-Translate -0.4 0.9 0.2
-Shape "sphere" "float radius" 0.5
-AttributeEnd
-)";
-    return t;
-  }();
-  return text;
-}
 // In clear air: a liquid in a ball of rough glass, and a cloud that surrounds a lamp.
 const std::string& liquid_and_cloud() {
   static const std::string text = [] {
