@@ -55,8 +55,8 @@ Shown shown(const std::string& text, const std::string& way) {
     for (int x = 0; x < film.bounds().x1; ++x) {
       const PixelFeatures f = film.features(x, y);
       EXPECT_EQ(f.hits, f.samples);
-      for (std::size_t c = 0; c < 3; ++c) values[c].push_back(f.albedo()[c] / f.hits);
-      values[3].push_back(f.normal()[2] / f.hits), values[4].push_back(f.depth() / f.hits);
+      for (std::size_t c = 0; c < 3; ++c) values[c].push_back(f.albedo(int(c)) / f.hits);
+      values[3].push_back(f.normal(2) / f.hits), values[4].push_back(f.depth() / f.hits);
     }
   return {
       {summarize(values[0]), summarize(values[1]), summarize(values[2])}, summarize(values[3]), summarize(values[4])};
