@@ -134,7 +134,7 @@ std::optional<std::pair<int, int>> resolution_of(const LoadOptions& options, con
   return std::pair{scaled(desc.film.width), scaled(desc.film.height)};
 }
 
-// The part of an animation that the pictures need: each frame's moment and that of the frame before the first.
+// The part of an animation that the pictures need: each frame's time and that of the frame before the first.
 AnimationWindow window_of(const LoadOptions& options, const AnimationTime& time) {
   const ShutterTimes shutter = options.shutter.value_or(ShutterTimes{time.start, time.start});
   const bool open = shutter.close > shutter.open;

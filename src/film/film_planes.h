@@ -1,4 +1,4 @@
-// The state of a film at one moment, as planes of one number per pixel.
+// The state of a film at one time, as planes of one number per pixel.
 #pragma once
 #include <array>
 #include <cstdint>

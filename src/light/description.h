@@ -11,14 +11,24 @@
 
 namespace montelux {
 
-// What lights at one point state, then lights without a place.
-template <class Lights>
-struct StatedLights;
-template <class... Light>
-struct StatedLights<std::tuple<Light...>> {
-  using type = std::variant<typename Light::Stated..., DistantLightDesc, InfiniteLightDesc>;
+// What a list of lights states, each struct once: some lights of the list may share it.
+template <class Stated, class... Light>
+struct StatedLights {
+  using Type = Stated;
 };
-using LightModel = StatedLights<PointLights<float>>::type;
+template <class... Known, class First, class... Rest>
+struct StatedLights<std::variant<Known...>, First, Rest...> {
+  using Next = typename First::Stated;
+  static constexpr bool is_known = (std::is_same_v<Known, Next> || ...);
+  using Grown = std::conditional_t<is_known, std::variant<Known...>, std::variant<Known..., Next>>;
+  using Type = typename StatedLights<Grown, Rest...>::Type;
+};
+template <class... AtPoint, class... Unbounded>
+typename StatedLights<std::variant<>, AtPoint..., Unbounded...>::Type stated_by(std::tuple<AtPoint...>*,
+                                                                                std::tuple<Unbounded...>*);
+// What scenes state of lights that are no surfaces.
+using LightModel =
+    decltype(stated_by(static_cast<PointLights<float>*>(nullptr), static_cast<UnboundedLights<float>*>(nullptr)));
 // The name by which files and programs state it.
 std::string_view name_of(const LightModel& model);
 

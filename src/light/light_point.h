@@ -4,27 +4,33 @@
 
 namespace montelux {
 
-// A point of an emitting surface (measure: area), a direction to a light without bounds that rays can hit (measure:
-// solid angle), or a delta light (measure: the choice itself). `sort` is one of the values below.
+// Where the point of a light can be, which decides its measure.
+enum class LightPlace : std::uint32_t {
+  surface,            // on an emitting surface; area
+  two_sided_surface,  // the same, of one that emits on both sides
+  infinite,           // beyond the scene, where rays hit it; solid angle
+  delta               // where no ray hits it, at one point or beyond the scene; the choice of the light itself
+};
+template <class F>
+MONTELUX_INLINE Uint<F> in_lanes(LightPlace place) {
+  return Uint<F>(std::uint32_t(place));
+}
+
 template <class F>
 struct LightPoint {
   Vec3<F> p;             // point of the surface; or unit direction towards the light
   Vec3<F> n;             // of the surface: unit, on the side that emits
   Spectrum<F> radiance;  // emitted from there to the lit side; zero for a delta light: depends on the reference point
   Uint<F> light;
-  Uint<F> sort;
+  Uint<F> place;  // a LightPlace
 };
-
-namespace light_point {
-inline constexpr std::uint32_t surface = 0, two_sided_surface = 1, infinite = 2, delta = 3;
-}  // namespace light_point
 
 // The same operation as for WeightedReservoir, in lanes.
 template <class F>
 MONTELUX_INLINE LightPoint<F> select(Mask<F> m, const LightPoint<F>& a,
                                      const LightPoint<F>& b) requires(lanes_of<F> > 1) {
   return {select(m, a.p, b.p), select(m, a.n, b.n), select(m, a.radiance, b.radiance), select(m, a.light, b.light),
-          select(m, a.sort, b.sort)};
+          select(m, a.place, b.place)};
 }
 
 // A light point sampled at a reference point, without the choice of the light.

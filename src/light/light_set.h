@@ -9,7 +9,6 @@
 #include "light/emission.h"
 #include "light/emitters.h"
 #include "light/image.h"
-#include "light/infinite.h"
 #include "light/light_point.h"
 #include "mc/discrete.h"
 
@@ -145,9 +144,8 @@ class LightSet {
                              LightMeasure measure) const;
   template <class F>
   Spectrum<F> surface_emission(const LightRows<F>& rows, Vec2<F> uv, Mask<F> on) const;
-  // For a light whose kind is is_delta; sets `distance` to the light, no density.
   template <class F>
-  LightSample<F> sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const;
+  LightSample<F> sample_point_light(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const;
   template <class F>
   LightEmission<F> emit_surface(LightKind kind, const LightRows<F>& rows, Vec2<F> u_point, Vec2<F> u_direction,
                                 Mask<F> on) const;
@@ -162,11 +160,6 @@ class LightSet {
   Density<Area, F> beyond_position_density() const;
   template <class F>
   Vec2<F> beyond_place_numbers(Vec3<F> p, Vec3<F> d) const;
-  // Calls f(light, lanes) once for each light among the lanes.
-  template <class F, class Function>
-  void for_each_light(Uint<F> light, Mask<F> on, Function f) const;
-  template <class F>
-  ImageInfinite<F> image_infinite(LightId light) const;
   // Radiance, and density without the choice.
   template <class F>
   LightHit<F> escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;

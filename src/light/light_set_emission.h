@@ -55,7 +55,8 @@ LightEmission<F> LightSet::emit_point(LightKind kind, const LightRows<F>& rows, 
   return r;
 }
 
-// ---- lights without a place -----------------------------------------------------------------------------------------
+// ---- lights without a position
+// ---------------------------------------------------------------------------------------
 
 template <class F>
 Density<Area, F> LightSet::beyond_position_density() const {
@@ -67,17 +68,10 @@ LightEmission<F> LightSet::emit_beyond(LightKind kind, const LightRows<F>& rows,
                                        Mask<F> on) const {
   LightEmission<F> r{};
   r.delta_position = r.on_surface = r.both_sides = r.behind = Mask<F>(false);
-  r.delta_direction = Mask<F>(kind == LightKind::distant);
-  r.valid = on;
-  if (kind == LightKind::distant) {
-    r.d = -rows.vec3(light_slot::shape);
-    r.radiance = rows.emission(), r.direction = {F(1.0f)};
-  } else {
-    const LightSample<F> s =
-        sample_kind(kind, rows, Vec3<F>{F(0.0f), F(0.0f), F(0.0f)}, Vec3<F>{F(0.0f), F(0.0f), F(0.0f)}, u_direction, on,
-                    LightMeasure::solid_angle);
-    r.d = -s.wi, r.radiance = s.radiance, r.direction = s.density, r.valid = on & s.valid;
-  }
+  r.delta_direction = Mask<F>(is_delta(kind));
+  const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
+  const LightSample<F> s = sample_kind(kind, rows, zero, zero, u_direction, on, LightMeasure::solid_angle);
+  r.d = -s.wi, r.radiance = s.radiance, r.direction = s.density, r.valid = on & s.valid;
   r.n = r.d;
   const Vec2<F> disk = sample_disk_concentric(u_point);
   const Vec3<F> across = LocalFrame<F>::from_normal(r.d).to_world({disk.x, disk.y, F(-1.0f)});
@@ -125,7 +119,7 @@ EmissionDensities<F> LightSet::emission_densities(Uint<F> light, Vec3<F> p, Vec3
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
     const LightRows<F> row = rows<F>(light, m);
     if (!is_surface(kind) && !is_unbounded(kind)) r.delta_position = r.delta_position | m;
-    if (kind == LightKind::distant) r.delta_direction = r.delta_direction | m;
+    if (is_unbounded(kind) && is_delta(kind)) r.delta_direction = r.delta_direction | m;
     if (is_surface(kind))
       with_emitter<F>(kind, row, [&](const auto& emitter) {
         const F position = emitter.site_density(p).value;
@@ -135,25 +129,13 @@ EmissionDensities<F> LightSet::emission_densities(Uint<F> light, Vec3<F> p, Vec3
     else if (!is_unbounded(kind))
       with_point_light<F>(kind, row, images(),
                           [&](const auto& point) { put(m, F(1.0f), point.leaving_density(d, m).value); });
-    else if (kind == LightKind::distant)
-      put(m, beyond_position_density<F>().value, F(1.0f));
     else
-      for_each_light<F>(light, m, [&](LightId one, Mask<F> same) {
+      with_unbounded_light<F>(kind, row, images(), [&](const auto& unbounded) {
         const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-        put(same, beyond_position_density<F>().value, escaped_light<F>(one, zero, -d, same).density.value);
+        put(m, beyond_position_density<F>().value, unbounded.toward(zero, -d, m).density.value);
       });
   });
   return r;
-}
-
-template <class F, class Function>
-void LightSet::for_each_light(Uint<F> light, Mask<F> on, Function f) const {
-  while (any(on)) {
-    const std::uint32_t one = lane(light, std::countr_zero(bits(on)));
-    const Mask<F> same = on & (light == Uint<F>(one));
-    f(LightId(one), same);
-    on = on & !same;
-  }
 }
 
 }  // namespace montelux

@@ -36,12 +36,9 @@ EmissionNumbers<F> LightSet::emission_numbers(Uint<F> light, Vec3<F> p, Vec3<F> 
       });
     } else {
       r.point = select(m, inside(beyond_place_numbers<F>(p, d)), r.point);
-      if (kind == LightKind::uniform_infinite)
-        r.direction = select(m, inside(UniformInfinite<F>::numbers(-d)), r.direction);
-      else if (kind == LightKind::image_infinite)
-        for_each_light<F>(light, m, [&](LightId one, Mask<F> same) {
-          r.direction = select(same, inside(image_infinite<F>(one).numbers(-d)), r.direction);
-        });
+      with_unbounded_light<F>(kind, row, images(), [&](const auto& unbounded) {
+        r.direction = select(m, inside(unbounded.numbers(-d, m)), r.direction);
+      });
     }
   });
   return r;

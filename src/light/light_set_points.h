@@ -7,7 +7,7 @@ namespace montelux {
 template <class F>
 LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const {
   const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-  LightPointDraw<F> r{{zero, zero, gray(F(0.0f)), light, Uint<F>(light_point::surface)}, {F(1.0f)}, Mask<F>(false)};
+  LightPointDraw<F> r{{zero, zero, gray(F(0.0f)), light, in_lanes<F>(LightPlace::surface)}, {F(1.0f)}, Mask<F>(false)};
   for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
     const LightRows<F> row = rows<F>(light, m);
     if (is_surface(kind)) {
@@ -18,7 +18,7 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
         r.point.p = select(good, e.p, r.point.p), r.point.n = select(good, e.n, r.point.n);
         r.point.radiance = select(good, surface_emission(row, e.uv, good), r.point.radiance);
         const Mask<F> both = row.flag(light_two_sided);
-        r.point.sort = select(good & both, Uint<F>(light_point::two_sided_surface), r.point.sort);
+        r.point.place = select(good & both, in_lanes<F>(LightPlace::two_sided_surface), r.point.place);
         r.density.value = select(good, e.density.value, r.density.value);
         r.valid = r.valid | good;
       });
@@ -26,7 +26,7 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
     }
     const LightSample<F> s = sample_kind(kind, row, p, n, u, m, LightMeasure::solid_angle);
     const Mask<F> good = m & s.valid;
-    r.point.sort = select(good, Uint<F>(is_delta(kind) ? light_point::delta : light_point::infinite), r.point.sort);
+    r.point.place = select(good, in_lanes<F>(is_delta(kind) ? LightPlace::delta : LightPlace::infinite), r.point.place);
     r.point.p = select(good, s.wi, r.point.p), r.point.radiance = select(good, s.radiance, r.point.radiance);
     r.density.value = select(good, s.density.value, r.density.value);
     r.valid = r.valid | good;
@@ -37,18 +37,19 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
 template <class F>
 LightPoint<F> LightSet::point_of_hit(Uint<F> light, Vec3<F> p, Vec3<F> ng, Spectrum<F> radiance, Mask<F> on) const {
   const Mask<F> both = on & rows<F>(light, on).flag(light_two_sided);
-  return {p, ng, radiance, light, select(both, Uint<F>(light_point::two_sided_surface), Uint<F>(light_point::surface))};
+  return {p, ng, radiance, light,
+          select(both, in_lanes<F>(LightPlace::two_sided_surface), in_lanes<F>(LightPlace::surface))};
 }
 
 template <class F>
 LightPointView<F> LightSet::view(const LightPoint<F>& point, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
-  using U = Uint<F>;
-  const Mask<F> beyond = point.sort == U(light_point::infinite), delta = on & (point.sort == U(light_point::delta));
+  const Mask<F> beyond = point.place == in_lanes<F>(LightPlace::infinite),
+                delta = on & (point.place == in_lanes<F>(LightPlace::delta));
   const Vec3<F> d = point.p - p;
   const F d2 = max(length_squared(d), F(1e-30f)), distance = sqrt(d2);
   const Vec3<F> toward = d * (F(1.0f) / distance);
   const F cos = dot(point.n, toward);
-  const Mask<F> lit = (cos < F(0.0f)) | (point.sort == U(light_point::two_sided_surface));
+  const Mask<F> lit = (cos < F(0.0f)) | (point.place == in_lanes<F>(LightPlace::two_sided_surface));
   LightPointView<F> r{select(beyond, point.p, toward), select(beyond, F(2.0f * tables_.scene_radius), distance),
                       point.radiance, select(beyond, F(1.0f), abs(cos) / d2), Mask<F>(on & !delta & (beyond | lit))};
   if (any(delta)) {

@@ -55,43 +55,26 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
     });
     return r;
   }
-  if (is_delta(kind)) return sample_delta(kind, rows, p, on);
-  InfiniteSample<F> s;
-  if (kind == LightKind::uniform_infinite) {
-    s = UniformInfinite<F>::sample(n, u);
-  } else {
-    // Each image has its own table, so the lanes of one light are processed together.
-    s.wi = {F(0.0f), F(0.0f), F(1.0f)}, s.factor = gray(F(0.0f)), s.density = {F(0.0f)};
-    for (Mask<F> rest = on; any(rest);) {
-      std::uint32_t light = lane(rows.light, std::countr_zero(bits(rest)));
-      Mask<F> same = rest & (rows.light == Uint<F>(light));
-      InfiniteSample<F> one = image_infinite<F>(LightId(light)).sample(u, same);
-      s = {select(same, one.wi, s.wi),
-           select(same, one.factor, s.factor),
-           {select(same, one.density.value, s.density.value)}};
-      rest = rest & !same;
-    }
-  }
-  r.wi = s.wi, r.distance = F(2.0f * tables_.scene_radius);
-  r.radiance = rows.emission() * s.factor, r.density = s.density;
-  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  if (!is_unbounded(kind)) return sample_point_light(kind, rows, p, on);
+  with_unbounded_light<F>(kind, rows, images(), [&](const auto& light) {
+    const UnboundedSample<F> s = light.sample(n, u, on);
+    r.wi = s.wi, r.distance = F(2.0f * tables_.scene_radius);
+    r.radiance = rows.emission() * s.factor, r.density = s.density;
+    r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  });
   return r;
 }
 
 template <class F>
-LightSample<F> LightSet::sample_delta(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const {
+LightSample<F> LightSet::sample_point_light(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Mask<F> on) const {
   LightSample<F> r{};
-  auto from_point = [&](const auto& light) {
+  with_point_light<F>(kind, rows, images(), [&](const auto& light) {
     Vec3<F> d = light.p - p;
     F d2 = max(length_squared(d), F(1e-30f));
     r.distance = sqrt(d2);
     r.wi = d * (F(1.0f) / r.distance);
     r.radiance = light.intensity(-r.wi, on) * (F(1.0f) / d2);
-  };
-  if (kind == LightKind::distant)
-    r.wi = rows.vec3(light_slot::shape), r.distance = F(2.0f * tables_.scene_radius), r.radiance = rows.emission();
-  else
-    with_point_light<F>(kind, rows, images(), from_point);
+  });
   r.density = {F(1.0f)};
   r.delta = Mask<F>(true);
   r.valid = on & !is_black(r.radiance);
@@ -157,8 +140,8 @@ Density<SolidAngle, F> LightSet::sampling_density(Uint<F> light, Vec3<F> referen
     } else if (is_delta(kind)) {
       r.value = select(m, F(1.0f), r.value);
     } else {
-      for_each_light<F>(light, m, [&](LightId one, Mask<F> same) {
-        r.value = select(same, escaped_light<F>(one, reference_n, wi, same).density.value, r.value);
+      with_unbounded_light<F>(kind, rows<F>(light, m), images(), [&](const auto& unbounded) {
+        r.value = select(m, unbounded.toward(reference_n, wi, m).density.value, r.value);
       });
     }
   });
@@ -166,18 +149,14 @@ Density<SolidAngle, F> LightSet::sampling_density(Uint<F> light, Vec3<F> referen
 }
 
 template <class F>
-ImageInfinite<F> LightSet::image_infinite(LightId light) const {
-  LightRows<F> row = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true));
-  std::size_t image = lane(row.bits(light_slot::image), 0) - 1;
-  return {*tables_.images[image], *tables_.distributions[image], row.transform()};
-}
-
-template <class F>
 LightHit<F> LightSet::escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const {
-  Spectrum<F> emission = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true)).emission();
-  if (kind(light) == LightKind::uniform_infinite) return {emission, UniformInfinite<F>::density(n, wi)};
-  InfiniteSample<F> s = image_infinite<F>(light).at(wi, on);
-  return {emission * s.factor, s.density};
+  const LightRows<F> row = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true));
+  LightHit<F> r{};
+  with_unbounded_light<F>(kind(light), row, images(), [&](const auto& unbounded) {
+    const UnboundedSample<F> s = unbounded.toward(n, wi, on);
+    r = {row.emission() * s.factor, s.density};
+  });
+  return r;
 }
 
 template <class F>

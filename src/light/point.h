@@ -1,35 +1,12 @@
 // Lights at one point: each has a position, an intensity (W / sr) towards a unit direction of the world, and a density
 // of the directions in which rays leave it.
 #pragma once
-#include <memory>
-
-#include "light/image.h"
-#include "light/infinite.h"
-#include "light/row.h"
+#include "light/images.h"
 #include "light/stated.h"
 #include "math/square_maps.h"
 #include "mc/hemisphere.h"
-#include "mc/piecewise.h"
 
 namespace montelux {
-
-// The images of all lights, by the number in a row minus one, and the distribution of each where it is needed.
-struct LightImages {
-  const std::shared_ptr<const LightImage>* images = nullptr;
-  const std::shared_ptr<const PiecewiseConstant2>* distributions = nullptr;
-};
-
-// Calls f(distribution, lanes) for each image among the rows of the lanes `on`.
-template <class F, class Function>
-void for_each_distribution(const LightRows<F>& rows, const LightImages& of, Mask<F> on, Function f) {
-  const Uint<F> image = rows.bits(light_slot::image);
-  for (on = on & rows.has_image(); any(on);) {
-    const std::uint32_t number = lane(image, std::countr_zero(bits(on)));
-    const Mask<F> same = on & (image == Uint<F>(number));
-    f(*of.distributions[number - 1], same);
-    on = on & !same;
-  }
-}
 
 // A direction in which a ray leaves a light. Without a meaning where the density is zero.
 template <class F>

@@ -234,9 +234,10 @@ class Fields {
     rows_.push_back({std::move(row), {}, [](const ParameterList&, S&) -> Status { return Done{}; }, {}});
     return *this;
   }
-  // The rows of a part P of the struct after these.
+  // The rows of a part P of the struct after these. They have an effect only where `applies`.
   template <class P>
-  Fields& part(std::type_identity_t<Place<P>> place, const Fields<P>& more) {
+  Fields& part(std::type_identity_t<Place<P>> place, const Fields<P>& more,
+               std::function<bool(const S&)> applies = {}) {
     for (const typename Fields<P>::Row& row : more.rows_) {
       Row own{row.spec, {}, [place, row](const ParameterList& list, S& s) { return row.read(list, place(s)); }, {}};
       if (row.shown)
@@ -248,8 +249,10 @@ class Fields {
         own.write = [place, row](S& s, S& defaults, ParameterList& list) {
           row.write(place(s), place(defaults), list);
         };
-      if (row.has_effect)
-        own.has_effect = [place, row](const S& s) {
+      if (row.has_effect || applies)
+        own.has_effect = [place, row, applies](const S& s) {
+          if (applies && !applies(s)) return false;
+          if (!row.has_effect) return true;
           S copy = s;
           return row.has_effect(place(copy));
         };

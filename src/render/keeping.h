@@ -20,7 +20,7 @@ struct BegunFilm {
   MixingOfPasses mixing{};
 };
 
-// A film at one moment, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
+// A film at one time, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
 // passes of tiles, or whole series.
 struct FilmSnapshot {
   std::string tiles;

@@ -15,7 +15,7 @@ struct PassPlan {
 
   int samples() const { return samples_per_pass * passes; }
   bool contains(int pass) const { return pass >= first_pass && pass - first_pass < passes; }
-  // Side of a tile: large enough that packs stay full, small enough that a unit of work takes only a moment, so that
+  // Side of a tile: large enough that packs stay full, small enough that a unit of work takes little time, so that
   // threads share the work evenly and stop soon after a request.
   int tile_side() const;
 };

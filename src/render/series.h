@@ -10,7 +10,7 @@ namespace montelux {
 RenderResult render_series(const CoupledIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer);
 
-// The passes of a pixel integrator as series of one frame: at every moment all pixels have equally many passes, and no
+// The passes of a pixel integrator as series of one frame: at all times all pixels have equally many passes, and no
 // part of the image lacks samples when time ends.
 class PassesAsSeries final : public CoupledIntegrator {
  public:

@@ -8,7 +8,7 @@
 
 namespace montelux {
 
-// A render at one moment.
+// A render at one time.
 struct RenderState {
   double seconds = 0;        // since the render began
   double warm_up = 0;        // of these, the seconds of frames that are not shown

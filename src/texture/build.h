@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 #include "texture/description.h"
@@ -26,6 +27,12 @@ class TextureBuilder {
   // The input as a texture. A name that does not exist is reported, and the texture is 0.
   NumberTextureId number(const NumberInput& input) { return texture_of<float>(input); }
   SpectrumTextureId spectrum(const SpectrumInput& input) { return texture_of<Rgb>(input); }
+  // As a texture of values V.
+  template <class V>
+  TextureId<V> value(const ValueInput& input) {
+    return texture_of<V>(input);
+  }
+  Rgb rgb(const SpectrumValue& stated) const { return to_rgb_(stated); }
 
   NumberTextureId constant(float value);
   SpectrumTextureId constant(Rgb value);
@@ -45,20 +52,17 @@ class TextureBuilder {
   using Names = std::map<std::string, TextureId<V>, std::less<>>;
 
   template <class V>
-  struct Maker;
+  friend class TextureMaker;
   template <class V>
   TextureId<V> made(const TextureDesc& texture);
-  std::optional<ImageTexture> build_image(const ImageTextureDesc& stated, const TextureDesc& texture);
   template <class V, class... T>
   TextureId<V> texture_of(const Input<T...>& input);
   template <class V>
   TextureId<V> named(const std::string& name, const SourceLocation& where);
   template <class V>
-  V value(float stated) const;
+  V stated(float value) const;
   template <class V>
-  V value(const SpectrumValue& stated) const;
-  template <class V>
-  TextureId<V> folded(TextureId<V> id, bool all_constant);
+  V stated(const SpectrumValue& value) const;
   template <class V>
   const Names<V>& names() const;
 
@@ -70,7 +74,7 @@ class TextureBuilder {
   Names<Rgb> spectrum_names_;
   std::map<std::array<std::uint32_t, rgb_size>, SpectrumTextureId> spectrum_constants_;  // by the bits
   std::map<std::uint32_t, NumberTextureId> number_constants_;
-  bool noted_filter_ = false;
+  std::set<std::string> noted_;  // subjects
 };
 
 }  // namespace montelux

@@ -1,13 +1,29 @@
 // Maps from a point of a surface to a position (s, t) of a planar texture.
 #pragma once
 #include <array>
+#include <optional>
 #include <variant>
 
 #include "math/transform.h"
-#include "texture/description.h"
 #include "texture/texture.h"
+#include "texture/wrap.h"
 
 namespace montelux {
+
+template <class S>
+class Fields;
+
+enum class MappingKind { uv, spherical, cylindrical, planar };
+
+// A map as stated by a scene.
+struct MappingDesc {
+  MappingKind kind = MappingKind::uv;
+  float u_scale = 1, v_scale = 1;                   // of uv: s = u_scale u + u_delta
+  float u_delta = 0, v_delta = 0;                   // of uv and planar
+  std::optional<std::array<float, 6>> uv_matrix{};  // of uv, instead: the rows of an affine map
+  Vec3f s_axis{1, 0, 0}, t_axis{0, 1, 0};           // of planar, in the space of the texture
+};
+Fields<MappingDesc> rows_of_mapping();
 
 // Scaled and shifted surface parameters.
 struct UvMapping {
@@ -59,6 +75,9 @@ using Mapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, Pl
 inline Vec2f apply(const Mapping& mapping, const TexturePoint& point) {
   return std::visit([&](const auto& m) { return m(point); }, mapping);
 }
+
+// The same in lanes, bit for bit.
+Vec2<NativeFloats> apply(const Mapping& mapping, const TexturePack& points, TextureMask on);
 
 Mapping build_mapping(const MappingDesc& stated, const Transform& texture_to_world);
 

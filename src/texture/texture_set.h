@@ -1,17 +1,11 @@
 // All textures of a scene, and their images, each of which is stored once.
 #pragma once
+#include <filesystem>
 #include <map>
 
 #include "texture/models.h"
 
 namespace montelux {
-
-// Where a texture is looked up, in every lane.
-template <class F>
-struct TexturePoints {
-  Vec2<F> uv;
-  Vec3<F> p, n;
-};
 
 class TextureSet {
  public:
@@ -26,9 +20,14 @@ class TextureSet {
   Rgb value(SpectrumTextureId id, const TexturePoint& point) const { return color(id, point); }
 
   // The same at the points of a pack, bit for bit; idle lanes may contain anything.
-  NativeFloats number(NumberTextureId id, const TexturePoints<NativeFloats>& points, Mask<NativeFloats> on) const;
-  RgbOf<NativeFloats> color(SpectrumTextureId id, const TexturePoints<NativeFloats>& points,
-                            Mask<NativeFloats> on) const;
+  NativeFloats number(NumberTextureId id, const TexturePack& points, TextureMask on) const;
+  RgbOf<NativeFloats> color(SpectrumTextureId id, const TexturePack& points, TextureMask on) const;
+  NativeFloats value(NumberTextureId id, const TexturePack& points, TextureMask on) const {
+    return number(id, points, on);
+  }
+  RgbOf<NativeFloats> value(SpectrumTextureId id, const TexturePack& points, TextureMask on) const {
+    return color(id, points, on);
+  }
   float number(NumberTextureId id, const TexturePoints<float>& at, bool) const {
     return number(id, TexturePoint{at.uv, at.p, at.n});
   }
@@ -39,6 +38,16 @@ class TextureSet {
   template <class F>
   Spectrum<F> spectrum(SpectrumTextureId id, const TexturePoints<F>& at, Mask<F> on) const {
     return from_rgb(color(id, at, on));
+  }
+
+  // (1 - t) a + t b.
+  template <class Id>
+  auto blend(Id a, Id b, float t, const TexturePoint& point) const {
+    return value(a, point) * (1 - t) + value(b, point) * t;
+  }
+  template <class Id>
+  auto blend(Id a, Id b, const NativeFloats& t, const TexturePack& points, TextureMask on) const {
+    return value(a, points, on) * NativeFloats(1.0f - t) + value(b, points, on) * t;
   }
 
   // The value of a texture that is the same everywhere; nothing for one that may vary.

@@ -67,14 +67,14 @@ LightConnection<F> connect(const LightSet& lights, const StoredVertex<F>& vertex
   const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
   // A surface that lies in its own plane sends itself nothing, and no technique finds it there; rounding may say
   // otherwise, by next to nothing, and would be counted among those that could have made the sample.
-  const Mask<F> has_plane = point.sort <= Uint<F>(light_point::two_sided_surface);
+  const Mask<F> has_plane = point.place <= in_lanes<F>(LightPlace::two_sided_surface);
   const F rounding = dot(abs(point.n), (abs(vertex.p) + abs(point.p)) * F(0x1p-21f));
   const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);
   const Mask<F> queries = on & view.valid & !edge_on;
   const BsdfValue<F> scattered = vertex.scattered(view.wi, queries);
   const Spectrum<F> arriving = view.radiance * vertex.media_toward(view.wi).left(view.distance);
   const Spectrum<F> value = select(queries, scattered.f_cos * arriving * view.geometry, gray(F(0.0f)));
-  const Mask<F> met = queries & (point.sort != Uint<F>(light_point::delta));
+  const Mask<F> met = queries & (point.place != in_lanes<F>(LightPlace::delta));
   return {view.wi,       view.distance,
           value,         usable_weight(average(value)),
           view.geometry, {select(met, scattered.density.value, F(0.0f))},

@@ -120,7 +120,7 @@ class Light(ProgramTest):
                              self.rendered(scene, "--integrator", way)[0]["missing_light"])
 
     def test_stand_ins_are_named(self):
-        for requested, by in ("mlt", "metropolis"), ("lightpath", "path"), ("volpath", "path"):
+        for requested, by in ("mlt", "metropolis"), ("lightpath", "light"), ("randomwalk", "path"):
             scene = self.scene(head=f'Integrator "{requested}"\nSampler "zsobol"', ball=MATT)
             stated, attributes, _ = self.rendered(scene)
             self.assertIn({"family": "integrator", "name": requested, "by": by}, stated["replaced"])
@@ -132,7 +132,7 @@ class Light(ProgramTest):
             self.assertEqual(attributes["montelux:replaced"], "none")
         stated, attributes, _ = self.rendered(self.scene(ball=MATT))
         self.assertEqual(attributes["montelux:replaced"], "none")
-        self.assertIn("integrator lightpath by path",
+        self.assertIn("integrator lightpath by light",
                       self.run_program("info", self.scene(head='Integrator "lightpath"')).stdout)
 
     def test_bidirectional_path_tracing_is_what_a_file_states_in_media_too(self):

@@ -14,7 +14,7 @@ struct NoGuide {
 // of the mixture (one-sample multiple importance sampling; Mueller, Gross and Novak 2017, sec. 4).
 struct FieldGuide {
   static constexpr bool guides = true;
-  const GuideField* field = nullptr;
+  const GuideField& field;
 };
 
 // The direction (unit, world space) in which a vertex has scattered, the densities that the two had for it, and the
@@ -61,7 +61,7 @@ MONTELUX_INLINE NoChoice<F> guide_choice(const NoGuide&, const Vertex<F>&, Mask<
 }
 template <class F>
 MONTELUX_INLINE GuideChoice<F> guide_choice(const FieldGuide& guide, const Vertex<F>& v, Mask<F> on, F u) {
-  return GuideChoice<F>(*guide.field, v, on & !v.in_medium, u);
+  return GuideChoice<F>(guide.field, v, on & !v.in_medium, u);
 }
 
 // Replaces the directions that the BSDF has drawn at those of the lanes `on` whose choice is the guide, and gives all

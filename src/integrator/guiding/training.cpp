@@ -12,7 +12,7 @@ template <class Tally>
 RayCounts trace_guided_paths(const Scene& scene, const LightSet& lights, const Accel& rays,
                              const PathSettings& settings, const TilePass& pass, std::span<PixelSample> out,
                              Tally& tally) {
-  const FieldGuide guide{settings.guide.get()};
+  const FieldGuide guide{*settings.guide};
   const bool one = settings.lanes == Lanes::one, media = !scene.media.empty();
   if (media && one) return trace_paths<float, true>(scene, lights, rays, settings, pass, out, tally, guide);
   if (media) return trace_paths<NativeFloats, true>(scene, lights, rays, settings, pass, out, tally, guide);

@@ -16,7 +16,7 @@ std::optional<TracedPath> PathTracer::trace_path(const TilePass& pass) const {
   const auto trace_with = [&](const auto& guide) {
     scene_.media.empty() ? trace(std::false_type{}, guide) : trace(std::true_type{}, guide);
   };
-  settings_.guide ? trace_with(FieldGuide{settings_.guide.get()}) : trace_with(NoGuide{});
+  settings_.guide ? trace_with(FieldGuide{*settings_.guide}) : trace_with(NoGuide{});
   TracedPath path = std::move(recorder).take();
   path.radiance = out[0].radiance;  // also of rays that meet nothing, or that are not finite
   const auto x = std::uint32_t(pass.tile.x0), y = std::uint32_t(pass.tile.y0);

@@ -105,7 +105,7 @@ class FirstCandidates {
                   float(settings_.power_candidates) *
                       lights_.by_power->template escaped<F>(i, vertex_.p, vertex_.light_normal, d, on).density.value;
       const LightPoint<F> point{d, d, sky.radiance, Uint<F>(std::uint32_t(lights.infinite_light(i))),
-                                Uint<F>(light_point::infinite)};
+                                in_lanes<F>(LightPlace::infinite)};
       add_met(point, product, stream.at(Uint<F>(std::uint32_t(i))), on & !is_black(sky.radiance));
     }
   }
@@ -125,7 +125,7 @@ class FirstCandidates {
     LightConnection<F> way{};
     F by_light = 0.0f;  // the products of its techniques
 
-    StreamChoice() { chosen.value.point.sort = Uint<F>(light_point::surface), chosen.value.target = F(0.0f); }
+    StreamChoice() { chosen.value.point.place = in_lanes<F>(LightPlace::surface), chosen.value.target = F(0.0f); }
     void add(const LightPoint<F>& point, const LightConnection<F>& to, F product, F w, F u) {
       const Mask<F> taken = chosen.add({point, to.target}, w, u);
       way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);

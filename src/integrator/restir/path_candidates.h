@@ -161,11 +161,11 @@ class PathCandidates {
     }
     const M spread = on & (w.by_delta == U(0u));
     std::uint32_t choice = 0;
-    for_each_sky_light<F>(shared_.lights, {w.from.p, w.from.light_normal}, w.d, spread,
-                          [&](const LightHit<F>& sky, const U& number) {
-                            const LightPoint<F> point{w.d, w.d, sky.radiance, number, U(light_point::infinite)};
-                            meet({point, sky, left, M(false)}, numbers.choice(++choice), spread);
-                          });
+    for_each_sky_light<F>(
+        shared_.lights, {w.from.p, w.from.light_normal}, w.d, spread, [&](const LightHit<F>& sky, const U& number) {
+          const LightPoint<F> point{w.d, w.d, sky.radiance, number, in_lanes<F>(LightPlace::infinite)};
+          meet({point, sky, left, M(false)}, numbers.choice(++choice), spread);
+        });
   }
 
   // Light along the ray, of which `left` reaches `from`; `passes`: the ray continues. What an event at the pixel's own
@@ -213,7 +213,7 @@ class PathCandidates {
     lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_.shadow);
     if (!any(lit)) return;
     const Density<SolidAngle, F> density = choice.mass * draw.density;
-    const F share = select(draw.point.sort == U(light_point::delta), F(1.0f),
+    const F share = select(draw.point.place == in_lanes<F>(LightPlace::delta), F(1.0f),
                            weight_of_light_sample<F>(settings_.light_weights(), density, to.by_bsdf));
     // The density of the light point, in its own measure, is that of the direction times the geometry.
     const Spectrum<F> estimate = to.value * (share / select(lit, density.value * to.geometry, F(1.0f)));

@@ -217,7 +217,7 @@ const Models<StatedIntegrator>& integrator_models() {
         integrator("bdpt", "bdpt", "bidirectional path tracing", bidirectional()),
         integrator("mlt", "metropolis", "Metropolis light transport", metropolis()),
         integrator("sppm", "sppm", "stochastic progressive photon mapping", photons()),
-        integrator("lightpath", "path", "paths only from the lights", depth()),
+        integrator("lightpath", "light", "paths only from the lights", depth(), true),
         none,
     });
   }();

@@ -12,7 +12,7 @@ namespace montelux::test {
 // A fault: light samples are weighed as if directions came from the BSDF alone.
 struct UnmixedGuide {
   static constexpr bool guides = true;
-  const GuideField* field = nullptr;
+  const GuideField& field;
 };
 template <class F>
 struct UnmixedChoice : GuideChoice<F> {
@@ -21,17 +21,17 @@ struct UnmixedChoice : GuideChoice<F> {
 };
 template <class F>
 UnmixedChoice<F> guide_choice(const UnmixedGuide& guide, const Vertex<F>& v, Mask<F> on, F u) {
-  return UnmixedChoice<F>(*guide.field, v, on, u);
+  return UnmixedChoice<F>(guide.field, v, on, u);
 }
 
 // Another: the densities state a smaller share than directions have.
 struct UnderstatedGuide {
   static constexpr bool guides = true;
-  const GuideField* field = nullptr;
+  const GuideField& field;
 };
 template <class F>
 GuideChoice<F> guide_choice(const UnderstatedGuide& guide, const Vertex<F>& v, Mask<F> on, F u) {
-  GuideChoice<F> choice(*guide.field, v, on, u);
+  GuideChoice<F> choice(guide.field, v, on, u);
   choice.site.share = choice.site.share * 0.8f;
   return choice;
 }
@@ -60,7 +60,7 @@ std::vector<double> pass_means(const TestScene& scene, int passes, int samples) 
                         {PointSetKind::independent, 4, std::uint32_t(i), std::uint32_t(samples),
                          std::uint32_t(picture.width), std::uint32_t(picture.height)}};
     std::vector<PixelSample> out(std::size_t(picture.crop.area() * samples));
-    trace_paths<F>(scene.scene(), scene.scene().lights, scene.accel(), settings, pass, out, no_tally, Guide{&field});
+    trace_paths<F>(scene.scene(), scene.scene().lights, scene.accel(), settings, pass, out, no_tally, Guide{field});
     double sum = 0;
     for (const PixelSample& s : out)
       for (float c : s.radiance.c) sum += double(c);

@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
         head("negative_filter", "PixelFilter \"box\" \"float xradius\" -2", 19, "at least"),
         head("unknown_option", "Option \"integer sed\" 1", 8, "no parameter 'sed'", "seed"),
         warned(head("second_film", "Film \"rgb\" Film \"rgb\"", 12, "replaces the first")),
-        noted(head("light_paths", "Integrator \"lightpath\"", 12, "replaced by 'path'")),
+        noted(head("random_walk", "Integrator \"randomwalk\"", 12, "replaced by 'path'")),
         world("spot_to_itself", "LightSource \"spot\" \"point3 to\" [ 0 0 0 ]", 20, "the same point"),
         world("spot_edge", "LightSource \"spot\" \"float coneangle\" 10 \"float conedeltaangle\" 20", 41, "wider"),
         world("projection_without_slide", "LightSource \"projection\"", 1, "needs 'filename'"),

@@ -17,7 +17,7 @@ TexturePoint at(float u, float v) { return {{u, v}, {0, 0, 0}, {0, 0, 1}}; }
 
 TEST(ImageTexture, may_be_one_channel) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<float> t;
   t.image = two_texels();
   const float expected[4] = {0.5f, 0.6f, 0.7f, 1.0f};
   for (int channel = 0; channel < 4; ++channel) {
@@ -28,7 +28,7 @@ TEST(ImageTexture, may_be_one_channel) {
 
 TEST(ImageTexture, may_be_tinted) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<Rgb> t;
   t.image = two_texels();
   t.tint = Rgb{{2, 3, 0}};
   const Rgb c = set.color(set.add(SpectrumTexture(t)), at(0.25f, 0.5f));
@@ -40,7 +40,7 @@ TEST(ImageTexture, may_be_tinted) {
 // Along u: the texel that stands at each place, by the rules of the wrap modes.
 TEST(ImageTexture, has_edges_by_axis) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<float> t;
   t.image = two_texels();
   t.nearest = true, t.channel = 0;
   const auto row = [&](Fold fold) {
@@ -58,7 +58,7 @@ TEST(ImageTexture, has_edges_by_axis) {
 
 TEST(ImageTexture, does_not_mix_across_an_edge_that_is_clamped_or_mirrored) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<float> t;
   t.image = two_texels();
   t.channel = 0;
   for (Fold fold : {Fold::clamp, Fold::mirror}) {
@@ -74,7 +74,7 @@ TEST(ImageTexture, does_not_mix_across_an_edge_that_is_clamped_or_mirrored) {
 
 TEST(ImageTexture, may_lie_by_any_affine_map_and_is_the_same_in_lanes) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<Rgb> t;
   t.image = two_texels();
   t.mapping = AffineUvMapping{{0, 1, 0.25f, -1, 0, 0}};  // s = v + 1/4
   t.tint = Rgb{{1, 2, 3}};
@@ -96,11 +96,11 @@ TEST(ImageTexture, may_lie_by_any_affine_map_and_is_the_same_in_lanes) {
 
 TEST(ThresholdTexture, is_one_from_its_edge_on) {
   TextureSet set;
-  ImageTexture t;
+  ImageTexture<float> t;
   t.image = two_texels();
   t.channel = 3, t.nearest = true;
   const NumberTextureId alpha = set.add(NumberTexture(t));
-  const NumberTextureId cut = set.add(NumberTexture(ThresholdTexture{alpha, 0.5f}));
+  const NumberTextureId cut = set.add(NumberTexture(ThresholdTexture<float>{alpha, 0.5f}));
   EXPECT_EQ(set.number(cut, at(0.25f, 0.5f)), 0);
   EXPECT_EQ(set.number(cut, at(0.75f, 0.5f)), 1);
 }
