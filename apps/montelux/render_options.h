@@ -1,6 +1,5 @@
 // The options of montelux render, and what they state.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
