@@ -129,6 +129,8 @@ template <class D>
 PatchHits<D> hits_on_lines(const Corners<D>& q, const PatchRay<D>& ray, D u) {
   const D slack = 1e-10;
   MaskOfDouble<D> found = (u >= -slack) & (u <= D(1.0) + slack);
+  // Of the two lines of a patch that is nearly flat, one is far outside.
+  if (!any(found)) return {found, u, u, u};
   u = min(max(u, D(0.0)), D(1.0));
   const Vec3<D> a = mix(u, q.p00, q.p10) - ray.o, along = mix(u, q.p01 - q.p00, q.p11 - q.p10);
   const Vec3<D> n = cross(ray.d, along);

@@ -52,6 +52,16 @@ MONTELUX_INLINE DoubleMask operator|(DoubleMask a, DoubleMask b) { return {a.v |
 MONTELUX_INLINE DoubleMask operator!(DoubleMask a) { return {~a.v}; }
 // clang-format on
 
+MONTELUX_INLINE bool any(DoubleMask m) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return _mm512_movepi64_mask((__m512i)m.v) != 0;
+#else
+  std::int64_t all = 0;
+  for (int k = 0; k < double_lanes; ++k) all |= m.v[k];
+  return all != 0;
+#endif
+}
+
 MONTELUX_INLINE Doubles select(DoubleMask m, Doubles a, Doubles b) { return m.v ? a.v : b.v; }
 MONTELUX_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 
