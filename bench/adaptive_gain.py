@@ -55,8 +55,7 @@ def main():
                     error = max(relative_error(image, true) - reference["relative_mse"], 1e-30)
                     found.setdefault(way, []).append((error, max(seconds - loading, 1e-3), stated["samples"]))
             error, seconds, samples = ({way: sum(r[i] for r in runs) / len(runs) for way, runs in found.items()} for i in range(3))
-            # The pilot takes a fortieth, which the count of the samples does not have.
-            share = samples["on"] / samples["off"] + 1 / 40
+            share = samples["on"] / samples["off"]
             at_samples = error["off"] / error["on"] / share
             at_time = error["off"] / error["on"] * seconds["off"] / seconds["on"]
             gains.append((at_samples, at_time))

@@ -8,6 +8,7 @@
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
 #include "render/adaptive_plan.h"
+#include "render/pass_shares.h"
 #include "render/target_plan.h"
 #include "render/timed_plan.h"
 
@@ -56,7 +57,7 @@ PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& sett
                               RenderObserver& observer) {
   const TargetRequest& target = *plan.target;
   const std::optional<int> stated = plan.samples_per_pass;
-  if (stated && !target.unbiased && !plan.adaptive) return {{*stated, (max_samples + *stated - 1) / *stated}, {}};
+  if (stated && !target.unbiased) return {{*stated, (max_samples + *stated - 1) / *stated}, {}};
   const auto plan_by_pilot = target.unbiased ? plan_in_two_stages : plan_for_target;
   PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, target.error, max_samples, observer);
   PassPlan passes = planned.plan;
@@ -64,30 +65,56 @@ PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& sett
   return {passes, std::move(planned.pilot)};
 }
 
+// Whether the number of samples is decided by others than those of the image.
+bool is_unbiased(const RenderPlan& plan) { return plan.target && plan.target->unbiased; }
+
+// Small tiles, each of which has passes of its own.
+void make_tiles_small(PassPlan& passes) {
+  const int k = passes.samples_per_pass, side = std::min(adaptive_tile_side(k), passes.tile_side());
+  passes.max_unit_samples = side * side * k;
+}
+
 // Gives tiles passes by a pilot. The number of samples that a target needs falls by the gain.
-void make_adaptive(const RenderPlan& plan, RenderSettings& settings, const Pilot& pilot) {
-  const int k = settings.plan.samples_per_pass;
-  const int side = std::min(adaptive_tile_side(k), settings.plan.tile_side());
-  settings.plan.max_unit_samples = side * side * k;
-  const TargetMeasure measure = plan.target ? plan.target->error.measure : TargetMeasure::relative;
-  const PilotTiles tiles = tiles_of_pilot(pilot, measure, side);
-  const std::vector<double> shares = pass_shares(tiles.tiles, tiles.columns);
-  std::optional<ErrorTarget> target;
-  if (plan.target && !plan.target->unbiased) target = plan.target->error;
-  if (plan.target && plan.target->unbiased) {
-    // Half of the gain that the pilot itself shows, which the chance in it makes too large.
-    const double gain = (1 + std::max(expected_gain(tiles.tiles, shares), 1.0)) / 2;
-    settings.plan.passes = std::max(int(std::ceil(settings.plan.passes / gain)), std::min(settings.plan.passes, 4));
-  }
+void make_adaptive(const ErrorTarget& target, RenderSettings& settings, const Pilot& pilot) {
+  make_tiles_small(settings.plan);
+  const ImageFigures image = figures_of(pilot.film, pilot.rays, target.measure, settings.plan.tile_side());
+  const std::vector<double> shares = pass_shares(image, 0);
+  int& passes = settings.plan.passes;
+  passes = std::max(int(std::ceil(passes / std::max(expected_gain(image, shares), 1.0))),
+                    std::min(passes, min_adaptive_passes));
   // Its passes would compare the tiles that have most of them.
   settings.unbiased = nullptr;
-  settings.work = std::make_shared<AdaptivePlan>(shares, target);
+  settings.work = std::make_shared<AdaptivePlan>(shares, min_adaptive_passes, std::nullopt);
+}
+
+// Renders the first passes of an adaptive image, which decide how many more each tile has, and plans the others.
+// `passes`: of the image, as far as that is known. Returns the film to continue; none: all tiles have equally many.
+std::optional<BegunFilm> begin_adaptive(const RenderPlan& plan, RenderSettings& settings, std::optional<int> passes,
+                                        RenderObserver& observer) {
+  constexpr int min_passes = 2 * min_adaptive_passes;
+  const int known = passes.value_or(std::min(settings.plan.passes, min_passes));
+  const std::optional<int> first = first_passes(known);
+  if (!first) {
+    observer.announce(
+        fmt::format("the image is not adaptive: that takes at least {} passes, not {}", min_passes, known));
+    return std::nullopt;
+  }
+  make_tiles_small(settings.plan);
+  settings.unbiased = nullptr;
+  const std::optional<ErrorTarget> target = plan.target ? std::optional(plan.target->error) : std::nullopt;
+  RenderSettings of_first = settings;
+  of_first.plan.passes = *first, of_first.target.reset();
+  FirstPart part = render_first_part(plan.chosen.any(), of_first, target ? target->measure : TargetMeasure::relative,
+                                     passes ? double(*first) / *passes : 0, observer);
+  if (part.is_complete) settings.work = std::make_shared<AdaptivePlan>(std::move(part.shares), *first, target);
+  return std::move(part.begun);
 }
 
 // Plans the passes for the time that is left, and sets the rule that ends it. The time includes the making of the
 // integrator, the measurement of its speed, and the writing of the image. `before` is the time used so far, and grows
-// by what this takes.
-void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before, RenderObserver& observer) {
+// by what this takes. Returns the film to continue, if some of the image is rendered already.
+std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before,
+                                    RenderObserver& observer) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
   const TimeOfImage time(*plan.seconds, before, since_start,
@@ -96,7 +123,7 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
     time.announce_if_late(1, observer);
     settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
     before = time.used();
-    return;
+    return std::nullopt;
   }
   TimedPlan timed = plan_for_time(integrator, settings, time.left(), observer);
   if (plan.samples_per_pass) timed.plan.samples_per_pass = *plan.samples_per_pass;
@@ -119,11 +146,8 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
     if (plan.target->unbiased) timed.plan.passes = (passes.samples() - 1) / timed.plan.samples_per_pass + 1;
     pilot = std::move(to_target.pilot);
   }
-  if (plan.adaptive && !plan.target && timed.plan.stride == 1)
-    pilot = run_pilot(integrator, settings, int(std::min(affordable, double(max_film_samples))), observer);
   const double first_seconds = timed.plan.stride > 1 ? timed.first_seconds : timed.sample_seconds;
   settings.plan = timed.plan;
-  if (plan.adaptive && pilot) make_adaptive(plan, settings, *pilot);
   const int stride = settings.plan.stride;
   time.announce_if_late(stride, observer);
   if (stride > 1)
@@ -133,8 +157,20 @@ void plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before
     observer.announce(
         fmt::format("the first frame takes about {:.2g} s, more than the time: the image is one frame", first_seconds));
   // The error of a sparse image is not estimated.
-  settings.stop = std::make_shared<TimeLimit>(time.left(stride), true, max_lateness * *plan.seconds);
-  before = time.used();
+  const auto end_in_time = [&] {
+    settings.stop = std::make_shared<TimeLimit>(time.left(stride), true, max_lateness * *plan.seconds);
+  };
+  end_in_time();
+  std::optional<BegunFilm> begun;
+  if (plan.adaptive && stride == 1 && !is_unbiased(plan)) {
+    const int passes = int(std::min(affordable, double(max_film_samples))) / settings.plan.samples_per_pass;
+    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(passes), observer);
+  } else if (plan.adaptive && pilot) {
+    make_adaptive(plan.target->error, settings, *pilot);
+  }
+  end_in_time();
+  before = time.used() - (begun ? begun->seconds : 0);
+  return begun;
 }
 
 // Adds the layers without noise, or a note where that is not possible.
@@ -156,20 +192,18 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
                          RenderObserver& observer, SavedFilm* film) {
   // The integrator is made once for all images of a sequence; the first one counts it.
   double before = std::exchange(plan.preparation, 0.0);
-  if (plan.seconds) plan_timed(plan, settings, before, observer);
+  std::optional<BegunFilm> begun;
+  if (plan.seconds) begun = plan_timed(plan, settings, before, observer);
   if (plan.target && !plan.seconds && !settings.begun) {
     const Stopwatch since_start;
     PassesToTarget to_target = plan_to_target(plan, settings, plan.max_samples, observer);
     settings.plan = to_target.passes;
-    if (plan.adaptive && to_target.pilot) make_adaptive(plan, settings, *to_target.pilot);
+    if (plan.adaptive && is_unbiased(plan)) make_adaptive(plan.target->error, settings, *to_target.pilot);
     before += since_start.seconds();
   }
-  if (plan.adaptive && !plan.target && !plan.seconds) {
-    const Stopwatch since_start;
-    const auto pilot = run_pilot(plan.chosen.any(), settings, settings.plan.samples(), observer);
-    if (pilot) make_adaptive(plan, settings, *pilot);
-    before += since_start.seconds();
-  }
+  if (plan.adaptive && !plan.seconds && !is_unbiased(plan))
+    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(settings.plan.passes), observer);
+  if (begun) settings.begun = &*begun;
   if (plan.budget) settings.stop = std::make_shared<TimeBudget>(*plan.budget - before, plan.ending);
   if (film) {
     film->settings.samples_per_pass = film->facts.samples_per_pass = settings.plan.samples_per_pass;

@@ -2,105 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "render/pass_shares.h"
 
 namespace montelux {
 
 namespace {
 
-// Fewer passes of a tile have no usable error.
-constexpr int min_passes = 4;
-// Of the mean error, added to that of each tile.
-constexpr double shrinkage = 0.3;
-constexpr double max_share = 16;
+// The progress of the first part of an image as that of the whole.
+class FirstPartObserver final : public RenderObserver {
+ public:
+  FirstPartObserver(double share, RenderObserver& other) : share_(share), other_(other) {}
+  void progress(const Progress& of_part) override {
+    if (of_part.finished) return;
+    Progress whole = of_part;
+    whole.fraction *= share_;
+    whole.remaining = whole.fraction > 0 ? whole.elapsed * (1 / whole.fraction - 1) : 0;
+    other_.progress(whole);
+  }
+  bool stop_requested() override { return other_.stop_requested(); }
 
-// Errors of one pixel, weighted over 3 x 3 tiles by (1 2 1) in both directions.
-std::vector<double> smoothed_errors(const std::vector<PilotTile>& tiles, int columns) {
-  const int rows = int(tiles.size()) / columns;
-  std::vector<double> smoothed(tiles.size());
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      double error = 0, pixels = 0;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          if (x + dx < 0 || x + dx >= columns || y + dy < 0 || y + dy >= rows) continue;
-          const PilotTile& tile = tiles[std::size_t((y + dy) * columns + x + dx)];
-          const double weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
-          error += weight * tile.error, pixels += weight * tile.pixels;
-        }
-      smoothed[std::size_t(y * columns + x)] = error / pixels;
-    }
-  return smoothed;
-}
-
-// So that the mean weighted by cost is 1.
-void normalise(const std::vector<PilotTile>& tiles, std::vector<double>& shares) {
-  double cost = 0, of_shares = 0;
-  for (std::size_t t = 0; t < tiles.size(); ++t) cost += tiles[t].cost, of_shares += tiles[t].cost * shares[t];
-  for (double& share : shares) share *= cost / of_shares;
-}
+ private:
+  double share_;
+  RenderObserver& other_;
+};
 
 }  // namespace
 
-std::vector<double> pass_shares(const std::vector<PilotTile>& tiles, int columns) {
-  std::vector<double> shares(tiles.size(), 1.0);
-  double error = 0, cost = 0, pixels = 0;
-  for (const PilotTile& tile : tiles) error += tile.error, cost += tile.cost, pixels += tile.pixels;
-  if (!(error > 0) || !std::isfinite(error) || !(cost > 0)) return shares;
-  const std::vector<double> errors = smoothed_errors(tiles, columns);
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    // Of a pixel, relative to the mean of all; half of the cost of a pass is taken as the same for all.
-    const double own_cost = 0.5 + 0.5 * tiles[t].cost / tiles[t].pixels * pixels / cost;
-    shares[t] = std::sqrt((errors[t] * pixels / error + shrinkage) / own_cost);
-  }
-  normalise(tiles, shares);
-  for (double& share : shares) share = std::min(share, max_share);
-  normalise(tiles, shares);
-  return shares;
-}
-
-double expected_gain(const std::vector<PilotTile>& tiles, const std::vector<double>& shares) {
-  double uniform = 0, adaptive = 0;
-  for (std::size_t t = 0; t < tiles.size(); ++t) uniform += tiles[t].error, adaptive += tiles[t].error / shares[t];
-  return adaptive > 0 ? uniform / adaptive : 1;
-}
-
-PilotTiles tiles_of_pilot(const Pilot& pilot, TargetMeasure measure, int tile_side) {
-  const PixelBounds& bounds = pilot.film.bounds();
-  FilmPlanes planes(bounds);
-  planes.copy(pilot.film, bounds);
-  Plane errors(std::size_t(bounds.area()));
-  if (measure == TargetMeasure::mean) {
-    for (const Plane& variance : planes.variance)
-      for (std::size_t i = 0; i < errors.size(); ++i) errors[i] += variance[i];
-  } else {
-    errors = relative_errors(planes);
-  }
-  // The costs of the pilot's own tiles, by pixel.
-  Plane costs(errors.size());
-  std::size_t number = 0;
-  for (const auto& [index, tile] : pilot.film.tiles()) {
-    const double cost = double(pilot.rays.at(number++)) / tile.cells.area();
-    for (int y = tile.cells.y0; y < tile.cells.y1; ++y)
-      for (int x = tile.cells.x0; x < tile.cells.x1; ++x) costs[planes.index(x, y)] = float(cost);
-  }
-  PilotTiles result;
-  result.columns = (bounds.width() + tile_side - 1) / tile_side;
-  for (const PixelBounds& tile : tiles_of(bounds, tile_side)) {
-    PilotTile& sums = result.tiles.emplace_back(PilotTile{0, 0, double(tile.area())});
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        sums.error += double(errors[planes.index(x, y)]), sums.cost += double(costs[planes.index(x, y)]);
-  }
-  return result;
-}
-
-AdaptivePlan::AdaptivePlan(std::vector<double> shares, const std::optional<ErrorTarget>& target)
-    : shares_(std::move(shares)), target_(target), looks_(target.value_or(ErrorTarget{})) {}
+AdaptivePlan::AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<ErrorTarget>& target)
+    : shares_(std::move(shares)),
+      first_passes_(first_passes),
+      target_(target),
+      looks_(target.value_or(ErrorTarget{})) {}
 
 int AdaptivePlan::passes_at(int level, std::size_t tile) const {
-  return std::max(std::min(level, min_passes), int(std::lround(level * shares_[tile])));
+  return std::max(std::min(level, first_passes_), int(std::lround(level * shares_[tile])));
 }
 
 int AdaptivePlan::level_of(const Film& film, const PassPlan& passes) const {
@@ -140,18 +77,27 @@ std::uint64_t AdaptivePlan::expected_units(const Film&, const PassPlan& passes) 
 }
 
 int adaptive_tile_side(int samples_per_pass) {
-  constexpr int samples = 512;
-  int side = 8;
+  constexpr int samples = 256;
+  int side = 4;
   while (side < 32 && side * side * samples_per_pass < samples) side *= 2;
   return side;
 }
 
-std::optional<Pilot> run_pilot(const AnyIntegrator& integrator, RenderSettings settings, int samples,
-                               RenderObserver& observer) {
-  constexpr int part = 40, passes = 2;
-  const int k = std::min((samples + part / 2) / (part * passes), 1024);
-  if (k < 1) return std::nullopt;
-  return pilot_of(integrator, std::move(settings), k, passes, observer);
+std::optional<int> first_passes(int passes) {
+  if (passes < 2 * min_adaptive_passes) return std::nullopt;
+  return std::max(passes / 4, min_adaptive_passes);
+}
+
+FirstPart render_first_part(const AnyIntegrator& integrator, const RenderSettings& settings, TargetMeasure measure,
+                            double share, RenderObserver& observer) {
+  FirstPartObserver of_part(share, observer);
+  RenderResult result = render(integrator, settings, of_part);
+  const bool is_complete =
+      units_of(result.film, settings.plan) == PassByPass{}.expected_units(result.film, settings.plan);
+  std::vector<double> shares;
+  if (is_complete)
+    shares = pass_shares(figures_of(result.film, result.rays_of_tiles, measure, settings.plan.tile_side()), share);
+  return {{std::move(result.film), result.rays, result.seconds}, std::move(shares), is_complete};
 }
 
 }  // namespace montelux
