@@ -31,8 +31,8 @@ def main():
     parser.add_argument("--reference", type=int, default=8192, help="samples per pixel of the reference")
     parser.add_argument("--resolution", default="128x96")
     arguments = parser.parse_args()
-    print("| scene | relMSE uniform | adaptive | samples, adaptive / uniform | at equal samples | at equal time |\n"
-          "| --- | ---: | ---: | ---: | ---: | ---: |")
+    print("| scene | relMSE uniform | adaptive | samples, adaptive / uniform | gain at equal samples | rays | time |\n"
+          "| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     gains = []
     with tempfile.TemporaryDirectory() as name:
         file = pathlib.Path(name) / "image.pfm"
@@ -53,14 +53,16 @@ def main():
                 for way in "off", "on":
                     stated, image, seconds = run(scene, seed, "--spp", arguments.spp, "--adaptive", way)
                     error = max(relative_error(image, true) - reference["relative_mse"], 1e-30)
-                    found.setdefault(way, []).append((error, max(seconds - loading, 1e-3), stated["samples"]))
-            error, seconds, samples = ({way: sum(r[i] for r in runs) / len(runs) for way, runs in found.items()} for i in range(3))
+                    found.setdefault(way, []).append((error, max(seconds - loading, 1e-3), stated["samples"],
+                                                        stated["rays"]))
+            error, seconds, samples, rays = ({way: sum(r[i] for r in runs) / len(runs) for way, runs in found.items()} for i in range(4))
             share = samples["on"] / samples["off"]
             at_samples = error["off"] / error["on"] / share
             at_time = error["off"] / error["on"] * seconds["off"] / seconds["on"]
-            gains.append((at_samples, at_time))
-            print(f"| {scene.stem} | {error['off']:.3g} | {error['on']:.3g} | {share:.3f} | {at_samples:.2f} | {at_time:.2f} |", flush=True)
-    for i, what in enumerate(("samples", "time")):
+            at_rays = error["off"] / error["on"] * rays["off"] / rays["on"]
+            gains.append((at_samples, at_rays, at_time))
+            print(f"| {scene.stem} | {error['off']:.3g} | {error['on']:.3g} | {share:.3f} | {at_samples:.2f} | {at_rays:.2f} | {at_time:.2f} |", flush=True)
+    for i, what in enumerate(("samples", "rays", "time")):
         logs = [math.log(gain[i]) for gain in gains]
         print(f"\nat equal {what}: geometric mean {math.exp(sum(logs) / len(logs)):.2f}, least {math.exp(min(logs)):.2f}")
 

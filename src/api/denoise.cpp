@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "api/images.h"
 #include "denoise/denoise.h"
@@ -127,9 +128,11 @@ PixelBuffer buffer_of(const DenoisedImage& image, int width, int height) {
   return buffer;
 }
 
-Result<MotionPlanes> motion_of(const PixelBuffer& image) {
+// From the channels `layer`X and Y.
+Result<MotionPlanes> motion_of(const PixelBuffer& image, std::string_view layer = "motion.") {
   MotionPlanes motion;
-  for (auto [name, plane] : {std::pair{"motion.X", &motion.x}, std::pair{"motion.Y", &motion.y}}) {
+  for (auto [letter, plane] : {std::pair{'X', &motion.x}, std::pair{'Y', &motion.y}}) {
+    const std::string name = fmt::format("{}{}", layer, letter);
     const std::optional<int> channel = find_channel(image, name);
     if (!channel) return Failure{fmt::format("it has no channel {}", name)};
     plane->resize(image.pixel_count());
@@ -167,8 +170,8 @@ Result<std::vector<NoisyImage>> earlier_images(const std::filesystem::path& file
   return images;
 }
 
-Result<DenoisedLayers> denoise(const NoisyImage& image, const DenoiseOptions& options,
-                               std::span<const NoisyImage> others = {}) {
+Result<DenoisedLayers> denoise_image(const NoisyImage& image, const DenoiseOptions& options,
+                                     std::span<const NoisyImage> others = {}) {
   if (!has_both_halves(image))
     return Failure{"noise cannot be removed: it takes two independent passes, in both halves of the layers"};
   const Stopwatch since_start;
@@ -201,10 +204,40 @@ PixelBuffer without_added(const PixelBuffer& image) {
 
 }  // namespace
 
-Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
+namespace {
+
+Status has_noise_of_halves(const Film& film) {
   if (!film.has_halves()) return Failure{"noise cannot be removed: the film has no halves"};
   if (film.grid().stride > 1) return Failure{"noise is not removed: only a part of the pixels is sampled"};
-  return denoise(noisy_image(film), options);
+  return Done{};
+}
+
+}  // namespace
+
+Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
+  if (Status good = has_noise_of_halves(film); !good) return good.failure();
+  return denoise_image(noisy_image(film), options);
+}
+
+Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBuffer& motion,
+                                                 const DenoiseOptions& options) {
+  std::deque<Earlier> before = std::exchange(earlier_, {});
+  if (Status good = has_noise_of_halves(film); !good) return good.failure();
+  Result<MotionPlanes> to_before = motion_of(motion, "");
+  if (!to_before) return to_before.failure();
+  NoisyImage image = noisy_image(film);
+  std::vector<NoisyImage> others;
+  MotionPlanes way = *to_before;
+  for (const Earlier& one : before) {
+    others.push_back(reprojected(one.image, way));
+    way = composed(way, one.motion, image.width, image.height);
+  }
+  Result<DenoisedLayers> layers = denoise_image(image, options, others);
+  if (!layers) return layers;
+  before.push_front({std::move(image), *std::move(to_before)});
+  if (before.size() > max_earlier) before.pop_back();
+  earlier_ = std::move(before);
+  return layers;
 }
 
 Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const DenoiseOptions& options) {
@@ -214,7 +247,7 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
   if (!noisy) return cannot_be_denoised(file, noisy.error(), "halves");
   const Result<std::vector<NoisyImage>> others = earlier_images(file, image->pixels, options.before);
   if (!others) return others.failure();
-  const Result<DenoisedLayers> denoised = denoise(*noisy, options, *others);
+  const Result<DenoisedLayers> denoised = denoise_image(*noisy, options, *others);
   if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
   DenoisedFile result{*std::move(image), denoised->estimate};
   result.image.pixels = without_added(result.image.pixels);

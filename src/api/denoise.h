@@ -1,11 +1,13 @@
 // Removal of noise from images, with an estimate of the error that is left.
 #pragma once
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <string_view>
 #include <vector>
 
+#include "denoise/reproject.h"
 #include "image/image_file.h"
 #include "math/result.h"
 
@@ -39,6 +41,27 @@ struct DenoisedLayers {
 
 // Fails where the film has no halves, or no pixel with a pass in each of them, or where it was stopped.
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options = {});
+
+// The images of a sequence, whose noise is removed one after the other: the last few before an image help it, as
+// DenoiseOptions::before does. Their samples must be independent.
+class SequenceDenoiser {
+ public:
+  // `motion`: from this image to the one before, as motion_vectors() has it. Fails as denoise() does; the next image
+  // then has none before it.
+  Result<DenoisedLayers> denoise(const Film& film, const PixelBuffer& motion, const DenoiseOptions& options = {});
+  // The next image has none before it.
+  void forget() { earlier_.clear(); }
+
+  // Each takes as much time as the image itself, and 140 bytes of memory per pixel.
+  static constexpr std::size_t max_earlier = 2;
+
+ private:
+  struct Earlier {
+    NoisyImage image;
+    MotionPlanes motion;  // to the image before it
+  };
+  std::deque<Earlier> earlier_;  // the latest first
+};
 
 // An .exr that was rendered with the layers of both halves, with the layers above added, or replaced.
 struct DenoisedFile {

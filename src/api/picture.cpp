@@ -283,12 +283,15 @@ StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& 
   if (steps.intervals && stride == 1) strip.intervals = pixel_intervals(strip.result.film);
   if (steps.denoise && stride == 1)
     if (Result<DenoisedLayers> layers = denoise(strip.result.film)) strip.denoised = *std::move(layers);
+  // Each earlier image takes as long as the image itself.
+  const double denoising = strip.denoised ? strip.denoised->estimate.seconds : 0;
   const double error = since_start.seconds();
   for (const std::filesystem::path& file : files.paths) {
     const DisplayTransform display = is_display_file(file) ? choose_display(strip, {}).transform : DisplayTransform{};
-    if (!encode_rendering(file, strip, display, files.half)) return {error, 0};
+    if (!encode_rendering(file, strip, display, files.half))
+      return {error + double(steps.earlier_images) * denoising, 0};
   }
-  return {error, since_start.seconds() - error};
+  return {error + double(steps.earlier_images) * denoising, since_start.seconds() - error};
 }
 
 }  // namespace

@@ -190,6 +190,7 @@ struct FinishTime {
 // What is done with a picture before it is written.
 struct PictureSteps {
   bool denoise = false, intervals = false;
+  std::size_t earlier_images = 0;  // of a sequence, which help to remove the noise
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps = {});

@@ -117,8 +117,10 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
                                     RenderObserver& observer) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
-  const TimeOfImage time(*plan.seconds, before, since_start,
-                         seconds_to_finish(settings.image.bounds, plan.files, {plan.denoise, plan.intervals}));
+  const TimeOfImage time(
+      *plan.seconds, before, since_start,
+      seconds_to_finish(settings.image.bounds, plan.files,
+                        {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
@@ -173,10 +175,12 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
   return begun;
 }
 
-// Adds the layers without noise, or a note where that is not possible.
-void denoise_rendering(Rendering& rendering, int threads, RenderObserver& observer) {
+}  // namespace
+
+void add_denoised(Rendering& rendering, const std::function<Result<DenoisedLayers>(const Film&)>& denoise,
+                  RenderObserver& observer) {
   if (rendering.found_no_light) return;
-  Result<DenoisedLayers> layers = denoise(rendering.result.film, {threads, {}});
+  Result<DenoisedLayers> layers = denoise(rendering.result.film);
   if (!layers) {
     observer.announce(layers.error());
     return;
@@ -185,8 +189,6 @@ void denoise_rendering(Rendering& rendering, int threads, RenderObserver& observ
   const std::vector<Attribute> entries = header_of(rendering.denoised->estimate);
   rendering.header.insert(rendering.header.end(), entries.begin(), entries.end());
 }
-
-}  // namespace
 
 Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
                          RenderObserver& observer, SavedFilm* film) {
@@ -220,7 +222,13 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
     plan.ending = result.ending;
   }
   Rendering rendering = rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
-  if (plan.denoise) denoise_rendering(rendering, settings.threads, observer);
+  if (plan.denoise && !plan.is_sequence)
+    add_denoised(
+        rendering,
+        [&](const Film& of) {
+          return denoise(of, {settings.threads, {}});
+        },
+        observer);
   if (plan.intervals && !add_intervals(rendering))
     observer.announce("the intervals of the pixels are unknown: it takes two independent passes, and light");
   return rendering;

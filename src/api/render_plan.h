@@ -31,10 +31,11 @@ struct RenderPlan {
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
   bool denoise = false;
-  bool intervals = false;  // of the pixels
-  double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
-                           // image has counted them
-  double ending = 0;       // seconds from the last frame of the image before to its end
+  bool is_sequence = false;  // its noise is removed by the sequence
+  bool intervals = false;    // of the pixels
+  double preparation = 0;    // seconds that the making of the integrator took (pilots, meshes of elements), until an
+                             // image has counted them
+  double ending = 0;         // seconds from the last frame of the image before to its end
 };
 
 // "direct:candidates=4,strategy=ris", in whatever order the settings were given.
@@ -51,7 +52,13 @@ PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, c
 
 // Renders one image: that of the plan, with settings whose seed, shutter, memories and film may differ. `film`, if
 // there is one, receives the length of the passes and the time of the preparation before it is saved.
+// Unless it is one of a sequence, its noise is removed if the plan says so.
 Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
                          RenderObserver& observer, SavedFilm* film = nullptr);
+
+// Adds the layers without noise to an image that has light, or a note where that is not possible. `denoise` makes them
+// of a film.
+void add_denoised(Rendering& rendering, const std::function<Result<DenoisedLayers>(const Film&)>& denoise,
+                  RenderObserver& observer);
 
 }  // namespace montelux

@@ -1,4 +1,5 @@
 // Images of a sequence.
+#include <algorithm>
 #include <utility>
 
 #include "api/automatic.h"
@@ -10,6 +11,7 @@ struct PictureSequence::State {
   const LoadedScene::Parts& parts;
   RenderPlan plan;
   SeriesMemories memories;
+  SequenceDenoiser denoiser;
 };
 
 PictureSequence::PictureSequence(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -19,7 +21,8 @@ PictureSequence::PictureSequence(PictureSequence&&) noexcept = default;
 Result<PictureSequence> PictureSequence::prepare(const LoadedScene& scene, const RenderOptions& options) {
   Result<RenderPlan> plan = plan_render(scene.parts(), options);
   if (!plan) return plan.failure();
-  return PictureSequence(std::make_unique<State>(State{scene.parts(), *std::move(plan), {}}));
+  plan->is_sequence = true;
+  return PictureSequence(std::make_unique<State>(State{scene.parts(), *std::move(plan), {}, {}}));
 }
 
 Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver& observer) {
@@ -32,10 +35,23 @@ Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver
   if (picture.is_last) settings.sequence.max_memory = 0;
   const MotionRequest motion{settings.image.bounds, *settings.image.shutter, shutter_for(picture.before, parts.picture),
                              settings.threads};
+  const auto remembers = [&] {
+    return std::ranges::any_of(state_->memories, [](const auto& m) { return m != nullptr; });
+  };
+  const bool continues = remembers();
   Rendering rendering = render_picture(parts, state_->plan, std::move(settings), observer);
   for (const auto& memory : state_->memories)
     if (memory) rendering.history_bytes += memory->bytes();
-  if (state_->plan.motion) rendering.motion = motion_vectors(parts.scene, *parts.accel, motion);
+  if (state_->plan.motion || state_->plan.denoise) rendering.motion = motion_vectors(parts.scene, *parts.accel, motion);
+  if (state_->plan.denoise) {
+    // Images that continue from the samples of those before are not independent of them.
+    if (continues || remembers()) state_->denoiser.forget();
+    const auto denoise = [&](const Film& film) {
+      return state_->denoiser.denoise(film, *rendering.motion, {motion.threads, {}});
+    };
+    add_denoised(rendering, denoise, observer);
+  }
+  if (!state_->plan.motion) rendering.motion.reset();
   return rendering;
 }
 

@@ -46,13 +46,13 @@ void normalise(const std::vector<TileFigures>& tiles, double min_share, std::vec
 
 // The root of error over cost of a pixel of each tile.
 std::vector<double> roots_of(const std::vector<TileFigures>& tiles) {
-  // The share of the cost that is the same for all pixels.
-  constexpr double fixed = 0.25;
+  // Of the mean cost of a pixel; no pixel costs nothing.
+  constexpr double min_cost = 0.02;
   double cost = 0, pixels = 0;
   for (const TileFigures& tile : tiles) cost += tile.cost, pixels += tile.pixels;
   std::vector<double> roots;
   for (const TileFigures& tile : tiles) {
-    const double own_cost = cost > 0 ? fixed + (1 - fixed) * tile.cost / tile.pixels * pixels / cost : 1;
+    const double own_cost = cost > 0 ? std::max(tile.cost / tile.pixels * pixels / cost, min_cost) : 1;
     roots.push_back(std::sqrt(tile.error / tile.pixels / own_cost));
   }
   return roots;
@@ -118,11 +118,14 @@ ImageFigures figures_of(const Film& film, std::span<const std::uint64_t> rays, T
   const PixelBounds& bounds = film.bounds();
   FilmPlanes planes(bounds);
   planes.copy(film, bounds);
-  // The costs of the film's own tiles, by pixel.
+  // The costs of the film's own tiles, by pixel. Camera rays are traced in packets, and many of them see only the sky:
+  // with all else that a sample takes, such a ray costs half as much as another one.
+  constexpr double of_camera_ray = 0.5;
   Plane costs(std::size_t(bounds.area()));
   std::size_t number = 0;
   for (const auto& [index, tile] : film.tiles()) {
-    const double cost = double(rays[number++]) / tile.cells.area();
+    const double samples = film.samples(tile.cells.x0, tile.cells.y0);
+    const double cost = double(rays[number++]) / tile.cells.area() - (1 - of_camera_ray) * samples;
     for (int y = tile.cells.y0; y < tile.cells.y1; ++y)
       for (int x = tile.cells.x0; x < tile.cells.x1; ++x) costs[planes.index(x, y)] = float(cost);
   }

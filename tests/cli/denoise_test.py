@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from program import SCENE, ProgramTest, read_pfm
+from program import ROOT, SCENE, ProgramTest, read_pfm
 
 
 def relative_error(picture, reference):
@@ -82,6 +82,33 @@ class DenoiseTest(ProgramTest):
         self.assertLess(errors[2], errors[1])
         self.assertLess(stated[2], stated[0])
         self.assertLess(errors[2], 2 * stated[2])
+
+    def assert_same(self, a, b):
+        """Except for the rounding of the files, which may change what a pixel chooses."""
+        self.assertLess(relative_error(self.read(a), self.read(b)), 1e-5)
+
+    def test_a_sequence_uses_the_frames_before(self):
+        """A scene that moves: the same as from files, and better than each frame alone."""
+        scene = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
+        small = ["--resolution", "96x54", "--fps", 24]
+        said = self.run_program("render", scene, *small, "--frames", "10:12", "--spp", 8, "--denoise", "--layers", "halves,motion",
+                                "--json", "--quiet", "-o", "f.#.exr", "-o", "f.#.pfm").stdout
+        stated = json.loads(said.splitlines()[-1])["denoised"]["relative_mse"]
+        self.run_program("denoise", "f.12.exr", "--before", "f.11.exr", "--before", "f.10.exr", "-o", "two.pfm")
+        self.assert_same("f.12.pfm", "two.pfm")
+        self.run_program("denoise", "f.12.exr", "-o", "alone.pfm")
+        self.assertGreater(relative_error(self.read("two.pfm"), self.read("alone.pfm")), 1e-4)
+        self.run_program("render", scene, "--frames", "12", "--spp", 1024, "--seed", 77, *small, "-o", "true.pfm")
+        true = self.read("true.0012.pfm")
+        error, alone = relative_error(self.read("f.12.pfm"), true), relative_error(self.read("alone.pfm"), true)
+        self.assertLess(error, 0.95 * alone)
+        self.assertGreater(stated, 0.5 * error)
+        self.assertLess(stated, 2 * error)
+
+    def test_frames_that_continue_from_the_samples_of_others_are_filtered_alone(self):
+        self.render("--frames", "0:1", "--spp", 16, "--integrator", "restir-di", "--denoise", "-o", "f.#.exr", "-o", "f.#.pfm")
+        self.run_program("denoise", "f.1.exr", "-o", "alone.pfm")
+        self.assert_same("f.1.pfm", "alone.pfm")
 
     def test_earlier_frames_that_do_not_fit_are_refused(self):
         small = ["--spp", 4, "--layers", "halves"]
