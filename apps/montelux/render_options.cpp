@@ -88,8 +88,8 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(
       verb,
       {"--adaptive", "on|off",
-       "more passes for the tiles where they lower the requested error most (without one, that of the pixels); a "
-       "pilot of other samples decides; default: off"},
+       "more passes for the tiles where they lower the requested error most (without one, that of the pixels); the "
+       "first passes decide, for each tile those of the tiles around it; default: off"},
       [&arguments](const std::string& text) -> Status {
         const Result<std::string> choice = parse_choice(text, {"on", "off"});
         if (!choice) return choice.failure();
