@@ -18,6 +18,7 @@
 #include "integrator/missing_light.h"
 #include "integrator/path/tracer.h"
 #include "integrator/photons/photonmap.h"
+#include "integrator/photons/pilot.h"
 #include "integrator/photons/sppm.h"
 #include "integrator/radiosity/integrator.h"
 #include "integrator/restir/integrator.h"
@@ -216,7 +217,25 @@ void note_radius(ChosenIntegrator& chosen, float radius) {
       radius));
 }
 
-void note_photons(ChosenIntegrator& chosen, const Scene& scene) {
+Status check_medium_radius(float radius, const Scene& scene) {
+  if (radius > 0 && scene.media.empty())
+    return Failure{"medium-radius is for participating media, and the scene has none"};
+  return Done{};
+}
+
+void note_photons(ChosenIntegrator& chosen, const Scene& scene, float medium_radius) {
+  if (!scene.media.empty()) {
+    chosen.biases.push_back(fmt::format("medium-radius={:.4g}", medium_radius));
+    chosen.notes.push_back(
+        fmt::format("in participating media photons are gathered within {:.4g} at first: the picture is biased where "
+                    "light or the medium changes over that distance (see medium-radius)",
+                    medium_radius));
+  }
+  if (scene.media.emits()) {
+    chosen.biases.push_back("no photons of media");
+    chosen.missing.push_back("indirect light of media that emit");
+    chosen.notes.push_back("no photon starts in a medium that emits: the picture is biased by its indirect light");
+  }
   if (scene.lights.has_masked()) {
     chosen.biases.push_back("no photons of masked emitters");
     chosen.missing.push_back("indirect light of emitters with an alpha mask");
@@ -229,13 +248,16 @@ void note_photons(ChosenIntegrator& chosen, const Scene& scene) {
 Made make_sppm(const Request& r) {
   auto settings = sppm_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
-  if (settings->radius == 0)
-    settings->radius =
-        radius_by_footprint(r.scene, r.accel, std::max(r.defaults.width, 1), std::max(r.defaults.height, 1));
+  if (Status used = check_medium_radius(settings->medium_radius, r.scene); !used) return used.failure();
+  const int width = std::max(r.defaults.width, 1), height = std::max(r.defaults.height, 1);
+  if (settings->medium_radius == 0 && !r.scene.media.empty())
+    settings->medium_radius =
+        medium_radius_by_photons(PhotonPilot(r.scene, r.accel, sppm_paths(*settings, width * height)));
+  if (settings->radius == 0) settings->radius = radius_by_footprint(r.scene, r.accel, width, height);
   ChosenIntegrator chosen{"sppm", {}, {}, {}, std::make_unique<SppmIntegrator>(r.scene, r.accel, *settings)};
   note_radius(chosen, settings->radius);
   note_depth(chosen, r.max_depth);
-  note_photons(chosen, r.scene);
+  note_photons(chosen, r.scene, settings->medium_radius);
   return chosen;
 }
 
@@ -243,7 +265,13 @@ Made make_photonmap(const Request& r) {
   auto settings = photonmap_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
   const int width = std::max(r.defaults.width, 1), height = std::max(r.defaults.height, 1);
-  if (settings->radius == 0) settings->radius = radius_by_photons(r.scene, r.accel, *settings, width * height);
+  if (Status used = check_medium_radius(settings->medium_radius, r.scene); !used) return used.failure();
+  const bool in_media = !r.scene.media.empty();
+  if (settings->radius == 0 || (in_media && settings->medium_radius == 0)) {
+    const PhotonPilot pilot(r.scene, r.accel, global_paths(*settings, width * height));
+    if (settings->radius == 0) settings->radius = radius_by_photons(pilot, *settings);
+    if (in_media && settings->medium_radius == 0) settings->medium_radius = medium_radius_by_photons(pilot, *settings);
+  }
   if (settings->caustic_radius == 0) settings->caustic_radius = radius_by_footprint(r.scene, r.accel, width, height);
   ChosenIntegrator chosen{"photonmap", {}, {}, {}, std::make_unique<PhotonMapIntegrator>(r.scene, r.accel, *settings)};
   const std::string nearest =
@@ -265,7 +293,7 @@ Made make_photonmap(const Request& r) {
                     nearest, settings->radius));
   }
   note_depth(chosen, r.max_depth);
-  note_photons(chosen, r.scene);
+  note_photons(chosen, r.scene, settings->medium_radius);
   return chosen;
 }
 
@@ -387,7 +415,7 @@ constexpr std::uint32_t only_layers = std::uint32_t(Ability::layers),
                         shared_samples = std::uint32_t(Ability::shared_samples),
                         shared_in_media = shared_samples | std::uint32_t(Ability::media),
                         bidirectional = shared_in_media | only_layers | std::uint32_t(Ability::strategies),
-                        shared_with_layers = shared_samples | only_layers,
+                        shared_with_layers = shared_samples | only_layers, photons = shared_in_media | only_layers,
                         with_mergings = bidirectional | std::uint32_t(Ability::mergings);
 
 // The one table of integrators.
@@ -404,8 +432,8 @@ const std::vector<Row>& rows() {
         {restir_pt_spec(), make_restir<restir_pt>, LightSearch::any_length, Content::light, shared_samples},
         {radiosity_spec(), make_radiosity, LightSearch::diffuse, Content::light, shared_samples},
         {light_tracing_spec(), make_light, LightSearch::from_lights, Content::light, bidirectional},
-        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, shared_with_layers},
-        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, shared_with_layers},
+        {sppm_spec(), make_sppm, LightSearch::photons, Content::light, photons},
+        {photonmap_spec(), make_photonmap, LightSearch::photons, Content::light, photons},
         {bdpt_spec(), make_bdpt, LightSearch::both_ends, Content::light, bidirectional},
         {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light, shared_with_layers},
         {vcm_spec(), make_vcm, LightSearch::photons, Content::light, with_mergings},

@@ -285,8 +285,9 @@ class EyeSubpaths {
                               {path.depth + photon.events + U(1u), light_number, Technique::light_sampling,
                                photon.events + U(2u), true, share});
     };
-    const Spectrum<F> light = tally_ ? photons_->template radiance<F>(at, at.context, on, weight, to_layers)
-                                     : photons_->template radiance<F>(at, at.context, on, weight, NoSink{});
+    const GatheringSurface<F> place{at, at.context};
+    const Spectrum<F> light = tally_ ? photons_->template radiance<F>(place, on, weight, to_layers)
+                                     : photons_->template radiance<F>(place, on, weight, NoSink{});
     path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
   }
 

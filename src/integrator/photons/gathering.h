@@ -1,4 +1,5 @@
-// Paths from the eye to the surfaces where they gather photons, for one path (F = float) and for a pack of them.
+// Paths from the eye to the surfaces, and the events in media, where they gather photons, for one path (F = float) and
+// for a pack of them.
 #pragma once
 #include <array>
 #include <optional>
@@ -46,15 +47,17 @@ struct GatherRay {
 // continue in directions that are followed. At their rough surfaces the photons of a second map, which holds all of
 // them, represent the light in all other directions. Light that they meet after an event of their own is that of a
 // caustic, and not theirs.
-template <class F, class Rays>
+//
+// In participating media (`in_media`) the same holds at events in media, where photons of such events are gathered.
+template <class F, class Rays, bool in_media = false>
 class PhotonGathering {
  public:
   using U = Uint<F>;
   using M = Mask<F>;
   // What is referred to must outlive this. `beyond`: the photons that gather rays look up. `tallies`: receive where the
   // light comes from, the second one that of gather rays; null: nobody does.
-  PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookup& in_view,
-                  const std::optional<PhotonLookup>& beyond = {}, std::array<LayerTally, 2>* tallies = nullptr)
+  PhotonGathering(const Scene& scene, const Rays& rays, const GatheringRules& rules, const PhotonLookups& in_view,
+                  const std::optional<PhotonLookups>& beyond = {}, std::array<LayerTally, 2>* tallies = nullptr)
       : scene_(scene),
         rays_(rays),
         rules_(rules),
@@ -128,13 +131,21 @@ class PhotonGathering {
       if (layers.tally) record(layers, met, path, light, {path.depth, number, technique});
     };
   }
-  // The surface that a path has met, with the light met on the way.
-  template <class Weight>
-  NextVertex<F> arrive(PathState<F>& path, M on, const NumberSource<F> auto& numbers, Weight weight,
-                       const Layers& layers) {
-    const NextVertex<F> at = follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
-                                           numbers.stream(dimension_of(path) + U(path_dimension::own)),
-                                           counts_.scattered, weight, sink_for(path, layers));
+  // The vertex that a path has met, with the light met on the way.
+  template <class Weight, NumberSource<F> Numbers>
+  NextVertex<F> arrive(PathState<F>& path, M on, const Numbers& numbers, Weight weight, const Layers& layers) {
+    const U dimension = dimension_of(path);
+    const auto follow = [&](const auto& distances) {
+      return follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
+                           numbers.stream(dimension + U(path_dimension::own)), counts_.scattered, weight,
+                           sink_for(path, layers), distances);
+    };
+    const NextVertex<F> at = [&] {
+      if constexpr (in_media)
+        return follow(MediumDistances<F, Numbers>{numbers, dimension + U(path_dimension::distance), path.throughput});
+      else
+        return follow(NoDistances{});
+    }();
     path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     return at;
@@ -142,10 +153,16 @@ class PhotonGathering {
   M may_scatter(const PathState<F>& path) const {
     return rules_.max_depth ? path.depth < U(std::uint32_t(*rules_.max_depth)) : M(true);
   }
-  static BsdfContext<F> exact(const NextVertex<F>& at) {
-    BsdfContext<F> context = at.context;
-    context.densities = Densities::exact;
-    return context;
+  // A direction in which the vertex scatters, by the numbers of a context.
+  BsdfSample<F> sampled(const NextVertex<F>& at, const F& u_lobe, const Vec2<F>& u, const BsdfContext<F>& context,
+                        M on) const {
+    if constexpr (in_media) {
+      NextVertex<F> own = at;
+      own.context = context;
+      return scatter_at<F, true>(scene_, own, {at.wo, at.wo, M(false), u_lobe, u}, on).next;
+    } else {
+      return sample<F>(at.bsdf.lanes(on), at.wo, {u_lobe, u.x, u.y}, context);
+    }
   }
   // Whether a sampled direction is followed by the path from the eye.
   M follows(const BsdfSample<F>& next) const { return next.delta | (next.density.value > F(rules_.glossy)); }
@@ -155,8 +172,15 @@ class PhotonGathering {
     };
   }
   // The light that photons scatter toward the path.
-  void add_photons(PathState<F>& path, PhotonLookup& map, const NextVertex<F>& at, const BsdfContext<F>& context,
-                   M rough, const Layers& layers) const {
+  void add_photons(PathState<F>& path, PhotonLookups& maps, const NextVertex<F>& at, M rough,
+                   const Layers& layers) const {
+    add_photons_of(path, maps.surfaces, GatheringSurface<F>{at, at.context}, rough & !at.in_medium, layers);
+    if constexpr (in_media)
+      if (const M events = rough & at.in_medium; any(events))
+        add_photons_of(path, *maps.media, GatheringEvent<F>{scene_, at}, events, layers);
+  }
+  template <class Place>
+  void add_photons_of(PathState<F>& path, PhotonLookup& map, const Place& place, M on, const Layers& layers) const {
     const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
     const PhotonRules<F> rules{rules_.glossy, room};
     const auto to_layers = [&](const FoundPhoton<F>& photon, const M& counted, const Spectrum<F>& light, const F&) {
@@ -164,11 +188,12 @@ class PhotonGathering {
              {path.depth + photon.events + U(1u), map.template light_of<F>(photon.number), Technique::light_sampling,
               photon.events + U(2u), true});
     };
-    const Spectrum<F> light = layers.tally ? map.template radiance<F>(at, context, rough, rules, to_layers)
-                                           : map.template radiance<F>(at, context, rough, rules);
-    path.radiance += select(rough, path.throughput * light, gray(F(0.0f)));
+    const Spectrum<F> light = layers.tally ? map.template radiance_by_rules<F>(place, on, rules, to_layers)
+                                           : map.template radiance_by_rules<F>(place, on, rules);
+    path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
   }
-  // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface.
+  // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface,
+  // in media all that are on their way.
   template <class Weight>
   M leave(PathState<F>& path, const NextVertex<F>& at, const BsdfSample<F>& next, M moves,
           const NumberSource<F> auto& numbers, Weight weight, const Layers& layers) {
@@ -179,6 +204,7 @@ class PhotonGathering {
                              numbers.get1(dimension + U(path_dimension::roulette)), moves);
     leave_vertex(path, at, at.bsdf.frame.to_world(next.wi), next, moves, M(false));
     const M found = trace_path(path, rays_, moves, counts_.scattered);
+    if constexpr (in_media) return moves;
     if (const M escapes = moves & !found; any(escapes))
       path.radiance += path.throughput * sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes,
                                                       weight, sink_for(path, layers));
@@ -190,10 +216,10 @@ class PhotonGathering {
     const auto sampler = numbers_of(pass.points, path);
     const U dimension = dimension_of(path);
     const Layers layers = of_paths();
-    const NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers);
+    NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers);
     const M scatters = on & at.found & !ends & may_scatter(path);
     const M rough = scatters & !at.bsdf.is_delta;
-    const BsdfContext<F> context = exact(at);
+    at.context.densities = Densities::exact;
 
     // A point of a light, and a direction.
     const M wants_light = rough & M(rules_.nee);
@@ -203,17 +229,17 @@ class PhotonGathering {
         from.p, from.n, u_choice, sampler.get2(dimension + U(path_dimension::light_point)), wants_light);
     const M queries = wants_light & light.valid;
     const Vec2<F> u = sampler.get2(dimension + U(path_dimension::direction));
-    const Scattering<F> scattered = scatter<F>(
-        at.bsdf.lanes(scatters),
+    const Scattering<F> scattered = scatter_at<F, in_media>(
+        scene_, at,
         {at.wo, at.bsdf.frame.to_local(light.wi), queries, sampler.get1(dimension + U(path_dimension::lobe)), u},
-        context);
+        scatters);
     const BsdfSample<F>& next = scattered.next;
     if (const M shown = is_shown(path, M(on & at.found), scatters); any(shown))
       write_features(at, albedo_of(at, next, u, M(scatters & shown)), path, shown, out);
     if (any(queries)) add_direct(path, at, {light, u_choice, queries}, scattered.toward_light);
     if (any(rough)) {
-      add_photons(path, in_view_, at, context, rough, layers);
-      if (beyond_) send_gather_rays(pass, path, at, context, rough);
+      add_photons(path, in_view_, at, rough, layers);
+      if (beyond_) send_gather_rays(pass, path, at, rough);
     }
 
     M moves = scatters & next.valid;
@@ -243,8 +269,9 @@ class PhotonGathering {
     const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density.value);
     const M shadow = drawn.on & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
-    const Arriving<F> seen = arriving_from<F>(scene_, rays_, at, light.wi, light.distance, shadow,
-                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts_.shadow);
+    const Arriving<F> seen =
+        arriving_from<F, in_media, false>(scene_, rays_, at, light.wi, light.distance, shadow,
+                                          at.context.random.fork(U(path_dimension::shadow_stream)), counts_.shadow);
     const Spectrum<F> arrives = direct * seen.left;
     path.radiance += select(seen.on, arrives, gray(F(0.0f)));
     if (!tallies_) return;
@@ -262,16 +289,14 @@ class PhotonGathering {
   }
   // The gather rays of surfaces in view, up to the surfaces that they meet, where they wait. Results of one pixel are
   // in the order of its path, so that their sum has the same bits whatever the lanes.
-  void send_gather_rays(const TilePass& pass, const PathState<F>& path, const NextVertex<F>& at,
-                        const BsdfContext<F>& context, M rough) {
+  void send_gather_rays(const TilePass& pass, const PathState<F>& path, const NextVertex<F>& at, M rough) {
     const U dimension = dimension_of(path);
     for (int i = 0; i < rules_.gather_rays; ++i) {
       const auto numbers = gather_numbers(pass, path, U(std::uint32_t(i)));
-      BsdfContext<F> own = context;
-      own.random = context.random.fork(U(0x9b05688cu + std::uint32_t(i)));
+      BsdfContext<F> own = at.context;
+      own.random = at.context.random.fork(U(0x9b05688cu + std::uint32_t(i)));
       const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
-      const BsdfSample<F> next =
-          sample<F>(at.bsdf.lanes(rough), at.wo, {numbers.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, own);
+      const BsdfSample<F> next = sampled(at, numbers.get1(dimension + U(path_dimension::lobe)), u, own, rough);
       const M sent = rough & next.valid & !follows(next);
       if (!any(sent)) continue;
       GatherRay<F> ray{path, U(0u), U(0u)};
@@ -323,14 +348,13 @@ class PhotonGathering {
     PathState<F>& path = ray.path;
     const auto numbers = gather_numbers(pass, path, path.output);
     const U dimension = dimension_of(path);
-    const NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays());
+    NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays());
     const M scatters = on & at.found & may_scatter(path);
-    const BsdfContext<F> context = exact(at);
+    at.context.densities = Densities::exact;
     const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
-    const BsdfSample<F> next = sample<F>(at.bsdf.lanes(scatters), at.wo,
-                                         {numbers.get1(dimension + U(path_dimension::lobe)), u.x, u.y}, context);
+    const BsdfSample<F> next = sampled(at, numbers.get1(dimension + U(path_dimension::lobe)), u, at.context, scatters);
     if (const M rough = scatters & !at.bsdf.is_delta; any(rough))
-      add_photons(path, *beyond_, at, context, rough, of_gather_rays());
+      add_photons(path, *beyond_, at, rough, of_gather_rays());
     const M moves = scatters & next.valid & follows(next);
     ray.followed = ray.followed + select(moves, U(1u), U(0u));
     return leave(path, at, next, moves, numbers, weight_of_gather_ray(ray), of_gather_rays());
@@ -340,8 +364,8 @@ class PhotonGathering {
   const Rays& rays_;
   const GatheringRules rules_;
   const LightWeights mis_;
-  PhotonLookup in_view_;
-  std::optional<PhotonLookup> beyond_;
+  PhotonLookups in_view_;
+  std::optional<PhotonLookups> beyond_;
   std::array<LayerTally, 2>* const tallies_;
   std::vector<GatherRay<float>> waiting_;
   std::vector<Gathered> results_;

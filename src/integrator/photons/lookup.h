@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "integrator/photons/photon_map.h"
@@ -25,6 +26,60 @@ MONTELUX_INLINE F kernel_weight(PhotonKernel kernel, F distance_squared, F radiu
   }
   return max(F(1.0f) - distance_squared * inverse, F(0.0f)) * (2 * inv_pi * inverse);
 }
+
+// The same per volume: it integrates to one over the ball.
+template <class F>
+MONTELUX_INLINE F ball_kernel_weight(PhotonKernel kernel, F distance_squared, F radius_squared) {
+  const F inverse = F(1.0f) / radius_squared, scale = inv_pi * inverse * sqrt(inverse);
+  switch (kernel) {
+    case PhotonKernel::constant:
+      return 0.75f * scale;
+    case PhotonKernel::cone:
+      return max(F(1.0f) - sqrt(distance_squared * inverse), F(0.0f)) * (3 * scale);
+    case PhotonKernel::epanechnikov:
+      break;
+  }
+  return max(F(1.0f) - distance_squared * inverse, F(0.0f)) * (1.875f * scale);
+}
+
+// A surface that gathers: photons around it arrive on a disk, and its BSDF scatters them.
+template <class F>
+struct GatheringSurface {
+  const NextVertex<F>& at;
+  const BsdfContext<F>& context;
+
+  void near(const PhotonMap& map, int k, NearPhotons& found) const {
+    map.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), found);
+  }
+  // Of the i-th photon of each lane, from the local wi.
+  BsdfValue<F> scattered(const Vec3<F>& wi, std::size_t i, Mask<F> on) const {
+    BsdfContext<F> own = context;
+    own.random = context.random.fork(Uint<F>(0x6a09e667u + std::uint32_t(i)));
+    return evaluate<F>(at.bsdf.lanes(on), at.wo, wi, own);
+  }
+  // Of the irradiance for each unit of flux. Flux per area is irradiance on the surface itself, f |cos| scatters it by
+  // the shading normal.
+  F density(PhotonKernel kernel, const F& distance_squared, const F& radius_squared, const Vec3<F>& wi) const {
+    const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
+    return kernel_weight<F>(kernel, distance_squared, radius_squared) / cos;
+  }
+};
+// An event in a medium that gathers: photons around it lie in a ball, and its phase function scatters them (Jensen and
+// Christensen 1998, "Efficient Simulation of Light Transport in Scenes with Participating Media using Photon Maps",
+// eq. 10).
+template <class F>
+struct GatheringEvent {
+  const Scene& scene;
+  const NextVertex<F>& at;
+
+  void near(const PhotonMap& map, int k, NearPhotons& found) const { map.near(lane(at.x.point.p, k), found); }
+  BsdfValue<F> scattered(const Vec3<F>& wi, std::size_t, Mask<F> on) const {
+    return evaluate_at<F, true>(scene, at, wi, on);
+  }
+  F density(PhotonKernel kernel, const F& distance_squared, const F& radius_squared, const Vec3<F>&) const {
+    return ball_kernel_weight<F>(kernel, distance_squared, radius_squared);
+  }
+};
 
 // A photon near a gathering point, in every lane.
 template <class F>
@@ -56,26 +111,30 @@ class PhotonLookup {
     return gather(light_of_path_, gather(map_.paths(), photon));
   }
 
-  // The radiance that photons send along wo. `share(FoundPhoton, on)` is the weight of a photon; 0: it does not count.
-  // `sink(FoundPhoton, on, radiance, weight)` receives what each of them contributes.
-  template <class F, class Share, class PhotonSink>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, Share share,
-                       PhotonSink sink) {
-    return any(on) ? scattered<F>(at, context, on, find<F>(at, on), share, sink) : gray(F(0.0f));
+  // The radiance that photons send along wo, at a GatheringSurface or a GatheringEvent. `share(FoundPhoton, on)` is the
+  // weight of a photon; 0: it does not count. `sink(FoundPhoton, on, radiance, weight)` receives what each of them
+  // contributes.
+  template <class F, class Place, class Share, class PhotonSink>
+  Spectrum<F> radiance(const Place& place, Mask<F> on, Share share, PhotonSink sink) {
+    return any(on) ? scattered<F>(place, on, find<F>(place, on), share, sink) : gray(F(0.0f));
   }
   // The same with the weight 1 or 0.
-  template <class F, class PhotonSink>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const PhotonRules<F>& rules,
-                       PhotonSink sink) {
+  template <class F, class Place, class PhotonSink>
+  Spectrum<F> radiance_by_rules(const Place& place, Mask<F> on, const PhotonRules<F>& rules, PhotonSink sink) {
     return radiance<F>(
-        at, context, on, [&](const FoundPhoton<F>& photon, Mask<F>) { return weight_of<F>(photon, rules); }, sink);
+        place, on, [&](const FoundPhoton<F>& photon, Mask<F>) { return weight_of<F>(photon, rules); }, sink);
   }
-  // The same without a sink. Diffuse surfaces scatter the sum of their photons at once.
+  // The same without a sink.
   template <class F>
-  Spectrum<F> radiance(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on,
-                       const PhotonRules<F>& rules) {
+  Spectrum<F> radiance_by_rules(const GatheringEvent<F>& place, Mask<F> on, const PhotonRules<F>& rules) {
+    return radiance_by_rules<F>(place, on, rules, NoSink{});
+  }
+  // Diffuse surfaces scatter the sum of their photons at once.
+  template <class F>
+  Spectrum<F> radiance_by_rules(const GatheringSurface<F>& place, Mask<F> on, const PhotonRules<F>& rules) {
     if (!any(on)) return gray(F(0.0f));
-    const F radius_squared = find<F>(at, on);
+    const auto& [at, context] = place;
+    const F radius_squared = find<F>(place, on);
     const Mask<F> diffuse = on & (at.bsdf.kind == Uint<F>(std::uint32_t(kind_of<Diffuse>)));
     Spectrum<F> sum = gray(F(0.0f));
     if (any(diffuse)) {
@@ -93,7 +152,7 @@ class PhotonLookup {
     }
     if (const Mask<F> others = on & !diffuse; any(others))
       sum += scattered<F>(
-          at, context, others, radius_squared,
+          place, others, radius_squared,
           [&](const FoundPhoton<F>& photon, Mask<F>) { return weight_of<F>(photon, rules); }, NoSink{});
     return sum;
   }
@@ -110,18 +169,18 @@ class PhotonLookup {
   };
 
   // Finds the photons of every lane; gives the squares of the radii within which they lie.
-  template <class F>
-  F find(const NextVertex<F>& at, Mask<F> on) {
+  template <class F, class Place>
+  F find(const Place& place, Mask<F> on) {
     F radius_squared(map_.radius() * map_.radius());
     for_each_lane(on, [&](int k) {
       NearPhotons& own = near_[std::size_t(k)];
-      map_.near(lane(at.x.point.p, k), lane(at.x.point.ng, k), own);
+      place.near(map_, k, own);
       if (nearest_ > 0 && own.count > nearest_) set_lane(radius_squared, k, keep_nearest(own));
     });
     return radius_squared;
   }
   // Keeps the nearest photons; gives the squared distance of the next one, which does not count: where photons are
-  // uniform, the mean of (photons that are kept) / (area) is then their density.
+  // uniform, the mean of (photons that are kept) / (area or volume) is then their density.
   float keep_nearest(NearPhotons& found) {
     // Buckets of equal area leave few to sort.
     constexpr std::size_t buckets = 64;
@@ -175,9 +234,8 @@ class PhotonLookup {
   }
 
   // What photons send along wo, one photon of each lane at a time.
-  template <class F, class Share, class PhotonSink>
-  Spectrum<F> scattered(const NextVertex<F>& at, const BsdfContext<F>& context, Mask<F> on, const F& radius_squared,
-                        Share share, PhotonSink sink) const {
+  template <class F, class Place, class Share, class PhotonSink>
+  Spectrum<F> scattered(const Place& place, Mask<F> on, const F& radius_squared, Share share, PhotonSink sink) const {
     using U = Uint<F>;
     std::size_t max_found = 0;
     for_each_lane(on, [&](int k) { max_found = std::max(max_found, near_[std::size_t(k)].count); });
@@ -197,16 +255,12 @@ class PhotonLookup {
       const U word = photon * U(photon_words);
       const Vec3<F> wi = gather3<F>(words, word);
       const U events = float_bits(gather(words + 3 + spectrum_size, word));
-      BsdfContext<F> own = context;
-      own.random = context.random.fork(U(0x6a09e667u + std::uint32_t(i)));
-      const Vec3<F> local = at.bsdf.frame.to_local(wi);
-      const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(similar), at.wo, local, own);
+      const Vec3<F> local = place.at.bsdf.frame.to_local(wi);
+      const BsdfValue<F> value = place.scattered(local, i, similar);
       const FoundPhoton<F> found{photon, events, local, value.density};
       const F counted = select(similar, share(found, similar), F(0.0f));
       const Mask<F> counts = counted > F(0.0f);
-      // Flux per area is irradiance on the surface itself, f |cos| scatters it by the shading normal.
-      const F cos = max(abs(dot(at.x.point.ng, wi)), F(1e-6f));
-      const F weight = kernel_weight<F>(kernel_, distance_squared, radius_squared) / cos * counted;
+      const F weight = place.density(kernel_, distance_squared, radius_squared, wi) * counted;
       Spectrum<F> flux;
       for (int c = 0; c < spectrum_size; ++c) flux.c[c] = gather(words + 3 + c, word);
       const Spectrum<F> radiance = select(counts, value.f_cos * flux * weight, gray(F(0.0f)));
@@ -222,6 +276,12 @@ class PhotonLookup {
   const std::uint32_t* light_of_path_;
   std::array<NearPhotons, native_lanes> near_;
   std::vector<float> within_;
+};
+
+// Those of a frame's maps.
+struct PhotonLookups {
+  PhotonLookup surfaces;
+  std::optional<PhotonLookup> media = {};  // of events in media; none: there are no media
 };
 
 }  // namespace montelux

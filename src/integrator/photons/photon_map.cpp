@@ -93,7 +93,8 @@ void NearPhotons::reserve_more(std::size_t more) {
   photon.resize(2 * needed), distance_squared.resize(2 * needed);
 }
 
-void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
+template <class Similar>
+void PhotonMap::find_near(const Vec3f& p, NearPhotons& found, Similar similar) const {
   using F = NativeFloats;
   found.count = 0;
   const auto cells_along = [&](float x) {
@@ -106,7 +107,7 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
   // Cells that share an entry of the table are looked through once.
   std::array<std::uint32_t, 8> seen;
   std::size_t cells = 0;
-  const float radius_squared = radius_ * radius_, height = similar_height * radius_;
+  const float radius_squared = radius_ * radius_;
   for (std::int64_t z = z0; z <= z1; ++z)
     for (std::int64_t y = y0; y <= y1; ++y)
       for (std::int64_t x = x0; x <= x1; ++x) {
@@ -118,14 +119,26 @@ void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
         for (std::uint32_t i = starts_[cell]; i < end; i += native_lanes) {
           const F dx = load(x_, i) - p.x, dy = load(y_, i) - p.y, dz = load(z_, i) - p.z;
           const F d2 = dx * dx + dy * dy + dz * dz;
-          const F cosine = load(nx_, i) * n.x + load(ny_, i) * n.y + load(nz_, i) * n.z;
-          const Mask<F> near = (d2 < F(radius_squared)) & (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) &
-                               (abs(cosine) > F(similar_normals)) & (lane_index<F>() < Uint<F>(end - i));
+          const Mask<F> near = (d2 < F(radius_squared)) & similar(i, dx, dy, dz) & (lane_index<F>() < Uint<F>(end - i));
           write_lanes(near, Uint<F>(lane_index<F>() + Uint<F>(i)), found.photon.data() + found.count);
           write_lanes(near, d2, found.distance_squared.data() + found.count);
           found.count += std::size_t(montelux::count(near));
         }
       }
+}
+
+void PhotonMap::near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const {
+  using F = NativeFloats;
+  const float height = similar_height * radius_;
+  find_near(p, found, [&](std::uint32_t i, const F& dx, const F& dy, const F& dz) {
+    const F cosine = load(nx_, i) * n.x + load(ny_, i) * n.y + load(nz_, i) * n.z;
+    return (abs(dx * n.x + dy * n.y + dz * n.z) <= F(height)) & (abs(cosine) > F(similar_normals));
+  });
+}
+
+void PhotonMap::near(const Vec3f& p, NearPhotons& found) const {
+  using F = NativeFloats;
+  find_near(p, found, [](std::uint32_t, const F&, const F&, const F&) { return Mask<F>(true); });
 }
 
 }  // namespace montelux

@@ -16,11 +16,12 @@ struct PhotonWeights {
   float vcm = 0, vm = 0;
 };
 
-// Flux that arrives at a rough surface.
+// Flux that arrives at a rough surface; or the flux that an event in a medium scatters over the medium's scattering
+// coefficient, whose density per volume is the radiance that arrives, over all directions.
 struct Photon {
   Vec3f p;
   Vec3f wi;  // unit, to where it came from
-  Vec3f ng;  // unit geometric normal of the surface
+  Vec3f ng;  // unit geometric normal of the surface; zero in a medium
   Spectrum<float> flux;
   std::uint32_t events;  // that have scattered it
   std::uint32_t path;    // its number: a path leaves one photon for each number of events
@@ -104,8 +105,13 @@ class PhotonMap {
   // Finds the photons within the radius of p that lie near the plane across n, on surfaces with similar normals, in a
   // fixed order.
   void near(const Vec3f& p, const Vec3f& n, NearPhotons& found) const;
+  // Finds all photons within the radius of p, likewise.
+  void near(const Vec3f& p, NearPhotons& found) const;
 
  private:
+  // similar(first, dx, dy, dz): the lanes, from that photon on, whose photons count; the last are p's way to them.
+  template <class Similar>
+  void find_near(const Vec3f& p, NearPhotons& found, Similar similar) const;
   struct Dealt {
     std::uint64_t key;
     const Photon* photon;

@@ -3,14 +3,15 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/photons/lights.h"
 #include "integrator/photons/settings.h"
 #include "scene/scene.h"
 
 namespace montelux {
 
-// The radius that holds about 64 photons of the global map, or settings.nearest, where light is neither bright nor dim;
-// by a pilot of light paths.
-float radius_by_photons(const Scene& scene, const Accel& accel, const PhotonMapSettings& settings, int pixels);
+// The light paths of the global map: where it is looked up beyond the surfaces in view, direct light is among its
+// photons.
+PhotonPaths global_paths(const PhotonMapSettings& settings, int pixels);
 
 // A series traces maps of its own in its first frame, and gathers in all of them; where surfaces move each frame has
 // its own maps.
@@ -29,7 +30,7 @@ class PhotonMapIntegrator final : public CoupledIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   const PhotonMapSettings settings_;
-  std::optional<AliasTable> by_power_;  // none: there is no light
+  PhotonLights lights_;
 };
 
 }  // namespace montelux

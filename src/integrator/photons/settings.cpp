@@ -9,6 +9,8 @@ Fields<SppmSettings> sppm_fields() {
   Fields<S> fields;
   fields.integer("photons", &S::photons, "light paths in each frame; 0: one per pixel, at least 16384", 0, 1 << 28)
       .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
+      .number("medium-radius", &S::medium_radius,
+              "the same in participating media, where photons are gathered in balls; 0: holds some 8 photons", 0, 1e30)
       .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
               1)
       .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance", photon_kernel_names())
@@ -39,6 +41,8 @@ Fields<PhotonMapSettings> photonmap_fields() {
               "64 photons, or the nearest ones",
               0, 1e30)
       .number("caustic-radius", &S::caustic_radius, "the same by the map of caustics; 0: three pixels wide", 0, 1e30)
+      .number("medium-radius", &S::medium_radius,
+              "the same in participating media, by both maps; 0: one that holds as many photons as radius", 0, 1e30)
       .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance", photon_kernel_names())
       .integer("gather-rays", &S::gather_rays,
                "rays from each surface in view to the surfaces where the global map is looked up; 0: it is looked up "

@@ -21,9 +21,10 @@ struct GatheringRules {
 };
 
 struct SppmSettings {
-  int photons = 0;         // light paths in each frame; 0: one for each pixel, and at least min_photons
-  float radius = 0;        // of the first frame; 0: by the pixels' footprints
-  float alpha = 2.0f / 3;  // how much of the photons stays as the radius shrinks
+  int photons = 0;          // light paths in each frame; 0: one for each pixel, and at least min_photons
+  float radius = 0;         // of the first frame; 0: by the pixels' footprints
+  float medium_radius = 0;  // the same in participating media; 0: by a pilot
+  float alpha = 2.0f / 3;   // how much of the photons stays as the radius shrinks
   PhotonKernel kernel = PhotonKernel::epanechnikov;
   bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too
   float glossy = 4;              // density per steradian above which a direction is followed instead
@@ -41,6 +42,7 @@ struct PhotonMapSettings {
   int nearest = 0;           // photons of an estimate, at most; 0: all within the radius
   float radius = 0;          // of the global map, at most; 0: by a pilot
   float caustic_radius = 0;  // of the map of caustics, at most; 0: by the pixels' footprints
+  float medium_radius = 0;   // of both maps' photons in participating media, at most; 0: by a pilot
   PhotonKernel kernel = PhotonKernel::epanechnikov;
   int gather_rays = 4;           // of each surface in view; 0: the global map is looked up there
   bool nee = true;               // direct light by points of lights and the BSDF; else by photons, too

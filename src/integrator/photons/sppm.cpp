@@ -10,19 +10,18 @@ namespace montelux {
 
 namespace {
 
-template <class F>
+// `in_media`: the scene has participating media.
+template <class F, bool in_media>
 class SppmSeries final : public FrameSeries {
  public:
   // What is referred to must outlive the series.
-  SppmSeries(const Scene& scene, const Accel& accel, const SppmSettings& settings,
-             const std::optional<AliasTable>& by_power, const SeriesPass& pass)
+  SppmSeries(const Scene& scene, const Accel& accel, const SppmSettings& settings, const PhotonLights& lights,
+             const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
         pass_(pass),
-        photons_(scene, accel, by_power, pass,
-                 {light_paths(settings.photons, pass.bounds.area()), settings.nee ? 1u : 0u, settings.max_depth,
-                  settings.roulette_depth}) {}
+        photons_(scene, accel, lights, pass, sppm_paths(settings, pass.bounds.area())) {}
 
   std::optional<std::size_t> units(const SeriesStep& step) const override {
     return step.stage < Photons::stages ? std::optional(photons_.units(step.stage)) : std::nullopt;
@@ -38,9 +37,8 @@ class SppmSeries final : public FrameSeries {
     const PhotonSet set = set_of(step.frame);
     GatheringTallies tallies(pass_.layers, sums);
     const RayCounts counts =
-        PhotonGathering<F, Accel>(scene_, accel_, settings_.gathering(),
-                                  PhotonLookup(photons_.map(), settings_.kernel, 0, photons_.light_of_path()), {},
-                                  tallies.get())
+        PhotonGathering<F, Accel, in_media>(scene_, accel_, settings_.gathering(), photons_.lookups(settings_.kernel),
+                                            {}, tallies.get())
             .run({tile, pass_.points, pass_.shutter, std::uint32_t(step.frame), set.shutter_sample, pass_.grid}, out);
     const bool is_first = tile.x0 == pass_.bounds.x0 && tile.y0 == pass_.bounds.y0;
     if (is_first && photons_.take_broken()) show_broken(out, sums);
@@ -50,10 +48,11 @@ class SppmSeries final : public FrameSeries {
  private:
   PhotonSet set_of(int frame) const {
     return {frame, float(sppm_radius(settings_.radius, settings_.alpha, frame)),
+            float(sppm_radius(settings_.medium_radius, settings_.alpha, frame, 3)),
             shared_shutter_sample(scene_, pass_, frame)};
   }
 
-  using Photons = PhotonFilling<F, Accel>;
+  using Photons = PhotonFilling<F, Accel, in_media>;
   const Scene& scene_;
   const Accel& accel_;
   const SppmSettings& settings_;
@@ -63,10 +62,14 @@ class SppmSeries final : public FrameSeries {
 
 }  // namespace
 
-double sppm_radius(double radius, double alpha, int frame) {
-  double squared = radius * radius;
-  for (int i = 1; i <= frame; ++i) squared *= (i + alpha) / (i + 1);
-  return std::sqrt(squared);
+PhotonPaths sppm_paths(const SppmSettings& settings, int pixels) {
+  return {light_paths(settings.photons, pixels), settings.nee ? 1u : 0u, settings.max_depth, settings.roulette_depth};
+}
+
+double sppm_radius(double radius, double alpha, int frame, int dimensions) {
+  double content = dimensions == 3 ? radius * radius * radius : radius * radius;
+  for (int i = 1; i <= frame; ++i) content *= (i + alpha) / (i + 1);
+  return dimensions == 3 ? std::cbrt(content) : std::sqrt(content);
 }
 
 float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int height) {
@@ -112,14 +115,16 @@ float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int
 }
 
 SppmIntegrator::SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings)
-    : scene_(scene), accel_(accel), settings_(settings) {
-  if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
-}
+    : scene_(scene), accel_(accel), settings_(settings), lights_(photon_lights(scene, accel)) {}
 
 std::unique_ptr<FrameSeries> SppmIntegrator::begin(const SeriesPass& pass) const {
-  if (settings_.lanes == Lanes::one)
-    return std::make_unique<SppmSeries<float>>(scene_, accel_, settings_, by_power_, pass);
-  return std::make_unique<SppmSeries<NativeFloats>>(scene_, accel_, settings_, by_power_, pass);
+  const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
+    return std::make_unique<SppmSeries<F, in_media>>(scene_, accel_, settings_, lights_, pass);
+  };
+  const bool one = settings_.lanes == Lanes::one;
+  if (!scene_.media.empty())
+    return one ? make.template operator()<float, true>() : make.template operator()<NativeFloats, true>();
+  return one ? make.template operator()<float, false>() : make.template operator()<NativeFloats, false>();
 }
 
 }  // namespace montelux

@@ -4,14 +4,19 @@
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/photons/lights.h"
 #include "integrator/photons/settings.h"
 #include "scene/scene.h"
 
 namespace montelux {
 
-// The radius of a frame: r_1 = radius, r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1). For alpha between 0 and 1 the mean over
-// n frames loses both its bias, as n^(alpha - 1), and its variance, as n^-alpha.
-double sppm_radius(double radius, double alpha, int frame);
+// The light paths of a frame.
+PhotonPaths sppm_paths(const SppmSettings& settings, int pixels);
+
+// The radius of a frame: r_1 = radius, r_{i+1}^d = r_i^d (i + alpha) / (i + 1), where d = 2 for the disks of surfaces
+// and 3 for the balls of media (Knaus and Zwicker 2011, sec. 4). For alpha between 0 and 1 the mean over n frames loses
+// both its bias, as n^(2 (alpha - 1) / d), and its variance, as n^-alpha.
+double sppm_radius(double radius, double alpha, int frame, int dimensions = 2);
 
 // Three pixels, where the middle one of some camera rays meets its first rough surface; at most a hundredth of the
 // scene's diagonal.
@@ -33,7 +38,7 @@ class SppmIntegrator final : public CoupledIntegrator {
   const Scene& scene_;
   const Accel& accel_;
   SppmSettings settings_;
-  std::optional<AliasTable> by_power_;  // none: there is no light
+  PhotonLights lights_;
 };
 
 }  // namespace montelux

@@ -181,8 +181,9 @@ LightSource "point" "rgb I" )" +
   for (std::size_t c = 0; c < 3; ++c)
     truth[c] = mean_single_scattering(m, c, intensity[c], tangent),
     faulty[c] = mean_single_scattering(other, c, intensity[c], tangent);
-  for (const auto& [way, samples] : {std::pair("path", 8192), std::pair("light", 16384), std::pair("bdpt", 4096),
-                                     std::pair("vcm:radius=0.01,photons=1024", 128)})
+  for (const auto& [way, samples] :
+       {std::pair("path", 8192), std::pair("light", 16384), std::pair("bdpt", 4096),
+        std::pair("vcm:radius=0.01,photons=1024", 128), std::pair("sppm:photons=16", 1024)})
     expect_means(
         scene, way, samples, [&](std::size_t c) { return truth[c]; }, [&](std::size_t c) { return faulty[c]; });
 }
@@ -237,8 +238,8 @@ Shape "disk" "float radius" 50
 
 TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
   const TestScene scene(slab_scene({{1, 1, 1}, {0, 0, 0}}, 1, 3));
-  for (const char* way : {"direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt", "sppm",
-                          "photonmap", "vcm:connect=off", "irradiance-cache", "ao"})
+  for (const char* way : {"direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt",
+                          "vcm:connect=off", "irradiance-cache", "ao"})
     try {
       (void)scene.integrator(way);
       ADD_FAILURE() << way;

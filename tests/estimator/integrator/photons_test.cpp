@@ -60,7 +60,8 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
     map.put_in_order(0, 1);
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
-    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(), PhotonLookup(map, settings.kernel))
+    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(),
+                              PhotonLookups{PhotonLookup(map, settings.kernel)})
         .run({s.image.bounds, points}, samples);
     std::vector<PixelPass> pixels(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) pixels[i].add(samples[i]);
@@ -84,24 +85,22 @@ PassMeans gathered_by_hand(const TestScene& scene, int passes, std::uint32_t see
   constexpr std::uint32_t paths = 16384;
   constexpr float radius = 0.02f;
   const PhotonMapSettings settings;
-  const std::optional<AliasTable> by_power = scene.scene().lights.by_power();
+  const PhotonLights lights = photon_lights(scene.scene(), scene.accel());
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
   const std::optional<float> glossy = fault.all_in_view ? std::nullopt : std::optional(fault.glossy_of_caustics);
   PassMeans means;
   for (int number = 0; number < passes; ++number) {
     const SeriesPass pass{s.image.bounds, s.image.points(number, 1)};
-    Filling global(scene.scene(), scene.accel(), by_power, pass, {paths, fault.no_direct_beyond ? 1u : 0u, {}, 2, {}});
-    Filling caustics(scene.scene(), scene.accel(), by_power, pass,
-                     {paths, fault.direct_twice ? 0u : 1u, {}, 2, glossy});
+    Filling global(scene.scene(), scene.accel(), lights, pass, {paths, fault.no_direct_beyond ? 1u : 0u, {}, 2, {}});
+    Filling caustics(scene.scene(), scene.accel(), lights, pass, {paths, fault.direct_twice ? 0u : 1u, {}, 2, glossy});
     for (int stage = 0; stage < Filling::stages; ++stage) {
-      for (std::size_t i = 0; i < global.units(stage); ++i) global.run_unit({0, radius, {}}, stage, i);
-      for (std::size_t i = 0; i < caustics.units(stage); ++i) caustics.run_unit({1, radius, {}}, stage, i);
+      for (std::size_t i = 0; i < global.units(stage); ++i) global.run_unit({0, radius, 0, {}}, stage, i);
+      for (std::size_t i = 0; i < caustics.units(stage); ++i) caustics.run_unit({1, radius, 0, {}}, stage, i);
     }
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
-    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(),
-                              PhotonLookup(caustics.map(), settings.kernel),
-                              PhotonLookup(global.map(), settings.kernel))
+    PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(), caustics.lookups(settings.kernel),
+                              global.lookups(settings.kernel))
         .run({s.image.bounds, pass.points}, samples);
     std::vector<PixelPass> pixels(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) pixels[i].add(samples[i]);

@@ -97,6 +97,30 @@ TEST(PhotonMap, has_its_photons_in_the_same_order_whoever_stored_them) {
   }
 }
 
+// In a medium there is no plane that photons lie near.
+TEST(PhotonMap, finds_every_photon_of_a_ball_once) {
+  std::vector<Photon> photons = some_photons(6000);
+  for (Photon& photon : photons) photon.ng = {0, 0, 0}, photon.p.y = photon.p.z;
+  for (const float radius : {0.04f, 0.3f}) {
+    PhotonMap map(20000, 8);
+    fill(map, photons, radius, 7, 2);
+    std::size_t all = 0;
+    for (const float along : {0.2f, 0.5f, 0.8f}) {
+      const Vec3f p{along, 0.5f, 0.4f};
+      NearPhotons near;
+      map.near(p, near);
+      std::vector<float> found, truth;
+      for (std::size_t i = 0; i < near.count; ++i) found.push_back(map.photons()[near.photon[i]].flux.c[0]);
+      for (const Photon& photon : photons)
+        if (length(photon.p - p) < radius) truth.push_back(photon.flux.c[0]);
+      std::ranges::sort(found), std::ranges::sort(truth);
+      EXPECT_EQ(found, truth) << radius;
+      all += truth.size();
+    }
+    EXPECT_GT(all, 3u);
+  }
+}
+
 // On two sides of zero, far from it, and exactly on a radius's multiple.
 TEST(PhotonMap, finds_photons_wherever_the_scene_lies) {
   for (const float at : {0.0f, -1000.0f, 1e6f, 0.5f}) {
@@ -124,6 +148,20 @@ TEST(PhotonKernels, integrate_to_one_over_the_disk) {
     }
 }
 
+TEST(PhotonKernels, integrate_to_one_over_the_ball) {
+  constexpr int shells = 4096;
+  for (const PhotonKernel kernel : {PhotonKernel::constant, PhotonKernel::epanechnikov, PhotonKernel::cone})
+    for (const float radius : {0.01f, 3.0f}) {
+      double sum = 0;
+      for (int i = 0; i < shells; ++i) {
+        const double rho = (i + 0.5) / shells * radius;
+        sum += 4 * double(pi) * rho * rho * (radius / shells) *
+               ball_kernel_weight<float>(kernel, float(rho * rho), radius * radius);
+      }
+      EXPECT_NEAR(sum, 1, 1e-5);
+    }
+}
+
 // r_n^2 = r_1^2 Gamma(n + alpha - 1 + 1) / (Gamma(1 + alpha) Gamma(n + 1)), the product in closed form.
 TEST(PhotonRadius, follows_the_sequence_of_Knaus_and_Zwicker) {
   for (const double alpha : {0.3, 2.0 / 3, 1.0})
@@ -131,6 +169,7 @@ TEST(PhotonRadius, follows_the_sequence_of_Knaus_and_Zwicker) {
       const double n = frame + 1;
       const double squared = std::exp(std::lgamma(n + alpha) - std::lgamma(1 + alpha) - std::lgamma(n + 1));
       EXPECT_NEAR(sppm_radius(0.5, alpha, frame), 0.5 * std::sqrt(squared), 1e-10) << alpha << " " << frame;
+      EXPECT_NEAR(sppm_radius(0.5, alpha, frame, 3), 0.5 * std::cbrt(squared), 1e-10) << alpha << " " << frame;
     }
   EXPECT_NEAR(sppm_radius(1, 0.5, 1), std::sqrt(1.5 / 2), 1e-12);
 }

@@ -44,6 +44,16 @@ std::string diffuse_room() {
   return text;
 }
 
+// With fog within the room, which the camera looks into.
+std::string foggy_room() {
+  std::string text = room;
+  text.insert(text.find("WorldBegin"),
+              "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ .4 .3 .2 ]\n");
+  return text +
+         "Material \"interface\"\nMediumInterface \"fog\" \"\"\nTranslate 0 0 -0.1\nShape \"sphere\" \"float radius\" "
+         "0.8\n";
+}
+
 // Values to try beside the default; the first that changes the picture is enough.
 std::vector<std::string> values_of(const ParameterSpec& row) {
   const std::string name(row.name);
@@ -81,6 +91,7 @@ std::string companions(std::string_view integrator, std::string_view setting) {
   if (setting == "mis" && integrator == "direct") return "strategy=mis";
   if (setting == "caustic-radius" || setting == "caustic-photons") return "gather-rays=2";
   if (setting == "alpha") return "frames=8";
+  if (setting == "medium-radius") return "photons=20000";  // of the foggy room
   if (setting == "guiding-paths") return "guiding=on";
   return "";
 }
@@ -100,13 +111,14 @@ std::vector<double> picture(const TestScene& scene, const std::string& way) {
 }
 
 TEST(IntegratorSettings, change_the_picture) {
-  const TestScene glossy{std::string_view(room)}, diffuse{std::string_view(diffuse_room())};
+  const TestScene glossy{std::string_view(room)}, diffuse{std::string_view(diffuse_room())},
+      foggy{std::string_view(foggy_room())};
   int tested = 0;
   for (const EntitySpec& spec : integrator_catalogue()) {
-    const TestScene& scene = spec.name == "radiosity" ? diffuse : glossy;
     std::map<std::string, std::vector<double>> before;  // by what is stated beside the setting
     for (const ParameterSpec& row : spec.parameters) {
       if (without_effect.contains(row.name)) continue;
+      const TestScene& scene = spec.name == "radiosity" ? diffuse : row.name == "medium-radius" ? foggy : glossy;
       const std::string beside = companions(spec.name, row.name);
       const std::string way = std::string(spec.name) + (beside.empty() ? "" : ":" + beside);
       if (!before.contains(beside)) before[beside] = picture(scene, way);
