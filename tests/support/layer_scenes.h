@@ -120,6 +120,25 @@ inline Film film_of(const TestScene& scene, const std::string& way, const LayerP
   return render(chosen.any(), settings, silent).film;
 }
 
+// Samples that do not count are in no layer, and at least `some` pixels have no others.
+inline void expect_uncounted_in_no_layer(const TestScene& scene, const std::string& way, const LayerPlan& plan,
+                                         PassPlan passes, int some) {
+  const Film film = film_of(scene, way, plan, passes);
+  EXPECT_TRUE(families_sum_to_all(film, plan)) << way;
+  const auto samples = std::uint64_t(passes.samples());
+  int without = 0;
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const PixelEstimate pixel = film.pixel(x, y);
+      for (int c = 0; c < rgb_size; ++c) EXPECT_TRUE(std::isfinite(pixel.mean[c])) << way;
+      if (pixel.non_finite < samples) continue;
+      ++without;
+      EXPECT_EQ(film.layers()->all_light(x, y), ExactRgb{}) << way;
+    }
+  EXPECT_GE(without, some) << way;
+}
+
 // The image means of a layer in each pass, by channel. Pixels of a pass share paths from the lights, passes share
 // nothing.
 using LayerMeans = std::array<std::vector<double>, rgb_size>;

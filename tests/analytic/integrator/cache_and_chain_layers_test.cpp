@@ -34,22 +34,8 @@ TEST(CacheAndChainLayers, sum_to_the_image_bit_for_bit_for_any_number_of_threads
 // Light that exact sums cannot hold makes samples that do not count: they are in no layer.
 TEST(CacheAndChainLayers, leave_out_samples_that_do_not_count) {
   const TestScene scene(replaced(three_lights, "[ 5 5 4 ]", "[ 1e20 1e20 1e20 ]"));
-  for (const std::string way : {"irradiance-cache:samples=64", "metropolis", "metropolis:strategies=bdpt"}) {
-    const LayerPlan plan = plan_of(scene.scene(), way, 2);
-    const Film film = film_of(scene, way, plan, {3, 2});
-    EXPECT_TRUE(families_sum_to_all(film, plan)) << way;
-    int without = 0;
-    const PixelBounds& b = film.bounds();
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x) {
-        const PixelEstimate pixel = film.pixel(x, y);
-        for (int c = 0; c < rgb_size; ++c) EXPECT_TRUE(std::isfinite(pixel.mean[c])) << way;
-        if (pixel.non_finite < 6) continue;
-        ++without;
-        EXPECT_EQ(film.layers()->all_light(x, y), ExactRgb{}) << way;
-      }
-    EXPECT_GT(without, 4) << way;
-  }
+  for (const std::string way : {"irradiance-cache:samples=64", "metropolis", "metropolis:strategies=bdpt"})
+    expect_uncounted_in_no_layer(scene, way, plan_of(scene.scene(), way, 2), {3, 2}, 5);
 }
 
 double t_test_p_value(const SampleSummary& m, double truth) {
