@@ -125,7 +125,7 @@ Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
 WorldBegin
 LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 0 0 ]
 )");
-  const Mean m = measure(scene, "sppm:alpha=1,nee=off,photons=32768,medium-radius=0.05", 64, 11);
+  const Mean m = measure(scene, "sppm:alpha=1,nee=off,photons=16384,medium-radius=0.05", 64, 11);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto p = [&](double truth) { return p_value(m.mean[c], m.standard_error[c], truth); };
     EXPECT_GE(p(seen(c, 0.5, 1)), own_level())
