@@ -77,14 +77,69 @@ std::string point_lamps() {
           ball("\"diffuse\" \"rgb reflectance\" [ 0.3 0.5 0.8 ]", 0.4, 0.4));
 }
 
+// Two rooms and a door between them that stands ajar: the lamp is in the other one.
+std::string door_ajar() {
+  return box_with(lamp("9 8 6", quad("-0.8 1.98 0.3  -0.1 1.98 0.3  -0.8 1.98 0.9  -0.1 1.98 0.9")),
+                  "Material \"diffuse\" \"rgb reflectance\" [ 0.6 0.6 0.7 ]\n" +
+                      quad("-1 0 0.1  0.2 0 0.1  -1 2 0.1  0.2 2 0.1") +
+                      quad("0.2 0 0.1  0.75 0 -0.2  0.2 1.7 0.1  0.75 1.7 -0.2"));
+}
+// A lamp within a ball of glass.
+std::string glass_shade() {
+  const std::string there = "Translate 0.1 1.3 0.3\nShape \"sphere\" \"float radius\" ";
+  return box_with(lamp("9 8 6", there + "0.15\n"),
+                  "AttributeBegin\nMaterial \"dielectric\"\n" + there + "0.3\nAttributeEnd\n" +
+                      ball("\"diffuse\" \"rgb reflectance\" [ 0.3 0.5 0.8 ]", -0.4, 0.4));
+}
+// A lamp on a shelf that shines at glossy metal alone, over a floor with a glossy coat.
+std::string glossy() {
+  return box_with(lamp("9 8 6", quad("-0.3 0.9 0.5  -0.3 0.9 0.9  0.3 0.9 0.5  0.3 0.9 0.9")),
+                  "Material \"conductor\" \"float roughness\" 0.3\n" +
+                      quad("-0.8 1.9 0.1  0.8 1.9 0.1  -0.8 1.4 0.95  0.8 1.4 0.95") +
+                      "Material \"coateddiffuse\" \"rgb reflectance\" [ 0.4 0.2 0.1 ] \"float roughness\" 0.3\n" +
+                      quad("-0.9 0.02 -0.9  0.9 0.02 -0.9  -0.9 0.02 0.9  0.9 0.02 0.9") +
+                      "Material \"diffuse\" \"rgb reflectance\" [ 0.6 0.6 0.7 ]\n" +
+                      quad("-0.35 0.88 0.45  0.35 0.88 0.45  -0.35 0.88 0.95  0.35 0.88 0.95") +
+                      quad("-0.35 0.88 0.45  0.35 0.88 0.45  -0.35 1.05 0.45  0.35 1.05 0.45"));
+}
+// Small lamps of many colours, and some without a size.
+std::string many_lamps() {
+  std::ostringstream lamps;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double x0 = -0.9 + 0.22 * i, y0 = 0.1 + 0.3 * j, x1 = x0 + 0.06, y1 = y0 + 0.06;
+      std::ostringstream light, corners;
+      light << 1 + (i * 7 + j * 3) % 5 << " " << 1 + (i * 2 + j * 5) % 4 << " " << 1 + (i * 3 + j * 2) % 6;
+      for (const auto& [x, y] : {std::pair(x1, y0), std::pair(x0, y0), std::pair(x1, y1), std::pair(x0, y1)})
+        corners << x << " " << y << " 0.9  ";
+      lamps << lamp(light.str(), quad(corners.str()));
+    }
+  for (int i = 0; i < 6; ++i)
+    lamps << "LightSource \"point\" \"rgb I\" [ " << 0.02 + 0.02 * (i % 3) << " 0.03 " << 0.02 + 0.02 * (i % 2)
+          << " ] \"point3 from\" [ " << -0.7 + 0.28 * i << " 1.8 " << -0.5 + 0.2 * i << " ]\n";
+  return box_with(lamps.str(), ball("\"diffuse\" \"rgb reflectance\" [ 0.3 0.5 0.8 ]", -0.4, 0));
+}
+// The fog of foggy_room(), without its spot light, and with metal that is rough: `path` finds all light.
+std::string fog() {
+  std::string text = foggy_room();
+  const std::size_t spot = text.find("LightSource \"spot\""), metal = text.find("\"float roughness\" 0");
+  text.erase(spot, text.find('\n', spot) + 1 - spot);
+  return text.replace(metal, 19, "\"float roughness\" 0.3");
+}
+
 const std::vector<HardScene>& hard_scenes() {
-  const std::string merging = "vcm:radius=0.01,alpha=1";
+  const std::string merging = "vcm:radius=0.01,alpha=1", few = merging + ",photons=2048";
   static const std::vector<HardScene> scenes{
       {"glass_and_metal",
        box(ball("\"dielectric\"", -0.5, 0.1) + ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5)),
        {{"bdpt"}, {"path", 64}, {merging}}},
       {"pool", pool(), {{"path", 64}, {"bdpt"}, {merging}}},
-      {"point_lamps", point_lamps(), {{"bdpt"}, {"path:manifold=1"}, {merging}}}};
+      {"point_lamps", point_lamps(), {{"bdpt"}, {"path:manifold=1"}, {merging}}},
+      {"door_ajar", door_ajar(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}}},
+      {"glass_shade", glass_shade(), {{"bdpt"}, {"path", 64}, {few}}},
+      {"glossy", glossy(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}},
+      {"many_lamps", many_lamps(), {{"path", 64}, {"light", 64}, {"bdpt"}, {few}}},
+      {"fog", fog(), {{"bdpt"}, {"path", 64}, {few}, {"metropolis", 64}}}};
   return scenes;
 }
 double level_of_a_pair() {
