@@ -26,7 +26,7 @@ constexpr int choice_reach = 3;   // pixels over which estimated errors are aver
 constexpr int error_reach = 10;   // and to be stated: the estimate at one pixel has the noise of the unfiltered image
 constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
 // The candidates: the filters, the means of the first of them and the image, the image.
-constexpr std::size_t halved = 2, unfiltered = filter_count + halved, candidates = unfiltered + 1;
+constexpr std::size_t halved = 2;
 
 float relative_scale(float brightness) { return 1 / (brightness * brightness + 0.01f); }
 
@@ -39,7 +39,11 @@ float mean_of_channels(const ColorPlanes& planes, std::size_t i) {
 class Denoiser {
  public:
   Denoiser(const NoisyImage& image, const DenoiseSettings& settings)
-      : image_(image), filtered_(filter_halves(image, settings)), relative_(image.pixels()) {}
+      : image_(image),
+        filtered_(filter_halves(image, settings)),
+        filters_(filtered_[0].size()),
+        unfiltered_(filters_ + halved),
+        relative_(image.pixels()) {}
 
   DenoisedImage run() {
     find_scale();
@@ -58,11 +62,11 @@ class Denoiser {
     return {double(a.color[c][i]), double(b.color[c][i]), double(a.share[i]), double(image_.variance[c][i])};
   }
   Filtered candidate(std::size_t k, std::size_t c, std::size_t i) const {
-    if (k == unfiltered) {
+    if (k == unfiltered_) {
       const Noisy n = noisy(c, i);
       return {n.first, n.second, 1, 1};
     }
-    if (k >= filter_count) return mean(candidate(k - filter_count, c, i), candidate(unfiltered, c, i));
+    if (k >= filters_) return mean(candidate(k - filters_, c, i), candidate(unfiltered_, c, i));
     const FilteredHalf &a = filtered_[0][k], &b = filtered_[1][k];
     return {double(a.color[c][i]), double(b.color[c][i]), double(a.own[i]), double(b.own[i])};
   }
@@ -75,7 +79,7 @@ class Denoiser {
     double sum = 0;
     for (std::size_t c = 0; c < rgb_size; ++c) {
       const Noisy n = noisy(c, i);
-      sum += k == unfiltered ? n.variance : squared_error(n, candidate(k, c, i));
+      sum += k == unfiltered_ ? n.variance : squared_error(n, candidate(k, c, i));
     }
     return float(sum / rgb_size * double(relative_[i]));
   }
@@ -101,24 +105,24 @@ class Denoiser {
     const int w = image_.width, h = image_.height;
     std::vector<std::uint8_t> choice(image_.pixels(), 0);
     Plane least(image_.pixels(), std::numeric_limits<float>::infinity()), error(image_.pixels());
-    for (std::size_t k = 0; k < candidates; ++k) {
+    for (std::size_t k = 0; k <= unfiltered_; ++k) {
       for (std::size_t i = 0; i < error.size(); ++i) error[i] = has_halves(i) ? error_of(k, i) : 0;
       const Plane mean = box_mean(error, w, h, choice_reach);
       for (std::size_t i = 0; i < error.size(); ++i)
         if (mean[i] < least[i]) least[i] = mean[i], choice[i] = std::uint8_t(k);
     }
-    for (std::size_t k = 0; k < candidates; ++k) {
+    for (std::size_t k = 0; k <= unfiltered_; ++k) {
       Plane chosen(image_.pixels());
       for (std::size_t i = 0; i < chosen.size(); ++i)
-        chosen[i] = (has_halves(i) ? choice[i] : unfiltered) == k ? 1.0f : 0.0f;
-      shares_[k] = box_mean(chosen, w, h, choice_spread);
+        chosen[i] = (has_halves(i) ? choice[i] : unfiltered_) == k ? 1.0f : 0.0f;
+      shares_.push_back(box_mean(chosen, w, h, choice_spread));
     }
   }
 
   // The mixture of the candidates that were chosen.
   Filtered mixture(std::size_t c, std::size_t i) const {
     Filtered sum{0, 0, 0, 0};
-    for (std::size_t k = 0; k < candidates; ++k) {
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
       const double share = double(shares_[k][i]);
       if (share == 0) continue;
       const Filtered f = candidate(k, c, i);
@@ -140,7 +144,7 @@ class Denoiser {
     }
     for (std::size_t i = 0; i < image_.pixels(); ++i) relative_[i] = relative_scale(mean_of_channels(result.color, i));
     for (std::size_t c = 0; c < rgb_size; ++c) estimate_error(c, result);
-    for (float share : shares_[unfiltered]) result.filtered += share < 1 ? 1.0 / double(image_.pixels()) : 0;
+    for (float share : shares_[unfiltered_]) result.filtered += share < 1 ? 1.0 / double(image_.pixels()) : 0;
     result.mse = std::max(result.mse, least_);
     for (double* sum : {&result.mse, &result.relative_mse, &result.noisy_mse, &result.noisy_relative_mse})
       *sum /= std::max(measured_, 1.0);
@@ -175,8 +179,9 @@ class Denoiser {
 
   const NoisyImage& image_;
   const FilteredHalves filtered_;
+  const std::size_t filters_, unfiltered_;  // the number of the filters; the number of the image among the candidates
   Plane relative_;
-  std::array<Plane, candidates> shares_;
+  std::vector<Plane> shares_;        // of each candidate
   double measured_ = 0, least_ = 0;  // numbers of pixels and channels; the sum of the noise of these
 };
 

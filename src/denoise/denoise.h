@@ -48,9 +48,9 @@ struct DenoiseSettings {
 // Filters each half by weights that come from the other half alone: differences of its colours, relative to their
 // variance (Buades, Coll and Morel 2005; Rousselle, Knaus and Zwicker 2012), of its albedos and normals. Because the
 // weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Of three
-// filters, the unfiltered image and means of both each pixel takes the one with the least estimated error around it,
-// averaged over what its neighbours take. The same bits for any number of threads. Throws std::runtime_error if it was
-// stopped.
+// filters (with other images also those over the image alone), the unfiltered image and means of both each pixel takes
+// the one with the least estimated error around it, averaged over what its neighbours take. The same bits for any
+// number of threads. Throws std::runtime_error if it was stopped.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

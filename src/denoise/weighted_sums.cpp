@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "denoise/box_mean.h"
@@ -125,26 +127,24 @@ struct PixelPair {
   int x, y, other_x, other_y;
 };
 
-// One tile of a half of the first image: the mean over pixels of that half of all images, by the weights of the other
-// half.
+// One tile of a half of the first image: sums over pixels of that half of any image, by the weights of the other half.
 class TileFilter {
  public:
-  TileFilter(const std::vector<PaddedImage>& images, std::size_t half, int x0, int y0)
-      : images_(images), half_(half), guide_(images[0][1 - half]), x0_(x0), y0_(y0) {}
+  TileFilter(const PaddedImage& first, std::size_t half, int x0, int y0)
+      : half_(half), guide_(first[1 - half]), x0_(x0), y0_(y0) {}
 
-  const TileSums& run() {
-    sums_ = {};
-    for (const PaddedImage& there : images_)
-      for (int dy = -filter_reach; dy <= filter_reach; ++dy)
-        for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
-          constexpr float radius = filter_reach + 1;
-          const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
-          if (near <= 0) continue;
-          find_differences(there[1 - half_], dx, dy);
-          for (int row = 0; row < tile_height; ++row) add_row(there, row, dx, dy, near);
-        }
-    return sums_;
+  // Adds the pixels of an image to the sums.
+  void add(const PaddedImage& there) {
+    for (int dy = -filter_reach; dy <= filter_reach; ++dy)
+      for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
+        constexpr float radius = filter_reach + 1;
+        const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
+        if (near <= 0) continue;
+        find_differences(there[1 - half_], dx, dy);
+        for (int row = 0; row < tile_height; ++row) add_row(there, row, dx, dy, near);
+      }
   }
+  const TileSums& sums() const { return sums_; }
 
  private:
   static constexpr int columns = tile_width + native_lanes;  // of differences: a pack more holds the patches' margin
@@ -214,7 +214,6 @@ class TileFilter {
   }
   static F load_across(const float* from, int columns_on) { return load(from + columns_on); }
 
-  const std::vector<PaddedImage>& images_;
   std::size_t half_;
   const PaddedHalf& guide_;  // of the first image
   int x0_, y0_;
@@ -224,7 +223,7 @@ class TileFilter {
 
 // The part of the tile that is in the image.
 void copy_tile(const TileSums& sums, const NoisyImage& image, const HalfPlanes& source, int x0, int y0,
-               std::array<FilteredHalf, filter_count>& out) {
+               std::span<FilteredHalf> out) {
   for (int y = y0; y < std::min(y0 + tile_height, image.height); ++y)
     for (int x = x0; x < std::min(x0 + tile_width, image.width); ++x) {
       const std::size_t i = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
@@ -246,21 +245,31 @@ FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& set
   std::vector<PaddedImage> images{padded_image(image)};
   for (const NoisyImage& other : settings.others) images.push_back(padded_image(other));
   FilteredHalves filtered;
-  for (auto& half : filtered)
+  for (auto& half : filtered) {
+    half.resize(settings.others.empty() ? filter_count : 2 * filter_count);
     for (FilteredHalf& one : half) {
       for (Plane& plane : one.color) plane.resize(image.pixels());
       one.own.resize(image.pixels());
     }
+  }
   const int across = (image.width + tile_width - 1) / tile_width;
   const auto tiles = std::size_t(across) * std::size_t((image.height + tile_height - 1) / tile_height);
+  const auto filter_tile = [&](std::size_t half, int x0, int y0) {
+    const auto filter = std::make_unique<TileFilter>(images[0], half, x0, y0);
+    const auto copy = [&](std::span<FilteredHalf> out) {
+      copy_tile(filter->sums(), image, image.halves[half], x0, y0, out);
+    };
+    filter->add(images[0]);
+    if (images.size() > 1) copy(std::span(filtered[half]).subspan(filter_count));
+    for (std::size_t other = 1; other < images.size(); ++other) filter->add(images[other]);
+    copy(filtered[half]);
+  };
   Scheduler scheduler(settings.threads);
   const std::size_t done = scheduler.run(2 * tiles,
                                          [&](std::size_t unit, int) {
-                                           const std::size_t half = unit % 2, tile = unit / 2;
-                                           const int x0 = int(tile % std::size_t(across)) * tile_width,
-                                                     y0 = int(tile / std::size_t(across)) * tile_height;
-                                           auto filter = std::make_unique<TileFilter>(images, half, x0, y0);
-                                           copy_tile(filter->run(), image, image.halves[half], x0, y0, filtered[half]);
+                                           const std::size_t tile = unit / 2;
+                                           filter_tile(unit % 2, int(tile % std::size_t(across)) * tile_width,
+                                                       int(tile / std::size_t(across)) * tile_height);
                                          },
                                          {0, settings.stop});
   if (done < 2 * tiles) throw std::runtime_error("the removal of noise was interrupted");

@@ -1,7 +1,7 @@
 // The filters: weighted sums over the pixels around each pixel.
 #pragma once
 #include <array>
-#include <functional>
+#include <vector>
 
 #include "denoise/denoise.h"
 
@@ -20,8 +20,9 @@ struct FilteredHalf {
   Plane own;  // the share of the pixel itself in the sum of the weights
 };
 
-// Half 0 or 1 of the image after each filter, by weights of the other half.
-using FilteredHalves = std::array<std::array<FilteredHalf, filter_count>, 2>;
+// Half 0 or 1 of the image after each filter, by weights of the other half: first over all images; then, if there are
+// others, over the image alone.
+using FilteredHalves = std::array<std::vector<FilteredHalf>, 2>;
 FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings);
 
 }  // namespace montelux

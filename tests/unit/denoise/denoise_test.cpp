@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <span>
 
 #include "denoise/box_mean.h"
 #include "denoise/reproject.h"
@@ -240,6 +241,26 @@ TEST(Denoise, knows_the_noise_of_the_features) {
   }
   EXPECT_LT(with_noise, 1.5 * without);
   EXPECT_GT(planted, 2.5 * without);
+}
+
+// Another image helps where it shows the same, and does little harm where it shows something else that noise hides.
+TEST(Denoise, takes_other_images_only_where_they_lower_the_error) {
+  double alone = 0, with_same = 0, with_other = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const Made m = made(seed);
+    Made same = made(seed + 50), other = same;
+    for (HalfPlanes& half : other.image.halves)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < m.image.pixels(); ++i) half.color[c][i] += std::sqrt(m.image.variance[c][i]);
+    const auto error_with = [&](std::span<const NoisyImage> others) {
+      DenoiseSettings settings;
+      settings.others = others;
+      return mean_squared_error(denoise(m.image, settings).color, m.truth);
+    };
+    alone += error_with({}), with_same += error_with({&same.image, 1}), with_other += error_with({&other.image, 1});
+  }
+  EXPECT_LT(with_same, 0.8 * alone);
+  EXPECT_LT(with_other, 1.25 * alone);
 }
 
 // Stripes of a texture that the noise of the colours hides. Planted: without the albedo they are blurred.
