@@ -15,6 +15,7 @@
 #include "material/table.h"
 #include "scene/prepare.h"
 #include "work/huge_pages.h"
+#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -212,7 +213,11 @@ LoadResult load_description(ReadResult read, const LoadOptions& options, double 
         result.diagnostics.error({std::make_shared<std::string>(name), 0, 0}, possible.error());
         return;
       }
-    std::optional<PreparedScene> prepared = prepare(*read.scene, {settled.resolution}, result.diagnostics);
+    Scheduler readers(options.threads);
+    const auto for_each = [&](std::size_t count, const std::function<void(std::size_t)>& body) {
+      readers.run(count, [&](std::size_t i, int) { body(i); });
+    };
+    std::optional<PreparedScene> prepared = prepare(*read.scene, {settled.resolution, for_each}, result.diagnostics);
     if (!prepared || result.diagnostics.has_errors()) return;
     // The description's meshes are copied: their memory goes before the kernel takes its own.
     SceneDesc desc = std::move(*read.scene);

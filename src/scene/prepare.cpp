@@ -14,6 +14,24 @@ namespace montelux {
 
 namespace {
 
+// The images that textures, materials and lights will request.
+std::vector<ImageRequest> images_of(const SceneDesc& desc) {
+  std::vector<ImageRequest> images;
+  const auto add = [&](const std::string& file, std::optional<ColorEncoding> encoding) {
+    if (!file.empty()) images.push_back({std::filesystem::path(desc.folder) / file, encoding});
+  };
+  for (const TextureDesc& texture : desc.textures)
+    if (const auto* image = std::get_if<ImageTextureDesc>(&texture.model)) add(image->file, image->encoding);
+  for (const MaterialDesc& material : desc.materials) add(material.normal_file, ColorEncoding{});
+  for (const LightDesc& light : desc.lights)
+    std::visit(
+        [&](const auto& stated) {
+          if constexpr (requires { stated.file; }) add(stated.file, std::nullopt);
+        },
+        light.model);
+  return images;
+}
+
 // Prepares one scene, one family at a time. Each family reports its errors and uses a harmless substitute,
 // so that one run reports all errors of a scene.
 class Preparation {
@@ -21,6 +39,7 @@ class Preparation {
   Preparation(const SceneDesc& desc, const PrepareOptions& options, Diagnostics& diagnostics)
       : desc_(desc),
         diagnostics_(diagnostics),
+        for_each_(options.for_each),
         picture_(picture_settings(desc, options.resolution, diagnostics)),
         textures_(std::make_unique<TextureSet>()),
         texture_builder_(*textures_, desc.folder, reflectance_rgb, diagnostics) {}
@@ -28,6 +47,7 @@ class Preparation {
   PreparedScene run() {
     for (const auto& [name, bytes] : desc_.embedded)
       textures_->embed(std::filesystem::path(desc_.folder) / name, bytes);
+    if (for_each_) textures_->read_ahead(images_of(desc_), for_each_);
     for (const TextureDesc& t : desc_.textures) texture_builder_.add(t);
     std::vector<Material> materials = make_materials();
     MediumSet media = make_media();
@@ -74,6 +94,7 @@ class Preparation {
 
   const SceneDesc& desc_;
   Diagnostics& diagnostics_;
+  const ForEachNumber& for_each_;
   PictureSettings picture_;
   std::unique_ptr<TextureSet> textures_;
   TextureBuilder texture_builder_;

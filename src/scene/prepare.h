@@ -10,6 +10,7 @@ namespace montelux {
 
 struct PrepareOptions {
   std::optional<std::pair<int, int>> resolution;  // overrides the film's
+  ForEachNumber for_each{};                       // by which images are read; none: one after the other
 };
 
 struct PreparedScene {

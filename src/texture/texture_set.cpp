@@ -53,14 +53,23 @@ std::optional<Rgb> TextureSet::constant(SpectrumTextureId id) const {
   return constant_of<Rgb>(spectra_, std::size_t(id));
 }
 
+TextureSet::ImageKey TextureSet::key_of(const std::filesystem::path& path,
+                                        const std::optional<ColorEncoding>& encoding) {
+  return {path.lexically_normal().string(), encoding ? to_string(*encoding) : std::string()};
+}
+
+Result<TexelImage> TextureSet::read(const std::filesystem::path& path,
+                                    const std::optional<ColorEncoding>& encoding) const {
+  const auto embedded = embedded_.find(path.lexically_normal().string());
+  return embedded == embedded_.end() ? TexelImage::read(path, encoding)
+                                     : TexelImage::read(path, *embedded->second, encoding);
+}
+
 Result<std::shared_ptr<const TexelImage>> TextureSet::image(const std::filesystem::path& path,
                                                             std::optional<ColorEncoding> encoding) {
-  auto [place, is_new] =
-      images_.try_emplace({path.lexically_normal().string(), encoding ? to_string(*encoding) : std::string()});
+  auto [place, is_new] = images_.try_emplace(key_of(path, encoding));
   if (is_new) {
-    const auto embedded = embedded_.find(path.lexically_normal().string());
-    Result<TexelImage> image = embedded == embedded_.end() ? TexelImage::read(path, encoding)
-                                                           : TexelImage::read(path, *embedded->second, encoding);
+    Result<TexelImage> image = read(path, encoding);
     if (!image) {
       images_.erase(place);
       return image.failure();
@@ -68,6 +77,22 @@ Result<std::shared_ptr<const TexelImage>> TextureSet::image(const std::filesyste
     place->second = std::make_shared<const TexelImage>(std::move(image).value());
   }
   return place->second;
+}
+
+void TextureSet::read_ahead(const std::vector<ImageRequest>& requests, const ForEachNumber& for_each) {
+  std::map<ImageKey, const ImageRequest*> wanted;
+  for (const ImageRequest& request : requests) {
+    const ImageKey key = key_of(request.path, request.encoding);
+    if (!images_.contains(key)) wanted.try_emplace(key, &request);
+  }
+  const std::vector<std::pair<ImageKey, const ImageRequest*>> list(wanted.begin(), wanted.end());
+  std::vector<std::shared_ptr<const TexelImage>> images(list.size());
+  for_each(list.size(), [&](std::size_t i) {
+    Result<TexelImage> image = read(list[i].second->path, list[i].second->encoding);
+    if (image) images[i] = std::make_shared<const TexelImage>(std::move(image).value());
+  });
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (images[i]) images_.emplace(list[i].first, std::move(images[i]));
 }
 
 void TextureSet::embed(const std::filesystem::path& path, std::shared_ptr<const std::string> bytes) {

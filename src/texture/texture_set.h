@@ -1,11 +1,20 @@
 // All textures of a scene, and their images, each of which is stored once.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include "texture/models.h"
 
 namespace montelux {
+
+// An image that will be requested, as TextureSet::image() takes it.
+struct ImageRequest {
+  std::filesystem::path path;
+  std::optional<ColorEncoding> encoding{};
+};
+// Calls body(i) for each i in [0, count), in any order and on any threads.
+using ForEachNumber = std::function<void(std::size_t count, const std::function<void(std::size_t i)>& body)>;
 
 class TextureSet {
  public:
@@ -60,6 +69,9 @@ class TextureSet {
   // at a time.
   Result<std::shared_ptr<const TexelImage>> image(const std::filesystem::path& path,
                                                   std::optional<ColorEncoding> encoding = std::nullopt);
+  // Reads images before they are requested, on the threads of `for_each`. Those that cannot be read fail when they are
+  // requested.
+  void read_ahead(const std::vector<ImageRequest>& requests, const ForEachNumber& for_each);
   // The bytes of an image file, which image() uses in place of the file with that path.
   void embed(const std::filesystem::path& path, std::shared_ptr<const std::string> bytes);
   // Memory of the images' texels.
@@ -69,10 +81,14 @@ class TextureSet {
   const std::vector<SpectrumTexture>& spectra() const { return spectra_; }
 
  private:
+  using ImageKey = std::pair<std::string, std::string>;  // path and encoding
+  static ImageKey key_of(const std::filesystem::path& path, const std::optional<ColorEncoding>& encoding);
+  Result<TexelImage> read(const std::filesystem::path& path, const std::optional<ColorEncoding>& encoding) const;
+
   std::vector<NumberTexture> numbers_;
   std::vector<SpectrumTexture> spectra_;
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const TexelImage>> images_;  // by path and encoding
-  std::map<std::string, std::shared_ptr<const std::string>> embedded_;                       // by path
+  std::map<ImageKey, std::shared_ptr<const TexelImage>> images_;
+  std::map<std::string, std::shared_ptr<const std::string>> embedded_;  // by path
 };
 
 }  // namespace montelux

@@ -213,6 +213,28 @@ TEST(ImageMap, shows_the_picture_upright_with_v_up) {
   EXPECT_FLOAT_EQ(b.set.number(mean, at_uv(0.75f, 0.75f)), 1.0f / 3);
 }
 
+// Each image once, whichever thread reads it; one that cannot be read fails where it is requested.
+TEST(ImageMap, is_read_before_it_is_requested) {
+  Picture picture;
+  Bench b;
+  const ImageRequest plain{picture.path}, linear{picture.path, ColorEncoding{}}, missing{"/no/such/image.png"};
+  std::size_t read = 0;
+  b.set.read_ahead({plain, linear, plain, missing}, [&](std::size_t count, const auto& body) {
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back(body, i);
+    for (std::thread& thread : threads) thread.join();
+    read = count;
+  });
+  EXPECT_EQ(read, 3u);
+  const std::size_t bytes = b.set.image_bytes();
+  EXPECT_GT(bytes, 0u);
+  std::filesystem::remove(picture.path);
+  EXPECT_TRUE(b.set.image(plain.path));
+  EXPECT_TRUE(b.set.image(linear.path, linear.encoding));
+  EXPECT_FALSE(b.set.image(missing.path));
+  EXPECT_EQ(b.set.image_bytes(), bytes);
+}
+
 TEST(ImageMap, scale_invert_and_point_filter_apply) {
   Picture picture;
   Bench b;
