@@ -69,7 +69,7 @@ std::string source_of(const SampleTrace& t, const PathContribution& c) {
 void print_contributions(const SampleTrace& t, std::size_t vertex) {
   for (const PathContribution& c : t.path.contributions)
     if (c.vertex == vertex)
-      fmt::print("     + {}  {} of {}, {} bounce{}\n", text_of(c.light), technique_names[std::size_t(c.technique)],
+      fmt::print("     + {}  {} of {}, {} bounce{}\n", text_of(c.value), technique_names[std::size_t(c.technique)],
                  source_of(t, c), c.bounces, c.bounces == 1 ? "" : "s");
 }
 
@@ -125,7 +125,7 @@ void print_json(const SampleTrace& t) {
   json["contributions"] = Json::array();
   for (const PathContribution& c : t.path.contributions)
     json["contributions"].push_back({{"vertex", c.vertex},
-                                     {"light", json_of(c.light)},
+                                     {"light", json_of(c.value)},
                                      {"bounces", c.bounces},
                                      {"source", source_of(t, c)},
                                      {"technique", technique_names[std::size_t(c.technique)]}});

@@ -15,10 +15,10 @@ template <class F>
 struct FirstSight {
   const SurfacePoint<F>& point;
   Uint<F> object;
-  Vec3<F> d;           // of the ray that met the vertex
-  F distance;          // along it
-  Spectrum<F> light;   // that the camera sees directly
-  Spectrum<F> albedo;  // the part of light from everywhere that the vertex returns, or an estimate
+  Vec3<F> d;            // of the ray that met the vertex
+  F distance;           // along it
+  Spectrum<F> emitted;  // that the camera sees directly
+  Spectrum<F> albedo;   // the part of light from everywhere that the vertex returns, or an estimate
 };
 
 // The lanes whose vertex the feature layers show: the first one, and each that scatters after nothing but mirrors and
@@ -34,7 +34,7 @@ template <class F>
 void write_features(const FirstSight<F>& seen, const PathState<F>& path, Mask<F> on, std::span<PixelSample> out) {
   const Mask<F> first = on & (path.depth == Uint<F>(0u));
   const Vec3<F> normal = face_forward(seen.point.ns, -seen.d);
-  const Spectrum<F> emission = seen.light * path.weight;
+  const Spectrum<F> emission = seen.emitted * path.weight;
   // What roulette and the squared indices of refraction do to the light is no property of the surfaces.
   const Spectrum<F> way = select(first, gray(F(1.0f)), path.throughput * (path.eta_scale * path.survival));
   const Spectrum<F> albedo = seen.albedo * way;

@@ -22,7 +22,7 @@ NextVertex<F> first_vertex(const Scene& scene, const Rays& rays, const PathState
 template <class F>
 void write_features(const NextVertex<F>& at, const Spectrum<F>& albedo, const PathState<F>& path, Mask<F> on,
                     std::span<PixelSample> out) {
-  write_features<F>({at.x.point, at.x.object, at.d, at.distance, at.light, albedo}, path, on, out);
+  write_features<F>({at.x.point, at.x.object, at.d, at.distance, at.emitted, albedo}, path, on, out);
 }
 // With the albedo by one direction, which the path's own numbers sample.
 template <class F, NumberSource<F> Numbers>

@@ -13,7 +13,7 @@ namespace montelux {
 // Light of one origin.
 struct LightPart {
   LightOrigin<float> from;
-  Spectrum<float> light;
+  Spectrum<float> contribution;
 };
 
 // The origin, without what the layers of the plan do not distinguish.
@@ -37,13 +37,14 @@ inline bool same_origin(const LightOrigin<float>& a, const LightOrigin<float>& b
          a.light_vertices == b.light_vertices && a.merged == b.merged && a.weight == b.weight;
 }
 // Adds to the part of that origin, or another part. The parts are in the order in which their origins came.
-inline void add_part(std::vector<LightPart>& parts, const LightOrigin<float>& from, const Spectrum<float>& light) {
+inline void add_part(std::vector<LightPart>& parts, const LightOrigin<float>& from,
+                     const Spectrum<float>& contribution) {
   for (LightPart& part : parts)
     if (same_origin(part.from, from)) {
-      part.light += light;
+      part.contribution += contribution;
       return;
     }
-  parts.push_back({from, light});
+  parts.push_back({from, contribution});
 }
 
 // A tally that keeps the parts of each sample, as LayerTally keeps sums for each pixel.
@@ -56,11 +57,11 @@ class PartsTally {
       : plan_(plan), bounces_before_(bounces_before), lanes_(native_lanes), parts_(samples) {}
 
   template <class F>
-  void add(Mask<F> on, const Spectrum<F>& light, const LightOrigin<F>& from) {
+  void add(Mask<F> on, const Spectrum<F>& contribution, const LightOrigin<F>& from) {
     for_each_lane(on, [&](int k) {
       LightOrigin<float> one = lane_of(from, k);
       one.bounces -= bounces_before_;
-      add_part(lanes_[std::size_t(k)], distinguished(plan_, one), lane(light, k));
+      add_part(lanes_[std::size_t(k)], distinguished(plan_, one), lane(contribution, k));
     });
   }
   // The sample of lane k is done.

@@ -70,7 +70,7 @@ std::optional<BsdfKind> look(const Scene& scene, const Accel& accel, const Ray<f
     const Ray<F> ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
     at = next_vertex<F>(scene, accel, free_point(ray.o), ray, true, random.fork(std::uint32_t(depth)), traced,
                         FullWeight{});
-    if (!is_black(at.light) || (at.found && !at.bsdf.is_delta)) return first;
+    if (!is_black(at.emitted) || (at.found && !at.bsdf.is_delta)) return first;
   }
   return std::nullopt;
 }

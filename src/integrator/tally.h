@@ -59,15 +59,15 @@ class OwnLayers {
 };
 
 // What the strategy of a contribution would have found by itself: 0 where that is beyond the range of the sums.
-inline Rgb without_weight(const Rgb& light, float weight) {
-  Rgb all = light;
+inline Rgb without_weight(const Rgb& contribution, float weight) {
+  Rgb all = contribution;
   float sum = 0;
   for (float& x : all.c) x /= weight, sum += x < 0 ? -x : x;
   return sum < ExactSum::largest ? all : gray_rgb(0);
 }
-inline ExactRgb exact(const Rgb& light) {
+inline ExactRgb exact(const Rgb& contribution) {
   ExactRgb sum;
-  for (int i = 0; i < rgb_size; ++i) sum.c[i].add(light.c[i]);
+  for (int i = 0; i < rgb_size; ++i) sum.c[i].add(contribution.c[i]);
   return sum;
 }
 
@@ -94,8 +94,8 @@ class LayerTally {
 
   // `light` as it counts in the pixel, weights of camera and filter included.
   template <class F>
-  void add(Mask<F> on, const Spectrum<F>& light, const LightOrigin<F>& from) {
-    for_each_lane(on, [&](int k) { add_lane(k, lane(light, k), lane_of(from, k)); });
+  void add(Mask<F> on, const Spectrum<F>& contribution, const LightOrigin<F>& from) {
+    for_each_lane(on, [&](int k) { add_lane(k, lane(contribution, k), lane_of(from, k)); });
   }
 
   // The sample of lane k is done. One that is not finite, or beyond what the sums can hold, is left out, and shows it.
@@ -124,16 +124,16 @@ class LayerTally {
 
  private:
   void add_lane(int k, const Spectrum<float>& carried, const LightOrigin<float>& from) {
-    const Rgb light = to_rgb(carried);
+    const Rgb contribution = to_rgb(carried);
     float& brightness = brightness_[std::size_t(k)];
-    for (float x : light.c) brightness += x < 0 ? -x : x;
+    for (float x : contribution.c) brightness += x < 0 ? -x : x;
     if (!(brightness < ExactSum::largest)) return;
-    const ExactRgb sum = exact(light);
+    const ExactRgb sum = exact(contribution);
     ExactRgb* sums = &lanes_[std::size_t(k) * stride_];
     *sums++ += sum;
     const OwnLayers own(plan_, from);
     for (const std::uint32_t number : own.all()) sums[number] += sum;
-    if (own.alone() >= 0) sums[own.alone()] += exact(without_weight(light, from.weight));
+    if (own.alone() >= 0) sums[own.alone()] += exact(without_weight(contribution, from.weight));
   }
 
   const LayerPlan& plan_;

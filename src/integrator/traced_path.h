@@ -30,7 +30,7 @@ struct PathVertex {
 // Light that reached the pixel.
 struct PathContribution {
   std::size_t vertex = 0;  // number of the vertex at which it was found; the one after the last: beyond the scene
-  Rgb light;               // as it counts in the sample: weighted, with the camera's and the filter's factors
+  Rgb value;               // as it counts in the sample: weighted, with the camera's and the filter's factors
   std::uint32_t bounces = 0;
   std::uint32_t source = 0;  // number of the light; the number after the last: a medium
   Technique technique = Technique::emission;

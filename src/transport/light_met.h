@@ -56,9 +56,9 @@ Spectrum<F> sky_light(const LightSet& lights, const ReferencePoint<F>& from, con
   Spectrum<F> sum = gray(F(0.0f));
   for_each_sky_light<F>(lights, from, d, on, [&](const LightHit<F>& sky, const Uint<F>& number) {
     const F share = weight_of_met<F>(weight, sky.density, {number, from.p, -d, on, met.passing});
-    const Spectrum<F> light = select(on, met.left * (sky.radiance * share), gray(F(0.0f)));
-    sum += light;
-    sink(on, light, number, Technique::environment);
+    const Spectrum<F> radiance = select(on, met.left * (sky.radiance * share), gray(F(0.0f)));
+    sum += radiance;
+    sink(on, radiance, number, Technique::environment);
   });
   return sum;
 }

@@ -12,10 +12,10 @@ namespace montelux {
 template <class F>
 struct NextVertex : Vertex<F> {
   Mask<F> found;
-  F distance;         // from the ray's origin
-  Spectrum<F> light;  // emitted toward the origin by the surface, by interfaces on the way and by the sky, weighted
-  Spectrum<F> left;   // transmittance from the vertex to the ray's origin; in media the weights of sampled distances
-  F passing;          // probability of no event before the vertex, as MediumSet::mean_passing
+  F distance;           // from the ray's origin
+  Spectrum<F> emitted;  // emitted toward the origin by the surface, by interfaces on the way and by the sky, weighted
+  Spectrum<F> left;     // transmittance from the vertex to the ray's origin; in media the weights of sampled distances
+  F passing;            // probability of no event before the vertex, as MediumSet::mean_passing
 };
 
 // Rays go through a scene without participating media.
@@ -72,7 +72,7 @@ struct EmitterOnRay {
 // What follow_segment() reports light to:
 //   void emitter(EmitterOnRay, on)
 //   void sky(SkyOnRay, on)               where a ray leaves the scene behind an interface, or in a medium
-//   void medium(Spectrum<F> light, on)   what a participating medium emits along a segment; if `sees_media`
+//   void medium(Spectrum<F> radiance, on)  what a participating medium emits along a segment; if `sees_media`
 // This one counts light as it is seen from `from`: weight(density), or weight(density, MetLight), is the weight of
 // light that is met, as for sky_light().
 template <class F, class Weight, class Sink = NoSink>
@@ -95,14 +95,14 @@ struct WeighedLight {
   MONTELUX_INLINE void sky(const SkyOnRay<F>& met, Mask<F> on) {
     sum += sky_light<F>(scene.lights, from, d, met, on, weight, sink);
   }
-  MONTELUX_INLINE void medium(const Spectrum<F>& light, Mask<F> on) {
-    add(select(on, light, gray(F(0.0f))), on, Uint<F>(scene.lights.count()), Technique::bsdf_sampling);  // after all
+  MONTELUX_INLINE void medium(const Spectrum<F>& radiance, Mask<F> on) {
+    add(select(on, radiance, gray(F(0.0f))), on, Uint<F>(scene.lights.count()), Technique::bsdf_sampling);  // after all
   }
 
  private:
-  MONTELUX_INLINE void add(const Spectrum<F>& light, Mask<F> on, const Uint<F>& number, Technique technique) {
-    sum += light;
-    sink(on, light, number, technique);
+  MONTELUX_INLINE void add(const Spectrum<F>& radiance, Mask<F> on, const Uint<F>& number, Technique technique) {
+    sum += radiance;
+    sink(on, radiance, number, technique);
   }
 };
 
@@ -243,7 +243,7 @@ NextVertex<F> follow_ray(const Scene& scene, const Rays& rays, const ReferencePo
   RayProgress<F> way{{ray, hit, from.media}, gray(F(1.0f))};
   WeighedLight<F, Weight, Sink> lights{scene, from, ray.d, weight, sink};
   NextVertex<F> next = follow_segment<F>(scene, rays, way, {found, Mask<F>(true)}, random, traced, lights, distances);
-  next.light = lights.sum;
+  next.emitted = lights.sum;
   return next;
 }
 
@@ -257,7 +257,7 @@ NextVertex<F> next_vertex(const Scene& scene, const Rays& rays, const ReferenceP
   if constexpr (!std::is_same_v<Distances, NoDistances>)
     return follow_ray<F>(scene, rays, from, ray, hit, on, random, traced, weight, sink, distances);
   NextVertex<F> next = follow_ray<F>(scene, rays, from, ray, hit, found, random, traced, weight, sink);
-  next.light += sky_light<F>(scene.lights, from, ray.d, Mask<F>(on & !found), weight, sink);
+  next.emitted += sky_light<F>(scene.lights, from, ray.d, Mask<F>(on & !found), weight, sink);
   return next;
 }
 

@@ -80,10 +80,10 @@ class EyeSubpaths {
     const auto weight = [&](const Density<SolidAngle, F>& sampled, const MetLight<F>& met) {
       return last_weight = weight_of_hit(path, sampled, met);
     };
-    const auto sink = [&](const M& met, const Spectrum<F>& light, const U& number, Technique technique) {
+    const auto sink = [&](const M& met, const Spectrum<F>& contribution, const U& number, Technique technique) {
       if (!tally_) return;
       const F share = select(number < U(scene_.lights.count()), last_weight, F(1.0f));
-      tally_->template add<F>(met, path.throughput * light * path.weight,
+      tally_->template add<F>(met, path.throughput * contribution * path.weight,
                               {path.depth, number, technique, U(0u), false, share});
     };
     const auto sink_of_met = [&](const M& met, const auto&... light) { sink(met & wants_met, light...); };
@@ -98,7 +98,7 @@ class EyeSubpaths {
       else
         return follow(NoDistances{});
     }();
-    path.radiance += select(M(on & wants_met), path.throughput * at.light, gray(F(0.0f)));
+    path.radiance += select(M(on & wants_met), path.throughput * at.emitted, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     arrive(path, at, sampler, first);
 
@@ -165,9 +165,9 @@ class EyeSubpaths {
 
   // Adds light, its weight included, to the path and, with origin(), to the layers.
   template <class Origin>
-  void add_light(PathState<F>& path, M on, const Spectrum<F>& light, Origin origin) {
-    path.radiance += select(on, light, gray(F(0.0f)));
-    if (tally_) tally_->template add<F>(on, light * path.weight, origin());
+  void add_light(PathState<F>& path, M on, const Spectrum<F>& contribution, Origin origin) {
+    path.radiance += select(on, contribution, gray(F(0.0f)));
+    if (tally_) tally_->template add<F>(on, contribution * path.weight, origin());
   }
 
   // Whether a light that is met by the vertex after this one is wanted.
@@ -200,8 +200,8 @@ class EyeSubpaths {
   void connect_light(PathState<F>& path, const Here& here, const LightPointDraw<F>& draw,
                      const Density<SolidAngle, F>& density, const LightPointView<F>& view, const BsdfValue<F>& value) {
     const NextVertex<F>& at = here.at;
-    const Spectrum<F> light = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
-    const M queries = view.valid & (max_component(light) > F(0.0f));
+    const Spectrum<F> contribution = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
+    const M queries = view.valid & (max_component(contribution) > F(0.0f));
     if (!any(queries)) return;
     const Arriving<F> seen = arriving(at, view.wi, view.distance, queries, path_dimension::shadow_stream);
     if (!any(seen.on)) return;
@@ -210,7 +210,7 @@ class EyeSubpaths {
                                          -view.wi, view.distance * view.distance, density);
     const F weight =
         frame_.weights.light_sample(weights_, end, both, area_cosine<F, in_media>(at, view.wi), seen.passing);
-    add_light(path, seen.on, light * seen.left * weight, [&] {
+    add_light(path, seen.on, contribution * seen.left * weight, [&] {
       return LightOrigin<F>{path.depth + U(1u), draw.point.light, Technique::light_sampling, U(1u), false, weight};
     });
   }
@@ -286,9 +286,9 @@ class EyeSubpaths {
                                photon.events + U(2u), true, share});
     };
     const GatheringSurface<F> place{at, at.context};
-    const Spectrum<F> light = tally_ ? photons_->template radiance<F>(place, on, weight, to_layers)
-                                     : photons_->template radiance<F>(place, on, weight, NoSink{});
-    path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
+    const Spectrum<F> contribution = tally_ ? photons_->template radiance<F>(place, on, weight, to_layers)
+                                            : photons_->template radiance<F>(place, on, weight, NoSink{});
+    path.radiance += select(on, path.throughput * contribution, gray(F(0.0f)));
   }
 
   const Frame& frame_;

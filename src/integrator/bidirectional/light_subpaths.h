@@ -191,15 +191,15 @@ class LightSubpathSink {
     const LensConnection<F>& lens = query.lens;
     const F ng_out = dot(at.x.point.ng, lens.d);
     const F correction = adjoint_correction<F, Correction, in_media>(v, query.toward, ng_out);
-    const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
-    const M lit = query.on & !is_black(light);
+    const Spectrum<F> contribution = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
+    const M lit = query.on & !is_black(contribution);
     if (!any(lit)) return;
     const BothDensities<F> both{value.density, reverse_density(at, query.toward, lit), !at.in_medium};
     const F cos = area_cosine<F, in_media>(at, lens.d);
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
                    v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-                  light, lit, {v.path.depth + U(1u), light_, Technique::light_sampling, v.path.depth + U(2u)},
+                  contribution, lit, {v.path.depth + U(1u), light_, Technique::light_sampling, v.path.depth + U(2u)},
                   [&](const F& passing) {
                     return frame_.weights.lens(weights_, both, lens.across, cos, frame_.splat_paths(), passing);
                   });

@@ -56,11 +56,11 @@ struct DirectLight {
     return mis_weight<F>(settings.heuristic, products, 0);
   }
   // A light that was chosen by u_choice contributes `light`.
-  void record_sample(F u_choice, const Spectrum<F>& light, M on) const {
+  void record_sample(F u_choice, const Spectrum<F>& radiance, M on) const {
     if constexpr (Tally::records) {
       const ReferencePoint<F> from = at.reference();
       tally.template add<F>(
-          on, light * share,
+          on, radiance * share,
           {U(1u), scene.lights.template choose<F>(from.p, from.n, u_choice, on).light, Technique::light_sampling});
     }
   }
@@ -73,10 +73,11 @@ struct DirectLight {
   }
   // What arrives of light that comes along wi from that distance. `is_left`: what bodies of glass take on the way has
   // been taken from it.
-  Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& light, M on, bool is_left = false) const {
-    const Arriving<F> seen = arriving_from<F>(scene, rays, at, wi, distance, M(on & (max_component(light) > F(0.0f))),
-                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
-    return select(seen.on, is_left ? light : light * seen.left, gray(F(0.0f)));
+  Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& radiance, M on, bool is_left = false) const {
+    const Arriving<F> seen =
+        arriving_from<F>(scene, rays, at, wi, distance, M(on & (max_component(radiance) > F(0.0f))),
+                         at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+    return select(seen.on, is_left ? radiance : radiance * seen.left, gray(F(0.0f)));
   }
 
   // A point of a light; `shared`: the BSDF takes its part by multiple importance sampling.
@@ -112,12 +113,12 @@ struct DirectLight {
                        Weight weight) const {
     return next_vertex<F>(scene, rays, at.reference_toward(wi), at.ray_toward(wi), on,
                           numbers.stream(ray, path_dimension::per_vertex), counts.scattered, weight,
-                          [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& light,
+                          [&]([[maybe_unused]] M meets, [[maybe_unused]] const Spectrum<F>& radiance,
                               [[maybe_unused]] U number, [[maybe_unused]] Technique technique) {
                             if constexpr (Tally::records)
-                              tally.template add<F>(meets, light * factor * share, {U(1u), number, technique});
+                              tally.template add<F>(meets, radiance * factor * share, {U(1u), number, technique});
                           })
-        .light;
+        .emitted;
   }
 
   Spectrum<F> along_bsdf(std::uint32_t ray, M on, bool shared) const {
@@ -126,11 +127,11 @@ struct DirectLight {
         sample<F>(at.bsdf.lanes(on), at.wo, Vec3<F>{numbers.get1(ray, path_dimension::lobe), u.x, u.y}, at.context);
     const M goes = on & next.valid & (max_component(next.weight) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light =
+    const Spectrum<F> radiance =
         incoming(at.bsdf.frame.to_world(next.wi), ray, goes, next.weight, [&](const Density<SolidAngle, F>& by_light) {
           return shared ? select(next.delta, F(1.0f), heuristic(next.density, by_light)) : F(1.0f);
         });
-    return select(goes, next.weight * light, gray(F(0.0f)));
+    return select(goes, next.weight * radiance, gray(F(0.0f)));
   }
 
   // A direction uniform in solid angle or projected solid angle, on either side where light can pass through.
@@ -151,8 +152,8 @@ struct DirectLight {
     const BsdfValue<F> value = scattered(world, on);
     const M goes = on & (density > F(0.0f)) & (max_component(value.f_cos) > F(0.0f));
     if (!any(goes)) return gray(F(0.0f));
-    const Spectrum<F> light = incoming(world, ray, goes, value.f_cos * (F(1.0f) / density), FullWeight{});
-    return select(goes, value.f_cos * light * (F(1.0f) / density), gray(F(0.0f)));
+    const Spectrum<F> radiance = incoming(world, ray, goes, value.f_cos * (F(1.0f) / density), FullWeight{});
+    return select(goes, value.f_cos * radiance * (F(1.0f) / density), gray(F(0.0f)));
   }
 
   Spectrum<F> resampled(std::uint32_t ray, M on) const {
@@ -194,7 +195,7 @@ RayCounts trace_direct(const Scene& scene, const Rays& rays, const DirectSetting
     for (std::uint32_t ray = 0; ray < n && any(at.found); ++ray)
       sum += direct.estimate(settings.fixed ? 0u : ray, at.found);
     const Spectrum<F> reflected = select(at.found, at.left * sum * (1.0f / float(n)), gray(F(0.0f)));
-    const Spectrum<F> radiance = (at.light + reflected) * path.weight;
+    const Spectrum<F> radiance = (at.emitted + reflected) * path.weight;
     for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
     if constexpr (Tally::records)
       for_each_lane(on, [&](int k) { tally.finish(k, lane(path.output, k), out[lane(path.output, k)]); });

@@ -108,17 +108,17 @@ struct Tree {
                      ? 1.0f
                      : power_weight(float(n.directions), next.density, float(n.points), by_light);
         },
-        [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Spectrum<float>& light, [[maybe_unused]] U number,
+        [&]([[maybe_unused]] bool meets, [[maybe_unused]] const Spectrum<float>& radiance, [[maybe_unused]] U number,
             [[maybe_unused]] Technique technique) {
           if constexpr (Tally::records)
-            tally.template add<F>(meets, light * weight * way.share, {depth + 1, number, technique});
+            tally.template add<F>(meets, radiance * weight * way.share, {depth + 1, number, technique});
         });
-    Spectrum<float> light = there.light;
+    Spectrum<float> radiance = there.emitted;
     if (there.found)
-      light += there.left * reflected(there, depth + 1, vertex,
-                                      {way.throughput * weight * there.left * gray(float(n.directions)),
-                                       way.share * weight * there.left});
-    return weight * light;
+      radiance += there.left * reflected(there, depth + 1, vertex,
+                                         {way.throughput * weight * there.left * gray(float(n.directions)),
+                                          way.share * weight * there.left});
+    return weight * radiance;
   }
 
   void count_ray(U depth) { ++counts.by_depth[std::min<std::size_t>(depth, counts.by_depth.size() - 1)]; }
@@ -138,7 +138,7 @@ RayCounts DistributionIntegrator::trace_with(const TilePass& pass, std::span<Pix
     const auto sampler = numbers_of(pass.points, path);
     const NextVertex<F> at = first_vertex<F>(scene_, accel_, path, true, sampler.stream(first + path_dimension::own),
                                              counts, seen_directly(path, tally));
-    Spectrum<float> radiance = at.light;
+    Spectrum<float> radiance = at.emitted;
     if (at.found) {
       Tree<Tally> tree{scene_, accel_, settings_, pass, {path.x, path.y, path.index}, counts, tally};
       radiance += at.left * tree.reflected(at, 0, 0, {gray(1.0f), at.left * path.weight});

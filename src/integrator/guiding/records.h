@@ -56,7 +56,7 @@ class GuideTally {
   }
 
  private:
-  static float mean_light(const Rgb& light) { return (light.c[0] + light.c[1] + light.c[2]) / 3; }
+  static float mean_light(const Rgb& radiance) { return (radiance.c[0] + radiance.c[1] + radiance.c[2]) / 3; }
 
   std::vector<GuideRecord> records_;
   std::vector<std::uint32_t> last_;  // of each path

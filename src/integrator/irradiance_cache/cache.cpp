@@ -127,7 +127,7 @@ std::vector<LightPart> IrradianceCache::parts(const CacheQuery& at) const {
     }
     weights += w;
   });
-  for (LightPart& part : all) part.light = part.light * (1 / weights);
+  for (LightPart& part : all) part.contribution = part.contribution * (1 / weights);
   return all;
 }
 

@@ -91,7 +91,7 @@ class CachedPaths {
                   Sink sink) {
     for_each_lane(known, [&](int k) {
       for (const LightPart& part : cache_.parts(query(path, v, n, k)))
-        sink(mask_of_bits<F>(1u << k), f_cos * splat<F>(part.light),
+        sink(mask_of_bits<F>(1u << k), f_cos * splat<F>(part.contribution),
              LightOrigin<F>{path.depth + U(part.from.bounces), U(part.from.light), part.from.technique});
     });
   }

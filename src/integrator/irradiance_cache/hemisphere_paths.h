@@ -99,13 +99,13 @@ class HemispherePaths {
     std::vector<std::vector<LightPart>> by_cell(results_.size());
     for (std::size_t i = 0; i < by_cell.size(); ++i) {
       by_cell[i] = tally.take(i);
-      for (const LightPart& part : by_cell[i]) add_part(origins, part.from, part.light);
+      for (const LightPart& part : by_cell[i]) add_part(origins, part.from, part.contribution);
     }
     for (const LightPart& origin : origins) {
       for (std::size_t i = 0; i < by_cell.size(); ++i) {
         samples_[i].radiance = gray(0.0f);
         for (const LightPart& part : by_cell[i])
-          if (same_origin(part.from, origin.from)) samples_[i].radiance = part.light;
+          if (same_origin(part.from, origin.from)) samples_[i].radiance = part.contribution;
       }
       const HemisphereEstimate estimate = integrate(at);
       record.parts.push_back({origin.from, estimate.irradiance, estimate.gradients});

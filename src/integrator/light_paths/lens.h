@@ -45,14 +45,14 @@ class LensSplats {
     return lens;
   }
   // Splats the light that a place sends to the lens, where nothing is in between.
-  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on,
+  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& contribution, M on,
                const LightOrigin<F>& origin) {
-    connect(from, way, light, on, origin, [](const F&) { return F(1.0f); });
+    connect(from, way, contribution, on, origin, [](const F&) { return F(1.0f); });
   }
   // weight(passing) is that of the light, as Transmitted has `passing`.
   template <class Weight>
-  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& light, M on, LightOrigin<F> origin,
-               Weight weight) {
+  void connect(const LensPlace<F>& from, const LensWay<F>& way, const Spectrum<F>& contribution, M on,
+               LightOrigin<F> origin, Weight weight) {
     if (!any(on)) return;
     Spectrum<F> left;
     if constexpr (in_media) {
@@ -61,7 +61,7 @@ class LensSplats {
     } else {
       left = way.media.left(way.lens.distance), origin.weight = weight(F(1.0f)), on = on & !is_hidden(from, way, on);
     }
-    splat(way.lens.raster, light * left * origin.weight, on, origin);
+    splat(way.lens.raster, contribution * left * origin.weight, on, origin);
   }
   // What the lens sees of the sky along the ray: a share of its light.
   Spectrum<F> sky_seen(const Ray<F>& ray, const RandomStream<F>& random, M on) {
@@ -71,24 +71,24 @@ class LensSplats {
           .left;
     return select(sees_sky(ray, random, on), gray(F(1.0f)), gray(F(0.0f)));
   }
-  void splat(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
-    if constexpr (requires { plane_.record(raster, light, on, origin); })
-      return plane_.record(raster, light, on, origin);
+  void splat(const Vec2<F>& raster, const Spectrum<F>& contribution, M on, const LightOrigin<F>& origin) {
+    if constexpr (requires { plane_.record(raster, contribution, on, origin); })
+      return plane_.record(raster, contribution, on, origin);
     else
-      return splat_to_plane(raster, light, on, origin);
+      return splat_to_plane(raster, contribution, on, origin);
   }
 
  private:
-  void splat_to_plane(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
-    if (plane_.layers()) return splat_to_layers(raster, light, on, origin);
+  void splat_to_plane(const Vec2<F>& raster, const Spectrum<F>& contribution, M on, const LightOrigin<F>& origin) {
+    if (plane_.layers()) return splat_to_layers(raster, contribution, on, origin);
     for_each_lane(on, [&](int k) {
-      const Rgb value = to_rgb(lane(light, k));
+      const Rgb value = to_rgb(lane(contribution, k));
       scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value); });
     });
   }
-  void splat_to_layers(const Vec2<F>& raster, const Spectrum<F>& light, M on, const LightOrigin<F>& origin) {
+  void splat_to_layers(const Vec2<F>& raster, const Spectrum<F>& contribution, M on, const LightOrigin<F>& origin) {
     for_each_lane(on, [&](int k) {
-      const Rgb value = to_rgb(lane(light, k));
+      const Rgb value = to_rgb(lane(contribution, k));
       const LightOrigin<float> from = lane_of(origin, k);
       scene_.camera.for_each_place(lane(raster, k), [&](Vec2f place) { plane_.add(place, value, from); });
     });

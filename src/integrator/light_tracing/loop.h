@@ -81,11 +81,11 @@ class LightTracingLoop {
     const LensConnection<F>& lens = query.lens;
     const F ng_out = dot(at.x.point.ng, lens.d);
     const F correction = adjoint_correction<F, Correction, in_media>(v, query.toward, ng_out);
-    const Spectrum<F> light = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
+    const Spectrum<F> contribution = v.path.flux * value.f_cos * (correction * lens.across.value * scale_);
     lens_.connect({at.x.point.p, at.x.point.p_error, at.x.point.ng},
                   {at.media_toward(-lens.d), lens, v.path.ray.time,
                    v.numbers.stream(v.dimension + U(light_dimension::vertex_lens))},
-                  light, query.on & !is_black(light), origin(v.path.depth + U(1u), light_));
+                  contribution, query.on & !is_black(contribution), origin(v.path.depth + U(1u), light_));
   }
   // It shows in the pixel whose sample point the path has.
   void broken(F value, const PathSite<F>& site, M on) {
@@ -105,21 +105,22 @@ class LightTracingLoop {
       const LensConnection<F> lens = lens_.toward(e.p, lens_u, time);
       const F cos = dot(e.n, -lens.d);
       const M lit = surfaces & lens.seen & ((cos > F(0.0f)) | e.both_sides);
-      const Spectrum<F> light =
+      const Spectrum<F> contribution =
           e.radiance * (abs(cos) * lens.across.value / (choice.mass.value * e.position.value) * scale_);
       Media<F> media = no_media<F>();
       if constexpr (in_media)
         media = shared_.light_media->template around<F>(scene_.media, choice.index, (cos > F(0.0f)) ^ e.behind, lit);
-      lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, light, lit, origin(U(0u), choice.index));
+      lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, contribution, lit, origin(U(0u), choice.index));
     }
     const M beyond = on & !e.on_surface & !e.delta_position & !e.delta_direction;
     if (!any(beyond) || !scene_.camera.sees_directions()) return;
     const LensDirection<F> lens = scene_.camera.toward_direction(-e.d, lens_u, time);
     const M queries = beyond & lens.seen & shared_.plane.reaches(lens.raster);
     if (!any(queries)) return;
-    const Spectrum<F> light = e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
-    lens_.splat(lens.raster, light * lens_.sky_seen({lens.p, -e.d, F(ray_infinity), time}, random, queries), queries,
-                origin(U(0u), choice.index));
+    const Spectrum<F> contribution =
+        e.radiance * (lens.density.value / (choice.mass.value * e.direction.value) * scale_);
+    lens_.splat(lens.raster, contribution * lens_.sky_seen({lens.p, -e.d, F(ray_infinity), time}, random, queries),
+                queries, origin(U(0u), choice.index));
   }
 
   const LightTracingScene<Rays>& shared_;

@@ -9,7 +9,7 @@ class ManifoldLight;
 // Light that one chain sends to a rough vertex, which scatters it along wo: an estimate of that of all chains.
 template <class F>
 struct ChainLight {
-  Spectrum<F> light;
+  Spectrum<F> scattered;
   Uint<F> number;  // of the light
   Uint<F> events;  // scattering events after the light, that at the rough vertex included
 };

@@ -176,7 +176,8 @@ ChainLight<F> chain_light(const ManifoldLight& lights, const StoredVertex<F>& x,
     StoredVertex<float> one;
     get_lane_words(x, k, one);
     const ChainLight<float> light = lights.light(one, lane(max_events, k), rays);
-    set_lane(all.light, k, light.light), set_lane(all.number, k, light.number), set_lane(all.events, k, light.events);
+    set_lane(all.scattered, k, light.scattered), set_lane(all.number, k, light.number),
+        set_lane(all.events, k, light.events);
   });
   return all;
 }

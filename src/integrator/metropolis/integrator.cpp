@@ -274,19 +274,19 @@ class MetropolisSeries final : public FrameSeries {
     const F factor = amount / max(c.brightness, F(1e-37f));
     for_each_lane(M((c.brightness > F(0.0f)) & (amount > F(0.0f))), [&](int k) {
       const float scale = lane(factor, k);
-      if (c.parts.empty()) return put(c, k, c.light[std::size_t(k)], scale);
-      for (const LightPart& part : c.parts[std::size_t(k)]) put(c, k, to_rgb(part.light), scale, part.from);
+      if (c.parts.empty()) return put(c, k, c.values[std::size_t(k)], scale);
+      for (const LightPart& part : c.parts[std::size_t(k)]) put(c, k, to_rgb(part.contribution), scale, part.from);
     });
     deposit_broken(c, M(true));
   }
   // `origin`: one, in a pass with layers.
   template <class... Origin>
-  void put(const Contribution<F>& c, int k, Rgb light, float scale, const Origin&... origin) {
-    for (float& channel : light.c) channel *= scale;
+  void put(const Contribution<F>& c, int k, Rgb contribution, float scale, const Origin&... origin) {
+    for (float& channel : contribution.c) channel *= scale;
     if (lane(c.splatted, k))
-      scene_.camera.for_each_place(lane(c.raster, k), [&](Vec2f place) { plane_.add(place, light, origin...); });
+      scene_.camera.for_each_place(lane(c.raster, k), [&](Vec2f place) { plane_.add(place, contribution, origin...); });
     else
-      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), light, origin...);
+      plane_.add_to_pixel(int(lane(c.x, k)), int(lane(c.y, k)), contribution, origin...);
   }
   // Shows in the count of samples that are not finite.
   void deposit_broken(const Contribution<F>& c, M on) {

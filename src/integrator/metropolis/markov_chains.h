@@ -25,7 +25,7 @@ struct SamplePoint {
 // What the path of a sample point contributes, and where.
 template <class F>
 struct Contribution {
-  std::array<Rgb, lanes_of<F>> light{};
+  std::array<Rgb, lanes_of<F>> values{};
   F brightness = F(0.0f);             // by brightness_of(); 0 where broken
   Uint<F> x, y;                       // pixel, or cell of the grid of the pass
   Mask<F> splatted = Mask<F>(false);  // light that was not drawn by the filter of the pixel: it arrives at `raster`
@@ -50,17 +50,17 @@ Uint<F> take_pixel(std::span<float> u, int first, int size) {
 }
 
 // What chains sample by: the mean of the components' absolute values.
-inline float brightness_of(const Rgb& light) {
+inline float brightness_of(const Rgb& contribution) {
   float sum = 0;
-  for (float channel : light.c) sum += std::abs(channel);
+  for (float channel : contribution.c) sum += std::abs(channel);
   return sum * (1.0f / rgb_size);
 }
 
 // Light that was found, one colour a lane.
 template <class F>
-void put_light(Contribution<F>& c, const std::array<Rgb, lanes_of<F>>& light) {
-  c.light = light;
-  for (int k = 0; k < lanes_of<F>; ++k) set_lane(c.brightness, k, brightness_of(light[std::size_t(k)]));
+void put_light(Contribution<F>& c, const std::array<Rgb, lanes_of<F>>& values) {
+  c.values = values;
+  for (int k = 0; k < lanes_of<F>; ++k) set_lane(c.brightness, k, brightness_of(values[std::size_t(k)]));
   c.broken = !is_finite(c.brightness);
   c.brightness = select(c.broken, F(0.0f), c.brightness);
 }
@@ -131,7 +131,7 @@ StepsMade<F> step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, cons
   const Mask<F> moves = decisions.at(U(1u)) < accepted;
   for_each_lane(moves, [&](int k) {
     const auto i = std::size_t(k);
-    chains.value.light[i] = there.light[i];
+    chains.value.values[i] = there.values[i];
     if (!there.parts.empty()) chains.value.parts[i] = std::move(there.parts[i]);
   });
   for (std::size_t d = 0; d * lanes_of<F> < proposal.values.size(); ++d)

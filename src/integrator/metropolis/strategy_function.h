@@ -13,14 +13,15 @@ template <class F>
 struct SplatRecord {
   const SplatPlane& plane;
   Vec2<F> raster{F(0.0f), F(0.0f)};
-  Spectrum<F> light = gray(F(0.0f));
+  Spectrum<F> contribution = gray(F(0.0f));
   Mask<F> on = Mask<F>(false);
   F brightness = F(0.0f);
   LightOrigin<F> from{Uint<F>(0u), Uint<F>(0u), Technique::light_sampling};
 
   Mask<F> reaches(const Vec2<F>& place) const { return plane.reaches(place); }
   void record(const Vec2<F>& place, const Spectrum<F>& value, Mask<F> splatted, const LightOrigin<F>& origin) {
-    raster = select<F>(splatted, place, raster), light = select(splatted, value, light), on = on | splatted;
+    raster = select<F>(splatted, place, raster), contribution = select(splatted, value, contribution),
+    on = on | splatted;
     from.bounces = select(splatted, origin.bounces, from.bounces),
     from.light = select(splatted, origin.light, from.light);
     from.light_vertices = select(splatted, origin.light_vertices, from.light_vertices);
@@ -184,7 +185,7 @@ class StrategyFunction {
     for (int k = 0; k < lanes_of<F>; ++k) {
       Rgb& sum = found[std::size_t(k)];
       sum = out_[std::size_t(k)].radiance;
-      const Rgb splatted = to_rgb(lane(splats.light, k));
+      const Rgb splatted = to_rgb(lane(splats.contribution, k));
       for (int i = 0; i < rgb_size; ++i)
         sum.c[i] = (sum.c[i] + splatted.c[i] + lane(pair.broken, k)) / lane(chosen.probability, k);
     }
@@ -296,8 +297,8 @@ class StrategyFunction {
     for (int k = 0; k < lanes_of<F>; ++k) {
       std::vector<LightPart>& parts = c.parts.emplace_back(tally_->take(std::size_t(k)));
       if (lane(splats.on, k))
-        add_part(parts, distinguished(*series_pass_.layers, lane_of(splats.from, k)), lane(splats.light, k));
-      for (LightPart& part : parts) part.light = part.light * (1 / lane(probability, k));
+        add_part(parts, distinguished(*series_pass_.layers, lane_of(splats.from, k)), lane(splats.contribution, k));
+      for (LightPart& part : parts) part.contribution = part.contribution * (1 / lane(probability, k));
     }
   }
   // The cells where splats arrive, or the nearest in the picture.

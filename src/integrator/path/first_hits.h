@@ -40,10 +40,10 @@ class FirstHits {
 // The sink of first_vertex() for light that the camera sees directly: adds it to the tally.
 template <class F, class Tally>
 auto seen_directly([[maybe_unused]] const PathState<F>& path, [[maybe_unused]] Tally& tally) {
-  return [&]([[maybe_unused]] Mask<F> on, [[maybe_unused]] const Spectrum<F>& light,
+  return [&]([[maybe_unused]] Mask<F> on, [[maybe_unused]] const Spectrum<F>& contribution,
              [[maybe_unused]] const Uint<F>& number, Technique) {
     if constexpr (Tally::records)
-      tally.template add<F>(on, light * path.weight, {Uint<F>(0u), number, Technique::emission});
+      tally.template add<F>(on, contribution * path.weight, {Uint<F>(0u), number, Technique::emission});
   };
 }
 

@@ -77,10 +77,10 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
 
 // Adds light to a path. `origin()` returns the LightOrigin for the tally.
 template <class F, class Tally, class Origin>
-MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum<F>& light,
+MONTELUX_INLINE void gather_light(PathState<F>& path, Mask<F> on, const Spectrum<F>& contribution,
                                   [[maybe_unused]] Tally& tally, [[maybe_unused]] Origin origin) {
-  path.radiance += select(on, light, gray(F(0.0f)));
-  if constexpr (Tally::records) tally.template add<F>(on, light * path.weight, origin());
+  path.radiance += select(on, contribution, gray(F(0.0f)));
+  if constexpr (Tally::records) tally.template add<F>(on, contribution * path.weight, origin());
 }
 
 // The lanes in which a path may count the light that it meets: all, unless the source of the paths says otherwise.
@@ -138,8 +138,8 @@ struct PathLight {
       });
     });
   }
-  MONTELUX_INLINE void medium(const Spectrum<F>& light, Mask<F> on) {
-    gather_light(path, on, light, tally, [&] {
+  MONTELUX_INLINE void medium(const Spectrum<F>& contribution, Mask<F> on) {
+    gather_light(path, on, contribution, tally, [&] {
       return LightOrigin<F>{path.depth, Uint<F>(lights.count()), Technique::bsdf_sampling};  // after all lights
     });
   }
@@ -263,8 +263,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       if (settings.manifold_light && any(wants_light)) {
         const ChainLight<F> chain =
             chain_light<F>(*settings.manifold_light, stored(v), wants_light, max_depth - path.depth, counts.shadow);
-        gather_light(path, wants_light & (max_component(chain.light) > F(0.0f)), path.throughput * chain.light, tally,
-                     [&] {
+        gather_light(path, wants_light & (max_component(chain.scattered) > F(0.0f)), path.throughput * chain.scattered,
+                     tally, [&] {
                        return LightOrigin<F>{path.depth + chain.events, chain.number, Technique::light_sampling};
                      });
       }

@@ -24,9 +24,9 @@ class PathRecorder {
   static constexpr bool records_vertices = true;
 
   template <class F>
-  void add(Mask<F> on, const Spectrum<F>& light, const LightOrigin<F>& from) {
-    for_each_lane(on & (max_component(light) != F(0.0f)), [&](int k) {
-      path_.contributions.push_back({path_.vertices.size(), to_rgb(lane(light, k)), lane(from.bounces, k),
+  void add(Mask<F> on, const Spectrum<F>& contribution, const LightOrigin<F>& from) {
+    for_each_lane(on & (max_component(contribution) != F(0.0f)), [&](int k) {
+      path_.contributions.push_back({path_.vertices.size(), to_rgb(lane(contribution, k)), lane(from.bounces, k),
                                      lane(from.light, k),
                                      lane(from.bounces, k) == 0 ? Technique::emission : from.technique});
     });

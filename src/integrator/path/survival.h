@@ -64,7 +64,7 @@ class PilotTally {
       paths_[lane(path.output, k)].decisions.push_back({lane(throughput, k), mean_light(to_rgb(lane(gathered, k)))});
     });
   }
-  static float mean_light(const Rgb& light) { return (light.c[0] + light.c[1] + light.c[2]) / 3; }
+  static float mean_light(const Rgb& radiance) { return (radiance.c[0] + radiance.c[1] + radiance.c[2]) / 3; }
 
  private:
   std::span<PilotPath> paths_;

@@ -106,9 +106,9 @@ class PhotonGathering {
   Layers of_gather_rays() const {
     return {tallies_ ? &(*tallies_)[1] : nullptr, 1 / float(std::max(rules_.gather_rays, 1))};
   }
-  static void record(const Layers& to, M on, const PathState<F>& path, const Spectrum<F>& light,
+  static void record(const Layers& to, M on, const PathState<F>& path, const Spectrum<F>& contribution,
                      const LightOrigin<F>& from) {
-    to.tally->template add<F>(on, path.throughput * light * (path.weight * F(to.share)), from);
+    to.tally->template add<F>(on, path.throughput * contribution * (path.weight * F(to.share)), from);
   }
 
   // Their points: as many for each pixel of the pass as it has gather rays.
@@ -127,8 +127,8 @@ class PhotonGathering {
   }
   // For light that a ray meets.
   static auto sink_for(const PathState<F>& path, const Layers& layers) {
-    return [&path, layers](const M& met, const Spectrum<F>& light, const U& number, Technique technique) {
-      if (layers.tally) record(layers, met, path, light, {path.depth, number, technique});
+    return [&path, layers](const M& met, const Spectrum<F>& contribution, const U& number, Technique technique) {
+      if (layers.tally) record(layers, met, path, contribution, {path.depth, number, technique});
     };
   }
   // The vertex that a path has met, with the light met on the way.
@@ -146,7 +146,7 @@ class PhotonGathering {
       else
         return follow(NoDistances{});
     }();
-    path.radiance += select(on, path.throughput * at.light, gray(F(0.0f)));
+    path.radiance += select(on, path.throughput * at.emitted, gray(F(0.0f)));
     path.throughput = select(on, path.throughput * at.left, path.throughput);
     return at;
   }
@@ -183,14 +183,15 @@ class PhotonGathering {
   void add_photons_of(PathState<F>& path, PhotonLookup& map, const Place& place, M on, const Layers& layers) const {
     const U room = U(rules_.max_depth ? std::uint32_t(*rules_.max_depth) - 1u : 0x7fffffffu) - path.depth;
     const PhotonRules<F> rules{rules_.glossy, room};
-    const auto to_layers = [&](const FoundPhoton<F>& photon, const M& counted, const Spectrum<F>& light, const F&) {
-      record(layers, counted, path, light,
+    const auto to_layers = [&](const FoundPhoton<F>& photon, const M& counted, const Spectrum<F>& contribution,
+                               const F&) {
+      record(layers, counted, path, contribution,
              {path.depth + photon.events + U(1u), map.template light_of<F>(photon.number), Technique::light_sampling,
               photon.events + U(2u), true});
     };
-    const Spectrum<F> light = layers.tally ? map.template radiance_by_rules<F>(place, on, rules, to_layers)
-                                           : map.template radiance_by_rules<F>(place, on, rules);
-    path.radiance += select(on, path.throughput * light, gray(F(0.0f)));
+    const Spectrum<F> radiance = layers.tally ? map.template radiance_by_rules<F>(place, on, rules, to_layers)
+                                              : map.template radiance_by_rules<F>(place, on, rules);
+    path.radiance += select(on, path.throughput * radiance, gray(F(0.0f)));
   }
   // Scatters paths, with roulette, and traces them to the next surface or the sky; gives those that have met a surface,
   // in media all that are on their way.

@@ -161,7 +161,7 @@ class RadiositySeries final : public FrameSeries {
       if (shared_.settings.gather)
         leaves = point.albedo * irradiance_sample(shared_, known, point.x.point, point.n,
                                                   numbers_of(gathering_points(pass.points), path), counts, on);
-      const Spectrum<F> radiance = (at.light + leaves * (1 / pi)) * path.weight;
+      const Spectrum<F> radiance = (at.emitted + leaves * (1 / pi)) * path.weight;
       for_each_lane(on, [&](int k) { out[lane(path.output, k)].radiance = to_rgb(lane(radiance, k)); });
       write_features(at, point.albedo, path, on, out);
     }

@@ -15,7 +15,7 @@ struct ImageSums {
 
 template <class F>
 Spectrum<F> light_of(const ShiftedLight<F>& image) {
-  return image.light;
+  return image.scattered;
 }
 template <class F>
 Spectrum<F> light_of(const Shifted<PathSample<F>, F>& image) {
@@ -37,10 +37,10 @@ class ReuseCombination {
   // The first input becomes the combination of all. Gives the light that its pixel has of those kinds that `sums`
   // names.
   Spectrum<F> into_first(const RandomStream<F>& numbers, M on, const ImageSums& sums) {
-    Spectrum<F> light = gray(F(0.0f));
-    if (settings_.direct) light += into_first(inputs_.lights, lights_, numbers, on, sums.lights);
-    if (settings_.indirect.on) light += into_first(inputs_.paths, paths_, of_paths(numbers), on, sums.paths);
-    return light;
+    Spectrum<F> radiance = gray(F(0.0f));
+    if (settings_.direct) radiance += into_first(inputs_.lights, lights_, numbers, on, sums.lights);
+    if (settings_.indirect.on) radiance += into_first(inputs_.paths, paths_, of_paths(numbers), on, sums.paths);
+    return radiance;
   }
 
   // Every input becomes the combination of all in its own place. Gives the light of each, likewise.
@@ -65,7 +65,9 @@ class ReuseCombination {
     }
 
    private:
-    void add(const Spectrum<F>& light, const F& weight, M on) { sum += select(on, light * weight, gray(F(0.0f))); }
+    void add(const Spectrum<F>& radiance, const F& weight, M on) {
+      sum += select(on, radiance * weight, gray(F(0.0f)));
+    }
   };
 
   template <class T, class Domains>

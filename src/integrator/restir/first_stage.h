@@ -87,8 +87,8 @@ class FirstStage {
     void sky(const SkyOnRay<F>& met, M on) { add(met.left, lights.template escaped_radiance<F>(path.d, on), on); }
 
    private:
-    void add(const Spectrum<F>& left, const Spectrum<F>& light, M on) {
-      path.radiance += select(on, left * light, gray(F(0.0f)));
+    void add(const Spectrum<F>& left, const Spectrum<F>& radiance, M on) {
+      path.radiance += select(on, left * radiance, gray(F(0.0f)));
     }
   };
 

@@ -12,7 +12,7 @@ namespace montelux {
 // The image of a light point, with the light that the first vertex sends on.
 template <class F>
 struct ShiftedLight : Shifted<LightPoint<F>, F> {
-  Spectrum<F> light;
+  Spectrum<F> scattered;
 };
 
 // The domains of a combination of LightReservoirs: the integral over all lights at each of `vertices`.

@@ -186,8 +186,8 @@ class PathCandidates {
     const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
     const M replays = counts & !joined & is_delta, point_of_light = counts & !joined & !is_delta;
     PathSample<F> sample = sample_so_far(w.events);
-    sample.light = w.tail * met.left * met.hit.radiance * select(straight, F(1.0f), share);
-    sample.contribution = w.until * sample.light;
+    sample.arriving = w.tail * met.left * met.hit.radiance * select(straight, F(1.0f), share);
+    sample.contribution = w.until * sample.arriving;
     sample.end = select(replays, U(path_end::met), select(point_of_light, U(path_end::light), sample.end));
     sample.replayed = select(joined, sample.replayed, select(replays, w.events, w.events - U(1u)));
     sample.point = met.point;
@@ -221,11 +221,11 @@ class PathCandidates {
     const M joined = lit & (w.joined != U(0u));
     const M joins = lit & !joined & may_join(leg, to.scattered.density);
     PathSample<F> sample = sample_so_far(w.events + U(1u));
-    sample.light = w.tail * estimate, sample.contribution = w.until * sample.light;
+    sample.arriving = w.tail * estimate, sample.contribution = w.until * sample.arriving;
     if (any(joins)) {
       sample.at = select_words(joins, surface_of(vertex), sample.at);
       sample.wi = select(joins, to.wi, sample.wi);
-      sample.light = select(joins, to.arriving, sample.light);
+      sample.arriving = select(joins, to.arriving, sample.arriving);
       sample.contribution =
           select(joins, w.leaving * to.scattered.f_cos * to.arriving * geometry_of(leg, vertex), sample.contribution);
     }
@@ -253,7 +253,7 @@ class PathCandidates {
     const M counts = shared & known & (usable_weight(average(sample.contribution)) > F(0.0f));
     chosen_.add(sample, select(counts, usable_weight(average(contribution)), F(0.0f)), u);
   }
-  void add_plain(const Spectrum<F>& light, M on) { walk_.plain += select(on, light, gray(F(0.0f))); }
+  void add_plain(const Spectrum<F>& radiance, M on) { walk_.plain += select(on, radiance, gray(F(0.0f))); }
 
   // ---- the next event
 

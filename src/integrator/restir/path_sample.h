@@ -27,7 +27,7 @@ struct PathSample {
   Uint<F> end;              // of path_end
   StoredSurface<F> at;      // path_end::surface: the surface, the direction from there, and what comes along it
   Vec3<F> wi;
-  Spectrum<F> light;
+  Spectrum<F> arriving;
   LightPoint<F> point;       // path_end::light
   F time;                    // at which all its rays are traced
   Spectrum<F> contribution;  // to the vertex of the pixel that has it, which the target is the mean of

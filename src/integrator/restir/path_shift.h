@@ -41,18 +41,18 @@ class PathReplay {
   // vertex.
   Spectrum<F> contribution() {
     const M met = sample_.end == U(path_end::met);
-    Spectrum<F> light = gray(F(0.0f));
+    Spectrum<F> radiance = gray(F(0.0f));
     for (std::uint32_t event = 0;; ++event) {
       const M scatters = alive_ & (U(event) < sample_.replayed);
       if (!any(scatters)) break;
       const Spectrum<F> seen = scatter(event, scatters, met & (sample_.replayed == U(event + 1)));
-      light += seen;
+      radiance += seen;
     }
     const M surface = alive_ & (sample_.end == U(path_end::surface)),
             point = alive_ & (sample_.end == U(path_end::light));
-    if (any(surface)) light += select(surface, through_surface(surface), gray(F(0.0f)));
-    if (any(point)) light += select(point, through_light(point), gray(F(0.0f)));
-    return select(is_finite(average(light)), light, gray(F(0.0f)));
+    if (any(surface)) radiance += select(surface, through_surface(surface), gray(F(0.0f)));
+    if (any(point)) radiance += select(point, through_light(point), gray(F(0.0f)));
+    return select(is_finite(average(radiance)), radiance, gray(F(0.0f)));
   }
 
  private:
@@ -69,16 +69,16 @@ class PathReplay {
     const NextVertex<F> at =
         next_vertex<F>(shared_.scene, shared_.rays, vertex_.reference_toward(taken.wi), vertex_.ray_toward(taken.wi),
                        stays, numbers.surface(), counts_.scattered, NoWeight{});
-    Spectrum<F> light = gray(F(0.0f));
+    Spectrum<F> radiance = gray(F(0.0f));
     if (const M ends = stays & last; any(ends)) {
       const M emits = ends & at.found & (at.x.light != U(0u)), left = ends & !at.found;
-      light = select(emits,
-                     shared_.lights.template hit_radiance<F>(select(emits, at.x.light - U(1u), U(0u)), at.x.point.ng,
-                                                             at.x.point.uv, taken.wi, emits),
-                     gray(F(0.0f)));
-      light = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), light);
+      radiance = select(emits,
+                        shared_.lights.template hit_radiance<F>(select(emits, at.x.light - U(1u), U(0u)), at.x.point.ng,
+                                                                at.x.point.uv, taken.wi, emits),
+                        gray(F(0.0f)));
+      radiance = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), radiance);
       const Spectrum<F> far = vertex_.media_toward(taken.wi).left(F(ray_infinity));
-      light = select(ends, weight_ * select(left, far, at.left) * light, gray(F(0.0f)));
+      radiance = select(ends, weight_ * select(left, far, at.left) * radiance, gray(F(0.0f)));
     }
     const M moved = stays & !last & at.found;
     weight_ = select(moved, weight_ * at.left, weight_);
@@ -88,7 +88,7 @@ class PathReplay {
     vertex_ = select_words(moved, vertex_behind<F>(vertex_, at), vertex_);
     has_leg_ = has_leg_ | moved;
     alive_ = alive_ & (moved | !on);
-    return light;
+    return radiance;
   }
 
   // Whether the path would have been joined to the vertex at hand, if it leaves it with this density.
@@ -107,9 +107,9 @@ class PathReplay {
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
     const F geometry = abs(dot(at.ng, wi)) / squared;
     const Spectrum<F> left = at.boundary().before(vertex_.media_toward(wi), wi).left(distance);
-    const Spectrum<F> light = weight_ * here.f_cos * there.f_cos * left * sample_.light * geometry;
-    good = good & (average(light) > F(0.0f));
-    return select(unblocked<F>(shared_.rays, vertex_.shadow_ray_to(wi, distance), good, counts_.shadow), light,
+    const Spectrum<F> radiance = weight_ * here.f_cos * there.f_cos * left * sample_.arriving * geometry;
+    good = good & (average(radiance) > F(0.0f));
+    return select(unblocked<F>(shared_.rays, vertex_.shadow_ray_to(wi, distance), good, counts_.shadow), radiance,
                   gray(F(0.0f)));
   }
 

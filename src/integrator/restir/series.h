@@ -215,8 +215,8 @@ class ReuseSeries final : public FrameSeries {
       if (reuses) {
         RandomStream<F> numbers = stream(step.frame, at, restir_stream::spatial + std::uint32_t(step.stage));
         meet_neighbours(step.frame, writes, at, numbers, inputs);
-        const Spectrum<F> light = combination(inputs, counts).into_first(numbers, at.on, sums);
-        if (shows) add_light(inputs.vertices[0].throughput * light, at, at.on, out);
+        const Spectrum<F> radiance = combination(inputs, counts).into_first(numbers, at.on, sums);
+        if (shows) add_light(inputs.vertices[0].throughput * radiance, at, at.on, out);
         leave(inputs, at, writes);
       }
       if (!shows) continue;
@@ -341,22 +341,22 @@ class ReuseSeries final : public FrameSeries {
     const M lit = at.on & (reservoir.weight > F(0.0f));
     if (!any(lit)) return;
     const LightConnection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
-    const Spectrum<F> light = vertex.throughput * way.value * reservoir.weight;
+    const Spectrum<F> radiance = vertex.throughput * way.value * reservoir.weight;
     // Where targets know what is in the way, the pixel sees whatever it holds.
     const M queries = lit & (way.target > F(0.0f));
     const M open =
         settings().visibility_reuse ? queries : is_open<F>(shared_.rays, vertex, way, queries, counts.shadow);
-    add_light(light, at, open, out);
+    add_light(radiance, at, open, out);
   }
-  void add_light(const Spectrum<F>& light, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {
-    for_each_lane(on, [&](int k) { out[lane(at.output, k)].radiance += to_rgb(lane(light, k)); });
+  void add_light(const Spectrum<F>& radiance, const LanePixels<F>& at, M on, std::span<PixelSample> out) const {
+    for_each_lane(on, [&](int k) { out[lane(at.output, k)].radiance += to_rgb(lane(radiance, k)); });
   }
 
   // Targets of paths know what is in the way.
   void show(const ReuseVertex<F>& vertex, const PathReservoir<F>& reservoir, const LanePixels<F>& at,
             std::span<PixelSample> out) const {
-    const Spectrum<F> light = vertex.throughput * reservoir.value.contribution * reservoir.weight;
-    add_light(light, at, at.on & (reservoir.weight > F(0.0f)), out);
+    const Spectrum<F> radiance = vertex.throughput * reservoir.value.contribution * reservoir.weight;
+    add_light(radiance, at, at.on & (reservoir.weight > F(0.0f)), out);
   }
 
   const RestirScene<Rays> shared_;

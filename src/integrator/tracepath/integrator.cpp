@@ -26,9 +26,9 @@ struct Recursion {
   // `throughput` is that of the way from the camera, for roulette alone.
   Spectrum<float> radiance(const NextVertex<float>& at, RandomStream<float> random, int depth,
                            const Spectrum<float>& throughput) const {
-    const bool emits = max_component(at.light) > 0;
+    const bool emits = max_component(at.emitted) > 0;
     const float p_emit = !at.found ? 1.0f : emits ? settings.p_emit : 0.0f;
-    if (random.next() < p_emit) return at.light * (1.0f / p_emit);
+    if (random.next() < p_emit) return at.emitted * (1.0f / p_emit);
     const Spectrum<float> arrives = at.left * (1.0f / (1.0f - p_emit));
     return arrives * reflected(at, random, depth, throughput * arrives);
   }

@@ -36,7 +36,7 @@ struct KnownFunction {
       const auto u = [&](std::size_t d) { return point.values[d * lanes_of<F> + std::size_t(k)]; };
       set_lane(c.x, k, std::min(std::uint32_t(4 * u(0)), 3u));
       const Rgb light{{12 * std::pow(u(1), 11.0f), 2 * u(2), lane(of_stream, k) < 0.05f ? 20.0f : 0.0f}};
-      c.light[std::size_t(k)] = light;
+      c.values[std::size_t(k)] = light;
       set_lane(c.brightness, k, (light.c[0] + light.c[1] + light.c[2]) / 3);
     }
     return c;
@@ -81,7 +81,7 @@ std::array<std::array<double, 3>, 4> picture_of_pass(std::uint32_t pass, Fault f
       for (std::size_t channel = 0; channel < 3; ++channel)
         if (lane(c.brightness, k) > 0)
           picture[lane(c.x, k)][channel] += scale * double(lane(share, k)) *
-                                            double(c.light[std::size_t(k)].c[channel]) / double(lane(c.brightness, k));
+                                            double(c.values[std::size_t(k)].c[channel]) / double(lane(c.brightness, k));
   };
   for (std::uint32_t i = 0; i < steps; ++i) {
     const MutationSizes sizes{fault == Fault::one_sided_moves ? 0.0f : 0.3f, 1.0f / 1024, 1.0f / 64};
