@@ -7,14 +7,12 @@ namespace montelux {
 
 namespace {
 
-const NamedValues<Fold> fold_names{{"repeat", Fold::none}, {"clamp", Fold::clamp}, {"mirror", Fold::mirror}};
-
 template <std::size_t axis>
 void fold(Fields<ImageTextureDesc>& fields, std::string_view name, const char* meaning) {
   using T = ImageTextureDesc;
   fields
-      .choice<Fold>(
-          name, [](T& image) -> Fold& { return image.folds[axis]; }, meaning, fold_names)
+      .choice<Fold>(name, [](T& image) -> Fold& { return image.folds[axis]; }, meaning,
+                    {{"repeat", Fold::none}, {"clamp", Fold::clamp}, {"mirror", Fold::mirror}})
       .only_if([](const T& image) { return image.folds[axis] != Fold::none || image.wrap == Wrap::repeat; });
 }
 
