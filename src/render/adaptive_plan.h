@@ -10,9 +10,9 @@
 namespace montelux {
 
 // Tile t has about `level` times shares[t] passes at each level, and at least the first ones, which all tiles have. The
-// shares of a tile come from samples that are not its own, so that its mean stays unbiased. Levels are what passes are
-// to the other plans: looks at the film, if there is a target, come after whole levels, and the plan's number of passes
-// is the last level.
+// shares of a tile come from samples that are not its own, except for means over all tiles (see pass_shares()). Levels
+// are what passes are to the other plans: looks at the film, if there is a target, come after whole levels, and the
+// plan's number of passes is the last level.
 class AdaptivePlan final : public WorkPlan {
  public:
   AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<ErrorTarget>& target);

@@ -28,10 +28,11 @@ ImageFigures figures_of(const Film& film, std::span<const std::uint64_t> rays, T
 
 // How many passes each tile gets where the average is one, so that the error at equal cost is the least: proportional
 // to the root of error over cost (Neyman 1934). The share of a tile is decided by the 5 x 5 tiles around it without
-// itself, weighted by distance: the tile's own samples may then be in the image, whose mean stays unbiased as long as
-// its tiles are independent. A part of the mean of all is added, for what the samples have missed. The mean weighted by
-// cost is 1, and none is below `min_share`. All are 1 where the samples show no error, or none that can be foreseen by
-// the tiles around.
+// itself, weighted by distance: the tile's own samples may then be in the image. They reach its share only through
+// means over all tiles (the part that is added, and the normalisation), one of many there; otherwise the mean of the
+// image would be unbiased as long as its tiles are independent. A part of the mean of all is added, for what the
+// samples have missed. The mean weighted by cost is 1, and none is below `min_share`. All are 1 where the samples show
+// no error, or none that can be foreseen by the tiles around.
 std::vector<double> pass_shares(const ImageFigures& image, double min_share);
 
 // The factor by which the squared error at equal cost falls with these shares. Unbiased, since the error of a tile does

@@ -102,7 +102,8 @@ TEST(PassShares, are_smaller_where_passes_cost_more) {
   EXPECT_LT(shares.front(), 0.7 * shares.back());
 }
 
-TEST(PassShares, of_a_tile_do_not_depend_on_its_own_error) {
+// Except for means over all 1200 tiles: a thousand times the error changes a share by less than 5 %.
+TEST(PassShares, of_a_tile_hardly_depend_on_its_own_error) {
   // Noise that varies over the image, so that there is a gain.
   ImageFigures image{even_tiles(1200, 1), 40};
   for (std::size_t t = 0; t < 1200; ++t) image.tiles[t].error = 1 + 9 * double(t) / 1200;
