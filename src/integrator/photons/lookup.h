@@ -133,7 +133,8 @@ class PhotonLookup {
   template <class F>
   Spectrum<F> radiance_by_rules(const GatheringSurface<F>& place, Mask<F> on, const PhotonRules<F>& rules) {
     if (!any(on)) return gray(F(0.0f));
-    const auto& [at, context] = place;
+    const NextVertex<F>& at = place.at;
+    const BsdfContext<F>& context = place.context;
     const F radius_squared = find<F>(place, on);
     const Mask<F> diffuse = on & (at.bsdf.kind == Uint<F>(std::uint32_t(kind_of<Diffuse>)));
     Spectrum<F> sum = gray(F(0.0f));
