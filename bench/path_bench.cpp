@@ -41,7 +41,7 @@ struct Bench {
     for (int y = 0; y < height; y += 32)
       for (int x = 0; x < width; x += 32) {
         const PixelBounds tile{x, y, std::min(x + 32, width), std::min(y + 32, height)};
-        const TilePass pass{tile, {sampler, 1, 0, std::uint32_t(samples), std::uint32_t(width), std::uint32_t(height)}};
+        const TilePass pass{tile, {sampler, 1, 0, std::uint32_t(samples)}};
         out.assign(std::size_t(tile.area()) * std::size_t(samples), {});
         trace_paths<F>(parts.scene, parts.scene.lights, rays, settings, pass, out);
       }

@@ -24,7 +24,6 @@ class Branches {
     set_.kind = pattern.value_or(PointSetKind::padded_sobol);
     set_.samples_per_pass = count;
     set_.seed = mix_bits(set_.seed ^ 0x68bc21ebu);
-    set_.width = set_.height = 0;
     site_.x = site.x + mix_bits(U(site.index + mix_bits(U(vertex + U(0x1b873593u)))));
   }
 

@@ -137,8 +137,7 @@ bool has_indirect_light(const Scene& scene, const Accel& accel, int width, int h
     const int x = int(places.at(2 * i) * float(std::max(width - side, 0) + 1));
     const int y = int(places.at(2 * i + 1) * float(std::max(height - side, 0) + 1));
     const PixelBounds tile{x, y, std::min(x + side, width), std::min(y + side, height)};
-    const TilePass pass{
-        tile, {PointSetKind::independent, 0xa4093822u, i, samples, std::uint32_t(width), std::uint32_t(height)}};
+    const TilePass pass{tile, {PointSetKind::independent, 0xa4093822u, i, samples}};
     std::vector<PixelSample> out(std::size_t(tile.area()) * samples);
     const std::size_t stride = std::size_t(plan.count()) + 1;
     std::vector<ExactRgb> sums(std::size_t(tile.area()) * stride);

@@ -1,7 +1,10 @@
 // Light from infinity, the same at every point.
 #pragma once
+#include <array>
+
 #include "light/images.h"
 #include "light/stated.h"
+#include "math/prefetch.h"
 #include "math/square_maps.h"
 #include "mc/hemisphere.h"
 #include "mc/piecewise.h"
@@ -112,17 +115,18 @@ struct ImageInfinite {
       const PointSample2<F> s = table.sample(u);
       uv = select(same, s.p, uv), density = select(same, s.density.value, density);
     });
-    return {normalize(rows.transform().direction_to_world(sphere_from_square(uv))),
-            texels(uv, on),
-            {density * inv_four_pi}};
+    const Texels texels = texels_at(uv, on);
+    const Vec3<F> wi = normalize(rows.transform().direction_to_world(sphere_from_square(uv)));
+    return {wi, read(texels, on), {density * inv_four_pi}};
   }
   MONTELUX_INLINE UnboundedSample<F> toward(Vec3<F>, Vec3<F> wi, Mask<F> on) const {
     const Vec2<F> uv = place_of(wi);
+    const Texels texels = texels_at(uv, on);
     F density(0.0f);
     for_each_distribution<F>(rows, of, on, [&](const PiecewiseConstant2& table, Mask<F> same) {
       density = select(same, table.density(uv).value, density);
     });
-    return {wi, texels(uv, on), {density * inv_four_pi}};
+    return {wi, read(texels, on), {density * inv_four_pi}};
   }
   MONTELUX_INLINE Vec2<F> numbers(Vec3<F> wi, Mask<F> on) const {
     const Vec2<F> uv = place_of(wi);
@@ -136,10 +140,20 @@ struct ImageInfinite {
   MONTELUX_INLINE Vec2<F> place_of(Vec3<F> wi) const {
     return inside_square(square_from_sphere(normalize(rows.transform().direction_to_light(wi))));
   }
-  MONTELUX_INLINE Spectrum<F> texels(Vec2<F> uv, Mask<F> on) const {
-    Spectrum<F> r = gray(F(0.0f));
+  // The texel of each lane, whose load has started.
+  using Texels = std::array<const Rgb*, std::size_t(lanes_of<F>)>;
+  MONTELUX_INLINE Texels texels_at(Vec2<F> uv, Mask<F> on) const {
+    Texels texels{};
     const Uint<F> image = rows.bits(light_slot::image);
-    for_each_lane(on, [&](int k) { set_lane(r, k, from_rgb(of.images[lane(image, k) - 1]->nearest(lane(uv, k)))); });
+    for_each_lane(on, [&](int k) {
+      texels[std::size_t(k)] = &of.images[lane(image, k) - 1]->nearest(lane(uv, k));
+      if constexpr (lanes_of < F >> 1) prefetch(texels[std::size_t(k)]);
+    });
+    return texels;
+  }
+  MONTELUX_INLINE static Spectrum<F> read(const Texels& texels, Mask<F> on) {
+    Spectrum<F> r = gray(F(0.0f));
+    for_each_lane(on, [&](int k) { set_lane(r, k, from_rgb(*texels[std::size_t(k)])); });
     return r;
   }
 };

@@ -1,6 +1,5 @@
 #include "mc/point_set.h"
 
-#include "math/small_table.h"
 #include "mc/digital.h"
 #include "mc/halton.h"
 #include "mc/lattice.h"
@@ -148,37 +147,6 @@ U spread_bits(U x) {
   return (x ^ (x << 1)) & U(0x55555555u);
 }
 
-// The 24 permutations of four digits, two bits to a digit and four permutations to a word.
-constexpr SmallTable digit_permutations = [] {
-  SmallTable table{};
-  std::array<std::uint32_t, 4> p{0, 1, 2, 3};
-  std::size_t i = 0;
-  do {
-    table[i / 4] |= (p[0] | p[1] << 2 | p[2] << 4 | p[3] << 6) << (i % 4 * 8);
-    ++i;
-  } while (std::next_permutation(p.begin(), p.end()));
-  return table;
-}();
-
-// Permutes the digits of the position on the Z curve in base 4, each by a permutation that depends on the higher
-// digits; an odd lowest bit is flipped likewise (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion").
-template <class F>
-Uint<F> shuffle_z_order(Uint<F> order, int bits, Uint<F> key) {
-  using U = Uint<F>;
-  U result = 0u;
-  const int lowest = bits & 1;
-  for (int shift = lowest + 2 * ((bits - lowest) / 2 - 1); shift >= lowest; shift -= 2) {
-    U above = shift + 2 < 32 ? U(order >> (shift + 2)) : U(0u);
-    U hash = mix_bits(U(key + above + U(std::uint32_t(shift) * 0x9e3779b9u)));
-    U number = ((hash >> 16) * U(24u)) >> 16;  // of the permutation
-    U digit = (order >> shift) & U(3u);
-    U in_word = ((number & U(3u)) << 3) | (digit << 1);
-    result = result | (((look_up(digit_permutations, U(number >> 2)) >> in_word) & U(3u)) << shift);
-  }
-  if (lowest == 1) result = result | ((order ^ mix_bits(U(key + (order >> 1) + U(0x632be5abu)))) & U(1u));
-  return result;
-}
-
 }  // namespace
 
 template <class F>
@@ -193,17 +161,14 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
   }
   if (set.kind == PointSetKind::pmj02) index_bits_ = int(std::bit_width(set.samples_per_pass - 1u));
   if (set.kind != PointSetKind::blue_noise) return;
-  // One sequence for the grid: the bits of the site's position on the Z curve above those of the index. If 32 bits are
-  // not enough, the grid is divided into squares with separate randomisations.
+  // One sequence for the grid: the bits of the site's position on the Z curve above those of the index. The grid is
+  // divided into the largest squares that 32 bits can number, with separate randomisations.
   const int sample_bits = int(std::bit_width(set.samples_per_pass - 1u));
-  const std::uint32_t side = std::max(set.width, set.height);
-  const int fit = std::min(16, (32 - sample_bits) / 2);
-  const int side_bits = set.width == 0 || set.height == 0 ? fit : std::min(fit, int(std::bit_width(side - 1u)));
+  const int side_bits = std::min(16, (32 - sample_bits) / 2);
   const U low_bits = U((1u << side_bits) - 1u);
   const U place = spread_bits(U(x & low_bits)) | (spread_bits(U(y & low_bits)) << 1);
   shared_ = stream_of_site<F>(set, U(x >> side_bits), U(y >> side_bits));
   index_ = (place << sample_bits) | index;
-  index_bits_ = 2 * side_bits + sample_bits;
 }
 
 template <class F>
@@ -233,11 +198,8 @@ F Sampler<F>::get1(Uint<F> dimension) const {
       return all(inside) ? tabulated : select(inside, tabulated, padded());
     }
     case PointSetKind::padded_sobol:
+    case PointSetKind::blue_noise:
       return padded();
-    case PointSetKind::blue_noise: {
-      U place = shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u))));
-      return fraction_of_reversed<F>(scramble_upwards(place, shared_.bits_at(d)));
-    }
     case PointSetKind::pmj02: {
       U place = pmj02_order(index_, shared_.bits_at(U(d ^ U(0x80000000u))));
       return fraction_of_reversed<F>(pmj02_digits(place, index_bits_, shared_.bits_at(d)));
@@ -269,10 +231,8 @@ Vec2<F> Sampler<F>::get2(Uint<F> dimension) const {
       return select(inside, tabulated, scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d));
     }
     case PointSetKind::padded_sobol:
-      return scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d);
     case PointSetKind::blue_noise:
-      return scrambled_02<F>(shuffle_z_order<F>(index_, index_bits_, shared_.bits_at(U(d ^ U(0x80000000u)))), shared_,
-                             d);
+      return scrambled_02<F>(padded_index<F>(index_, shared_, d), shared_, d);
     case PointSetKind::pmj02:
       return multi_jittered<F>(index_, index_bits_, shared_, d);
     case PointSetKind::lattice:

@@ -72,8 +72,7 @@ struct PointSet {
   PointSetKind kind = PointSetKind::padded_sobol;
   std::uint32_t seed = 0;
   std::uint32_t pass = 0;
-  std::uint32_t samples_per_pass = 1;   // points per site in this pass; >= 1
-  std::uint32_t width = 0, height = 0;  // of the grid; 0: unknown. Used only by blue_noise, to save time.
+  std::uint32_t samples_per_pass = 1;  // points per site in this pass; >= 1
 };
 
 // The coordinates of one point in every lane. Lanes may differ in site, index (below samples_per_pass) and dimension.
@@ -97,7 +96,7 @@ class Sampler {
   RandomStream<F> shared_;  // the randomisation that all points of a set share
   RandomStream<F> own_;     // of this point alone
   Uint<F> index_;           // the point's number in its set
-  int index_bits_;          // bits of index_ that are used (blue_noise, pmj02)
+  int index_bits_;          // bits of index_ that are used (pmj02)
 };
 
 extern template class Sampler<float>;

@@ -20,12 +20,7 @@ struct ImageSettings {
   bool halves = false;              // the film stores both halves of the passes
 
   PointSet points(int pass, int samples_per_pass) const {
-    return {sampler,
-            seed,
-            std::uint32_t(pass),
-            std::uint32_t(samples_per_pass),
-            std::uint32_t(width),
-            std::uint32_t(height)};
+    return {sampler, seed, std::uint32_t(pass), std::uint32_t(samples_per_pass)};
   }
 };
 

@@ -63,7 +63,7 @@ inline double mean_over_pass(const PointSet& set, const SquareIntegrand& f) {
 
 inline SampleSummary measured_variance(PointSetKind kind, std::uint32_t n, const SquareIntegrand& f,
                                        std::uint32_t passes = 1000) {
-  return variance_summary([&](std::uint32_t pass) { return mean_over_pass({kind, 77, pass, n, 16, 16}, f); }, passes);
+  return variance_summary([&](std::uint32_t pass) { return mean_over_pass({kind, 77, pass, n}, f); }, passes);
 }
 
 // The exponent of N by least squares over logarithms, each weighted by its own error; the error of the exponent is the

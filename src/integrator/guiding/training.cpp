@@ -49,10 +49,8 @@ void trace_round(const Scene& scene, const LightSet& lights, const Accel& rays, 
   for (int y = 0; y < cells.y1; y += tile_side)
     for (int x = 0; x < cells.x1; x += tile_side) {
       const PixelBounds tile{x, y, std::min(x + tile_side, cells.x1), std::min(y + tile_side, cells.y1)};
-      const TilePass pass{.tile = tile,
-                          .points = {PointSetKind::padded_sobol, 0x6a09e667u, round.number, samples,
-                                     std::uint32_t(width), std::uint32_t(height)},
-                          .grid = grid};
+      const TilePass pass{
+          .tile = tile, .points = {PointSetKind::padded_sobol, 0x6a09e667u, round.number, samples}, .grid = grid};
       out.assign(std::size_t(tile.area()) * samples, {});
       GuideTally tally(out.size());
       trace_guided_paths(scene, lights, rays, settings, pass, out, tally);

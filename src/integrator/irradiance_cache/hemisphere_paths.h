@@ -23,7 +23,7 @@ struct CachePoint {
 // The numbers of the paths of all points of one frame that serve one purpose: every pixel has its own.
 inline PointSet hemisphere_points(PointSet points, int frame, std::uint32_t purpose, const HemisphereStrata& strata) {
   points.kind = PointSetKind::independent;
-  points.samples_per_pass = std::uint32_t(strata.count()), points.width = points.height = 0;
+  points.samples_per_pass = std::uint32_t(strata.count());
   points.seed = mix_bits(points.seed ^ mix_bits(std::uint32_t(frame) * 2 + purpose + 0x1f83d9abu));
   return points;
 }

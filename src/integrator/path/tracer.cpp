@@ -40,9 +40,7 @@ SurvivalMap PathTracer::run_pilot() const {
     const int x = std::min(x0 + int(places.at(std::uint32_t(2 * i)) * float(block)), std::max(width - side, 0));
     const int y = std::min(y0 + int(places.at(std::uint32_t(2 * i + 1)) * float(block)), std::max(height - side, 0));
     const PixelBounds tile{x, y, std::min(x + side, width), std::min(y + side, height)};
-    const TilePass pass{tile,
-                        {PointSetKind::independent, 0x082efa98u, std::uint32_t(i), samples, std::uint32_t(width),
-                         std::uint32_t(height)}};
+    const TilePass pass{tile, {PointSetKind::independent, 0x082efa98u, std::uint32_t(i), samples}};
     out.assign(std::size_t(tile.area()) * samples, {});
     std::vector<PilotPath> paths(out.size());
     PilotTally tally(paths);

@@ -109,7 +109,7 @@ inline LightPathPart light_path_part(std::size_t unit, std::uint32_t paths) {
 // The points of the light paths of a frame: one set for all of them, and none of those of the paths from the eye.
 inline PointSet photon_points(PointSet points, int frame, std::uint32_t paths) {
   if (points.kind != PointSetKind::independent && !is_fixed(points.kind)) points.kind = PointSetKind::padded_sobol;
-  points.samples_per_pass = paths, points.width = points.height = 0;
+  points.samples_per_pass = paths;
   points.seed = mix_bits(points.seed ^ mix_bits(std::uint32_t(frame) + 0x3c6ef372u));
   return points;
 }

@@ -98,7 +98,6 @@ class RadiositySeries final : public FrameSeries {
   PointSet points(int frame) const {
     PointSet p = pass_.points;
     p.kind = PointSetKind::padded_sobol, p.samples_per_pass = std::uint32_t(shared_.settings.rays);
-    p.width = p.height = 0;
     p.seed = mix_bits(p.seed ^ mix_bits(std::uint32_t(frame) + 0x51ed270bu));
     return p;
   }

@@ -85,7 +85,7 @@ double FloorScene::pixel(const FloorSettings& settings, std::uint32_t pixel, std
                          std::uint32_t pass) const {
   const std::uint32_t column = pixel % size, row = pixel / size, rays = settings.eye_rays * settings.shadow_rays;
   const bool quasi = settings.pattern == Pattern::quasi_random;
-  const PointSet set{quasi ? PointSetKind::padded_sobol : PointSetKind::independent, seed, pass, rays, size, size};
+  const PointSet set{quasi ? PointSetKind::padded_sobol : PointSetKind::independent, seed, pass, rays};
   const double step = 2 * half_floor / size;
   double sum = 0;
   for (std::uint32_t e = 0; e < settings.eye_rays; ++e) {

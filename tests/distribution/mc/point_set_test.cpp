@@ -22,7 +22,7 @@ TestResult uniformity(PointSetKind kind, std::uint32_t dimension, Fault fault) {
       [&](RandomStream<float>&) {
         const std::uint32_t pass = n / 16, index = n % 16;
         ++n;
-        PointSet set{kind, 21, pass, 16, 64, 64};
+        PointSet set{kind, 21, pass, 16};
         return fault(Sampler<float>(set, pass % 61, pass % 53, index).get2(dimension));
       },
       [](double, double) { return 1.0; }, {16, 16}, 64000, 1);
@@ -76,7 +76,7 @@ TEST(PointSet, passes_pixels_and_dimensions_are_uncorrelated) {
     std::vector<double> here, next_pass, other_pixel, x, other_dimension;
     const std::uint32_t n = 20000;
     for (std::uint32_t k = 0; k < n; ++k) {
-      PointSet set{entry.kind, 5, 2 * k, 4, 64, 64}, following = set;
+      PointSet set{entry.kind, 5, 2 * k, 4}, following = set;
       following.pass += 1;
       here.push_back(mean_over_set(set, 7, 7, integrand));
       next_pass.push_back(mean_over_set(following, 7, 7, integrand));
@@ -97,11 +97,7 @@ TEST(PointSet, passes_pixels_and_dimensions_are_uncorrelated) {
 // The variance over randomisations of the mean over n points.
 template <class Function>
 SampleSummary variance_over_passes(PointSetKind kind, std::uint32_t n, Function f) {
-  return variance_summary(
-      [&](std::uint32_t pass) {
-        return mean_over_set({kind, 77, pass, n, 16, 16}, 3, 5, f);
-      },
-      1000);
+  return variance_summary([&](std::uint32_t pass) { return mean_over_set({kind, 77, pass, n}, 3, 5, f); }, 1000);
 }
 template <class Function>
 Exponent variance_slope(PointSetKind kind, Function f) {
@@ -163,7 +159,7 @@ TEST(PointSet, realisations_are_unbiased) {
     for (std::uint32_t n : {1u, 5u, 16u}) {
       std::vector<double> means;
       for (std::uint32_t pass = 0; pass < 4000; ++pass)
-        means.push_back(mean_over_set({entry.kind, 1, pass, n, 32, 32}, 20, 30, integrand));
+        means.push_back(mean_over_set({entry.kind, 1, pass, n}, 20, 30, integrand));
       EXPECT_GT(t_test(means, truth).p_value, level) << entry.name << n;
       EXPECT_LT(t_test(means, 1.2 * truth).p_value, level) << entry.name << n;
     }
@@ -177,7 +173,7 @@ TEST(PointSet, blue_noise_leaves_less_error_after_a_blur) {
     std::vector<double> image;
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x)
-        image.push_back(mean_over_set({kind, 3, pass, 1, side, side}, x, y, integrand) - truth);
+        image.push_back(mean_over_set({kind, 3, pass, 1}, x, y, integrand) - truth);
     double squares = 0;
     for (std::uint32_t y = 1; y + 1 < side; ++y)
       for (std::uint32_t x = 1; x + 1 < side; ++x) {

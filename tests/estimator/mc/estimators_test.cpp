@@ -163,7 +163,7 @@ TEST(Confidence, intervals_over_passes_cover_95_percent_for_every_point_set) {
     const std::uint32_t trials = 2000;
     for (std::uint32_t r = 0; r < trials; ++r) {
       // Means of 16 points are near enough to normal for the interval of 16 passes.
-      const Estimate e = estimate_over_passes(integrand, {entry.kind, r, 0, 16, 1, 1}, 16);
+      const Estimate e = estimate_over_passes(integrand, {entry.kind, r, 0, 16}, 16);
       const Interval wide = confidence_interval(e.mean, e.standard_error, double(e.count));
       const Interval thin = confidence_interval(e.mean, 0.8 * e.standard_error, double(e.count));
       covered += wide.low <= truth && truth <= wide.high;

@@ -61,7 +61,7 @@ TEST(Integrals, over_twenty_dimensions_by_every_point_set) {
     return p;
   };
   const auto of = [&](PointSetKind kind, std::uint32_t samples) {
-    return estimate_over_passes(product, {kind, 3, 0, samples, 1, 1}, 400);
+    return estimate_over_passes(product, {kind, 3, 0, samples}, 400);
   };
   // The p-value of "no more variance than independent points have" (means of 64 are near normal: Fisher's F).
   const Estimate independent = of(PointSetKind::independent, 64);

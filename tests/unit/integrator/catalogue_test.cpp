@@ -36,7 +36,7 @@ MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog" Shape
   };
   for (const EntitySpec& spec : integrator_catalogue()) {
     const ChosenIntegrator chosen = scene.integrator(spec.name);
-    TilePass pass{{0, 0, 1, 1}, {PointSetKind::independent, 1, 0, 1, 16, 16}};
+    TilePass pass{{0, 0, 1, 1}, {PointSetKind::independent, 1, 0, 1}};
     pass.only = 0;
     EXPECT_EQ(can(Ability::layers, spec.name), chosen.any().has_layers()) << spec.name;
     EXPECT_EQ(can(Ability::paths, spec.name), chosen.integrator && chosen.integrator->trace_path(pass)) << spec.name;

@@ -89,8 +89,7 @@ class Folder : public TemporaryFolder {
 template <class F, class Expected>
 void expect_of_all_light(const TestScene& scene, Expected expected) {
   const PictureSettings& picture = scene.picture();
-  const TilePass pass{
-      picture.crop, {PointSetKind::independent, 5, 0, 16, std::uint32_t(picture.width), std::uint32_t(picture.height)}};
+  const TilePass pass{picture.crop, {PointSetKind::independent, 5, 0, 16}};
   std::vector<PixelSample> out(std::size_t(picture.crop.area()) * 16);
   PathSettings settings;
   settings.max_depth = 8;

@@ -92,7 +92,7 @@ void expect_replay_is_exact() {
   int bright = 0;
   for (int row = 0; row < 8; ++row) {
     const PathSite<F> site = sites_of_row<F>(row);
-    const TilePass pass{{0, row, lanes_of<F>, row + 1}, {PointSetKind::independent, 7, 0, 1, 8, 8}};
+    const TilePass pass{{0, row, lanes_of<F>, row + 1}, {PointSetKind::independent, 7, 0, 1}};
     const Sampler<F> sampler(pass.points, site.x, site.y, site.index);
     const Recording<F> recording(sampler);
     const std::vector<PixelSample> first = trace_with<F>(scene, pass, site, sampler);
