@@ -49,7 +49,7 @@ bool contains_all(const std::vector<std::string>& all, const std::vector<std::st
 
 // Whether it estimates the same image as path, and can what the options require.
 bool serves(const ChosenIntegrator& candidate, const ChosenIntegrator& path, const RenderOptions& options) {
-  const bool by_pixels = options.adaptive || (options.layers && options.layers->of_light());
+  const bool by_pixels = options.adaptive.value_or(false) || (options.layers && options.layers->of_light());
   if (by_pixels && !candidate.integrator) return false;
   return candidate.biases == path.biases && contains_all(path.missing, candidate.missing) &&
          candidate.content == path.content;

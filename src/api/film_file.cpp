@@ -211,6 +211,29 @@ void check_features(const Json& j) {
     throw std::invalid_argument("it has other feature layers than films of this version");
 }
 
+// Until the shares are decided, with the rays of the tiles, which decide them as well.
+Json adaptive_json(const AdaptiveFilm& adaptive, const std::vector<std::uint64_t>& rays) {
+  Json json{{"first_passes", adaptive.first_passes}, {"shares", adaptive.shares}};
+  if (adaptive.shares.empty()) json["rays"] = rays;
+  return json;
+}
+AdaptiveFilm adaptive_from(const Json& j, std::size_t tiles) {
+  AdaptiveFilm adaptive{whole_from(j.at("first_passes"), 1, int(max_film_samples)),
+                        j.at("shares").get<std::vector<double>>()};
+  constexpr double max_share = 1 << 20;
+  const auto is_share = [](double share) { return share > 0 && share <= max_share; };
+  if (!adaptive.shares.empty() && (adaptive.shares.size() != tiles || !std::ranges::all_of(adaptive.shares, is_share)))
+    throw std::invalid_argument("the shares of its tiles are damaged");
+  return adaptive;
+}
+std::vector<std::uint64_t> rays_of_tiles_from(const Json& j, std::size_t tiles) {
+  std::vector<std::uint64_t> rays;
+  if (const auto found = j.find("rays"); found != j.end())
+    for (const Json& of_tile : *found) rays.push_back(whole_from<std::uint64_t>(of_tile, 0, std::uint64_t(1) << 60));
+  if (!rays.empty() && rays.size() != tiles) throw std::invalid_argument("the rays of its tiles are damaged");
+  return rays;
+}
+
 // All but the film itself.
 Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   Json json{{"format", saved_format.name}, {"version", saved_format.version}, {"program", version()}};
@@ -223,6 +246,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   json["rays"] = rays_json(snapshot.rays);
   if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
   if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
+  if (film.adaptive) json["adaptive"] = adaptive_json(*film.adaptive, snapshot.rays_of_tiles);
   json["features"] = feature_names();
   json["tile_side"] = snapshot.tile_side;
   return json;
@@ -255,6 +279,9 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
   const double seconds = j.at("seconds");
   if (!(seconds >= 0)) throw std::invalid_argument("its time is damaged");
   Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side), bytes);
+  const auto adaptive = j.find("adaptive");
+  const bool is_adaptive = adaptive != j.end() && !adaptive->is_null();
+  const std::size_t tiles = film.tiles().size();
   return {scene.file,
           scene.load,
           scene.fingerprint,
@@ -264,7 +291,9 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
           facts,
           {std::move(film), rays_from(j.at("rays")), seconds,
            j.contains("measured_bias") ? bias_from(j.at("measured_bias")) : BiasOfPasses{},
-           j.contains("mixing") ? mixing_from(j.at("mixing")) : MixingOfPasses{}}};
+           j.contains("mixing") ? mixing_from(j.at("mixing")) : MixingOfPasses{},
+           is_adaptive ? rays_of_tiles_from(*adaptive, tiles) : std::vector<std::uint64_t>{}},
+          is_adaptive ? std::optional(adaptive_from(*adaptive, tiles)) : std::nullopt};
 }
 
 // The first of the values on which the passes of a film depend that differs: "seed is 1 and 2".
@@ -317,7 +346,8 @@ Result<SavedFilm> load_film(const fs::path& file) { return load_saved_bytes<Json
 
 Status save_film(const fs::path& file, const SavedFilm& film) {
   const Film& all = film.begun.film;
-  FilmSnapshot snapshot{{}, 0, film.begun.rays, film.begun.seconds, film.begun.bias, film.begun.mixing};
+  FilmSnapshot snapshot{
+      {}, 0, film.begun.rays, film.begun.seconds, film.begun.bias, film.begun.mixing, film.begun.rays_of_tiles};
   for (const auto& [index, tile] : all.tiles()) {
     snapshot.tile_side = std::max({snapshot.tile_side, tile.cells.width(), tile.cells.height()});
     all.write_tile(tile.cells, snapshot.tiles);
@@ -346,6 +376,7 @@ void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& optio
   if (!options.seed) options.seed = film.settings.seed;
   if (!options.samples_per_pass) options.samples_per_pass = film.settings.samples_per_pass;
   if (!options.target) options.target = o.target;
+  if (!options.adaptive) options.adaptive = film.adaptive.has_value();
   // The number of samples of an unbiased render is decided, whatever its time.
   const bool is_decided = options.target && options.target->unbiased && o.target && o.target->unbiased;
   const bool is_open = !options.samples && !options.seconds && !options.passes && !options.target;
@@ -363,6 +394,13 @@ Status check_continues(const SavedFilm& film, const SavedFilm& now) {
 
 Result<SavedFilm> merge_films(std::vector<SavedFilm> films, const Texts& names) {
   if (films.empty()) return Failure{"there is nothing to merge"};
+  if (films.size() > 1)
+    for (std::size_t i = 0; i < films.size(); ++i)
+      if (films[i].adaptive)
+        return Failure{
+            fmt::format("{} is adaptive: which passes its tiles have depends on their errors, and it has no "
+                        "parts to merge (--resume adds to it)",
+                        names[i])};
   SavedFilm total = std::move(films.front());
   for (std::size_t i = 1; i < films.size(); ++i) {
     const SavedFilm& part = films[i];

@@ -82,6 +82,7 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (options.resume) {
     if (Status good = check_continues(*options.resume, film); !good) return good.failure();
     settings.begun = &options.resume->begun;
+    film.adaptive = options.resume->adaptive;
   }
   std::optional<Checkpoint> checkpoint;
   if (options.checkpoint) {

@@ -47,7 +47,7 @@ struct RenderOptions {
   FilesToWrite files{};                 // `seconds` includes the time to encode them
   std::optional<double> budget;         // seconds: whole frames of one series, or passes of one sample, as many as fit
   std::optional<TargetRequest> target;  // the samples that reach it; `samples` or `seconds` are then the most
-  bool adaptive = false;                // more passes where they lower the error most
+  std::optional<bool> adaptive;         // more passes where they lower the error most; default: no
   std::optional<std::uint32_t> seed;    // default: the file's
   int threads = 0;                      // 0: all of the machine
   std::optional<PixelBounds> crop;      // within the picture; default: the file's

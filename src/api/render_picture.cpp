@@ -74,8 +74,9 @@ void make_tiles_small(PassPlan& passes) {
   passes.max_unit_samples = side * side * k;
 }
 
-// Gives tiles passes by a pilot. The number of samples that a target needs falls by the gain.
-void make_adaptive(const ErrorTarget& target, RenderSettings& settings, const Pilot& pilot) {
+// Gives tiles passes by a pilot. The number of samples that a target needs falls by the gain. `film`: to be saved, if
+// there is one.
+void make_adaptive(const ErrorTarget& target, RenderSettings& settings, const Pilot& pilot, SavedFilm* film) {
   make_tiles_small(settings.plan);
   const ImageFigures image = figures_of(pilot.film, pilot.rays, target.measure, settings.plan.tile_side());
   const std::vector<double> shares = pass_shares(image, 0);
@@ -85,36 +86,60 @@ void make_adaptive(const ErrorTarget& target, RenderSettings& settings, const Pi
   // Its passes would compare the tiles that have most of them.
   settings.unbiased = nullptr;
   settings.work = std::make_shared<AdaptivePlan>(shares, min_adaptive_passes, std::nullopt);
+  if (film) film->adaptive = {min_adaptive_passes, shares};
 }
 
-// Renders the first passes of an adaptive image, which decide how many more each tile has, and plans the others.
-// `passes`: of the image, as far as that is known. Returns the film to continue; none: all tiles have equally many.
-std::optional<BegunFilm> begin_adaptive(const RenderPlan& plan, RenderSettings& settings, std::optional<int> passes,
-                                        RenderObserver& observer) {
+// What is known of the passes before they are rendered.
+void state_passes(const RenderPlan& plan, const RenderSettings& settings, SavedFilm& film) {
+  film.settings.samples_per_pass = film.facts.samples_per_pass = settings.plan.samples_per_pass;
+  if (is_unbiased(plan))
+    film.wanted = PassRange{settings.plan.first_pass, settings.plan.first_pass + settings.plan.passes - 1};
+}
+
+// How an adaptive image begins or continues, where it has enough passes.
+std::optional<AdaptiveFilm> adaptive_film(const RenderSettings& settings, std::optional<int> passes,
+                                          RenderObserver& observer, const SavedFilm* film) {
+  if (film && film->adaptive) return film->adaptive;
   constexpr int min_passes = 2 * min_adaptive_passes;
   const int known = passes.value_or(std::min(settings.plan.passes, min_passes));
-  const std::optional<int> first = first_passes(known);
-  if (!first) {
-    observer.announce(
-        fmt::format("the image is not adaptive: that takes at least {} passes, not {}", min_passes, known));
-    return std::nullopt;
-  }
+  if (const std::optional<int> first = first_passes(known)) return AdaptiveFilm{*first, {}};
+  observer.announce(fmt::format("the image is not adaptive: that takes at least {} passes, not {}", min_passes, known));
+  return std::nullopt;
+}
+
+// Plans the passes of an adaptive image. Renders the first ones, which decide how many more each tile has, as far as a
+// film that is continued lacks them. `passes`: of the image, as far as that is known; `film`: to be saved, if there is
+// one. Returns the film to continue, if passes were rendered.
+std::optional<BegunFilm> begin_adaptive(const RenderPlan& plan, RenderSettings& settings, std::optional<int> passes,
+                                        RenderObserver& observer, SavedFilm* film) {
+  std::optional<AdaptiveFilm> adaptive = adaptive_film(settings, passes, observer, film);
+  if (!adaptive) return std::nullopt;
   make_tiles_small(settings.plan);
   settings.unbiased = nullptr;
-  const std::optional<ErrorTarget> target = plan.target ? std::optional(plan.target->error) : std::nullopt;
-  RenderSettings of_first = settings;
-  of_first.plan.passes = *first, of_first.target.reset();
-  FirstPart part = render_first_part(plan.chosen.any(), of_first, target ? target->measure : TargetMeasure::relative,
-                                     passes ? double(*first) / *passes : 0, observer);
-  if (part.is_complete) settings.work = std::make_shared<AdaptivePlan>(std::move(part.shares), *first, target);
-  return std::move(part.begun);
+  const bool looks = plan.target && !is_unbiased(plan);
+  const std::optional<ErrorTarget> target = looks ? std::optional(plan.target->error) : std::nullopt;
+  const int first = adaptive->first_passes;
+  std::optional<BegunFilm> begun;
+  if (adaptive->shares.empty()) {
+    if (film) film->adaptive = adaptive, state_passes(plan, settings, *film);
+    RenderSettings of_first = settings;
+    of_first.plan.passes = std::min(first, settings.plan.passes), of_first.target.reset(), of_first.work = nullptr;
+    FirstPart part = render_first_part(plan.chosen.any(), of_first, target ? target->measure : TargetMeasure::relative,
+                                       passes ? double(first) / *passes : 0, observer);
+    begun = std::move(part.begun);
+    if (!part.is_complete || of_first.plan.passes < first) return begun;
+    adaptive->shares = std::move(part.shares);
+    if (film) film->adaptive = adaptive;
+  }
+  settings.work = std::make_shared<AdaptivePlan>(adaptive->shares, first, target);
+  return begun;
 }
 
 // Plans the passes for the time that is left, and sets the rule that ends it. The time includes the making of the
 // integrator, the measurement of its speed, and the writing of the image. `before` is the time used so far, and grows
 // by what this takes. Returns the film to continue, if some of the image is rendered already.
 std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& settings, double& before,
-                                    RenderObserver& observer) {
+                                    RenderObserver& observer, SavedFilm* film) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
   const TimeOfImage time(
@@ -123,9 +148,16 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
                         {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
-    settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
-    before = time.used();
-    return std::nullopt;
+    const auto end_in_time = [&] {
+      settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
+    };
+    end_in_time();
+    std::optional<BegunFilm> begun;
+    const double seconds = settings.begun->seconds;
+    if (plan.adaptive) begun = begin_adaptive(plan, settings, std::nullopt, observer, film);
+    end_in_time();
+    before = time.used() - (begun ? begun->seconds - seconds : 0);
+    return begun;
   }
   TimedPlan timed = plan_for_time(integrator, settings, time.left(), observer);
   if (plan.samples_per_pass) timed.plan.samples_per_pass = *plan.samples_per_pass;
@@ -166,9 +198,9 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
   std::optional<BegunFilm> begun;
   if (plan.adaptive && stride == 1 && !is_unbiased(plan)) {
     const int passes = int(std::min(affordable, double(max_film_samples))) / settings.plan.samples_per_pass;
-    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(passes), observer);
+    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(passes), observer, film);
   } else if (plan.adaptive && pilot) {
-    make_adaptive(plan.target->error, settings, *pilot);
+    make_adaptive(plan.target->error, settings, *pilot, film);
   }
   end_in_time();
   before = time.used() - (begun ? begun->seconds : 0);
@@ -195,23 +227,22 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   // The integrator is made once for all images of a sequence; the first one counts it.
   double before = std::exchange(plan.preparation, 0.0);
   std::optional<BegunFilm> begun;
-  if (plan.seconds) begun = plan_timed(plan, settings, before, observer);
+  if (plan.seconds) begun = plan_timed(plan, settings, before, observer, film);
   if (plan.target && !plan.seconds && !settings.begun) {
     const Stopwatch since_start;
     PassesToTarget to_target = plan_to_target(plan, settings, plan.max_samples, observer);
     settings.plan = to_target.passes;
-    if (plan.adaptive && is_unbiased(plan)) make_adaptive(plan.target->error, settings, *to_target.pilot);
+    if (plan.adaptive && is_unbiased(plan)) make_adaptive(plan.target->error, settings, *to_target.pilot, film);
     before += since_start.seconds();
   }
-  if (plan.adaptive && !plan.seconds && !is_unbiased(plan))
-    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(settings.plan.passes), observer);
+  if (plan.adaptive && !plan.seconds && (!is_unbiased(plan) || settings.begun))
+    begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(settings.plan.passes), observer,
+                           film);
   if (begun) settings.begun = &*begun;
   if (plan.budget) settings.stop = std::make_shared<TimeBudget>(*plan.budget - before, plan.ending);
   if (film) {
-    film->settings.samples_per_pass = film->facts.samples_per_pass = settings.plan.samples_per_pass;
+    state_passes(plan, settings, *film);
     film->begun.seconds = before;
-    if (plan.target && plan.target->unbiased)
-      film->wanted = PassRange{settings.plan.first_pass, settings.plan.first_pass + settings.plan.passes - 1};
   }
   RenderResult result = render(plan.chosen.any(), settings, observer);
   result.seconds += before;

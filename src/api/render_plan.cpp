@@ -190,17 +190,22 @@ Status check_target(const RenderOptions& options, PointSetKind sampler) {
 
 // Whether tiles can have different numbers of passes with these options.
 Status check_adaptive(const RenderOptions& options, const ChosenIntegrator& chosen, PointSetKind sampler) {
-  if (!options.adaptive) return Done{};
+  const bool continues_adaptive = options.resume && options.resume->adaptive;
+  if (continues_adaptive && !options.adaptive.value_or(false))
+    return Failure{"the saved film is adaptive, and can only continue as such (--adaptive on)"};
+  if (!options.adaptive.value_or(false)) return Done{};
   if (chosen.coupled)
     return Failure{
         fmt::format("the pixels of {} share samples: none of them can have more passes than others", chosen.name)};
   if (is_fixed(sampler))
     return Failure{
         fmt::format("sampler {} takes all its samples in one pass: no pixel can have more", name_of(sampler))};
-  if (options.budget || options.passes)
+  // The passes of a film that is continued begin with the first.
+  if (options.budget || (options.passes && (!options.resume || options.passes->first != 0)))
     return Failure{"a range of passes and a time budget are the same for all pixels: they are not adaptive"};
-  if (options.checkpoint || options.resume)
-    return Failure{"an adaptive render is not saved, and continues no saved film"};
+  if (options.resume && !continues_adaptive)
+    return Failure{
+        "the saved film is not adaptive: all its tiles have the same passes, and so they do where it continues"};
   return Done{};
 }
 
@@ -266,7 +271,7 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   plan.settings.threads = options.threads;
   plan.files = options.files, plan.samples_per_pass = options.samples_per_pass;
   plan.seconds = options.seconds, plan.budget = options.budget;
-  plan.target = options.target, plan.adaptive = options.adaptive;
+  plan.target = options.target, plan.adaptive = options.adaptive.value_or(false);
   if (plan.target) {
     plan.settings.target = plan.target->error;
     if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(plan.target->error);

@@ -32,6 +32,12 @@ struct FilmSettings {
   PixelBounds crop;
 };
 
+// How the passes of an adaptive film are divided among its tiles.
+struct AdaptiveFilm {
+  int first_passes = 0;        // which all tiles have, and which decide the shares
+  std::vector<double> shares;  // of the tiles, in their order, as AdaptivePlan has them; empty until they are decided
+};
+
 // A film in a file: what it is of, its passes, and what has been requested.
 struct SavedFilm {
   std::filesystem::path scene;
@@ -42,6 +48,7 @@ struct SavedFilm {
   std::optional<PassRange> wanted;  // passes; none where a time was set
   PictureFacts facts;
   BegunFilm begun;
+  std::optional<AdaptiveFilm> adaptive{};  // none: all tiles have the same passes
 };
 
 // Fails where the file is damaged or no saved film.

@@ -37,7 +37,8 @@ AdaptivePlan::AdaptivePlan(std::vector<double> shares, int first_passes, const s
       looks_(target.value_or(ErrorTarget{})) {}
 
 int AdaptivePlan::passes_at(int level, std::size_t tile) const {
-  return std::max(std::min(level, first_passes_), int(std::lround(level * shares_[tile])));
+  return std::max(std::min(level, first_passes_),
+                  int(std::lround(std::min(level * shares_[tile], double(endless_passes)))));
 }
 
 int AdaptivePlan::level_of(const Film& film, const PassPlan& passes) const {
@@ -97,7 +98,8 @@ FirstPart render_first_part(const AnyIntegrator& integrator, const RenderSetting
   std::vector<double> shares;
   if (is_complete)
     shares = pass_shares(figures_of(result.film, result.rays_of_tiles, measure, settings.plan.tile_side()), share);
-  return {{std::move(result.film), result.rays, result.seconds}, std::move(shares), is_complete};
+  BegunFilm begun{std::move(result.film), result.rays, result.seconds, {}, {}, std::move(result.rays_of_tiles)};
+  return {std::move(begun), std::move(shares), is_complete};
 }
 
 }  // namespace montelux

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "film/film.h"
 #include "integrator/integrator.h"
@@ -18,6 +19,7 @@ struct BegunFilm {
   double seconds = 0;  // of the renders before
   BiasOfPasses bias{};
   MixingOfPasses mixing{};
+  std::vector<std::uint64_t> rays_of_tiles{};  // in their order; none if they are not known
 };
 
 // A film at one time, to be saved: its tiles one after the other, as written by Film::write_tile(). It contains whole
@@ -29,6 +31,7 @@ struct FilmSnapshot {
   double seconds = 0;
   BiasOfPasses bias{};
   MixingOfPasses mixing{};
+  std::vector<std::uint64_t> rays_of_tiles{};  // in their order; only of pixel integrators
 };
 
 // Receives the film now and then, and at the end of the render; not before it has a pass.

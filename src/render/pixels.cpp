@@ -30,7 +30,7 @@ struct TileState {
   PixelBounds bounds;
   std::mutex mutex;                // guards the tile's part of the film
   std::atomic<bool> begun{false};  // it has a pass, or one in work
-  std::uint64_t rays = 0;          // of this render
+  std::uint64_t rays = 0;
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
@@ -50,7 +50,11 @@ class PixelJob final : public WatchedWork {
       if (passes > 0) tile.begun = true, ++tiles_begun_, ++tiles_with_one_;
       if (passes > 1) ++tiles_with_two_;
     }
-    if (settings.begun) rays_ = settings.begun->rays;
+    if (settings.begun) {
+      rays_ = settings.begun->rays;
+      if (const auto& rays = settings.begun->rays_of_tiles; rays.size() == tiles_.size())
+        for (std::size_t i = 0; i < rays.size(); ++i) tiles_[i].rays = rays[i];
+    }
     if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
   }
 
@@ -104,6 +108,7 @@ class PixelJob final : public WatchedWork {
     for (TileState& tile : tiles_) {
       const std::scoped_lock lock(tile.mutex);
       film_.write_tile(tile.bounds, snapshot.tiles);
+      snapshot.rays_of_tiles.push_back(tile.rays);
     }
     snapshot.tile_side = std::max(tiles_.front().bounds.width(), tiles_.front().bounds.height());
     const std::scoped_lock lock(rays_mutex_);

@@ -44,7 +44,7 @@ struct RenderResult {
   int frames = 0;            // of series, including those that are not shown
   BiasOfPasses bias{};       // as far as the integrator measures it
   MixingOfPasses mixing{};   // of integrators with Markov chains
-  std::vector<std::uint64_t> rays_of_tiles{};  // in their order; only of pixel integrators, and not of earlier renders
+  std::vector<std::uint64_t> rays_of_tiles{};  // in their order; only of pixel integrators
   double shown_seconds() const { return seconds - warm_up; }
 };
 

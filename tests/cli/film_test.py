@@ -154,6 +154,43 @@ class Films(ProgramTest):
         # As far as there are passes, they are those of the render that was not interrupted.
         self.run_program("render", "--resume", "longer.film", "--spp", "10", "-o", "done.exr")
 
+    def test_an_adaptive_render_continues_to_the_same_bits(self):
+        plan = ["--resolution", "60x40", "--spp", "256", "--samples-per-pass", "4", "--adaptive", "on"]
+        whole = self.picture(SCENE, *plan, "--checkpoint", "whole.film", name="whole.exr")
+        self.assertEqual(self.picture("--resume", "whole.film", name="again.exr"), whole)
+        film = self.folder / "room.film"
+
+        def shares():
+            return json.loads(film.read_bytes().split(b"\n", 1)[0])["adaptive"]["shares"] if film.exists() else None
+
+        # While the first passes are rendered, which decide the shares, and later.
+        for name, after in ("undecided", film.exists), ("decided", shares):
+            with self.subTest(name):
+                film.unlink(missing_ok=True)
+                self.interrupt(SCENE, *plan, "--checkpoint", "room.film", "--checkpoint-every", "5ms", "-o", "part.exr",
+                               "--threads", 1, by=signal.SIGKILL, after=after)
+                self.assertEqual(bool(shares()), name == "decided")
+                self.assertEqual(self.picture("--resume", "room.film", "--threads", 2, name="all.exr"), whole)
+        # To more samples, by the same shares.
+        more = json.loads(self.run_program("render", "--resume", "whole.film", "--spp", "320", "--json").stdout)
+        self.assertGreater(more["samples"], json.loads(
+            self.run_program("render", "--resume", "whole.film", "--json").stdout)["samples"])
+        self.refused("merge", "whole.film", "room.film", "-o", "all.film", saying="whole.film is adaptive")
+        self.refused("render", "--resume", "whole.film", "--adaptive", "off", "-o", "x.exr", saying="is adaptive")
+        self.part(0, 3, "even.film")
+        self.refused("render", "--resume", "even.film", "--adaptive", "on", "-o", "x.exr", saying="not adaptive")
+
+    def test_an_adaptive_render_to_an_error_continues_to_the_same_bits(self):
+        for options in (["--target-error", "12%"], ["--target-error", "15%", "--unbiased"]):
+            with self.subTest(options=options):
+                plan = ["--resolution", "60x40", *options, "--adaptive", "on"]
+                whole = self.picture(SCENE, *plan, name="whole.exr")
+                film = self.folder / "room.film"
+                film.unlink(missing_ok=True)
+                self.interrupt(SCENE, *plan, "--checkpoint", "room.film", "--checkpoint-every", "5ms", "-o", "part.exr",
+                               by=signal.SIGKILL, after=film.exists)
+                self.assertEqual(self.picture("--resume", "room.film", name="all.exr"), whole)
+
     def test_points_that_are_fixed_are_one_pass(self):
         fixed = ["--resolution", "40x30", "--sampler", "uniform-grid", "--spp", "4"]
         whole = self.picture(SCENE, *fixed, "--checkpoint", "a.film", name="whole.exr")

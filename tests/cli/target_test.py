@@ -93,7 +93,7 @@ class Target(ProgramTest):
                 (["--adaptive", "maybe"], "on"),
                 (["--adaptive", "on", "--integrator", "restir-di"], "share samples"),
                 (["--adaptive", "on", "--sampler", "uniform-grid"], "one pass"),
-                (["--adaptive", "on", "--checkpoint", "a.film"], "is not saved")):
+                (["--adaptive", "on", "--passes", "0:3"], "range of passes")):
             with self.subTest(options=options):
                 self.assertIn(message, self.render("--spp", 64, *options, "-o", "a.pfm", status=2).stderr)
 
