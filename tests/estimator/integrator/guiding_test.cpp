@@ -56,9 +56,7 @@ std::vector<double> pass_means(const TestScene& scene, int passes, int samples) 
   settings.max_depth = picture.max_depth;
   std::vector<double> means;
   for (int i = 0; i < passes; ++i) {
-    const TilePass pass{picture.crop,
-                        {PointSetKind::independent, 4, std::uint32_t(i), std::uint32_t(samples),
-                         std::uint32_t(picture.width), std::uint32_t(picture.height)}};
+    const TilePass pass{picture.crop, {PointSetKind::independent, 4, std::uint32_t(i), std::uint32_t(samples)}};
     std::vector<PixelSample> out(std::size_t(picture.crop.area() * samples));
     trace_paths<F>(scene.scene(), scene.scene().lights, scene.accel(), settings, pass, out, no_tally, Guide{field});
     double sum = 0;
