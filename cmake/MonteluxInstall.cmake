@@ -14,6 +14,8 @@ foreach(layer ${montelux_layers} page)
 endforeach()
 
 find_package(OpenEXR 3 REQUIRED)
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
@@ -30,7 +32,7 @@ add_library(montelux_library STATIC ${objects})
 add_library(Montelux::montelux ALIAS montelux_library)
 set_target_properties(montelux_library PROPERTIES OUTPUT_NAME montelux EXPORT_NAME montelux LINKER_LANGUAGE CXX)
 target_compile_features(montelux_library INTERFACE cxx_std_20)
-target_link_libraries(montelux_library PRIVATE embree OpenEXR::OpenEXR fmt::fmt muparser::muparser ZLIB::ZLIB
+target_link_libraries(montelux_library PRIVATE embree OpenEXR::OpenEXR PNG::PNG JPEG::JPEG fmt::fmt muparser::muparser ZLIB::ZLIB
                       Threads::Threads TBB::tbb ${CMAKE_DL_LIBS})
 # The module of image formats is found as any library of the program that uses it.
 target_link_options(montelux_library INTERFACE $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${module_folder}>)

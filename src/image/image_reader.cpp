@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "image/direct_formats.h"
 #include "image/image_codec.h"
 #include "image/image_file.h"
 #include "image/png_check.h"
@@ -46,13 +47,24 @@ std::optional<std::string> name_by_content(const std::string& bytes) {
   return std::nullopt;
 }
 
-// Checks a file that begins like a PNG file.
-Status check_png_file(const std::filesystem::path& path) {
+// The bytes of a file that begins like a PNG or JPEG file; none of others.
+std::string bytes_of_usual_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes(8, '\0');
-  if (!file.read(bytes.data(), 8) || !bytes.starts_with("\x89PNG")) return Done{};
+  if (!file.read(bytes.data(), 8) || !(bytes.starts_with("\x89PNG") || bytes.starts_with("\xff\xd8\xff"))) return {};
   bytes.append(std::istreambuf_iterator<char>(file), {});
-  return check_png(bytes);
+  return bytes;
+}
+
+// As stored: directly where that is possible, else by the module. `bytes`: null for a file.
+Result<StoredImage> read_stored(const std::string& name, const std::string* bytes) {
+  const std::string of_file = bytes ? std::string() : bytes_of_usual_file(name);
+  const std::string& begun = bytes ? *bytes : of_file;
+  if (const Status whole = check_png(begun); !whole) return whole.failure();
+  if (std::optional<StoredImage> direct = read_directly(begun)) return *std::move(direct);
+  const Result<const ImageCodec*> codec = image_codec();
+  if (!codec) return codec.failure();
+  return (*codec)->read(name, bytes);
 }
 
 // Either a file, or bytes in memory.
@@ -71,10 +83,7 @@ Result<Image> read_open(const std::filesystem::path& path, const std::string* by
     if (!std::filesystem::is_regular_file(status)) return Failure{"it is not a regular file"};
   }
 
-  if (const Status whole = bytes ? check_png(*bytes) : check_png_file(path); !whole) return whole.failure();
-  const Result<const ImageCodec*> codec = image_codec();
-  if (!codec) return codec.failure();
-  Result<StoredImage> read = (*codec)->read(*name, bytes);
+  Result<StoredImage> read = read_stored(*name, bytes);
   if (!read) return read.failure();
   StoredImage& file = *read;
   Image image{std::move(file.parts.front()), file.stored, {}, std::move(file.attributes)};
