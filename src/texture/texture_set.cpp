@@ -85,6 +85,7 @@ void TextureSet::read_ahead(const std::vector<ImageRequest>& requests, const For
     const ImageKey key = key_of(request.path, request.encoding);
     if (!images_.contains(key)) wanted.try_emplace(key, &request);
   }
+  if (wanted.empty()) return;
   const std::vector<std::pair<ImageKey, const ImageRequest*>> list(wanted.begin(), wanted.end());
   std::vector<std::shared_ptr<const TexelImage>> images(list.size());
   for_each(list.size(), [&](std::size_t i) {

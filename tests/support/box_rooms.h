@@ -31,7 +31,8 @@ inline std::string ball(const std::string& material, double x, double z, const s
          std::to_string(z) + "\nShape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n";
 }
 
-// A room that is full of fog, with a lamp, a spot light and a mirror in it, and clearer air in a ball.
+// A room that is full of fog, with a lamp and a mirror in it, and clearer air in a ball. Without lights at points:
+// `path` does not find them in the mirror, and next to them its estimate has no finite variance.
 inline const std::string& foggy_room() {
   static const std::string text = [] {
     std::string t = box(ball("\"conductor\" \"float roughness\" 0", 0.5, 0.5));
@@ -41,8 +42,7 @@ MakeNamedMedium "air" "string type" "homogeneous" "rgb sigma_a" [ 0 0 0 ] "rgb s
 MediumInterface "" "fog"
 )");
     t.insert(t.find("WorldBegin") + 10, "\nMediumInterface \"fog\" \"fog\"");
-    t += R"(LightSource "spot" "rgb I" [ 2 3 4 ] "point3 from" [ 0.8 1.8 -0.8 ] "point3 to" [ -0.3 0 0.3 ]
-AttributeBegin
+    t += R"(AttributeBegin
 Material "interface"
 MediumInterface "air" "fog"
 Translate -0.4 0.9 0.2

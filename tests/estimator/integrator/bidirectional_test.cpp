@@ -306,7 +306,9 @@ void expect_same_bits(const TestScene& scene) {
 
 TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads_and_lanes) {
   expect_same_bits(TestScene(room(lens, gaussian)));
-  expect_same_bits(TestScene(foggy_room()));
+  expect_same_bits(TestScene(foggy_room() + R"(LightSource "spot" "rgb I" [ 2 3 4 ]
+  "point3 from" [ 0.8 1.8 -0.8 ] "point3 to" [ -0.3 0 0.3 ]
+)"));
 }
 
 // ---- vertex connection and merging

@@ -119,11 +119,10 @@ std::string many_lamps() {
           << " ] \"point3 from\" [ " << -0.7 + 0.28 * i << " 1.8 " << -0.5 + 0.2 * i << " ]\n";
   return box_with(lamps.str(), ball("\"diffuse\" \"rgb reflectance\" [ 0.3 0.5 0.8 ]", -0.4, 0));
 }
-// The fog of foggy_room(), without its spot light, and with metal that is rough: `path` finds all light.
+// The fog of foggy_room(), with metal that is rough.
 std::string fog() {
   std::string text = foggy_room();
-  const std::size_t spot = text.find("LightSource \"spot\""), metal = text.find("\"float roughness\" 0");
-  text.erase(spot, text.find('\n', spot) + 1 - spot);
+  const std::size_t metal = text.find("\"float roughness\" 0");
   return text.replace(metal, 19, "\"float roughness\" 0.3");
 }
 
