@@ -61,7 +61,7 @@ PassMeans sparse_passes(const TestScene& of, const AnyIntegrator& integrator, in
 
 TEST(SparseSeries, have_the_mean_of_the_path_tracer_at_their_pixels) {
   const std::pair<const char*, int> ways[] = {{"restir-di:radius=4,candidates=4", 72},
-                                              {"restir-di:radius=4,candidates=4,groups=off,temporal=on", 72},
+                                              {"restir-di:radius=4,candidates=4,groups=off,temporal=on", 88},
                                               {"restir-pt:radius=4,candidates=4", 72},
                                               {"light", 96},
                                               {"bdpt", 96},
