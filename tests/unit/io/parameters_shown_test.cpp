@@ -26,6 +26,7 @@ const std::map<std::string, std::string, std::less<>>& shown_with() {
       {"dots:udelta", "\"float uscale\" 6 \"float vscale\" 6"},
       {"dots:vdelta", "\"float uscale\" 6 \"float vscale\" 6"},
       {"dots:uscale", "\"float vscale\" 6"},
+      {"dots:uvmatrix", "\"float uscale\" 6 \"float vscale\" 6"},
       {"checkerboard:tex2", "\"float uscale\" 6 \"float vscale\" 6"},
       {"bilerp:uscale", "\"float v10\" 0.7"},
       {"bilerp:udelta", "\"float v10\" 0.7"},
