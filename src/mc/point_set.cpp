@@ -161,8 +161,10 @@ Sampler<F>::Sampler(const PointSet& set, Uint<F> x, Uint<F> y, Uint<F> index)
   }
   if (set.kind == PointSetKind::pmj02) index_bits_ = int(std::bit_width(set.samples_per_pass - 1u));
   if (set.kind != PointSetKind::blue_noise) return;
-  // One sequence for the grid: the bits of the site's position on the Z curve above those of the index. The grid is
-  // divided into the largest squares that 32 bits can number, with separate randomisations.
+  // One sequence for the grid: the bits of the site's position on the Z curve above those of the index, after Ahmed and
+  // Wonka 2020, "Screen-Space Blue-Noise Diffusion". padded_index() shuffles all of it by nested binary digits, for
+  // each pair of dimensions. The grid is divided into the largest squares that 32 bits can number, with separate
+  // randomisations.
   const int sample_bits = int(std::bit_width(set.samples_per_pass - 1u));
   const int side_bits = std::min(16, (32 - sample_bits) / 2);
   const U low_bits = U((1u << side_bits) - 1u);
