@@ -6,6 +6,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 namespace montelux {
@@ -130,6 +131,81 @@ bool read_jpeg(std::string_view file, Decoded& image) {
   return decode_jpeg(decoder.jpeg, decoder.errors, file, image);
 }
 
+// ---- writing --------------------------------------------------------------------------------------------------------
+
+void append_png_bytes(png_structp png, png_bytep from, std::size_t count) {
+  bool good = true;
+  try {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(from), count);
+  } catch (const std::exception&) {
+    good = false;
+  }
+  if (!good) png_error(png, "out of memory");
+}
+void flush_png(png_structp) {}
+
+struct PngEncoder {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail_png, ignore_png_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+
+  PngEncoder() = default;
+  PngEncoder(const PngEncoder&) = delete;
+  ~PngEncoder() { png_destroy_write_struct(&png, &info); }
+};
+
+bool write_png(const PngEncoder& encoder, const DisplayImage& image, std::string& bytes) {
+  png_structp png = encoder.png;
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_write_fn(png, &bytes, append_png_bytes, flush_png);
+  png_set_IHDR(png, encoder.info, png_uint_32(image.width), png_uint_32(image.height), 8,
+               image.channel_count == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, encoder.info, PNG_sRGB_INTENT_ABSOLUTE);
+  png_write_info(png, encoder.info);
+  const std::size_t row = std::size_t(image.width) * std::size_t(image.channel_count);
+  for (int y = 0; y < image.height; ++y) png_write_row(png, image.values.data() + std::size_t(y) * row);
+  png_write_end(png, nullptr);
+  return true;
+}
+
+struct JpegEncoder {
+  jpeg_compress_struct jpeg{};
+  JpegErrors errors{};
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+
+  JpegEncoder() {
+    jpeg.err = jpeg_std_error(&errors.base);
+    errors.base.error_exit = fail_jpeg, errors.base.emit_message = heed_jpeg_message;
+  }
+  JpegEncoder(const JpegEncoder&) = delete;
+  ~JpegEncoder() {
+    jpeg_destroy_compress(&jpeg);
+    std::free(bytes);
+  }
+};
+
+bool write_jpeg(JpegEncoder& encoder, const DisplayImage& image) {
+  jpeg_compress_struct& jpeg = encoder.jpeg;
+  if (setjmp(encoder.errors.back) != 0) return false;
+  jpeg_create_compress(&jpeg);
+  jpeg_mem_dest(&jpeg, &encoder.bytes, &encoder.size);
+  jpeg.image_width = JDIMENSION(image.width), jpeg.image_height = JDIMENSION(image.height);
+  jpeg.input_components = image.channel_count;
+  jpeg.in_color_space = image.channel_count == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  const std::size_t row = std::size_t(image.width) * std::size_t(image.channel_count);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    // The library does not change what it writes.
+    JSAMPROW samples = const_cast<JSAMPROW>(image.values.data() + jpeg.next_scanline * row);
+    jpeg_write_scanlines(&jpeg, &samples, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  return true;
+}
+
 // ---- both -----------------------------------------------------------------------------------------------------------
 
 StoredImage stored_image(const Decoded& decoded) {
@@ -161,6 +237,19 @@ std::optional<StoredImage> read_directly(std::string_view bytes) {
                                                              : false;
   if (!good) return std::nullopt;
   return stored_image(decoded);
+}
+
+Result<std::string> encode_png(const DisplayImage& image) {
+  std::string bytes;
+  const PngEncoder encoder;
+  if (!encoder.info || !write_png(encoder, image, bytes)) return Failure{"libpng fails"};
+  return bytes;
+}
+
+Result<std::string> encode_jpeg(const DisplayImage& image) {
+  JpegEncoder encoder;
+  if (!write_jpeg(encoder, image)) return Failure{"libjpeg fails"};
+  return std::string(reinterpret_cast<const char*>(encoder.bytes), encoder.size);
 }
 
 }  // namespace montelux

@@ -1,6 +1,6 @@
 // The part of reading and writing images that needs a large library. It is a separate module because the library and
-// its dependencies take a quarter of a second to load: most runs of the program write only OpenEXR, and read only PNG
-// and JPEG (direct_formats.h), or no image.
+// its dependencies take a quarter of a second to load: most runs of the program write OpenEXR, PNG or JPEG, and read
+// PNG and JPEG (direct_formats.h), or no image.
 #pragma once
 #include <string>
 #include <vector>
@@ -18,11 +18,10 @@ struct StoredImage {
   std::vector<Attribute> attributes;
 };
 
-// Interleaved samples to be encoded: either floats or bytes; the other is empty.
+// Interleaved samples to be encoded.
 struct SamplesToEncode {
   int width = 0, height = 0, channel_count = 3;
   const float* floats = nullptr;
-  const std::uint8_t* bytes = nullptr;  // sRGB
 };
 
 // The interface of the module. May throw what the library throws.

@@ -17,6 +17,7 @@
 #include <ctime>
 #include <functional>
 
+#include "image/direct_formats.h"
 #include "image/image_codec.h"
 #include "image/image_file.h"
 #include "image/output_file.h"
@@ -140,14 +141,10 @@ std::vector<float> colors_of(const PixelBuffer& image) {
   return colors;
 }
 
-Result<std::string> encode_by_module(const std::string& name, const SamplesToEncode& samples) {
+Result<std::string> encode_hdr(const PixelBuffer& image) {
   const Result<const ImageCodec*> codec = image_codec();
   if (!codec) return codec.failure();
-  return (*codec)->encode(name, samples);
-}
-
-Result<std::string> encode_hdr(const PixelBuffer& image) {
-  return encode_by_module("image.hdr", {image.width, image.height, 3, colors_of(image).data()});
+  return (*codec)->encode("image.hdr", {image.width, image.height, 3, colors_of(image).data()});
 }
 
 // Portable float map: a text header whose negative scale means little-endian, then the rows from the bottom up.
@@ -177,8 +174,7 @@ Result<std::string> encode(const DisplayImage& image, const std::string& extensi
   constexpr int max_jpeg_side = 65500;
   if (jpeg && std::max(image.width, image.height) > max_jpeg_side)
     return Failure{"a JPEG has at most " + std::to_string(max_jpeg_side) + " pixels per side"};
-  return encode_by_module("image" + extension,
-                          {image.width, image.height, image.channel_count, nullptr, image.values.data()});
+  return jpeg ? encode_jpeg(image) : encode_png(image);
 }
 
 std::string lower_extension(const std::filesystem::path& path) {

@@ -133,24 +133,15 @@ Result<StoredImage> read(const std::string& name, const std::string* bytes) {
 }
 
 // Selects the codec by the file extension.
-template <class T>
-Result<std::string> encode_samples(const std::string& name, const OIIO::ImageSpec& spec, const T* values) {
+Result<std::string> encode(const std::string& name, const SamplesToEncode& samples) {
+  const OIIO::ImageSpec spec(samples.width, samples.height, samples.channel_count, OIIO::TypeFloat);
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   if (!output) return Failure{OIIO::geterror()};
   OIIO::Filesystem::IOVecOutput memory;
   const bool good = output->set_ioproxy(&memory) && output->open(name, spec) &&
-                    output->write_image(spec.format, values) && output->close();
+                    output->write_image(spec.format, samples.floats) && output->close();
   if (!good) return Failure{output->geterror()};
   return std::string(memory.buffer().begin(), memory.buffer().end());
-}
-
-Result<std::string> encode(const std::string& name, const SamplesToEncode& samples) {
-  OIIO::ImageSpec spec(samples.width, samples.height, samples.channel_count,
-                       samples.bytes ? OIIO::TypeUInt8 : OIIO::TypeFloat);
-  if (!samples.bytes) return encode_samples(name, spec, samples.floats);
-  spec["oiio:ColorSpace"] = "sRGB";
-  spec["CompressionQuality"] = 95;
-  return encode_samples(name, spec, samples.bytes);
 }
 
 }  // namespace

@@ -272,18 +272,17 @@ TEST(Display, one_stop_of_exposure_doubles_the_light) {
   EXPECT_EQ(brighter.values, (std::vector<std::uint8_t>{124, 170, 255}));
 }
 
-// The bytes of a file of these samples, made by the module.
-std::string module_file(const std::string& name, int channels) {
-  std::vector<std::uint8_t> samples;
-  for (int i = 0; i < 37 * 23 * channels; ++i) samples.push_back(std::uint8_t(i * i * 7 + i));
-  const Result<const ImageCodec*> codec = image_codec();
-  if (!codec) throw std::runtime_error(codec.error());
-  Result<std::string> file = (*codec)->encode(name, {37, 23, channels, nullptr, samples.data()});
-  if (!file) throw std::runtime_error(file.error());
-  return *std::move(file);
-}
-
-// PNG files of 2 x 1 pixels: gray of 16 bits, 0x0102 and 0xfffe; and a palette, green and red.
+// PNG files of 2 x 1 pixels: gray of 16 bits, 0x0102 and 0xfffe; a palette, green and red; gray and RGB with alpha.
+constexpr unsigned char gray_alpha_png[] = {
+    0x89, 0x50, 0x4e, 0x47, 0xd,  0xa,  0x1a, 0xa,  0x0,  0x0,  0x0,  0xd,  0x49, 0x48, 0x44, 0x52, 0x0, 0x0,
+    0x0,  0x2,  0x0,  0x0,  0x0,  0x1,  0x8,  0x4,  0x0,  0x0,  0x0,  0x5e, 0x2b, 0xb7, 0x1,  0x0,  0x0, 0x0,
+    0xd,  0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x10, 0x68, 0x38, 0xf1, 0x1f, 0x0,  0x4,  0x54, 0x2, 0x58,
+    0x17, 0x6,  0x1f, 0x77, 0x0,  0x0,  0x0,  0x0,  0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+constexpr unsigned char rgba_png[] = {
+    0x89, 0x50, 0x4e, 0x47, 0xd,  0xa,  0x1a, 0xa,  0x0,  0x0,  0x0,  0xd,  0x49, 0x48, 0x44, 0x52, 0x0, 0x0,  0x0,
+    0x2,  0x0,  0x0,  0x0,  0x1,  0x8,  0x6,  0x0,  0x0,  0x0,  0xf4, 0x22, 0x7f, 0x8a, 0x0,  0x0,  0x0, 0x11, 0x49,
+    0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x64, 0x62, 0x6e, 0xf8, 0xf5, 0xfb, 0xcf, 0x7f, 0x0,  0xc, 0x81, 0x4,
+    0x77, 0x84, 0x1,  0xfd, 0x8,  0x0,  0x0,  0x0,  0x0,  0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 constexpr unsigned char wide_png[] = {
     0x89, 0x50, 0x4e, 0x47, 0xd,  0xa,  0x1a, 0xa,  0x0,  0x0,  0x0,  0xd,  0x49, 0x48, 0x44, 0x52, 0x0, 0x0,
     0x0,  0x2,  0x0,  0x0,  0x0,  0x1,  0x10, 0x0,  0x0,  0x0,  0x0,  0x81, 0xd9, 0xfc, 0x15, 0x0,  0x0, 0x0,
@@ -296,33 +295,42 @@ constexpr unsigned char palette_png[] = {
     0xb,  0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x64, 0x0,  0x0,  0x0,  0x5,  0x0,  0x2,  0xd1, 0x66,
     0x33, 0x78, 0x0,  0x0,  0x0,  0x0,  0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-TEST_F(ImageFile, png_and_jpeg_are_the_same_directly_and_by_the_module) {
-  const std::vector<std::pair<std::string, int>> kinds{{"a.png", 1}, {"a.png", 2}, {"a.png", 3},
-                                                       {"a.png", 4}, {"a.jpg", 1}, {"a.jpg", 3}};
-  for (const auto& [name, channels] : kinds) {
-    const std::string file = module_file(name, channels);
-    const std::optional<StoredImage> direct = read_directly(file);
-    const Result<StoredImage> module = (*image_codec())->read(name, &file);
-    ASSERT_TRUE(direct && module) << name << channels;
-    EXPECT_EQ(direct->parts.front().channels, module->parts.front().channels) << name << channels;
-    EXPECT_EQ(direct->parts.front().width, 37);
-    EXPECT_EQ(direct->parts.front().height, 23);
-    EXPECT_EQ(direct->parts.front().values, module->parts.front().values) << name << channels;
-    EXPECT_EQ(direct->stored, module->stored) << name << channels;
-    EXPECT_EQ(direct->alpha_channel, module->alpha_channel) << name << channels;
-    // Damaged files are left to the module.
-    EXPECT_FALSE(read_directly(std::string_view(file).substr(0, file.size() / 2))) << name << channels;
-  }
-  EXPECT_FALSE(read_directly("no image"));
+template <std::size_t N>
+std::string text_of(const unsigned char (&bytes)[N]) {
+  return {std::begin(bytes), std::end(bytes)};
+}
 
-  const std::string wide(std::begin(wide_png), std::end(wide_png)),
-      palette(std::begin(palette_png), std::end(palette_png));
-  const std::optional<StoredImage> direct = read_directly(wide);
-  ASSERT_TRUE(direct);
-  EXPECT_EQ(direct->stored, SampleType::uint16);
-  EXPECT_EQ(direct->parts.front().values, (std::vector<float>{0x0102 / 65535.0f, 0xfffe / 65535.0f}));
-  EXPECT_FALSE(read_directly(palette));
-  const Result<Image> colors = read_image("a.png", palette, ColorEncoding{});
+TEST_F(ImageFile, png_and_jpeg_are_the_same_directly_and_by_the_module) {
+  DisplayImage gray{37, 23, 1, {}}, rgb{37, 23, 3, {}};
+  for (DisplayImage* image : {&gray, &rgb})
+    for (int i = 0; i < 37 * 23 * image->channel_count; ++i) image->values.push_back(std::uint8_t(i * i * 7 + i));
+  const std::pair<std::string, Result<std::string>> files[] = {
+      {"a.png", encode_png(gray)}, {"a.png", encode_png(rgb)},         {"a.jpg", encode_jpeg(gray)},
+      {"a.jpg", encode_jpeg(rgb)}, {"a.png", text_of(gray_alpha_png)}, {"a.png", text_of(rgba_png)},
+      {"a.png", text_of(wide_png)}};
+  const int channels[] = {1, 3, 1, 3, 2, 4, 1};
+  for (std::size_t i = 0; i < std::size(files); ++i) {
+    SCOPED_TRACE(i);
+    const auto& [name, file] = files[i];
+    ASSERT_TRUE(file) << file.error();
+    const std::optional<StoredImage> direct = read_directly(*file);
+    const Result<StoredImage> module = (*image_codec())->read(name, &*file);
+    ASSERT_TRUE(direct && module);
+    EXPECT_EQ(direct->parts.front().channel_count(), channels[i]);
+    EXPECT_EQ(direct->parts.front().channels, module->parts.front().channels);
+    EXPECT_EQ(direct->parts.front().width, module->parts.front().width);
+    EXPECT_EQ(direct->parts.front().height, module->parts.front().height);
+    EXPECT_EQ(direct->parts.front().values, module->parts.front().values);
+    EXPECT_EQ(direct->stored, module->stored);
+    EXPECT_EQ(direct->alpha_channel, module->alpha_channel);
+    // Damaged files are left to the module.
+    EXPECT_FALSE(read_directly(std::string_view(*file).substr(0, file->size() / 2)));
+  }
+  EXPECT_EQ(read_directly(text_of(wide_png))->parts.front().values,
+            (std::vector<float>{0x0102 / 65535.0f, 0xfffe / 65535.0f}));
+  EXPECT_FALSE(read_directly("no image"));
+  EXPECT_FALSE(read_directly(text_of(palette_png)));
+  const Result<Image> colors = read_image("a.png", text_of(palette_png), ColorEncoding{});
   ASSERT_TRUE(colors) << colors.error();
   EXPECT_EQ(colors->pixels.values, (std::vector<float>{0, 1, 0, 1, 0, 0}));
 }
