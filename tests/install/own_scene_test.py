@@ -56,8 +56,8 @@ def main():
             failures += test_statement(f"{channel}: a fault of two percent would be found",
                                        abs(mean - 1.02 * truth) > 4.5 * error)
         failures += test_statement("the picture is written", picture.stat().st_size > 1000)
-        # Display formats need the module of image formats, which only the package tells the program of.
-        loaded = run(folder / "built/own_scene", folder / "picture.png", 1, env={**os.environ, "LD_DEBUG": "libs"})
+        # Radiance files need the module of image formats, which only the package tells the program of.
+        loaded = run(folder / "built/own_scene", folder / "picture.hdr", 1, env={**os.environ, "LD_DEBUG": "libs"})
         failures += test_statement("the module of image formats is that of the installation",
                                    re.search(rf"calling init: {prefix}/lib\S*/montelux/montelux_codec.so", loaded))
         # The library as a part of a shared one, as a binding to another language needs it.
