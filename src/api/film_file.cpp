@@ -230,7 +230,8 @@ std::vector<std::uint64_t> rays_of_tiles_from(const Json& j, std::size_t tiles) 
   std::vector<std::uint64_t> rays;
   if (const auto found = j.find("rays"); found != j.end())
     for (const Json& of_tile : *found) rays.push_back(whole_from<std::uint64_t>(of_tile, 0, std::uint64_t(1) << 60));
-  if (!rays.empty() && rays.size() != tiles) throw std::invalid_argument("the rays of its tiles are damaged");
+  if ((j.at("shares").empty() || !rays.empty()) && rays.size() != tiles)
+    throw std::invalid_argument("the rays of its tiles are damaged");
   return rays;
 }
 

@@ -12,7 +12,7 @@ Result<ChosenIntegrator> make_restir(const IntegratorRequest& r) {
   auto settings = restir_settings(name, r.list, r.max_depth);
   if (!settings) return settings.failure();
   std::string note;
-  // A candidate by the BSDF has passed such surfaces by chance, and would be asked by chance again when it is shown.
+  // A candidate by the BSDF has passed such surfaces by chance, and would be tested by chance again when it is shown.
   if (settings->direct && settings->bsdf_candidate && !settings->visibility_reuse && r.scene.geometry.has_half_open()) {
     settings->visibility_reuse = true;
     note =
