@@ -7,10 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "render/float_mode.h"
 #include "render/paired_bias.h"
 #include "render/watch.h"
-#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -34,10 +32,10 @@ struct TileState {
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
-// The shared state of one render.
-class PixelJob final : public WatchedWork {
+// The rounds of a plan of work as stages. A unit is one pass of one tile.
+class PixelWork final : public StagedWork {
  public:
-  PixelJob(const PixelIntegrator& integrator, const RenderSettings& settings)
+  PixelWork(const PixelIntegrator& integrator, const RenderSettings& settings)
       : integrator_(integrator),
         settings_(settings),
         film_(first_film(settings, settings.plan.tile_side())),
@@ -59,14 +57,42 @@ class PixelJob final : public WatchedWork {
   }
 
   RenderResult run(RenderObserver& observer) {
-    const bool requested = watch_.run(
-        *this, [this] { drive(); }, observer);
+    const bool requested = watch_.run(*this, observer);
     watch_.report_end(*this, observer);
     const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
     RenderResult result{std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
     if (paired_) result.bias = paired_->bias();
     for (const TileState& tile : tiles_) result.rays_of_tiles.push_back(tile.rays);
     return result;
+  }
+
+  void begin(int workers) override { spaces_.resize(std::size_t(workers)); }
+
+  std::optional<std::size_t> next_stage() override {
+    if (watch_.stops()) return std::nullopt;
+    round_ = plan().next_round(film_, settings_.plan), units_before_round_ = units_done_;
+    if (round_.count == 0) return std::nullopt;
+    return round_.count;
+  }
+
+  void end_stage() override {
+    if (units_done_ == units_before_round_ && !watch_.stops())
+      throw std::logic_error("the plan has a round without new passes");
+  }
+
+  bool stops_within_stage() const override { return true; }
+
+  void run_unit(std::size_t number, int worker) override {
+    const WorkUnit unit = round_.unit(number);
+    TileState& tile = tiles_.at(unit.tile);
+    if (!tile.begun.exchange(true)) ++tiles_begun_;
+    try {
+      do_unit(unit.tile, unit.pass, spaces_[std::size_t(worker)]);
+    } catch (...) {
+      drop_.request_stop();
+      throw;
+    }
+    watch_.query(state());
   }
 
   RenderState state() override {
@@ -98,9 +124,7 @@ class PixelJob final : public WatchedWork {
       const std::scoped_lock lock(tile.mutex);
       planes.copy(film_, tile.bounds);
     }
-    FilmError error{estimate_error(planes), {}};
-    if (settings_.target) error.target = judge(*settings_.target, planes, error.error, image_now(), 1);
-    return error;
+    return error_of(planes, settings_, [this] { return image_now(); });
   }
 
   FilmSnapshot snapshot() override {
@@ -126,33 +150,6 @@ class PixelJob final : public WatchedWork {
   };
 
   const WorkPlan& plan() const { return settings_.work ? *settings_.work : pass_by_pass_; }
-
-  // Runs the rounds of the plan, each as one stage of the scheduler.
-  void drive() {
-    Scheduler scheduler(settings_.threads);
-    std::vector<Workspace> spaces(std::size_t(scheduler.threads()));
-    while (!watch_.stops()) {
-      const WorkRound round = plan().next_round(film_, settings_.plan);
-      if (round.count == 0) return;
-      const std::uint64_t before = units_done_;
-      const auto run_unit = [&](std::size_t i, int worker) { run(round.unit(i), spaces[std::size_t(worker)]); };
-      scheduler.run(round.count, run_unit, {.stop = [this] { return watch_.stops(); }});
-      if (units_done_ == before && !watch_.stops()) throw std::logic_error("the plan has a round without new passes");
-    }
-  }
-
-  void run(const WorkUnit& unit, Workspace& space) {
-    FlushDenormals flush;
-    TileState& tile = tiles_.at(unit.tile);
-    if (!tile.begun.exchange(true)) ++tiles_begun_;
-    try {
-      do_unit(unit.tile, unit.pass, space);
-    } catch (...) {
-      drop_.request_stop();
-      throw;
-    }
-    watch_.query(state());
-  }
 
   void do_unit(std::size_t number, int pass, Workspace& space) {
     TileState& tile = tiles_.at(number);
@@ -209,6 +206,9 @@ class PixelJob final : public WatchedWork {
   const std::uint64_t units_, units_before_;  // of the plan: all, and those that the film had before
   std::atomic<std::uint64_t> units_done_;
   std::atomic<std::size_t> tiles_begun_{0}, tiles_with_one_{0}, tiles_with_two_{0};  // with so many passes, or more
+  WorkRound round_;
+  std::uint64_t units_before_round_ = 0;
+  std::vector<Workspace> spaces_;  // of the workers
   StopFlag drop_;
   std::mutex rays_mutex_;
   RayCounts rays_;
@@ -219,7 +219,7 @@ class PixelJob final : public WatchedWork {
 
 RenderResult render_pixels(const PixelIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer) {
-  return PixelJob(integrator, settings).run(observer);
+  return PixelWork(integrator, settings).run(observer);
 }
 
 }  // namespace montelux

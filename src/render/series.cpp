@@ -5,9 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/float_mode.h"
 #include "render/watch.h"
-#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -21,10 +19,11 @@ struct SeriesTile {
   std::vector<ExactRgb> sums;     // the same of its layers, if there are any
 };
 
-// The shared state of one render. Each step of a series is a stage of the scheduler.
-class SeriesJob final : public WatchedWork {
+// The steps of all series, one series after the other, as stages. A unit is a tile, or what the step divides its work
+// into.
+class SeriesWork final : public StagedWork {
  public:
-  SeriesJob(const CoupledIntegrator& integrator, const RenderSettings& settings)
+  SeriesWork(const CoupledIntegrator& integrator, const RenderSettings& settings)
       : integrator_(integrator),
         settings_(settings),
         frames_(integrator.warm_up() + settings.plan.samples_per_pass),
@@ -43,8 +42,7 @@ class SeriesJob final : public WatchedWork {
   }
 
   RenderResult run(RenderObserver& observer) {
-    const bool requested = watch_.run(
-        *this, [this] { drive(); }, observer);
+    const bool requested = watch_.run(*this, observer);
     // An incomplete series is in the image, but not in the saved film: it restarts when the film is continued.
     if (incomplete_) add_to_film(*incomplete_);
     if (bias_of_incomplete_) bias_[*incomplete_] = *bias_of_incomplete_;
@@ -62,6 +60,28 @@ class SeriesJob final : public WatchedWork {
             frames_run_,
             std::move(bias_),
             std::move(mixing_)};
+  }
+
+  void begin(int workers) override { workers_.resize(std::size_t(workers)); }
+
+  std::optional<std::size_t> next_stage() override {
+    if (over_) return std::nullopt;
+    units_ = series_->units(step_);
+    return units_.value_or(tiles_.size());
+  }
+
+  void end_stage() override {
+    const std::scoped_lock lock(mutex_);
+    for (Worker& worker : workers_) rays_ += std::exchange(worker.rays, {});
+    if (++step_.stage == integrator_.stages()) finish_frame();
+  }
+
+  // Pixels of a frame share information: a frame is completed.
+  bool stops_within_stage() const override { return false; }
+
+  void run_unit(std::size_t unit, int number) override {
+    Worker& worker = workers_[std::size_t(number)];
+    worker.rays += units_ ? series_->run_unit(step_, unit) : do_tile(tiles_[unit], worker);
   }
 
   RenderState state() override {
@@ -87,9 +107,7 @@ class SeriesJob final : public WatchedWork {
     if (film_.passes(tiles_.front().bounds) < 2 || film_.grid().stride > 1) return std::nullopt;
     FilmPlanes planes(settings_.image.bounds);
     planes.copy(film_, settings_.image.bounds);
-    FilmError error{estimate_error(planes), {}};
-    if (settings_.target) error.target = judge(*settings_.target, planes, error.error, film_.image(), 1);
-    return error;
+    return error_of(planes, settings_, [this] { return film_.image(); });
   }
 
   FilmSnapshot snapshot() override {
@@ -108,23 +126,6 @@ class SeriesJob final : public WatchedWork {
     std::vector<PixelSample> samples;
     std::vector<ExactRgb> sums;
   };
-
-  // Runs the steps of all series, one after the other.
-  void drive() {
-    Scheduler scheduler(settings_.threads);
-    std::vector<Worker> workers(std::size_t(scheduler.threads()));
-    while (!over_) {
-      const std::optional<std::size_t> units = series_->units(step_);
-      scheduler.run(units.value_or(tiles_.size()), [&](std::size_t i, int number) {
-        FlushDenormals flush;
-        Worker& worker = workers[std::size_t(number)];
-        worker.rays += units ? series_->run_unit(step_, i) : do_tile(tiles_[i], worker);
-      });
-      const std::scoped_lock lock(mutex_);
-      for (Worker& worker : workers) rays_ += std::exchange(worker.rays, {});
-      finish_step();
-    }
-  }
 
   bool is_shown(int frame) const { return frame >= integrator_.warm_up(); }
   int pass_number() const { return settings_.plan.first_pass + pass_; }
@@ -148,11 +149,6 @@ class SeriesJob final : public WatchedWork {
   }
 
   // What follows is called with the mutex held.
-
-  // When all units of a step are done.
-  void finish_step() {
-    if (++step_.stage == integrator_.stages()) finish_frame();
-  }
 
   void finish_frame() {
     step_.stage = 0;
@@ -241,6 +237,8 @@ class SeriesJob final : public WatchedWork {
   MemoryExchange memories_{settings_.sequence};
   std::unique_ptr<FrameSeries> series_;
   SeriesStep step_;
+  std::optional<std::size_t> units_;  // of the step; none: the tiles
+  std::vector<Worker> workers_;
   int pass_ = 0;  // series of the plan that are done
   int passes_begun_ = 0;
   std::optional<int> incomplete_;  // the pass of the last series, if it ended early
@@ -264,7 +262,7 @@ class SeriesJob final : public WatchedWork {
 
 RenderResult render_series(const CoupledIntegrator& integrator, const RenderSettings& settings,
                            RenderObserver& observer) {
-  return SeriesJob(integrator, settings).run(observer);
+  return SeriesWork(integrator, settings).run(observer);
 }
 
 }  // namespace montelux

@@ -6,6 +6,9 @@
 #include <thread>
 #include <utility>
 
+#include "render/float_mode.h"
+#include "work/scheduler.h"
+
 namespace montelux {
 
 namespace {
@@ -36,11 +39,11 @@ bool RenderWatch::query(const RenderState& state) {
   return stops_;
 }
 
-bool RenderWatch::run(WatchedWork& work, const std::function<void()>& drive, RenderObserver& observer) {
+bool RenderWatch::run(StagedWork& work, RenderObserver& observer) {
   std::jthread driver([&] {
     std::exception_ptr failure;
     try {
-      drive();
+      drive(work);
     } catch (...) {
       failure = std::current_exception();
     }
@@ -55,14 +58,29 @@ bool RenderWatch::run(WatchedWork& work, const std::function<void()>& drive, Ren
   return interrupted_;
 }
 
-void RenderWatch::report_end(WatchedWork& work, RenderObserver& observer) { observer.progress(progress(work, true)); }
+void RenderWatch::drive(StagedWork& work) {
+  Scheduler scheduler(settings_.threads);
+  work.begin(scheduler.threads());
+  const auto run_unit = [&work](std::size_t unit, int worker) {
+    FlushDenormals flush;
+    work.run_unit(unit, worker);
+  };
+  StageLimits limits;
+  if (work.stops_within_stage()) limits.stop = [this] { return stops(); };
+  while (const std::optional<std::size_t> units = work.next_stage()) {
+    scheduler.run(*units, run_unit, limits);
+    work.end_stage();
+  }
+}
+
+void RenderWatch::report_end(StagedWork& work, RenderObserver& observer) { observer.progress(progress(work, true)); }
 
 bool RenderWatch::wait_for_end(std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, limit, [this] { return ended_; });
 }
 
-void RenderWatch::look(WatchedWork& work, RenderObserver& observer) {
+void RenderWatch::look(StagedWork& work, RenderObserver& observer) {
   if (!interrupted_ && observer.stop_requested()) {
     stops_ = interrupted_ = true;
     requested_at_ = seconds();
@@ -74,21 +92,21 @@ void RenderWatch::look(WatchedWork& work, RenderObserver& observer) {
   if (keeper_.is_due(seconds())) keep(work);
 }
 
-void RenderWatch::drop_late_units(WatchedWork& work) {
+void RenderWatch::drop_late_units(StagedWork& work) {
   if (!stops_) return;
   if (interrupted_ && seconds() > requested_at_ + stop_grace) return work.drop_unfinished_units();
   const double rule_at = rule_at_;
   if (rule_at >= 0 && work.state().is_complete && seconds() > rule_at + rule_grace) work.drop_unfinished_units();
 }
 
-void RenderWatch::update_error(WatchedWork& work) {
+void RenderWatch::update_error(StagedWork& work) {
   const double available = settings_.stop ? settings_.stop->time_for_estimate(work.state()) : infinite;
   const FilmError error = error_watch_.of(seconds(), available, [&] { return work.error(); });
   const std::scoped_lock lock(mutex_);
   error_ = error;
 }
 
-Progress RenderWatch::progress(WatchedWork& work, bool finished) {
+Progress RenderWatch::progress(StagedWork& work, bool finished) {
   const WorkDone done = work.done();
   RenderState state = work.state();
   Progress p;
@@ -119,7 +137,7 @@ Progress RenderWatch::progress(WatchedWork& work, bool finished) {
   return p;
 }
 
-void RenderWatch::keep(WatchedWork& work) {
+void RenderWatch::keep(StagedWork& work) {
   keeper_.keep(seconds(), work.passes(), [&] {
     FilmSnapshot snapshot = work.snapshot();
     snapshot.seconds = seconds_before_ + seconds();
@@ -127,13 +145,20 @@ void RenderWatch::keep(WatchedWork& work) {
   });
 }
 
-std::chrono::milliseconds RenderWatch::interval(WatchedWork& work) const {
+std::chrono::milliseconds RenderWatch::interval(StagedWork& work) const {
   // Short at first and at the end, so that a quick render is not delayed; otherwise several times a second.
   const std::chrono::milliseconds interval(seconds() < 0.5 || stops_ ? 20 : 200);
   if (!settings_.stop) return interval;
   const double left = settings_.stop->seconds_left(work.state());
   if (!(left > 0) || left >= 1) return interval;
   return std::min(interval, std::chrono::milliseconds(1 + int(1000 * left)));
+}
+
+FilmError error_of(const FilmPlanes& planes, const RenderSettings& settings,
+                   const std::function<ImageEstimate()>& image) {
+  FilmError error{estimate_error(planes), {}};
+  if (settings.target) error.target = judge(*settings.target, planes, error.error, image(), 1);
+  return error;
 }
 
 Film first_film(const RenderSettings& settings, int tile_side) {

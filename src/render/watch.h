@@ -1,5 +1,5 @@
-// Watches over the threads of a render: stops, progress, snapshots and estimates of the error, for both kinds of
-// integrator.
+// Drives a render, stage by stage, and watches over its threads: stops, progress, snapshots and estimates of the error,
+// for both kinds of integrator.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -27,10 +27,21 @@ struct FilmError {
   TargetState target;
 };
 
-// The work that is watched. All functions are called by the watching thread while others work.
-class WatchedWork {
+// A render as stages of numbered units, one stage after the other.
+class StagedWork {
  public:
-  virtual ~WatchedWork() = default;
+  virtual ~StagedWork() = default;
+
+  // By the driving thread.
+  virtual void begin(int workers) = 0;                  // once; workers are numbered from 0
+  virtual std::optional<std::size_t> next_stage() = 0;  // its number of units; none: the render is over
+  virtual void end_stage() = 0;                         // after its units
+  virtual bool stops_within_stage() const = 0;          // whether units may be left out when the render stops
+
+  // By several threads at once, with different workers.
+  virtual void run_unit(std::size_t unit, int worker) = 0;
+
+  // By the watching thread, while others work.
   virtual RenderState state() = 0;
   virtual WorkDone done() = 0;
   virtual std::uint64_t passes() = 0;            // of all tiles of the film
@@ -77,21 +88,22 @@ class RenderWatch {
   // The same after a query of the stopping rule. By any thread.
   bool query(const RenderState& state);
 
-  // Runs `drive` in a thread of its own, watches over the work until it ends, and saves the film. True if the observer
-  // requested a stop. Throws what `drive` throws.
-  bool run(WatchedWork& work, const std::function<void()>& drive, RenderObserver& observer);
+  // Runs the stages in a thread of its own and those of the scheduler, watches over the work until it ends, and saves
+  // the film. True if the observer requested a stop. Throws what a unit throws.
+  bool run(StagedWork& work, RenderObserver& observer);
   // The last progress.
-  void report_end(WatchedWork& work, RenderObserver& observer);
+  void report_end(StagedWork& work, RenderObserver& observer);
 
  private:
-  bool wait_for_end(std::chrono::milliseconds limit);  // of `drive`; false: the time is over
-  void look(WatchedWork& work, RenderObserver& observer);
-  void drop_late_units(WatchedWork& work);
-  void update_error(WatchedWork& work);
-  Progress progress(WatchedWork& work, bool finished);
-  void keep(WatchedWork& work);
+  void drive(StagedWork& work);
+  bool wait_for_end(std::chrono::milliseconds limit);  // of the stages; false: the time is over
+  void look(StagedWork& work, RenderObserver& observer);
+  void drop_late_units(StagedWork& work);
+  void update_error(StagedWork& work);
+  Progress progress(StagedWork& work, bool finished);
+  void keep(StagedWork& work);
   // How long to sleep before the next look.
-  std::chrono::milliseconds interval(WatchedWork& work) const;
+  std::chrono::milliseconds interval(StagedWork& work) const;
 
   const RenderSettings& settings_;
   const Stopwatch since_start_;
@@ -105,9 +117,13 @@ class RenderWatch {
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   FilmError error_;     // the last one
-  bool ended_ = false;  // `drive`
+  bool ended_ = false;  // all stages, or one by an exception
   std::exception_ptr failure_;
 };
+
+// The error that the planes show, and what is known of the target. `image` returns the estimate of the image's mean.
+FilmError error_of(const FilmPlanes& planes, const RenderSettings& settings,
+                   const std::function<ImageEstimate()>& image);
 
 // The film that a render adds to, with its tiles named; a film that is continued is moved out of the settings.
 Film first_film(const RenderSettings& settings, int tile_side);
