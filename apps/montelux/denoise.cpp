@@ -30,12 +30,14 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --spp 64 --layers halves -o room.exr
   montelux denoise room.exr -o clean.exr -o clean.png
   montelux render room.pbrt --spp 64 --denoise                     in one step
+  montelux render room.pbrt --spp 64 --layers light-groups --denoise     the light of each group, too
   montelux render walk.pbrt --frames 1:9 --layers halves,motion -o walk.####.exr
   montelux denoise walk.0002.exr --before walk.0001.exr -o clean.0002.exr
 
 The .exr keeps all layers of the image, and adds denoised.R, .G, .B and denoised_error.R, .G, .B: the root of the
-estimated mean squared error that is left, bias included. R, G, B stay the unbiased estimate. Other formats contain the
-denoised colours.
+estimated mean squared error that is left, bias included. R, G, B stay the unbiased estimate. Layers of light become
+denoised_NAME, which sum to the denoised colours, and denoised_error_NAME if they were rendered with errors. Other
+formats contain the denoised colours.
 )";
 
 Status write_output(const std::string& file, const DenoisedFile& denoised) {

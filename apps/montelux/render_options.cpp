@@ -166,7 +166,7 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
        "vertices from the light and T from the eye, merging_sS_tT where they are merged, and strategy_rest beyond N "
        "bounces (3 if not stated); alone: each strategy also without its weight, as alone_sS_tT; errors: also "
        "NAME_stderr; motion: offset in pixels from here to where the same point was in the previous frame; halves: "
-       "colours, albedo and normals of both halves of the "
+       "colours, albedo, normals and layers of light of both halves of the "
        "passes, which montelux denoise needs; intervals: low and high, which contain the true value of a pixel with 95 "
        "%"},
       into(render.layers, parse_layers));

@@ -11,13 +11,21 @@
 #include "denoise/denoise.h"
 #include "denoise/reproject.h"
 #include "film/film.h"
+#include "image/layers.h"
 #include "render/stopwatch.h"
 
 namespace montelux {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> layer_names_added{"denoised", "denoised_error"};
+// What is added: the image and its error, and with "_NAME" those of the layer NAME.
+constexpr std::string_view added_color = "denoised", added_error = "denoised_error";
+
+bool is_added(std::string_view layer) { return layer == added_color || layer.starts_with("denoised_"); }
+
+std::string of_layer(std::string_view added, std::string_view name) {
+  return std::string(added).append(name.empty() ? "" : "_").append(name);
+}
 
 bool has_both_halves(const NoisyImage& image) {
   const Plane& share = image.halves[0].share;
@@ -27,9 +35,24 @@ bool has_both_halves(const NoisyImage& image) {
 // A number that is not one, or too large to be squared, belongs to no pixel that can be filtered.
 bool is_usable(double x) { return std::abs(x) < 1e18; }
 
-NoisyImage noisy_image(const Film& film) {
+// Layer `number` of the film at a pixel; where the pixel is not `usable` both halves are the whole.
+void copy_layer(const LayerFilm& film, int number, int x, int y, bool usable, std::size_t i, NoisyLayer& layer) {
+  const std::array<LayerHalf, 2> halves = film.halves(x, y, number);
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    for (std::size_t h = 0; h < 2; ++h)
+      layer.halves[h][c][i] = float(usable ? halves[h][c] : film.layer_mean(x, y, number, int(c)));
+    if (!layer.knows_variance()) continue;
+    const double variance = film.variance_of_mean(x, y, number, int(c));
+    layer.variance[c][i] = is_usable(variance) ? float(variance) : 0;
+  }
+}
+
+// `layers`: with those of light, which the film has.
+NoisyImage noisy_image(const Film& film, bool layers) {
   const PixelBounds& b = film.bounds();
   NoisyImage image(b.width(), b.height());
+  if (layers)
+    image.layers.assign(std::size_t(film.layers()->count()), NoisyLayer(image.pixels(), film.layers()->has_spread()));
   std::size_t i = 0;
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x, ++i) {
@@ -51,6 +74,8 @@ NoisyImage noisy_image(const Film& film) {
         }
         for (std::size_t c = 0; c < 3; ++c) to.normal[c][i] = float(from.normal[c]);
       }
+      for (std::size_t k = 0; k < image.layers.size(); ++k)
+        copy_layer(*film.layers(), int(k), x, y, usable, i, image.layers[k]);
     }
   return image;
 }
@@ -71,7 +96,41 @@ Status read_planes(const PixelBuffer& image, std::string_view layer, std::string
   return Done{};
 }
 
-Result<NoisyImage> noisy_image(const PixelBuffer& image) {
+// The layers of light of an image that has both halves of them.
+std::vector<std::string> layers_with_halves(const PixelBuffer& image) {
+  std::vector<std::string> names;
+  const std::string begin = half_layer_names[0].of_layer("");
+  for (const std::string& channel : image.channels) {
+    if (!channel.starts_with(begin) || !channel.ends_with(".R")) continue;
+    const std::string name = channel.substr(begin.size(), channel.size() - begin.size() - 2);
+    const auto starts = [&](std::string_view family) { return name.starts_with(family); };
+    if (std::ranges::any_of(light_layer_names, starts)) names.push_back(name);
+  }
+  return names;
+}
+
+// Reads both halves, and the standard errors where the image has them.
+Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage& noisy) {
+  const bool knows_error = find_channel(image, name + "_stderr.R").has_value();
+  NoisyLayer& layer = noisy.layers.emplace_back(noisy.pixels(), knows_error);
+  for (std::size_t h = 0; h < 2; ++h)
+    if (Status read = read_planes(image, half_layer_names[h].of_layer(name), "RGB", layer.halves[h]); !read)
+      return read.failure();
+  if (knows_error)
+    if (Status read = read_planes(image, name + "_stderr", "RGB", layer.variance); !read) return read.failure();
+  for (std::size_t c = 0; c < rgb_size; ++c)
+    for (std::size_t i = 0; i < noisy.pixels(); ++i) {
+      for (ColorPlanes& half : layer.halves)
+        if (!is_usable(double(half[c][i]))) half[c][i] = 0;
+      if (!knows_error) continue;
+      float& error = layer.variance[c][i];
+      error = error >= 0 && is_usable(double(error) * double(error)) ? error * error : 0;
+    }
+  return Done{};
+}
+
+// `layers`: the names of those of light that are read.
+Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::string>& layers) {
   NoisyImage noisy(image.width, image.height);
   ColorPlanes color;
   if (Status read = read_planes(image, "", "RGB", color); !read) return read.failure();
@@ -112,19 +171,31 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image) {
     }
     for (Plane& plane : noisy.variance) plane[i] = 0;
   }
+  for (const std::string& name : layers)
+    if (Status read = read_layer(image, name, noisy); !read) return read.failure();
   return noisy;
 }
 
-PixelBuffer buffer_of(const DenoisedImage& image, int width, int height) {
+// `names`: of the layers of light.
+PixelBuffer buffer_of(const DenoisedImage& image, const std::vector<std::string>& names, int width, int height) {
   std::vector<std::string> channels;
-  for (std::string_view layer : layer_names_added)
-    for (char c : {'R', 'G', 'B'}) channels.push_back(fmt::format("{}.{}", layer, c));
+  std::vector<const Plane*> planes;
+  const auto add = [&](const std::string& name, const ColorPlanes& colors) {
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      channels.push_back(fmt::format("{}.{}", name, "RGB"[c]));
+      planes.push_back(&colors[c]);
+    }
+  };
+  add(of_layer(added_color, ""), image.color), add(of_layer(added_error, ""), image.error);
+  for (std::size_t k = 0; k < image.layers.size(); ++k) {
+    const DenoisedLayer& layer = image.layers[k];
+    add(of_layer(added_color, names[k]), layer.color);
+    if (!layer.error.front().empty()) add(of_layer(added_error, names[k]), layer.error);
+  }
   PixelBuffer buffer = make_pixel_buffer(width, height, std::move(channels));
   float* to = buffer.values.data();
-  for (std::size_t i = 0; i < buffer.pixel_count(); ++i) {
-    for (const Plane& plane : image.color) *to++ = plane[i];
-    for (const Plane& plane : image.error) *to++ = plane[i];
-  }
+  for (std::size_t i = 0; i < buffer.pixel_count(); ++i)
+    for (const Plane* plane : planes) *to++ = (*plane)[i];
   return buffer;
 }
 
@@ -146,9 +217,10 @@ Failure cannot_be_denoised(const std::filesystem::path& file, const std::string&
   return Failure{fmt::format("'{}' cannot be denoised: {}; render it with --layers {}", file.string(), why, layers)};
 }
 
-// Earlier images as the present one would show them.
+// Earlier images as the present one would show them, with these layers of light.
 Result<std::vector<NoisyImage>> earlier_images(const std::filesystem::path& file, const PixelBuffer& present,
-                                               const std::vector<std::filesystem::path>& before) {
+                                               const std::vector<std::filesystem::path>& before,
+                                               const std::vector<std::string>& layers) {
   std::vector<NoisyImage> images;
   std::filesystem::path shown = file;
   PixelBuffer pixels = present;
@@ -162,7 +234,7 @@ Result<std::vector<NoisyImage>> earlier_images(const std::filesystem::path& file
     if (image->pixels.width != pixels.width || image->pixels.height != pixels.height)
       return Failure{fmt::format("'{}' has {} x {} pixels, '{}' {} x {}", earlier.string(), image->pixels.width,
                                  image->pixels.height, shown.string(), pixels.width, pixels.height)};
-    const Result<NoisyImage> noisy = noisy_image(image->pixels);
+    const Result<NoisyImage> noisy = noisy_image(image->pixels, layers);
     if (!noisy) return cannot_be_denoised(earlier, noisy.error(), "halves");
     images.push_back(reprojected(*noisy, way));
     pixels = std::move(image->pixels), shown = earlier;
@@ -178,7 +250,7 @@ Result<DenoisedLayers> denoise_image(const NoisyImage& image, const DenoiseOptio
   try {
     const DenoisedImage done = denoise(image, DenoiseSettings{options.threads, options.stop, others});
     return DenoisedLayers{
-        buffer_of(done, image.width, image.height),
+        buffer_of(done, options.layers, image.width, image.height),
         {done.noisy_mse, done.noisy_relative_mse, done.mse, done.relative_mse, done.filtered, since_start.seconds()}};
   } catch (const std::exception& e) {
     return Failure{e.what()};
@@ -192,7 +264,7 @@ PixelBuffer without_added(const PixelBuffer& image) {
   for (std::size_t c = 0; c < image.channels.size(); ++c) {
     const std::string& name = image.channels[c];
     const std::string layer = name.substr(0, std::min(name.rfind('.'), name.size()));
-    if (std::ranges::find(layer_names_added, layer) != layer_names_added.end()) continue;
+    if (is_added(layer)) continue;
     kept.push_back(c), names.push_back(name);
   }
   PixelBuffer rest = make_pixel_buffer(image.width, image.height, std::move(names));
@@ -214,9 +286,16 @@ Status has_noise_of_halves(const Film& film) {
 
 }  // namespace
 
+DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threads) {
+  DenoiseOptions options;
+  options.threads = threads;
+  if (layers) options.layers = layer_names(*layers);
+  return options;
+}
+
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
-  return denoise_image(noisy_image(film), options);
+  return denoise_image(noisy_image(film, !options.layers.empty()), options);
 }
 
 Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBuffer& motion,
@@ -225,7 +304,7 @@ Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBu
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
   Result<MotionPlanes> to_before = motion_of(motion, "");
   if (!to_before) return to_before.failure();
-  NoisyImage image = noisy_image(film);
+  NoisyImage image = noisy_image(film, !options.layers.empty());
   std::vector<NoisyImage> others;
   MotionPlanes way = *to_before;
   for (const Earlier& one : before) {
@@ -243,11 +322,13 @@ Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBu
 Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const DenoiseOptions& options) {
   Result<Image> image = read_image(file);
   if (!image) return image.failure();
-  const Result<NoisyImage> noisy = noisy_image(image->pixels);
+  DenoiseOptions of_file = options;
+  of_file.layers = layers_with_halves(image->pixels);
+  const Result<NoisyImage> noisy = noisy_image(image->pixels, of_file.layers);
   if (!noisy) return cannot_be_denoised(file, noisy.error(), "halves");
-  const Result<std::vector<NoisyImage>> others = earlier_images(file, image->pixels, options.before);
+  const Result<std::vector<NoisyImage>> others = earlier_images(file, image->pixels, options.before, of_file.layers);
   if (!others) return others.failure();
-  const Result<DenoisedLayers> denoised = denoise_image(*noisy, options, *others);
+  const Result<DenoisedLayers> denoised = denoise_image(*noisy, of_file, *others);
   if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
   DenoisedFile result{*std::move(image), denoised->estimate};
   result.image.pixels = without_added(result.image.pixels);

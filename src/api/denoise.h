@@ -4,6 +4,8 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@
 namespace montelux {
 
 class Film;
+struct LayerPlan;
 
 struct DenoiseOptions {
   int threads = 0;                  // 0: all of the machine
@@ -21,7 +24,12 @@ struct DenoiseOptions {
   // Of a file: the images of the sequence before it, the latest first, rendered with independent samples and with the
   // layers of both halves. The image has motion vectors, and so has each of these but the last.
   std::vector<std::filesystem::path> before = {};
+  // Of a film: the names of its layers of light, all of which are filtered as well; none: they are not.
+  std::vector<std::string> layers = {};
 };
+
+// For a film with these layers of light.
+DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threads);
 
 // Estimated mean squared errors before and after, over channels and pixels. The relative ones are divided by the square
 // of the filtered image, plus 0.01.
@@ -33,7 +41,8 @@ struct Denoising {
 };
 
 // The layers denoised.R, .G, .B and denoised_error.R, .G, .B (root of the estimated mean squared error, bias included),
-// and what is known of them.
+// and what is known of them. For each layer NAME of light also denoised_NAME.R, .G, .B, and denoised_error_NAME.R, .G,
+// .B where its standard error is known. Those of a family sum to `denoised`.
 struct DenoisedLayers {
   PixelBuffer layers;
   Denoising estimate;
@@ -73,9 +82,11 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
 // Entries of a header.
 std::vector<Attribute> header_of(const Denoising& estimate);
 
-// Names of the layers of both halves: colours, albedos, normals, and the share of the passes.
+// Names of the layers of both halves: colours, albedos, normals, and the share of the passes. The colours of the layer
+// NAME of light are first_half_NAME and second_half_NAME.
 struct HalfLayerNames {
   std::string_view color, albedo, normal, share;
+  std::string of_layer(std::string_view name) const { return std::string(color).append("_").append(name); }
 };
 inline constexpr std::array<HalfLayerNames, 2> half_layer_names{
     {{"first_half", "first_half_albedo", "first_half_N", "first_half.share"},

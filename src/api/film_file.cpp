@@ -211,6 +211,14 @@ void check_features(const Json& j) {
     throw std::invalid_argument("it has other feature layers than films of this version");
 }
 
+// Of older versions the layers of light have no halves: their films cannot be continued.
+void check_layers(const Json& j) {
+  if (const Json& plan = j.at("picture").at("layers"); plan.is_null() || j.contains("layers_have_halves")) return;
+  const Result<LayerRequest> request = parse_layers(j.at("settings").at("layers").get<std::string>());
+  if (request && request->halves)
+    throw std::invalid_argument("its layers of light have no halves: an older version saved it");
+}
+
 // Until the shares are decided, with the rays of the tiles, which decide them as well.
 Json adaptive_json(const AdaptiveFilm& adaptive, const std::vector<std::uint64_t>& rays) {
   Json json{{"first_passes", adaptive.first_passes}, {"shares", adaptive.shares}};
@@ -248,7 +256,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
   if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
   if (film.adaptive) json["adaptive"] = adaptive_json(*film.adaptive, snapshot.rays_of_tiles);
-  json["features"] = feature_names();
+  json["features"] = feature_names(), json["layers_have_halves"] = true;
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
@@ -268,6 +276,7 @@ Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& lay
 
 SavedFilm saved_from(const Json& j, std::string_view bytes) {
   check_features(j);
+  check_layers(j);
   const SavedScene scene = scene_from(j);
   const FilmSettings settings = settings_from(j.at("settings"));
   const PictureFacts facts = facts_from(j.at("picture"), settings);

@@ -109,7 +109,8 @@ int samples_channel() {
   return int(std::ranges::find(names, "samples") - names.begin());
 }
 
-// Appends the mean of each layer of light, and its standard error where it is known, for the rows from `first` on.
+// Appends the mean of each layer of light, its standard error and its halves where they are known, for the rows from
+// `first` on.
 void append_light(PixelBuffer& image, int first, const LayerFilm& film, const PixelGrid& grid,
                   const std::vector<std::string>& names) {
   const auto cell_x = [&](int x) { return grid.cell_x(grid.bounds.x0 + x); };
@@ -126,6 +127,9 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
     append(name, [&](int x, int y, int c) { return film.layer_mean(x, y, i, c); });
     if (film.has_spread())
       append(name + "_stderr", [&](int x, int y, int c) { return std::sqrt(film.variance_of_mean(x, y, i, c)); });
+    for (std::size_t half = 0; film.has_halves() && half < 2; ++half)
+      append(half_layer_names[half].of_layer(name),
+             [&](int x, int y, int c) { return film.halves(x, y, i)[half][std::size_t(c)]; });
   }
 }
 
@@ -249,9 +253,17 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
 }
 
 // Two passes of noise.
-Rendering noise(const PixelBounds& bounds, int stride, bool halves) {
-  Rendering rendering{
-      RenderResult{Film(bounds, {}, stride, halves), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
+Rendering noise(const PixelBounds& bounds, int stride, const PictureSteps& steps) {
+  Rendering rendering{RenderResult{Film(bounds, steps.layers, stride, steps.denoise), {}, 0, false, 0, 0, 0},
+                      {},
+                      {},
+                      {},
+                      {},
+                      0,
+                      {},
+                      {},
+                      {}};
+  rendering.layers = steps.layers;
   const PixelBounds cells = rendering.result.film.grid().cells();
   std::vector<PixelSample> samples(std::size_t(cells.area()));
   RandomStream<float> random(0, 0);
@@ -267,7 +279,10 @@ Rendering noise(const PixelBounds& bounds, int stride, bool halves) {
         sample.features.position = {random.next(), random.next(), random.next()};
       }
     }
-    rendering.result.film.add_pass(cells, pass, 1, samples);
+    std::vector<ExactRgb> sums(steps.layers ? samples.size() * (std::size_t(steps.layers->count()) + 1) : 0);
+    for (ExactRgb& sum : sums)
+      for (ExactSum& channel : sum.c) channel.add(random.next());
+    rendering.result.film.add_pass(cells, pass, 1, samples, sums);
   }
   return rendering;
 }
@@ -276,13 +291,14 @@ Rendering noise(const PixelBounds& bounds, int stride, bool halves) {
 struct StripTime {
   double error = 0, encoding = 0;
 };
-StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, PictureSteps steps) {
-  Rendering strip = noise(bounds, stride, steps.denoise);
+StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, const PictureSteps& steps) {
+  Rendering strip = noise(bounds, stride, steps);
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
   if (steps.intervals && stride == 1) strip.intervals = pixel_intervals(strip.result.film);
   if (steps.denoise && stride == 1)
-    if (Result<DenoisedLayers> layers = denoise(strip.result.film)) strip.denoised = *std::move(layers);
+    if (Result<DenoisedLayers> layers = denoise(strip.result.film, denoise_options(steps.layers, 0)))
+      strip.denoised = *std::move(layers);
   // Each earlier image takes as long as the image itself.
   const double denoising = strip.denoised ? strip.denoised->estimate.seconds : 0;
   const double error = since_start.seconds();

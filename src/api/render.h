@@ -158,8 +158,9 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
 // The layers of the picture under the names that other tools expect: R, G, B, A; stderr.R ...; albedo.R ...; N.X ...;
 // P.X ...; Z; samples; id. Both halves of the passes are first_half.R ..., denoise() adds its layers. Intervals
 // are low.R ..., high.R .... Then the
-// requested layers of light: bounce0.R ..., Combined_key.R ..., and with errors bounce0_stderr.R .... Each family of
-// these sums to R, G, B: exactly in the film, here to rounding. Motion is motion.X, motion.Y.
+// requested layers of light: bounce0.R ..., Combined_key.R ..., with errors bounce0_stderr.R ..., and with halves
+// first_half_bounce0.R .... Each family of these sums to R, G, B: exactly in the film, here to rounding. Motion is
+// motion.X, motion.Y.
 PixelBuffer layers_of(const Rendering& rendering);
 
 // How an 8-bit picture shows the colours (those without noise if there are any), by the request and by the image
@@ -191,6 +192,7 @@ struct FinishTime {
 struct PictureSteps {
   bool denoise = false, intervals = false;
   std::size_t earlier_images = 0;  // of a sequence, which help to remove the noise
+  std::optional<LayerPlan> layers = {};
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps = {});

@@ -144,8 +144,9 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
   const AnyIntegrator integrator = plan.chosen.any();
   const TimeOfImage time(
       *plan.seconds, before, since_start,
-      seconds_to_finish(settings.image.bounds, plan.files,
-                        {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0}));
+      seconds_to_finish(
+          settings.image.bounds, plan.files,
+          {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0, settings.image.layers}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     const auto end_in_time = [&] {
@@ -255,10 +256,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   Rendering rendering = rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
   if (plan.denoise && !plan.is_sequence)
     add_denoised(
-        rendering,
-        [&](const Film& of) {
-          return denoise(of, {settings.threads, {}});
-        },
+        rendering, [&](const Film& of) { return denoise(of, denoise_options(rendering.layers, settings.threads)); },
         observer);
   if (plan.intervals && !add_intervals(rendering))
     observer.announce("the intervals of the pixels are unknown: it takes two independent passes, and light");

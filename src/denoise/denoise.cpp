@@ -16,6 +16,12 @@ HalfPlanes::HalfPlanes(std::size_t pixels) : share(pixels) {
   for (Plane& plane : normal) plane.resize(pixels);
 }
 
+NoisyLayer::NoisyLayer(std::size_t pixels, bool knows_variance) {
+  for (ColorPlanes& half : halves)
+    for (Plane& plane : half) plane.resize(pixels);
+  for (Plane& plane : variance) plane.resize(knows_variance ? pixels : 0);
+}
+
 NoisyImage::NoisyImage(int w, int h) : width(w), height(h), halves{HalfPlanes(pixels()), HalfPlanes(pixels())} {
   for (Plane& plane : variance) plane.resize(pixels());
 }
@@ -36,10 +42,26 @@ float mean_of_channels(const ColorPlanes& planes, std::size_t i) {
   return sum / rgb_size;
 }
 
+// Colours of one kind, all light or one layer: unfiltered, and after the filters that each pixel takes.
+struct FilteredColors {
+  std::array<const ColorPlanes*, 2> noisy;  // both halves
+  const ColorPlanes* variance;              // of the mean of both; null: not known
+  std::array<ColorPlanes, 2> filtered;
+};
+
+// Sums of squared errors over pixels and channels.
+struct ErrorSums {
+  double noisy = 0, noisy_relative = 0;
+  double filtered = 0, filtered_relative = 0;
+  double least = 0;  // what the difference of the halves shows, of `filtered`
+  double measured = 0;
+};
+
 class Denoiser {
  public:
   Denoiser(const NoisyImage& image, const DenoiseSettings& settings)
       : image_(image),
+        settings_(settings),
         filtered_(filter_halves(image, settings)),
         filters_(filtered_[0].size()),
         unfiltered_(filters_ + halved),
@@ -48,7 +70,16 @@ class Denoiser {
   DenoisedImage run() {
     find_scale();
     choose();
-    return combine();
+    DenoisedImage result;
+    FilteredColors all = filtered_image();
+    result.color = mean_of(all);
+    const ErrorSums sums = estimate_error(all, result.color, result.error);
+    for (float unfiltered : mixture_.unfiltered) result.filtered += unfiltered < 1 ? 1.0 / double(image_.pixels()) : 0;
+    const double count = std::max(sums.measured, 1.0);
+    result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
+    result.mse = std::max(sums.filtered, sums.least) / count, result.relative_mse = sums.filtered_relative / count;
+    add_layers(result);
+    return result;
   }
 
  private:
@@ -111,78 +142,114 @@ class Denoiser {
       for (std::size_t i = 0; i < error.size(); ++i)
         if (mean[i] < least[i]) least[i] = mean[i], choice[i] = std::uint8_t(k);
     }
+    mixture_.filters.assign(filters_, Plane(image_.pixels()));
+    mixture_.unfiltered.resize(image_.pixels());
     for (std::size_t k = 0; k <= unfiltered_; ++k) {
       Plane chosen(image_.pixels());
       for (std::size_t i = 0; i < chosen.size(); ++i)
         chosen[i] = (has_halves(i) ? choice[i] : unfiltered_) == k ? 1.0f : 0.0f;
-      shares_.push_back(box_mean(chosen, w, h, choice_spread));
+      add_choice(k, box_mean(chosen, w, h, choice_spread));
+    }
+  }
+  void add_choice(std::size_t candidate, const Plane& share) {
+    const bool is_mean = candidate >= filters_ && candidate != unfiltered_;
+    const float of_each = is_mean ? 0.5f : 1.0f;
+    for (std::size_t i = 0; i < share.size(); ++i) {
+      if (candidate != unfiltered_) mixture_.filters[candidate % filters_][i] += of_each * share[i];
+      if (candidate >= filters_) mixture_.unfiltered[i] += of_each * share[i];
     }
   }
 
-  // The mixture of the candidates that were chosen.
-  Filtered mixture(std::size_t c, std::size_t i) const {
-    Filtered sum{0, 0, 0, 0};
-    for (std::size_t k = 0; k < shares_.size(); ++k) {
-      const double share = double(shares_[k][i]);
-      if (share == 0) continue;
-      const Filtered f = candidate(k, c, i);
-      sum.first += share * f.first, sum.second += share * f.second;
-      sum.own_first += share * f.own_first, sum.own_second += share * f.own_second;
-    }
-    return sum;
-  }
-
-  DenoisedImage combine() {
-    DenoisedImage result;
-    for (std::size_t c = 0; c < rgb_size; ++c) {
-      result.color[c].resize(image_.pixels());
-      for (std::size_t i = 0; i < image_.pixels(); ++i) {
-        const Noisy n = noisy(c, i);
-        const Filtered f = mixture(c, i);
-        result.color[c][i] = float(has_halves(i) ? n.share * f.first + (1 - n.share) * f.second : n.first);
+  // The colours of the image, and the share of each pixel itself in them.
+  FilteredColors filtered_image() {
+    FilteredColors all{{&image_.halves[0].color, &image_.halves[1].color}, &image_.variance, {}};
+    for (std::size_t half = 0; half < 2; ++half) {
+      own_[half] = mixture_.unfiltered;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        Plane& sum = all.filtered[half][c] = (*all.noisy[half])[c];
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] *= mixture_.unfiltered[i];
+      }
+      for (std::size_t k = 0; k < filters_; ++k) {
+        const FilteredHalf& filtered = filtered_[half][k];
+        const Plane& weight = mixture_.filters[k];
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+          own_[half][i] += weight[i] * filtered.own[i];
+          for (std::size_t c = 0; c < rgb_size; ++c) all.filtered[half][c][i] += weight[i] * filtered.color[c][i];
+        }
       }
     }
-    for (std::size_t i = 0; i < image_.pixels(); ++i) relative_[i] = relative_scale(mean_of_channels(result.color, i));
-    for (std::size_t c = 0; c < rgb_size; ++c) estimate_error(c, result);
-    for (float share : shares_[unfiltered_]) result.filtered += share < 1 ? 1.0 / double(image_.pixels()) : 0;
-    result.mse = std::max(result.mse, least_);
-    for (double* sum : {&result.mse, &result.relative_mse, &result.noisy_mse, &result.noisy_relative_mse})
-      *sum /= std::max(measured_, 1.0);
-    return result;
+    return all;
   }
 
-  // Of one channel; adds to the sums over all.
-  void estimate_error(std::size_t c, DenoisedImage& result) {
+  void add_layers(DenoisedImage& result) const {
+    const auto filtered = filter_layers(image_, settings_, mixture_, filtered_);
+    for (std::size_t k = 0; k < filtered.size(); ++k) {
+      const NoisyLayer& layer = image_.layers[k];
+      const FilteredColors colors{
+          {&layer.halves[0], &layer.halves[1]}, layer.knows_variance() ? &layer.variance : nullptr, filtered[k]};
+      DenoisedLayer& added = result.layers.emplace_back();
+      added.color = mean_of(colors);
+      if (colors.variance) estimate_error(colors, added.color, added.error);
+    }
+  }
+
+  // The mean of both halves.
+  ColorPlanes mean_of(const FilteredColors& colors) const {
+    ColorPlanes mean;
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      mean[c].resize(image_.pixels());
+      for (std::size_t i = 0; i < image_.pixels(); ++i) {
+        const float share = image_.halves[0].share[i];
+        const float a = colors.filtered[0][c][i], b = colors.filtered[1][c][i];
+        mean[c][i] = has_halves(i) ? share * a + (1 - share) * b : (*colors.noisy[0])[c][i];
+      }
+    }
+    return mean;
+  }
+
+  // The error of each pixel, and sums over all. `mean`: of both halves after the filter.
+  ErrorSums estimate_error(const FilteredColors& colors, const ColorPlanes& mean, ColorPlanes& errors) const {
+    Plane scale(image_.pixels());
+    for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = relative_scale(mean_of_channels(mean, i));
+    ErrorSums sums;
+    for (std::size_t c = 0; c < rgb_size; ++c) errors[c] = error_of_channel(colors, c, scale, sums);
+    return sums;
+  }
+
+  Plane error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale, ErrorSums& sums) const {
     Plane error(image_.pixels(), 0.0f), spread(image_.pixels(), 0.0f);
     for (std::size_t i = 0; i < image_.pixels(); ++i) {
       if (!has_halves(i)) continue;
-      const Noisy n = noisy(c, i);
-      const Filtered f = mixture(c, i);
-      const double squared = squared_error(n, f), relative = double(relative_[i]);
+      const Noisy n{double((*colors.noisy[0])[c][i]), double((*colors.noisy[1])[c][i]),
+                    double(image_.halves[0].share[i]), double((*colors.variance)[c][i])};
+      const Filtered f{double(colors.filtered[0][c][i]), double(colors.filtered[1][c][i]), double(own_[0][i]),
+                       double(own_[1][i])};
+      const double squared = squared_error(n, f), relative = double(scale[i]);
       const double noise = n.share * (1 - n.share) * (f.first - f.second) * (f.first - f.second);
       error[i] = float(squared * relative), spread[i] = float(noise * relative);
-      result.mse += squared, least_ += noise;
-      result.noisy_mse += n.variance, result.noisy_relative_mse += n.variance * relative;
-      measured_ += 1;
+      sums.filtered += squared, sums.least += noise;
+      sums.noisy += n.variance, sums.noisy_relative += n.variance * relative;
+      sums.measured += 1;
     }
     // Means of relative errors: those of bright pixels must not spread to dark ones.
     const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
     const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
-    result.error[c].resize(image_.pixels());
     for (std::size_t i = 0; i < image_.pixels(); ++i) {
       // The difference of the halves shows their noise alone: the error is not less.
-      const float relative = std::max({mean[i], noise[i], 0.0f}), squared = relative / relative_[i];
-      result.error[c][i] = std::sqrt(squared);
-      if (has_halves(i)) result.relative_mse += double(relative);
+      const float relative = std::max({mean[i], noise[i], 0.0f});
+      error[i] = std::sqrt(relative / scale[i]);
+      if (has_halves(i)) sums.filtered_relative += double(relative);
     }
+    return error;
   }
 
   const NoisyImage& image_;
+  const DenoiseSettings& settings_;
   const FilteredHalves filtered_;
   const std::size_t filters_, unfiltered_;  // the number of the filters; the number of the image among the candidates
   Plane relative_;
-  std::vector<Plane> shares_;        // of each candidate
-  double measured_ = 0, least_ = 0;  // numbers of pixels and channels; the sum of the noise of these
+  FilterMixture mixture_;     // what each pixel takes
+  std::array<Plane, 2> own_;  // the share of the pixel itself in either half
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "film/film_planes.h"
 
@@ -17,14 +18,29 @@ struct HalfPlanes {
   explicit HalfPlanes(std::size_t pixels);
 };
 
+// A part of the light of an image: the colours of both halves.
+struct NoisyLayer {
+  std::array<ColorPlanes, 2> halves;
+  ColorPlanes variance;  // of the mean of both; empty planes where it is not known
+
+  NoisyLayer(std::size_t pixels, bool knows_variance);
+  bool knows_variance() const { return !variance.front().empty(); }
+};
+
 // An image to be filtered, row by row from the top. The mean of the halves, weighted by their shares, is the image.
 struct NoisyImage {
   int width = 0, height = 0;
   std::array<HalfPlanes, 2> halves;
   ColorPlanes variance;  // of the mean of both
+  std::vector<NoisyLayer> layers;
 
   NoisyImage(int w, int h);
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+};
+
+struct DenoisedLayer {
+  ColorPlanes color;
+  ColorPlanes error;  // as that of the image; empty planes where the variance is not known
 };
 
 struct DenoisedImage {
@@ -35,13 +51,14 @@ struct DenoisedImage {
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;
   double filtered = 0;  // share of the pixels that the filter changes
+  std::vector<DenoisedLayer> layers;
 };
 
 struct DenoiseSettings {
   int threads = 0;                  // 0: all of the machine
   std::function<bool()> stop = {};  // queried now and then: true ends it early
-  // Images of other samples, of the same size, whose pixels are averaged too where they are alike: earlier ones of a
-  // sequence, reprojected. Pixels without a pass have the share 0.
+  // Images of other samples, of the same size and with the same layers, whose pixels are averaged too where they are
+  // alike: earlier ones of a sequence, reprojected. Pixels without a pass have the share 0.
   std::span<const NoisyImage> others = {};
 };
 
@@ -49,8 +66,9 @@ struct DenoiseSettings {
 // variance (Buades, Coll and Morel 2005; Rousselle, Knaus and Zwicker 2012), of its albedos and normals. Because the
 // weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Of three
 // filters (with other images also those over the image alone), the unfiltered image and means of both each pixel takes
-// the one with the least estimated error around it, averaged over what its neighbours take. The same bits for any
-// number of threads. Throws std::runtime_error if it was stopped.
+// the one with the least estimated error around it, averaged over what its neighbours take. Layers are filtered as the
+// image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up to rounding. The
+// same bits for any number of threads. Throws std::runtime_error if it was stopped.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

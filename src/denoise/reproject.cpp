@@ -20,6 +20,7 @@ std::optional<std::size_t> earlier_pixel(const MotionPlanes& motion, int width, 
 
 NoisyImage reprojected(const NoisyImage& earlier, const MotionPlanes& motion) {
   NoisyImage image(earlier.width, earlier.height);
+  for (const NoisyLayer& layer : earlier.layers) image.layers.emplace_back(image.pixels(), layer.knows_variance());
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const auto from = earlier_pixel(motion, image.width, image.height, x, y);
@@ -34,7 +35,15 @@ NoisyImage reprojected(const NoisyImage& earlier, const MotionPlanes& motion) {
           to.normal[c][i] = half.normal[c][*from];
         }
       }
-      for (std::size_t c = 0; c < rgb_size; ++c) image.variance[c][i] = earlier.variance[c][*from];
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        image.variance[c][i] = earlier.variance[c][*from];
+        for (std::size_t k = 0; k < image.layers.size(); ++k) {
+          const NoisyLayer& layer = earlier.layers[k];
+          NoisyLayer& to = image.layers[k];
+          for (std::size_t h = 0; h < 2; ++h) to.halves[h][c][i] = layer.halves[h][c][*from];
+          if (layer.knows_variance()) to.variance[c][i] = layer.variance[c][*from];
+        }
+      }
     }
   return image;
 }

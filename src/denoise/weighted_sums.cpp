@@ -116,15 +116,50 @@ PaddedImage padded_image(const NoisyImage& image) {
   return both;
 }
 
-// Sums over the neighbours of the pixels of a tile, for each filter.
-struct TileSums {
-  static constexpr int size = tile_width * tile_height;
-  std::array<std::array<std::array<float, size>, rgb_size>, filter_count> color;
-  std::array<std::array<float, size>, filter_count> weight;
-};
-
+// A pixel and one of its neighbours, each the first one of a pack.
 struct PixelPair {
   int x, y, other_x, other_y;
+};
+
+constexpr std::size_t tile_size = std::size_t(tile_width) * tile_height;
+using TilePlane = std::array<float, tile_size>;
+using FilterWeights = std::array<F, filter_count>;
+
+void add_to(float* sum, const F& x) { store(sum, load(sum) + x); }
+
+// Sums of the colours of a half over the neighbours of the pixels of a tile, for each filter.
+struct ColorSums {
+  alignas(64) std::array<std::array<TilePlane, rgb_size>, filter_count> color{};
+  alignas(64) std::array<TilePlane, filter_count> weight{};
+
+  void add(const PaddedColors& colors, const PixelPair& at, std::size_t place, const FilterWeights& weights) {
+    std::array<F, rgb_size> values;
+    for (std::size_t c = 0; c < rgb_size; ++c) values[c] = load(colors[c].at(at.other_x, at.other_y));
+    for (std::size_t k = 0; k < filter_count; ++k) {
+      for (std::size_t c = 0; c < rgb_size; ++c) add_to(&color[k][c][place], weights[k] * values[c]);
+      add_to(&weight[k][place], weights[k]);
+    }
+  }
+};
+
+// What the layers of a half of an image are averaged by: `shares`, those of the filters at each pixel, divided by the
+// sum of the weights of the filter there.
+struct PaddedLayers {
+  std::vector<PaddedPlane> planes;
+  std::array<PaddedPlane, filter_count> shares;
+};
+
+// Sums of all layers over the neighbours of the pixels of a tile, by the mixture of the filters.
+struct LayerSums {
+  explicit LayerSums(std::size_t planes) : sums(planes) {}
+  std::vector<TilePlane> sums;
+
+  void add(const PaddedLayers& layers, const PixelPair& at, std::size_t place, const FilterWeights& weights) {
+    F weight = 0.0f;
+    for (std::size_t k = 0; k < filter_count; ++k) weight += load(layers.shares[k].at(at.x, at.y)) * weights[k];
+    for (std::size_t c = 0; c < sums.size(); ++c)
+      add_to(&sums[c][place], weight * load(layers.planes[c].at(at.other_x, at.other_y)));
+  }
 };
 
 // One tile of a half of the first image: sums over pixels of that half of any image, by the weights of the other half.
@@ -133,20 +168,23 @@ class TileFilter {
   TileFilter(const PaddedImage& first, std::size_t half, int x0, int y0)
       : half_(half), guide_(first[1 - half]), x0_(x0), y0_(y0) {}
 
-  // Adds the pixels of an image to the sums.
-  void add(const PaddedImage& there) {
+  // Adds the pixels of an image to the sums. `values`: of this half of the image.
+  template <class Values, class Sums>
+  void add(const PaddedImage& there, const Values& values, Sums& sums) {
     for (int dy = -filter_reach; dy <= filter_reach; ++dy)
       for (int dx = -filter_reach; dx <= filter_reach; ++dx) {
         constexpr float radius = filter_reach + 1;
         const float near = 1 - float(dx * dx + dy * dy) / (radius * radius);
         if (near <= 0) continue;
         find_differences(there[1 - half_], dx, dy);
-        for (int row = 0; row < tile_height; ++row) add_row(there, row, dx, dy, near);
+        for (int row = 0; row < tile_height; ++row) add_row(there, values, row, {dx, dy}, near, sums);
       }
   }
-  const TileSums& sums() const { return sums_; }
 
  private:
+  struct Offset {
+    int x, y;
+  };
   static constexpr int columns = tile_width + native_lanes;  // of differences: a pack more holds the patches' margin
 
   // The squared differences of the colours at each pixel and at its neighbour, without the part that their variances
@@ -169,7 +207,8 @@ class TileFilter {
     }
   }
 
-  void add_row(const PaddedImage& there, int row, int dx, int dy, float near) {
+  template <class Values, class Sums>
+  void add_row(const PaddedImage& there, const Values& values, int row, Offset to, float near, Sums& sums) {
     const PaddedHalf &source = there[half_], &guide = there[1 - half_];
     const int y = y0_ + row;
     const auto first = std::size_t(row);
@@ -183,22 +222,17 @@ class TileFilter {
       const float* around = &rows[std::size_t(i)];
       const F difference =
           max((load(around) + load_across(around, 1) + load_across(around, 2)) * (1.0f / (9 * rgb_size)), F(0.0f));
-      const PixelPair pair{x, y, x + dx, y + dy};
+      const PixelPair pair{x, y, x + to.x, y + to.y};
       const F features = distance(guide_.albedo, guide.albedo, pair) * (1 / square(albedo_scale)) +
                          distance(guide_.normal, guide.normal, pair) * (1 / square(normal_scale));
-      const F exists = load(source.exists.at(x + dx, y + dy)) * load(guide.exists.at(x + dx, y + dy)) * near;
-      std::array<F, rgb_size> color;
-      for (std::size_t c = 0; c < rgb_size; ++c) color[c] = load(source.color[c].at(x + dx, y + dy));
-      const std::size_t place = std::size_t(row) * tile_width + std::size_t(i);
+      const F exists =
+          load(source.exists.at(pair.other_x, pair.other_y)) * load(guide.exists.at(pair.other_x, pair.other_y)) * near;
+      FilterWeights weights;
       for (std::size_t k = 0; k < filter_count; ++k) {
         const float scale = 1 / (color_scales[k] * color_scales[k]);
-        const F weight = exp(F(0.0f) - (difference * scale + features)) * exists;
-        for (std::size_t c = 0; c < rgb_size; ++c) {
-          float* sum = &sums_.color[k][c][place];
-          store(sum, load(sum) + weight * color[c]);
-        }
-        store(&sums_.weight[k][place], load(&sums_.weight[k][place]) + weight);
+        weights[k] = exp(F(0.0f) - (difference * scale + features)) * exists;
       }
+      sums.add(values, pair, std::size_t(row) * tile_width + std::size_t(i), weights);
     }
   }
   // The squared distance of a feature at two pixels, without what their variances explain. As with colours, that of the
@@ -218,32 +252,71 @@ class TileFilter {
   const PaddedHalf& guide_;  // of the first image
   int x0_, y0_;
   alignas(64) std::array<std::array<float, columns>, tile_height + 2 * patch> differences_{};
-  alignas(64) TileSums sums_{};
 };
 
-// The part of the tile that is in the image.
-void copy_tile(const TileSums& sums, const NoisyImage& image, const HalfPlanes& source, int x0, int y0,
-               std::span<FilteredHalf> out) {
+// Calls f(pixel of the image, its place in the tile) for the part of the tile that is in the image.
+template <class Function>
+void for_each_pixel(const NoisyImage& image, int x0, int y0, Function f) {
   for (int y = y0; y < std::min(y0 + tile_height, image.height); ++y)
-    for (int x = x0; x < std::min(x0 + tile_width, image.width); ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
-      const auto place = std::size_t((y - y0) * tile_width + x - x0);
-      for (std::size_t k = 0; k < filter_count; ++k) {
-        const float weight = sums.weight[k][place];
-        const bool has_sum = weight > 0;
-        for (std::size_t c = 0; c < rgb_size; ++c)
-          out[k].color[c][i] = has_sum ? sums.color[k][c][place] / weight : source.color[c][i];
-        // Its own weight is 1.
-        out[k].own[i] = has_sum && source.share[i] > 0 ? std::min(1 / weight, 1.0f) : 1.0f;
-      }
+    for (int x = x0; x < std::min(x0 + tile_width, image.width); ++x)
+      f(std::size_t(y) * std::size_t(image.width) + std::size_t(x), std::size_t((y - y0) * tile_width + x - x0));
+}
+
+void copy_tile(const ColorSums& sums, const NoisyImage& image, const HalfPlanes& source, int x0, int y0,
+               std::span<FilteredHalf> out) {
+  for_each_pixel(image, x0, y0, [&](std::size_t i, std::size_t place) {
+    for (std::size_t k = 0; k < filter_count; ++k) {
+      const float weight = sums.weight[k][place];
+      const bool has_sum = weight > 0;
+      for (std::size_t c = 0; c < rgb_size; ++c)
+        out[k].color[c][i] = has_sum ? sums.color[k][c][place] / weight : source.color[c][i];
+      // Its own weight is 1.
+      out[k].own[i] = has_sum && source.share[i] > 0 ? std::min(1 / weight, 1.0f) : 1.0f;
     }
+  });
+}
+
+// The layers of half `half` of an image. `filters`: the number of the first filter of each group that averages over it.
+PaddedLayers padded_layers(const NoisyImage& image, std::size_t half, const FilterMixture& mixture,
+                           const std::vector<FilteredHalf>& filtered, std::span<const std::size_t> filters) {
+  PaddedLayers padded;
+  for (const NoisyLayer& layer : image.layers)
+    for (const Plane& plane : layer.halves[half]) padded.planes.emplace_back(plane, image.width, image.height);
+  for (std::size_t k = 0; k < filter_count; ++k) {
+    Plane shares(image.pixels());
+    for (std::size_t first : filters)
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] += mixture.filters[first + k][i] * filtered[first + k].own[i];
+    padded.shares[k] = PaddedPlane(shares, image.width, image.height);
+  }
+  return padded;
+}
+
+// The image and the others.
+std::vector<PaddedImage> padded_images(const NoisyImage& image, const DenoiseSettings& settings) {
+  std::vector<PaddedImage> images{padded_image(image)};
+  for (const NoisyImage& other : settings.others) images.push_back(padded_image(other));
+  return images;
+}
+
+// Calls f(half, x0, y0) for each half of each tile, by all threads.
+template <class Function>
+void for_each_tile(const NoisyImage& image, const DenoiseSettings& settings, Function f) {
+  const auto across = std::size_t((image.width + tile_width - 1) / tile_width);
+  const std::size_t tiles = across * std::size_t((image.height + tile_height - 1) / tile_height);
+  Scheduler scheduler(settings.threads);
+  const auto run = [&](std::size_t unit, int) {
+    const std::size_t tile = unit / 2;
+    f(unit % 2, int(tile % across) * tile_width, int(tile / across) * tile_height);
+  };
+  if (scheduler.run(2 * tiles, run, {0, settings.stop}) < 2 * tiles)
+    throw std::runtime_error("the removal of noise was interrupted");
 }
 
 }  // namespace
 
 FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings) {
-  std::vector<PaddedImage> images{padded_image(image)};
-  for (const NoisyImage& other : settings.others) images.push_back(padded_image(other));
+  const std::vector<PaddedImage> images = padded_images(image, settings);
   FilteredHalves filtered;
   for (auto& half : filtered) {
     half.resize(settings.others.empty() ? filter_count : 2 * filter_count);
@@ -252,28 +325,51 @@ FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& set
       one.own.resize(image.pixels());
     }
   }
-  const int across = (image.width + tile_width - 1) / tile_width;
-  const auto tiles = std::size_t(across) * std::size_t((image.height + tile_height - 1) / tile_height);
-  const auto filter_tile = [&](std::size_t half, int x0, int y0) {
-    const auto filter = std::make_unique<TileFilter>(images[0], half, x0, y0);
-    const auto copy = [&](std::span<FilteredHalf> out) {
-      copy_tile(filter->sums(), image, image.halves[half], x0, y0, out);
+  for_each_tile(image, settings, [&](std::size_t half, int x0, int y0) {
+    TileFilter filter(images[0], half, x0, y0);
+    const auto sums = std::make_unique<ColorSums>();
+    const auto copy = [&](std::size_t first) {
+      copy_tile(*sums, image, image.halves[half], x0, y0, std::span(filtered[half]).subspan(first));
     };
-    filter->add(images[0]);
-    if (images.size() > 1) copy(std::span(filtered[half]).subspan(filter_count));
-    for (std::size_t other = 1; other < images.size(); ++other) filter->add(images[other]);
-    copy(filtered[half]);
-  };
-  Scheduler scheduler(settings.threads);
-  const std::size_t done = scheduler.run(2 * tiles,
-                                         [&](std::size_t unit, int) {
-                                           const std::size_t tile = unit / 2;
-                                           filter_tile(unit % 2, int(tile % std::size_t(across)) * tile_width,
-                                                       int(tile / std::size_t(across)) * tile_height);
-                                         },
-                                         {0, settings.stop});
-  if (done < 2 * tiles) throw std::runtime_error("the removal of noise was interrupted");
+    filter.add(images[0], images[0][half].color, *sums);
+    if (images.size() > 1) copy(filter_count);
+    for (std::size_t other = 1; other < images.size(); ++other)
+      filter.add(images[other], images[other][half].color, *sums);
+    copy(0);
+  });
   return filtered;
+}
+
+std::vector<std::array<ColorPlanes, 2>> filter_layers(const NoisyImage& image, const DenoiseSettings& settings,
+                                                      const FilterMixture& mixture, const FilteredHalves& filtered) {
+  std::vector<std::array<ColorPlanes, 2>> layers;
+  if (image.layers.empty()) return layers;
+  for (const NoisyLayer& layer : image.layers) {
+    auto& halves = layers.emplace_back(layer.halves);
+    for (ColorPlanes& planes : halves)
+      for (Plane& plane : planes)
+        for (std::size_t i = 0; i < plane.size(); ++i) plane[i] *= mixture.unfiltered[i];
+  }
+  const std::vector<PaddedImage> images = padded_images(image, settings);
+  // By half and image. Filters over the image alone come after those over all.
+  std::array<std::vector<PaddedLayers>, 2> padded;
+  for (std::size_t half = 0; half < 2; ++half) {
+    std::vector<std::size_t> filters{0};
+    if (images.size() > 1) filters.push_back(filter_count);
+    padded[half].push_back(padded_layers(image, half, mixture, filtered[half], filters));
+    for (const NoisyImage& other : settings.others)
+      padded[half].push_back(padded_layers(other, half, mixture, filtered[half], std::span(filters).first(1)));
+  }
+  for_each_tile(image, settings, [&](std::size_t half, int x0, int y0) {
+    TileFilter filter(images[0], half, x0, y0);
+    LayerSums sums(padded[half].front().planes.size());
+    for (std::size_t i = 0; i < images.size(); ++i) filter.add(images[i], padded[half][i], sums);
+    for_each_pixel(image, x0, y0, [&](std::size_t i, std::size_t place) {
+      for (std::size_t layer = 0; layer < layers.size(); ++layer)
+        for (std::size_t c = 0; c < rgb_size; ++c) layers[layer][half][c][i] += sums.sums[layer * rgb_size + c][place];
+    });
+  });
+  return layers;
 }
 
 }  // namespace montelux

@@ -25,4 +25,16 @@ struct FilteredHalf {
 using FilteredHalves = std::array<std::vector<FilteredHalf>, 2>;
 FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings);
 
+// The weighted mean of the filters, in their order above, and of the unfiltered image that each pixel takes. The
+// weights of a pixel sum to 1.
+struct FilterMixture {
+  std::vector<Plane> filters;
+  Plane unfiltered;
+};
+
+// Both halves of each layer of the image after the mixture. `filtered`: the image after the filters. Pixels without a
+// pass in one of the halves have no meaning.
+std::vector<std::array<ColorPlanes, 2>> filter_layers(const NoisyImage& image, const DenoiseSettings& settings,
+                                                      const FilterMixture& mixture, const FilteredHalves& filtered);
+
 }  // namespace montelux

@@ -152,7 +152,7 @@ bool FilmTile::has(int pass) const { return std::ranges::binary_search(passes, p
 
 Film::Film(PixelBounds bounds, const std::optional<LayerPlan>& layers, int stride, bool halves)
     : grid_{bounds, stride}, cells_(grid_.cells()), pixels_(std::size_t(cells_.area())) {
-  if (layers) layers_.emplace(cells_, layers->count(), layers->spread);
+  if (layers) layers_.emplace(cells_, layers->count(), layers->spread, halves);
   if (halves) halves_.resize(pixels_.size());
 }
 
@@ -209,15 +209,16 @@ FilmPass& Film::new_pass(const PixelBounds& tile, int pass) {
 void Film::add_pixel(const PixelBounds& tile, std::size_t i, PixelPass of_pixel, std::span<const ExactRgb> sums,
                      FilmPass& whole) {
   const int width = tile.width(), x = tile.x0 + int(i) % width, y = tile.y0 + int(i) / width;
+  const bool in_first_half = whole.pass % 2 == 0;
   if (layers_ && of_pixel.finite > 0) {
     const std::size_t stride = std::size_t(layers_->count()) + 1;
     const auto own = sums.subspan(i * stride, stride);
-    layers_->add(x, y, of_pixel.finite, own);
+    layers_->add(x, y, of_pixel.finite, own, in_first_half);
     for (int c = 0; c < rgb_size; ++c) of_pixel.sum[c] = own.front().c[c].value();
   }
   const std::size_t index = index_of_cell(x, y);
   PixelSums& pixel = pixels_[index];
-  if (has_halves() && whole.pass % 2 == 0) halves_[index].add(of_pixel);
+  if (has_halves() && in_first_half) halves_[index].add(of_pixel);
   pixel.add(whole.pass, of_pixel);
   if (of_pixel.finite == 0) return;
   double mean[rgb_size] = {};

@@ -204,6 +204,10 @@ void LayerFilm::write_pixel(int x, int y, ByteWriter& out) const {
       out.sum(spreads_[i].own[c].sum()), out.sum(spreads_[i].own[c].squares());
       out.sum(spreads_[i].with_all[c]);
     }
+  if (!has_halves()) return;
+  out.count(half_samples_[index(x, y)]);
+  for (std::size_t i = first_half_sum(x, y), end = i + std::size_t(count_); i < end; ++i)
+    for (const ExactSum& channel : half_sums_[i].c) out.sum(channel);
 }
 
 void LayerFilm::read_pixel(int x, int y, const PixelSums& film, ByteReader& in) {
@@ -218,6 +222,10 @@ void LayerFilm::read_pixel(int x, int y, const PixelSums& film, ByteReader& in) 
       spreads_[i].own[c] = ExactMoments::of(sum, in.products());
       spreads_[i].with_all[c] = in.products();
     }
+  if (!has_halves()) return;
+  const std::uint64_t samples = half_samples_[index(x, y)] = in.count(counts.samples);
+  for (std::size_t i = first_half_sum(x, y), end = i + std::size_t(count_); i < end; ++i)
+    for (ExactSum& channel : half_sums_[i].c) channel = in.sum(samples);
 }
 
 }  // namespace montelux

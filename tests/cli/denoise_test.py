@@ -68,6 +68,19 @@ class DenoiseTest(ProgramTest):
         self.assertIn("noise cannot be removed", self.render("--spp", 1, "--denoise", "-o", "y.exr").stderr)
         self.assertTrue((self.folder / "y.exr").exists())
 
+    def test_layers_of_light_are_denoised_too(self):
+        layers = "bounces:1,light-groups,errors"
+        self.render("--spp", 16, "--layers", layers, "--denoise", "-o", "a.exr")
+        self.render("--spp", 16, "--layers", layers + ",halves", "-o", "b.exr")
+        self.run_program("denoise", "b.exr", "-o", "c.exr")
+        for image in "a.exr", "c.exr":
+            said = self.run_program("info", image, "--json").stdout
+            for name in "denoised_bounce_rest", "denoised_error_bounce1", "first_half_Combined_default", "second_half_bounce0":
+                self.assertIn(name, said)
+        # A denoised file gets the same layers again.
+        self.run_program("denoise", "c.exr", "-o", "d.exr", "--threads", 1)
+        self.assertEqual((self.folder / "c.exr").read_bytes(), (self.folder / "d.exr").read_bytes())
+
     def test_earlier_frames_lower_the_error(self):
         """Frames of a scene that stands still: three of them have a third of the variance."""
         options = ["--frames", "0:2", "--layers", "halves,motion"]

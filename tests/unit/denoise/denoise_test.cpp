@@ -304,8 +304,86 @@ TEST(Denoise, leaves_out_what_other_images_do_not_share) {
   EXPECT_LT(mean_squared_error(denoise(m.image, {0, {}, {&other.image, 1}}).color, m.truth), 1.2 * alone);
 }
 
+// Two layers with independent noise that sum to the image: one dim, one with the edges.
+Made made_of_layers(unsigned seed, float share, bool knows_variance, std::array<ColorPlanes, 2>& truths) {
+  const Made first = made(1000 + seed, share, {0.1, 0.05, 0.2});
+  Made sum = made(seed, share);
+  sum.image.layers.assign(2, NoisyLayer(sum.image.pixels(), knows_variance));
+  truths = {sum.truth, sum.truth};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < sum.image.pixels(); ++i) {
+      constexpr float dim = 0.25f;
+      const float difference = first.truth[c][i] * dim;
+      truths[1][c][i] = difference;
+      const float variances[]{sum.image.variance[c][i], first.image.variance[c][i] * dim * dim};
+      for (std::size_t h = 0; h < 2; ++h) {
+        NoisyLayer &a = sum.image.layers[0], &b = sum.image.layers[1];
+        a.halves[h][c][i] = sum.image.halves[h].color[c][i];
+        b.halves[h][c][i] = first.image.halves[h].color[c][i] * dim;
+        sum.image.halves[h].color[c][i] += b.halves[h][c][i];
+      }
+      if (knows_variance)
+        for (std::size_t k = 0; k < 2; ++k) sum.image.layers[k].variance[c][i] = variances[k];
+      sum.image.variance[c][i] += variances[1], sum.truth[c][i] += difference;
+    }
+  return sum;
+}
+
+TEST(DenoisedLayers, sum_to_the_image_without_noise) {
+  std::array<ColorPlanes, 2> truths;
+  for (float share : {0.5f, 0.25f}) {
+    const Made m = made_of_layers(3, share, false, truths), earlier = made_of_layers(40, share, false, truths);
+    for (const bool others : {false, true}) {
+      DenoiseSettings settings;
+      if (others) settings.others = {&earlier.image, 1};
+      const DenoisedImage result = denoise(m.image, settings);
+      ASSERT_EQ(result.layers.size(), 2u);
+      EXPECT_TRUE(result.layers[0].error[0].empty());
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < m.image.pixels(); ++i)
+          ASSERT_NEAR(result.layers[0].color[c][i] + result.layers[1].color[c][i], result.color[c][i], 2e-5f);
+    }
+  }
+}
+
+// Of each layer. Planted: variances that are a quarter of the true ones. The bound by the difference of the halves,
+// which holds around each pixel, makes the stated errors too large.
+TEST(DenoisedLayers, have_their_own_errors) {
+  const auto sum_of_squares = [](const ColorPlanes& error) {
+    double sum = 0;
+    for (const Plane& plane : error)
+      for (float x : plane) sum += double(x) * double(x);
+    return sum / (3.0 * double(error[0].size()));
+  };
+  for (float share : {0.5f, 0.25f}) {
+    std::array<double, 2> stated{}, left{}, before{}, planted{};
+    for (unsigned seed = 0; seed < 8; ++seed) {
+      std::array<ColorPlanes, 2> truths;
+      Made m = made_of_layers(seed, share, true, truths);
+      const DenoisedImage result = denoise(m.image);
+      for (NoisyLayer& layer : m.image.layers)
+        for (Plane& plane : layer.variance)
+          for (float& x : plane) x /= 4;
+      const DenoisedImage wrong = denoise(m.image);
+      for (std::size_t k = 0; k < 2; ++k) {
+        left[k] += mean_squared_error(result.layers[k].color, truths[k]);
+        stated[k] += sum_of_squares(result.layers[k].error), planted[k] += sum_of_squares(wrong.layers[k].error);
+        for (const Plane& plane : m.image.layers[k].variance)
+          before[k] += 4 * std::accumulate(plane.begin(), plane.end(), 0.0) / (3.0 * double(m.image.pixels()));
+      }
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_LT(left[k], 0.25 * before[k]) << k;
+      EXPECT_GT(stated[k], 0.75 * left[k]) << k;
+      EXPECT_LT(stated[k], 2.6 * left[k]) << k;
+      EXPECT_GT(planted[k], 2.6 * left[k]) << k;
+    }
+  }
+}
+
 TEST(Reprojected, pixels_are_those_that_showed_the_same) {
-  const Made m = made(1);
+  std::array<ColorPlanes, 2> truths;
+  const Made m = made_of_layers(1, 0.5f, true, truths);
   MotionPlanes motion{Plane(m.image.pixels(), 3.2f), Plane(m.image.pixels(), -1.9f)};
   const NoisyImage there = reprojected(m.image, motion);
   const MotionPlanes twice = composed(motion, motion, width, height);
@@ -319,19 +397,24 @@ TEST(Reprojected, pixels_are_those_that_showed_the_same) {
       ASSERT_EQ(there.halves[1].color[2][i], m.image.halves[1].color[2][from]);
       ASSERT_EQ(there.halves[0].albedo[1][i], m.image.halves[0].albedo[1][from]);
       ASSERT_EQ(there.variance[0][i], m.image.variance[0][from]);
+      ASSERT_EQ(there.layers[1].halves[0][2][i], m.image.layers[1].halves[0][2][from]);
+      ASSERT_EQ(there.layers[0].variance[1][i], m.image.layers[0].variance[1][from]);
       ASSERT_FLOAT_EQ(twice.x[i], 6.4f);
       ASSERT_FLOAT_EQ(twice.y[i], -3.8f);
     }
 }
 
 TEST(Denoise, has_the_same_bits_for_any_number_of_threads) {
-  const Made m = made(8);
+  std::array<ColorPlanes, 2> truths;
+  const Made m = made_of_layers(8, 0.5f, true, truths);
   const DenoisedImage one = denoise(m.image, {1, {}});
   for (int threads : {2, 3}) {
     const DenoisedImage other = denoise(m.image, {threads, {}});
     EXPECT_EQ(one.color, other.color);
     EXPECT_EQ(one.error, other.error);
     EXPECT_EQ(one.relative_mse, other.relative_mse);
+    EXPECT_EQ(one.layers[1].color, other.layers[1].color);
+    EXPECT_EQ(one.layers[1].error, other.layers[1].error);
   }
 }
 

@@ -21,9 +21,10 @@ LayerPlan plan(bool spread) {
   return plan;
 }
 
-// The first tile has another number of passes, the last one none; pixels with and without hits.
+// The first tile has another number of passes, the last one none; pixels with and without hits. With layers it has
+// halves as well.
 Film film_of(const std::optional<LayerPlan>& layers) {
-  Film film(bounds, layers);
+  Film film(bounds, layers, 1, layers.has_value());
   const std::vector<PixelBounds> tiles = tiles_of(bounds, side);
   RandomStream<float> random(5, 6);
   for (std::size_t t = 0; t < tiles.size(); ++t) {
@@ -58,7 +59,7 @@ std::string bytes_of(const Film& film) {
 }
 
 Film film_from(std::string_view bytes, const std::optional<LayerPlan>& layers) {
-  Film film(bounds, layers);
+  Film film(bounds, layers, 1, layers.has_value());
   ByteReader in(bytes);
   for (const PixelBounds& tile : tiles_of(bounds, side)) film.read_tile(tile, in);
   if (!in.at_end()) throw std::invalid_argument("more follows");
@@ -84,6 +85,7 @@ TEST(FilmBytes, are_the_film) {
         for (int c = 0; c < 3; ++c) {
           EXPECT_EQ(std::tie(p.mean[c], p.m2[c]), std::tie(q.mean[c], q.m2[c]));
           if (!layers) continue;
+          EXPECT_EQ(film.layers()->halves(x, y, 1), again.layers()->halves(x, y, 1));
           EXPECT_EQ(film.layers()->layer_mean(x, y, 2, c), again.layers()->layer_mean(x, y, 2, c));
           if (!layers->spread) continue;
           EXPECT_EQ(film.layers()->spread(x, y, 2).m2[c], again.layers()->spread(x, y, 2).m2[c]);

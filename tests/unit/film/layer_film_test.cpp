@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,10 +29,10 @@ std::vector<ExactRgb> pass_of(int x, int y, int pass) {
 }
 
 LayerFilm film_of(int first, int count) {
-  LayerFilm film(bounds, layers, true);
+  LayerFilm film(bounds, layers, true, true);
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x)
-      for (int p = first; p < first + count; ++p) film.add(x, y, samples, pass_of(x, y, p));
+      for (int p = first; p < first + count; ++p) film.add(x, y, samples, pass_of(x, y, p), p % 2 == 0);
   return film;
 }
 
@@ -50,6 +51,16 @@ LayerSpread spread_of(int x, int y, int layer) {
   return s;
 }
 
+void expect_right_halves(const LayerFilm& film, int x, int y, int layer) {
+  const std::array<LayerHalf, 2> halves = film.halves(x, y, layer);
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    double sum[2] = {}, count[2] = {};
+    for (int p = 0; p < passes; ++p)
+      sum[p % 2] += pass_of(x, y, p)[std::size_t(layer + 1)].c[c].value() / samples, count[p % 2] += 1;
+    for (std::size_t h = 0; h < 2; ++h) EXPECT_NEAR(halves[h][c], sum[h] / count[h], 1e-13);
+  }
+}
+
 void expect_right(const LayerFilm& film) {
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x)
@@ -62,6 +73,7 @@ void expect_right(const LayerFilm& film) {
           EXPECT_NEAR(film.variance_of_mean(x, y, i, c), right.m2[c] / (passes - 1) / passes, 1e-13);
           EXPECT_NEAR(i < 0 ? film.mean(x, y, c) : film.layer_mean(x, y, i, c), right.mean[c], 1e-13);
         }
+        if (i >= 0) expect_right_halves(film, x, y, i);
       }
 }
 
@@ -71,19 +83,30 @@ TEST(LayerFilm, merges_to_the_film_of_all_passes) {
   LayerFilm film = film_of(0, 3);
   film.merge(film_of(3, passes - 3));
   expect_right(film);
-  LayerFilm fresh(bounds, layers, true);
+  LayerFilm fresh(bounds, layers, true, true);
   fresh.merge(film);
   expect_right(fresh);
 }
 
 TEST(LayerFilm, does_not_merge_with_other_layers) {
-  LayerFilm film(bounds, layers, true);
-  EXPECT_THROW(film.merge(LayerFilm(bounds, layers + 1, true)), std::invalid_argument);
-  EXPECT_THROW(film.merge(LayerFilm(bounds, layers, false)), std::invalid_argument);
+  LayerFilm film(bounds, layers, true, false);
+  EXPECT_THROW(film.merge(LayerFilm(bounds, layers + 1, true, false)), std::invalid_argument);
+  EXPECT_THROW(film.merge(LayerFilm(bounds, layers, false, false)), std::invalid_argument);
+  EXPECT_THROW(film.merge(LayerFilm(bounds, layers, true, true)), std::invalid_argument);
   LayerPlan plan;
   plan.techniques = true;
   Film with(bounds, plan);
   EXPECT_THROW(with.merge(Film(bounds)), std::invalid_argument);
+}
+
+TEST(LayerFilm, has_the_whole_as_both_halves_where_one_has_no_pass) {
+  for (int only : {0, 1}) {
+    const LayerFilm film = film_of(only, 1);
+    const std::array<LayerHalf, 2> halves = film.halves(bounds.x0, bounds.y0, 1);
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      for (const LayerHalf& half : halves)
+        EXPECT_NEAR(half[c], pass_of(bounds.x0, bounds.y0, only)[2].c[c].value() / samples, 1e-13);
+  }
 }
 
 TEST(LayerFilm, knows_no_variance_of_one_pass) {
