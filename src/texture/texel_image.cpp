@@ -35,13 +35,13 @@ Selection select_channels(const PixelBuffer& pixels) {
 // Applies `convert(value, is_alpha)` to each selected value; interleaved.
 template <class T, class Convert>
 std::vector<T> packed(const PixelBuffer& pixels, const Selection& s, Convert convert) {
-  std::vector<T> values;
-  values.reserve(pixels.pixel_count() * s.channels.size());
-  const std::size_t stride = pixels.channels.size();
-  for (std::size_t i = 0; i < pixels.pixel_count(); ++i)
-    for (std::size_t k = 0; k < s.channels.size(); ++k)
-      values.push_back(
-          convert(pixels.values[i * stride + std::size_t(s.channels[k])], s.alpha && k + 1 == s.channels.size()));
+  const std::size_t stride = pixels.channels.size(), kept = s.channels.size(), count = pixels.pixel_count();
+  std::vector<T> values(count * kept);
+  for (std::size_t k = 0; k < kept; ++k) {
+    const bool is_alpha = s.alpha && k + 1 == kept;
+    const float* from = pixels.values.data() + s.channels[k];
+    for (std::size_t i = 0; i < count; ++i) values[i * kept + k] = convert(from[i * stride], is_alpha);
+  }
   return values;
 }
 
@@ -124,8 +124,9 @@ TexelImage TexelImage::from(const Image& file, std::optional<ColorEncoding> enco
   TexelImage image(pixels.width, pixels.height, int(selection.channels.size()), selection.alpha);
   if (file.stored == SampleType::uint8) {
     for (int i = 0; i < 256; ++i) image.decoded_[i] = decode(code, float(i) / 255.0f);
+    // The values are codes over 255, up to rounding.
     auto codes = packed<std::uint8_t>(
-        pixels, selection, [](float x, bool) { return std::uint8_t(std::clamp(std::lround(x * 255.0f), 0l, 255l)); });
+        pixels, selection, [](float x, bool) { return std::uint8_t(std::clamp(x * 255.0f, 0.0f, 255.0f) + 0.5f); });
     codes.insert(codes.end(), 3, 0);
     image.texels_ = std::move(codes);
   } else if (file.stored == SampleType::half) {
