@@ -27,9 +27,13 @@ class TimeOfImage {
       : all_(all), before_(before), since_(std::move(since)), finish_(finish) {}
 
   double used() const { return before_ + since_.seconds(); }
-  // Seconds for rendering an image whose error is estimated; and one that samples one pixel of each stride x stride.
-  double left() const { return left_until(all_ - finish_.error - finish_.encoding); }
-  double left(int stride) const { return stride > 1 ? left_until(all_ - encoding(stride)) : left(); }
+  // Seconds for rendering an image that samples one pixel of each stride x stride. The error of a sparse image is not
+  // estimated.
+  double left(int stride = 1) const { return left_until(all_ - encoding(stride) - (stride > 1 ? 0 : finish_.error)); }
+  // Ends the render when no time is left.
+  std::shared_ptr<TimeLimit> limit(int stride = 1) const {
+    return std::make_shared<TimeLimit>(left(stride), true, max_lateness * all_);
+  }
 
   void announce_if_late(int stride, RenderObserver& observer) const {
     if (left_until(all_ - encoding(stride)) > min_share * all_) return;
@@ -149,14 +153,11 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
           {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0, settings.image.layers}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
-    const auto end_in_time = [&] {
-      settings.stop = std::make_shared<TimeLimit>(time.left(), true, max_lateness * *plan.seconds);
-    };
-    end_in_time();
+    settings.stop = time.limit();
     std::optional<BegunFilm> begun;
     const double seconds = settings.begun->seconds;
     if (plan.adaptive) begun = begin_adaptive(plan, settings, std::nullopt, observer, film);
-    end_in_time();
+    settings.stop = time.limit();
     before = time.used() - (begun ? begun->seconds - seconds : 0);
     return begun;
   }
@@ -191,11 +192,7 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
   if (integrator.coupled() && first_seconds > (1 + max_lateness) * time.left(stride))
     observer.announce(
         fmt::format("the first frame takes about {:.2g} s, more than the time: the image is one frame", first_seconds));
-  // The error of a sparse image is not estimated.
-  const auto end_in_time = [&] {
-    settings.stop = std::make_shared<TimeLimit>(time.left(stride), true, max_lateness * *plan.seconds);
-  };
-  end_in_time();
+  settings.stop = time.limit(stride);
   std::optional<BegunFilm> begun;
   if (plan.adaptive && stride == 1 && !is_unbiased(plan)) {
     const int passes = int(std::min(affordable, double(max_film_samples))) / settings.plan.samples_per_pass;
@@ -203,7 +200,7 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
   } else if (plan.adaptive && pilot) {
     make_adaptive(plan.target->error, settings, *pilot, film);
   }
-  end_in_time();
+  settings.stop = time.limit(stride);
   before = time.used() - (begun ? begun->seconds : 0);
   return begun;
 }

@@ -95,8 +95,8 @@ T whole_from(const Json& value, T low, T high) {
                         ? std::in_range<T>(value.template get<std::uint64_t>())
                         : value.is_number_integer() && std::in_range<T>(value.template get<std::int64_t>());
   if (!good || value.template get<T>() < low || value.template get<T>() > high)
-    throw std::invalid_argument("it has " + value.dump() + ", expected a whole number from " + std::to_string(low) +
-                                " to " + std::to_string(high) + " should be");
+    throw std::invalid_argument("it has " + value.dump() + " instead of a whole number from " + std::to_string(low) +
+                                " to " + std::to_string(high));
   return value.template get<T>();
 }
 

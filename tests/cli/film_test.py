@@ -14,6 +14,22 @@ from program import ROOT, SCENE, ProgramTest
 PLAN = ["--resolution", "100x64", "--spp", "16"]
 
 
+def resealed(film, old, new):
+    """A saved film with another header, and the checksum of that: 64-bit FNV-1a of the header without it, then of the rest."""
+    header, rest = film.split(b"\n", 1)
+    header, found = re.subn(rb',"checksum":"\d+"', b"", header)
+    assert found == 1, header[-200:]
+    # In the adaptive part; other rays are those of the whole image.
+    place = header.index(b'"adaptive"')
+    changed, found = re.subn(old, new, header[place:], count=1)
+    assert found == 1, (old, header)
+    changed = header[:place] + changed
+    value = 0xcbf29ce484222325
+    for byte in changed + rest:
+        value = (value ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    return changed[:-1] + b',"checksum":"%d"}\n' % value + rest
+
+
 class Films(ProgramTest):
     def bytes_of(self, name):
         return (self.folder / name).read_bytes()
@@ -170,7 +186,16 @@ class Films(ProgramTest):
                 self.interrupt(SCENE, *plan, "--checkpoint", "room.film", "--checkpoint-every", "5ms", "-o", "part.exr",
                                "--threads", 1, by=signal.SIGKILL, after=after)
                 self.assertEqual(bool(shares()), name == "decided")
+                if name == "undecided":
+                    undecided = film.read_bytes()
                 self.assertEqual(self.picture("--resume", "room.film", "--threads", 2, name="all.exr"), whole)
+        # Until the shares are decided the film has the rays of each tile.
+        for old, new in ((rb'"rays":\[\d+,', b'"rays":['), (rb'"rays":\[\d+,', b'"rays":[-1,'), (rb',"rays":\[[\d,]*\]', b"")):
+            with self.subTest(old=old, new=new):
+                (self.folder / "bad.film").write_bytes(resealed(undecided, old, new))
+                self.refused("render", "--resume", "bad.film", "-o", "x.exr", saying="bad.film.*(rays of its tiles are damaged|-1 instead of)")
+        (self.folder / "good.film").write_bytes(resealed(undecided, b'"rays"', b'"rays"'))
+        self.assertEqual(self.picture("--resume", "good.film", name="all.exr"), whole)
         # To more samples, by the same shares.
         more = json.loads(self.run_program("render", "--resume", "whole.film", "--spp", "320", "--json").stdout)
         self.assertGreater(more["samples"], json.loads(
