@@ -109,19 +109,24 @@ std::vector<std::string> layers_with_halves(const PixelBuffer& image) {
   return names;
 }
 
-// Reads both halves, and the standard errors where the image has them.
+// Reads both halves, and the standard errors where the image has them. Pixels that are not filtered have the whole as
+// both halves.
 Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage& noisy) {
   const bool knows_error = find_channel(image, name + "_stderr.R").has_value();
   NoisyLayer& layer = noisy.layers.emplace_back(noisy.pixels(), knows_error);
   for (std::size_t h = 0; h < 2; ++h)
     if (Status read = read_planes(image, half_layer_names[h].of_layer(name), "RGB", layer.halves[h]); !read)
       return read.failure();
+  ColorPlanes whole;
+  if (Status read = read_planes(image, name, "RGB", whole); !read) return read.failure();
   if (knows_error)
     if (Status read = read_planes(image, name + "_stderr", "RGB", layer.variance); !read) return read.failure();
   for (std::size_t c = 0; c < rgb_size; ++c)
     for (std::size_t i = 0; i < noisy.pixels(); ++i) {
-      for (ColorPlanes& half : layer.halves)
+      for (ColorPlanes& half : layer.halves) {
+        if (noisy.halves[0].share[i] == 1) half[c][i] = whole[c][i];
         if (!is_usable(double(half[c][i]))) half[c][i] = 0;
+      }
       if (!knows_error) continue;
       float& error = layer.variance[c][i];
       error = error >= 0 && is_usable(double(error) * double(error)) ? error * error : 0;

@@ -74,7 +74,8 @@ class Denoiser {
     FilteredColors all = filtered_image();
     result.color = mean_of(all);
     const ErrorSums sums = estimate_error(all, result.color, result.error);
-    for (float unfiltered : mixture_.unfiltered) result.filtered += unfiltered < 1 ? 1.0 / double(image_.pixels()) : 0;
+    const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
+    result.filtered = double(changed) / double(image_.pixels());
     const double count = std::max(sums.measured, 1.0);
     result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
     result.mse = std::max(sums.filtered, sums.least) / count, result.relative_mse = sums.filtered_relative / count;
