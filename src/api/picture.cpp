@@ -254,15 +254,8 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
 
 // Two passes of noise.
 Rendering noise(const PixelBounds& bounds, int stride, const PictureSteps& steps) {
-  Rendering rendering{RenderResult{Film(bounds, steps.layers, stride, steps.denoise), {}, 0, false, 0, 0, 0},
-                      {},
-                      {},
-                      {},
-                      {},
-                      0,
-                      {},
-                      {},
-                      {}};
+  Film film(bounds, steps.layers, stride, steps.denoise);
+  Rendering rendering{RenderResult{std::move(film), {}, 0, false, 0, 0, 0}, {}, {}, {}, {}, 0, {}, {}, {}};
   rendering.layers = steps.layers;
   const PixelBounds cells = rendering.result.film.grid().cells();
   std::vector<PixelSample> samples(std::size_t(cells.area()));

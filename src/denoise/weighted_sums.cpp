@@ -262,6 +262,7 @@ void for_each_pixel(const NoisyImage& image, int x0, int y0, Function f) {
       f(std::size_t(y) * std::size_t(image.width) + std::size_t(x), std::size_t((y - y0) * tile_width + x - x0));
 }
 
+// The means of a tile, from its sums.
 void copy_tile(const ColorSums& sums, const NoisyImage& image, const HalfPlanes& source, int x0, int y0,
                std::span<FilteredHalf> out) {
   for_each_pixel(image, x0, y0, [&](std::size_t i, std::size_t place) {

@@ -14,13 +14,12 @@ from program import ROOT, SCENE, ProgramTest
 PLAN = ["--resolution", "100x64", "--spp", "16"]
 
 
-def resealed(film, old, new):
-    """A saved film with another header, and the checksum of that: 64-bit FNV-1a of the header without it, then of the rest."""
+def resealed(film, old, new, after=b'"adaptive"'):
+    """A saved film with another header from `after` on, and its checksum: 64-bit FNV-1a of the header without it, then of the rest."""
     header, rest = film.split(b"\n", 1)
     header, found = re.subn(rb',"checksum":"\d+"', b"", header)
     assert found == 1, header[-200:]
-    # In the adaptive part; other rays are those of the whole image.
-    place = header.index(b'"adaptive"')
+    place = header.index(after)
     changed, found = re.subn(old, new, header[place:], count=1)
     assert found == 1, (old, header)
     changed = header[:place] + changed
@@ -282,6 +281,13 @@ class Films(ProgramTest):
         self.run_program("render", "room.pbrt", "--resolution", "40x30", "--spp", "8", "--checkpoint", "a.film")
         self.assertTrue((self.folder / "first-light.exr").is_file())
         self.run_program("render", "--resume", "a.film")
+
+    def test_layers_without_halves_are_refused(self):
+        self.part(0, 0, "room.film", "--layers", "bounces:1,halves")
+        film = self.bytes_of("room.film")
+        (self.folder / "old.film").write_bytes(resealed(film, b',"layers_have_halves":true', b"", after=b'"features"'))
+        self.refused("render", "--resume", "old.film", "-o", "x.exr", saying="old.film.*an older version saved it")
+        self.run_program("merge", "room.film", "-o", "x.exr")
 
     def test_damaged_and_foreign_files_are_refused(self):
         self.part(0, 0, "good.film", "--crop", "0,0,40,30")

@@ -70,7 +70,7 @@ TEST(DenoisedLayers, of_a_file_are_those_of_the_film) {
   const PixelBuffer of_film = layers_of(rendering_of(16, 1, "bounces:1,errors", true));
   for (const char* name : {"denoised_bounce1", "denoised_error_bounce1", "denoised_bounce_rest"}) {
     const PixelBuffer a = *layer(of_file, name), b = *layer(of_film, name);
-    for (std::size_t i = 0; i < a.values.size(); ++i) ASSERT_NEAR(a.values[i], b.values[i], 1e-3f * (1 + b.values[i]));
+    for (std::size_t i = 0; i < a.values.size(); ++i) ASSERT_NEAR(a.values[i], b.values[i], 1e-4f * (1 + b.values[i]));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 #include <span>
+#include <utility>
 
 #include "denoise/box_mean.h"
 #include "denoise/reproject.h"
@@ -329,6 +330,7 @@ Made made_of_layers(unsigned seed, float share, bool knows_variance, std::array<
   return sum;
 }
 
+// Planted: layers whose halves are exchanged, which weights of the wrong half filter.
 TEST(DenoisedLayers, sum_to_the_image_without_noise) {
   std::array<ColorPlanes, 2> truths;
   for (float share : {0.5f, 0.25f}) {
@@ -342,6 +344,14 @@ TEST(DenoisedLayers, sum_to_the_image_without_noise) {
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < m.image.pixels(); ++i)
           ASSERT_NEAR(result.layers[0].color[c][i] + result.layers[1].color[c][i], result.color[c][i], 2e-5f);
+      Made exchanged = m;
+      for (NoisyLayer& layer : exchanged.image.layers) std::swap(layer.halves[0], layer.halves[1]);
+      const DenoisedImage wrong = denoise(exchanged.image, settings);
+      float deviation = 0;
+      for (std::size_t i = 0; i < m.image.pixels(); ++i)
+        deviation = std::max(deviation,
+                             std::abs(wrong.layers[0].color[0][i] + wrong.layers[1].color[0][i] - wrong.color[0][i]));
+      EXPECT_GT(deviation, 1e-3f);
     }
   }
 }
