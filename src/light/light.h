@@ -39,6 +39,8 @@ inline constexpr bool is_infinite(LightKind k) { return k >= LightKind::uniform_
 // Lights that no ray hits: only sampling finds them.
 inline constexpr bool is_delta(LightKind k) { return !is_surface(k) && !is_infinite(k); }
 
+inline constexpr bool is_at_point(LightKind k) { return is_delta(k) && !is_unbounded(k); }
+
 // How the light to sample is chosen: uniformly, by power, or by a hierarchy that depends on the reference point.
 enum class LightSelection { uniform, power, bvh };
 inline constexpr std::array<std::string_view, 3> light_selection_names{"uniform", "power", "bvh"};

@@ -33,6 +33,13 @@ MONTELUX_INLINE LightPoint<F> select(Mask<F> m, const LightPoint<F>& a,
           select(m, a.place, b.place)};
 }
 
+// Where a light at one point is, in the lanes that have such a light.
+template <class F>
+struct LightPosition {
+  Vec3<F> p;
+  Mask<F> exists;
+};
+
 // A light point sampled at a reference point, without the choice of the light.
 template <class F>
 struct LightPointDraw {

@@ -12,8 +12,10 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
                         [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); });
   infinite_count_ = int(std::count_if(unbounded_.begin(), unbounded_.end(),
                                       [&](std::uint32_t i) { return is_infinite(kind(LightId(i))); }));
-  for (std::uint32_t i = 0; i < count(); ++i)
-    has_delta_ |= is_delta(kind(LightId(i))), has_masked_ |= rows<float>(i, true).flag(light_masked);
+  for (std::uint32_t i = 0; i < count(); ++i) {
+    has_delta_ |= is_delta(kind(LightId(i))), has_points_ |= is_at_point(kind(LightId(i)));
+    has_masked_ |= rows<float>(i, true).flag(light_masked);
+  }
   if (settings_.selection == LightSelection::power && count() > 0) power_table_ = by_power();
   if (settings_.selection == LightSelection::bvh) bvh_ = LightBvh(tables_.bounds);
   std::size_t shares = unbounded_.size() + (bvh_.empty() ? 0 : 1);

@@ -54,6 +54,8 @@ class LightSet {
   float scene_radius() const { return tables_.scene_radius; }
   // Whether there are lights that no ray hits.
   bool has_delta() const { return has_delta_; }
+  // Whether there are lights at one point.
+  bool has_points() const { return has_points_; }
   // Whether there are lights with holes, which only rays find.
   bool has_masked() const { return has_masked_; }
 
@@ -83,6 +85,9 @@ class LightSet {
   // The point p of the surface of `light` with its oriented unit normal; `radiance` is the result of hit_radiance.
   template <class F>
   LightPoint<F> point_of_hit(Uint<F> light, Vec3<F> p, Vec3<F> ng, Spectrum<F> radiance, Mask<F> on) const;
+  // Where a light at one point is. `exists`: the lanes that have such a light.
+  template <class F>
+  LightPosition<F> position(Uint<F> light, Mask<F> on) const;
   // What a light point contributes at p.
   template <class F>
   LightPointView<F> view(const LightPoint<F>& point, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
@@ -170,7 +175,7 @@ class LightSet {
   std::optional<AliasTable> power_table_;  // if they are chosen by power
   std::vector<std::uint32_t> unbounded_;   // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
-  bool has_delta_ = false, has_masked_ = false;
+  bool has_delta_ = false, has_points_ = false, has_masked_ = false;
   float unbounded_mass_ = 0;  // of each unbounded light, in the hierarchy's choice
 };
 

@@ -42,6 +42,17 @@ LightPoint<F> LightSet::point_of_hit(Uint<F> light, Vec3<F> p, Vec3<F> ng, Spect
 }
 
 template <class F>
+LightPosition<F> LightSet::position(Uint<F> light, Mask<F> on) const {
+  LightPosition<F> r{{F(0.0f), F(0.0f), F(0.0f)}, Mask<F>(false)};
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    if (!is_at_point(kind)) return;
+    with_point_light<F>(kind, rows<F>(light, m), images(),
+                        [&](const auto& point) { r.p = select<F>(m, point.p, r.p), r.exists = r.exists | m; });
+  });
+  return r;
+}
+
+template <class F>
 LightPointView<F> LightSet::view(const LightPoint<F>& point, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
   const Mask<F> beyond = point.place == in_lanes<F>(LightPlace::infinite),
                 delta = on & (point.place == in_lanes<F>(LightPlace::delta));

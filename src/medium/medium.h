@@ -94,6 +94,17 @@ class MediumSet {
     return result;
   }
 
+  // The density, per unit of length, with which sample_distance() draws an event at this distance, before the end of
+  // the ray; 0 where the medium does not scatter.
+  template <class F>
+  MONTELUX_INLINE F event_density(Uint<F> medium, const Spectrum<F>& throughput, F distance) const {
+    const Spectrum<F> extinct = extinction<F>(medium), share = shares(throughput);
+    F density = F(0.0f);
+    for (int c = 0; c < spectrum_size; ++c)
+      density = density + share.c[c] * extinct.c[c] * attenuation(extinct.c[c] * distance);
+    return select(max_component(scattering<F>(medium)) > F(0.0f), density, F(0.0f));
+  }
+
   // Draws the distance to a scattering event on a ray of this length (infinity: it meets nothing). One component,
   // chosen by u.x in proportion to the throughput, decides the distance by u.y; the density is that of the mixture, so
   // that no component of the weighted throughput exceeds the sum of the components before (balance heuristic, Veach
@@ -104,13 +115,9 @@ class MediumSet {
                                                     Vec2<F> u) const {
     const Spectrum<F> extinct = extinction<F>(medium), scatter = scattering<F>(medium);
     const Mask<F> scatters = max_component(scatter) > F(0.0f);
-    F total = F(0.0f), chosen = extinct.c[0];
-    for (int c = 0; c < spectrum_size; ++c) total = total + throughput.c[c];
-    const Mask<F> known = (total > F(0.0f)) & (total < F(1e30f));
-    Spectrum<F> share;
-    F below = F(0.0f);
+    const Spectrum<F> share = shares(throughput);
+    F chosen = extinct.c[0], below = F(0.0f);
     for (int c = 0; c < spectrum_size; ++c) {
-      share.c[c] = select(known, throughput.c[c] / select(known, total, F(1.0f)), F(1.0f / float(spectrum_size)));
       chosen = select((u.x >= below) & (share.c[c] > F(0.0f)), extinct.c[c], chosen);
       below = below + share.c[c];
     }
@@ -138,6 +145,16 @@ class MediumSet {
     float mean_cosine = 0.0f;
     std::uint32_t phase = 0;
   };
+  // The probability that each component decides a distance.
+  template <class F>
+  static MONTELUX_INLINE Spectrum<F> shares(const Spectrum<F>& throughput) {
+    F total = F(0.0f);
+    for (int c = 0; c < spectrum_size; ++c) total = total + throughput.c[c];
+    const Mask<F> known = (total > F(0.0f)) & (total < F(1e30f));
+    return per_component(
+        [&](F t) { return select(known, t / select(known, total, F(1.0f)), F(1.0f / float(spectrum_size))); },
+        throughput);
+  }
   static_assert(sizeof(Row) == (3 * spectrum_size + 2) * sizeof(float));
   template <class F>
   static MONTELUX_INLINE Uint<F> at(Uint<F> medium) {

@@ -6,6 +6,7 @@
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
 #include "integrator/path/path_recorder.h"
+#include "integrator/path/segment_light.h"
 #include "integrator/path/settings.h"
 #include "integrator/path/survival.h"
 #include "integrator/resampled_light.h"
@@ -58,16 +59,20 @@ struct LitVertex {
 // Next-event estimation by resampling. The density of what resampling chooses has no closed form, so the share that
 // BSDF sampling has in a light is decided by the density of the candidates, which is known wherever a path may meet
 // the light: the weights of the two sum to 1 in every direction, and resampling estimates the integral of its own share
-// without bias whatever that is (Veach and Guibas 1995; Talbot, Cline and Egbert 2005, sec. 3). evaluate(light, lanes)
-// gives a ScatteredLight.
+// without bias whatever that is (Veach and Guibas 1995; Talbot, Cline and Egbert 2005, sec. 3). evaluate(light,
+// u_choice, lanes) gives a ScatteredLight.
 template <class F, class Evaluate>
 ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& settings, const LitVertex<F>& at,
                                   Evaluate evaluate_light) {
+  F chosen_by(0.0f);
   return resample_light<F>(
       settings.candidates, at.random.fork(Uint<F>(resampling_stream)), at.on,
-      [&](F u_choice, Vec2<F> u) { return lights.template sample<F>(at.p, at.light_normal, u_choice, u, at.on); },
+      [&](F u_choice, Vec2<F> u) {
+        chosen_by = u_choice;
+        return lights.template sample<F>(at.p, at.light_normal, u_choice, u, at.on);
+      },
       [&](const LightSample<F>& light, Mask<F> wanted) {
-        const ScatteredLight<F> scattered = evaluate_light(light, wanted);
+        const ScatteredLight<F> scattered = evaluate_light(light, chosen_by, wanted);
         const F share =
             select(light.delta, F(1.0f),
                    weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density));
@@ -185,6 +190,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // The vertex: a point of a surface, or of a medium before it. Light counts by the throughput of the path.
     RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
+    const std::conditional_t<in_media, SegmentLight<F>, NoSegmentLight> segment_light(scene, lights, way.segment,
+                                                                                      way.left, M(on & may_scatter));
     SegmentEnd<F> end = [&] {
       const RandomStream<F> random = numbers.stream(segment + U(path_dimension::own));
       if constexpr (in_media)
@@ -228,17 +235,21 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     // Next-event estimation.
     F light_weight =
         select(light.delta, F(1.0f), weight_of_light_sample(weights, light.density, scattered.toward_light.density));
+    if constexpr (in_media)
+      light_weight =
+          light_weight * segment_light.share(v.x.point.p, v.x.distance, light, light_choice, M(lit & v.in_medium));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     M shadow = lit & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
       const ResampledLight<F> chosen = resampled_light<F>(
           lights, settings, {v.x.point.p, v.bsdf.light_normal, v.context.random, wants_light},
-          [&](const LightSample<F>& sample, M wanted) -> ScatteredLight<F> {
+          [&](const LightSample<F>& sample, [[maybe_unused]] F u_choice, M wanted) -> ScatteredLight<F> {
             BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
             if constexpr (Guide::guides) choice.mix(sample.wi, value.density);
             // In media the shadow ray finds the transmittance.
-            if constexpr (in_media) return {value, gray(F(1.0f))};
+            if constexpr (in_media)
+              return {value, gray(segment_light.share(v.x.point.p, v.x.distance, sample, u_choice, v.in_medium))};
             return {value, v.left_of_light(sample.wi, sample.distance)};
           });
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
@@ -255,6 +266,14 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         // The choice is made once more: the same numbers give the same light.
         const U chosen = lights.template choose<F>(v.x.point.p, v.bsdf.light_normal, light_choice, wants_light).light;
         return LightOrigin<F>{path.depth + U(1u), chosen, Technique::light_sampling};
+      });
+    }
+
+    if constexpr (in_media) {
+      const auto also = segment_light.sample(
+          rays, numbers.stream(segment + U(path_dimension::own)).fork(U(segment_light_stream)), counts.shadow);
+      gather_light(path, also.on, also.contribution, tally, [&] {
+        return LightOrigin<F>{path.depth + U(1u), also.light, Technique::light_sampling};
       });
     }
 
