@@ -18,7 +18,7 @@ SmoothTargets::SmoothTargets(const Scene& scene, const std::function<bool(std::s
   const GeometryStore& g = scene.geometry;
   std::vector<bool> smooth;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    smooth.push_back(may_be_smooth(scene.materials, i) && (!wanted || wanted(i)));
+    smooth.push_back(wanted ? wanted(i) : may_be_smooth(scene.materials, i));
   const auto take = [&](std::size_t first, std::size_t count, std::vector<std::uint32_t>& rows) {
     for (std::size_t i = first; i < first + count; ++i)
       if (smooth[g.rows[i].material] && g.rows[i].kind != GeometryKind::curves) rows.push_back(std::uint32_t(i));
@@ -55,7 +55,8 @@ Vec3f SmoothTargets::point_of_row(std::uint32_t number, RandomStream<float>& ran
 
 std::optional<SmoothChain> follow_light(const Scene& scene, const Accel& accel, LightId light, const Vec3f& target,
                                         RandomStream<float> random,
-                                        const std::function<bool(const SmoothChain&)>& counts) {
+                                        const std::function<bool(const SmoothChain&)>& counts,
+                                        const std::function<bool(std::size_t)>& passes) {
   using F = float;
   const Vec3f zero{0, 0, 0};
   const LightSample<F> from = scene.lights.sample_light<F>(std::uint32_t(light), target, zero, random.next2(), true);
@@ -68,13 +69,15 @@ std::optional<SmoothChain> follow_light(const Scene& scene, const Accel& accel, 
     const NextVertex<F> at = next_vertex<F>(scene, accel, free_point(ray.o), ray, true,
                                             random.fork(std::uint32_t(depth)), traced, NoWeight{});
     if (!at.found) return std::nullopt;
-    if (!chain.reflects.empty() && !at.bsdf.is_delta && counts(chain)) return chain;
+    const bool passes_rough = !at.bsdf.is_delta && passes && passes(at.x.material);
+    if (!chain.reflects.empty() && !at.bsdf.is_delta && !passes_rough && counts(chain)) return chain;
     const Vec2f u = random.next2();
     const BsdfSample<F> next = sample<F>(at.bsdf.lanes(true), at.wo, {random.next(), u.x, u.y}, at.context);
-    if (!next.valid || !next.delta || !(max_component(next.weight) > 0)) return std::nullopt;
+    if (!next.valid || !(next.delta || passes_rough) || !(max_component(next.weight) > 0)) return std::nullopt;
     if (chain.reflects.empty()) chain.first = BsdfKind(at.bsdf.kind);
     chain.reflects.push_back(same_side(at.wo, next.wi)), chain.last = at.x.point.p;
-    chain.is_plain = chain.is_plain && at.bsdf.is_delta && is_plain_specular(scene.materials, at.x.material);
+    const bool is_plain = at.bsdf.is_delta && is_plain_specular(scene.materials, at.x.material);
+    chain.is_plain = chain.is_plain && (is_plain || passes_rough);
     ray = at.ray_toward(at.bsdf.frame.to_world(next.wi));
   }
   return std::nullopt;

@@ -13,7 +13,7 @@ namespace montelux {
 // Surfaces that may have a smooth part: rows of the world, and instances with the rows of their objects.
 class SmoothTargets {
  public:
-  // `scene` must outlive it. `wanted(material)`: which of these surfaces; by default all.
+  // `scene` must outlive it. `wanted(material)`: which surfaces instead.
   explicit SmoothTargets(const Scene& scene, const std::function<bool(std::size_t)>& wanted = {});
   bool empty() const { return world_.empty() && instances_.empty(); }
 
@@ -34,15 +34,17 @@ class SmoothTargets {
 struct SmoothChain {
   BsdfKind first;              // model of the first of them
   std::vector<bool> reflects;  // of each event; else it refracts
-  bool is_plain = true;        // all of them are is_plain_specular()
+  bool is_plain = true;        // all of them are is_plain_specular(), or were wanted although rough
   float irradiance = 0;        // that the light has where the walk aims, at normal incidence
   Vec3f last;                  // where the last of them is met
 };
 
 // Follows light from `light` toward `target`, by smooth surfaces alone, to one that is rough, at least in part. The
-// chain that leads there, the first for which `counts(chain)` is true; none: the light ends before.
+// chain that leads there, the first for which `counts(chain)` is true; none: the light ends before. Rough surfaces of
+// materials with passes(material) count as smooth ones.
 std::optional<SmoothChain> follow_light(const Scene& scene, const Accel& accel, LightId light, const Vec3f& target,
                                         RandomStream<float> random,
-                                        const std::function<bool(const SmoothChain&)>& counts);
+                                        const std::function<bool(const SmoothChain&)>& counts,
+                                        const std::function<bool(std::size_t)>& passes = {});
 
 }  // namespace montelux

@@ -8,6 +8,7 @@
 
 #include "color/spectrum.h"
 #include "mc/density.h"
+#include "mc/microfacet.h"
 #include "mc/random.h"
 #include "parameter/slots.h"
 
@@ -110,6 +111,8 @@ struct SpecularLobe {
 //   SpecularLobe<F> specular_lobe(F cos_o, bool reflects): where facets are smooth, the model has one delta for each of
 //     reflection and transmission, and nothing else, so that connections through specular chains may pass it. `cos_o`
 //     is of wo with the shading normal, negative below;
+//   Roughness<F> specular_facets(): the roughness where they are not: each GGX facet has the events of specular_lobe(),
+//     with the cosine of wo with the facet, and Smith's masking with correlated heights;
 //   static bool has_grain(const BsdfRows<float>&): whether u and v differ otherwise than by the slots of facets;
 //   Spectrum<F> albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec2<F> u2, const BsdfContext<F>&): of a model that
 //     mixes lobes an estimate of the directional albedo of less variance than the weight of `drawn`, which sample()
@@ -117,6 +120,10 @@ struct SpecularLobe {
 template <class Model, class F>
 concept HasSpecularLobe = requires(const Model& model, F cos_o) {
   { model.specular_lobe(cos_o, true) } -> std::same_as<SpecularLobe<F>>;
+};
+template <class Model, class F>
+concept HasSpecularFacets = HasSpecularLobe<Model, F> && requires(const Model& model) {
+  { model.specular_facets() } -> std::same_as<Roughness<F>>;
 };
 template <class Model>
 concept HasGrain = requires(const BsdfRows<float>& rows) {

@@ -47,6 +47,8 @@ class Conductor {
     return {fresnel_conductor(F(abs(cos_o)), eta_, k_)};
   }
 
+  Roughness<F> specular_facets() const { return facets_.roughness(); }
+
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>&) const {
     Vec3<F> sum = wo + wi, up{F(0.0f), F(0.0f), F(1.0f)};
     Mask<F> smooth = facets_.is_smooth(), same = same_side(wo, wi), on = same & !smooth;

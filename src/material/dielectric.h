@@ -55,6 +55,8 @@ class Dielectric {
     return {gray(F((F(1.0f) - reflected) / (relative * relative))), relative};
   }
 
+  Roughness<F> specular_facets() const { return facets_.roughness(); }
+
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
     LobeValue value = evaluate_lobes<Lobes::both>(wo, wi, context.mode);
     return {gray(value.f_cos), {value.density}};

@@ -15,6 +15,8 @@ class GgxFacets {
   // So nearly flat that it is replaced by a mirror: both roughnesses below 1e-3.
   MONTELUX_INLINE Mask<F> is_smooth() const { return smooth_; }
 
+  MONTELUX_INLINE Roughness<F> roughness() const { return alpha_; }
+
   // A facet, m.z > 0, that is visible from wo (on either side); its density is `seen`.
   MONTELUX_INLINE Vec3<F> sample(Vec3<F> wo, Vec2<F> u) const { return sample_visible_normal(above(wo), alpha_, u); }
   MONTELUX_INLINE F seen(Vec3<F> wo, Vec3<F> m) const { return visible_normal_density(above(wo), m, alpha_).value; }

@@ -17,4 +17,19 @@ SpecularLobe<float> specular_lobe(BsdfKind kind, const BsdfSlots<float>& slots, 
   return lobe;
 }
 
+bool has_specular_facets(BsdfKind kind) {
+  bool result = false;
+  for_each_present_model<float>(std::uint32_t(kind), true,
+                                [&]<class Model>(bool) { result = HasSpecularFacets<Model, float>; });
+  return result;
+}
+
+Roughness<float> specular_facets(BsdfKind kind, const BsdfSlots<float>& slots) {
+  Roughness<float> roughness{0, 0};
+  for_each_present_model<float>(std::uint32_t(kind), true, [&]<class Model>(bool) {
+    if constexpr (HasSpecularFacets<Model, float>) roughness = Model(BsdfRows<float>{&slots}).specular_facets();
+  });
+  return roughness;
+}
+
 }  // namespace montelux

@@ -48,6 +48,8 @@ class TintedDielectric {
     return lobe;
   }
 
+  Roughness<F> specular_facets() const { return glass_.specular_facets(); }
+
   MONTELUX_INLINE BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const {
     const BsdfValue<F> value = glass_.evaluate(wo, wi, context);
     return {value.f_cos * color(wo, wi), value.density};

@@ -12,5 +12,8 @@ bool may_be_partly_smooth(const MaterialSet& materials, std::size_t number);
 // Whether it may be smooth, and then has the events of specular_lobe() and the normals of the geometry: light that it
 // reflects or refracts has the differentials of NormalGradient.
 bool is_plain_specular(const MaterialSet& materials, std::size_t number);
+// Whether it is rough everywhere, with facets that have the events of specular_lobe(), with the normals of the geometry
+// and one roughness, `max_roughness` at most, in all places and directions.
+bool is_plain_rough(const MaterialSet& materials, std::size_t number, float max_roughness);
 
 }  // namespace montelux

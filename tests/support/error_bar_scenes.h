@@ -100,6 +100,12 @@ inline Truth truth_of(const Film& film) {
   t.image = film.image().mean[0], t.image_error = film.image().standard_error[0];
   return t;
 }
+// By the integrator of this name and settings, or by path tracing.
+inline Truth truth_of(const TestScene& scene, PassPlan plan, std::string_view integrator) {
+  const ChosenIntegrator chosen = scene.integrator(integrator);
+  RenderObserver silent;
+  return truth_of(render(chosen.any(), scene.settings(PointSetKind::padded_sobol, plan, 0x7257u, 0), silent).film);
+}
 inline Truth truth_of(const TestScene& scene, PassPlan plan, std::optional<Shutter> shutter = {}) {
   const PathTracer path = scene.tracer();
   RenderSettings s = scene.settings(PointSetKind::padded_sobol, plan, 0x7257u, 0);

@@ -37,7 +37,7 @@ Result<ChosenIntegrator> make_irradiance_cache(const IntegratorRequest& r) {
 
 IntegratorEntry irradiance_cache_entry() {
   return {irradiance_cache_spec(), make_irradiance_cache, LightSearch::any_length, Content::light,
-          bits_of({Ability::shared_samples, Ability::layers})};
+          bits_of({Ability::shared_samples, Ability::layers, Ability::media})};
 }
 
 }  // namespace montelux

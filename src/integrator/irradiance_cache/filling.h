@@ -33,10 +33,12 @@ class PixelStarts {
       PathStart<F> start = start_of_path<F>(scene, pass, site);
       start.output = output;
       counts.camera += std::uint64_t(n);
-      const auto [found, hit] = rays.template trace<F>({start.o, start.d, F(ray_infinity), start.time},
-                                                       lane_index<F>() < Uint<F>(std::uint32_t(n)), RayUse::camera);
+      const Mask<F> on = lane_index<F>() < Uint<F>(std::uint32_t(n)), in_medium(scene.camera_medium != empty_space);
+      const auto [found, hit] =
+          rays.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, on, RayUse::camera);
       start.hit = hit;
-      for_each_lane(found, [&](int k) { get_lane_words(start, k, starts_.emplace_back()); });
+      for_each_lane(Mask<F>(on & (found | in_medium)),
+                    [&](int k) { get_lane_words(start, k, starts_.emplace_back()); });
     }
   }
   Mask<F> refill(PathState<F>& path, Mask<F> on) {
@@ -173,7 +175,7 @@ class CacheFilling {
     PathSettings search = path_;
     search.nee = false;
     std::vector<PixelSample> ignored(pixels.size());
-    counts += run_paths<F>(scene_, scene_.lights, rays_, search, pass, ignored, paths, no_tally);
+    counts += run_cache_paths<F>(scene_, rays_, search, pass, ignored, paths, no_tally);
     return std::move(paths.missed());
   }
 

@@ -34,8 +34,16 @@ struct HemisphereNumbers {
   const LayerPlan* layers = nullptr;
 };
 
+// The path loop, through participating media where the scene has any.
+template <class F, class Rays, class Source, class Tally>
+RayCounts run_cache_paths(const Scene& scene, const Rays& rays, const PathSettings& settings, const TilePass& pass,
+                          std::span<PixelSample> out, Source& source, Tally& tally) {
+  if (scene.media.empty()) return run_paths<F>(scene, scene.lights, rays, settings, pass, out, source, tally);
+  return run_paths<F, true>(scene, scene.lights, rays, settings, pass, out, source, tally);
+}
+
 // One direction in each cell of the strata, followed by the path loop. Emission that a direction meets is direct light
-// of the point, and does not count.
+// of the point, and does not count; nor does what a medium emits on the way to it.
 template <class F, class Rays>
 class HemispherePaths {
  public:
@@ -88,7 +96,7 @@ class HemispherePaths {
  private:
   template <class Tally>
   RayCounts run(Tally& tally) {
-    return run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, results_, *this, tally);
+    return run_cache_paths<F>(scene_, rays_, settings_, pass_, results_, *this, tally);
   }
   HemisphereEstimate integrate(const CachePoint& at) const {
     return integrate_hemisphere(strata_, samples_, LocalFrame<float>::from_normal(at.query.n));
@@ -142,10 +150,10 @@ class HemispherePaths {
       PathState<F> path{};
       begin_paths(path, start, media, on);
       path.p = p, path.depth = U(first_depth_);
-      for_each_lane(found, [&](int k) {
-        distances_[lane(start.output, k)] = lane(start.hit.t, k);
-        get_lane_words(path, k, starts_.emplace_back());
-      });
+      for_each_lane(found, [&](int k) { distances_[lane(start.output, k)] = lane(start.hit.t, k); });
+      // In a medium a path may scatter on a ray that meets no surface.
+      const M in_medium(at.media.medium != empty_space);
+      for_each_lane(M(on & (found | in_medium)), [&](int k) { get_lane_words(path, k, starts_.emplace_back()); });
     }
   }
 

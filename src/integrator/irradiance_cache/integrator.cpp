@@ -44,7 +44,7 @@ class IrradianceCacheSeries final : public FrameSeries {
     const std::vector<std::uint8_t> compared = BiasPairs::choose(filling_.pass().points, frame, tile, settings_.pairs);
     CachedPaths<F, FirstHits<F>> paths(starts, filling_.cache(), out.size(), settings.max_depth.has_value(), compared,
                                        Tally::records);
-    RayCounts counts = run_paths<F>(scene_, scene_.lights, accel_, settings, pass, out, paths, tally);
+    RayCounts counts = run_cache_paths<F>(scene_, accel_, settings, pass, out, paths, tally);
     counts.camera += starts.rays();
     filling_.miss(tile, std::move(paths.missed()));
     pairs_.count(compared);

@@ -1,6 +1,7 @@
 #include "integrator/manifold/chain.h"
 
 #include "material/specular_lobe.h"
+#include "mc/microfacet.h"
 #include "scene/normal_gradient.h"
 #include "scene/smoothness.h"
 #include "transport/vertex.h"
@@ -11,6 +12,8 @@ namespace {
 
 // Surfaces that one segment crosses without an event have numbers of their own.
 constexpr std::uint32_t numbers_per_event = 1u << 16;
+// The number of the facet of an event among them.
+constexpr std::uint32_t of_facet = numbers_per_event - 1;
 
 // A ray and its derivatives.
 struct RayDifferential {
@@ -47,10 +50,46 @@ struct RayDifferential {
   }
 };
 
+// A normal, unit, and its derivatives.
+struct MovingNormal {
+  Vec3d n;
+  std::array<Vec3d, 2> dn;
+};
+
+// The facet with the normal `local` in the frame of LocalFrame::from_normal(), of which all that matters is that it
+// depends on the shading normal alone: facets are distributed alike in all directions about it.
+MovingNormal facet_at(const MovingNormal& shading, const Vec3d& local) {
+  const Vec3d& n = shading.n;
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z);
+  const double b = n.x * n.y * a;
+  const Vec3d s{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, t{b, sign + n.y * n.y * a, -n.y};
+  MovingNormal facet{s * local.x + t * local.y + n * local.z, {}};
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Vec3d& d = shading.dn[j];
+    const double da = a * a * d.z, db = (d.x * n.y + n.x * d.y) * a + n.x * n.y * da;
+    const Vec3d ds{sign * (2 * n.x * d.x * a + n.x * n.x * da), sign * db, -sign * d.x};
+    const Vec3d dt{db, 2 * n.y * d.y * a + n.y * n.y * da, -d.y};
+    facet.dn[j] = ds * local.x + dt * local.y + d * local.z;
+  }
+  return facet;
+}
+
+// f |cos wi| over the density of wi, for directions at these cosines with the surface and the facet m, without the
+// event's own weight; m.z is that of the facet with the surface.
+float facet_weight(float o_m, float o_z, float i_z, float m_z, const Roughness<float>& roughness) {
+  const auto masked = [&](float cosine) {
+    return ggx_lambda(Vec3f{safe_sqrt(1 - cosine * cosine), 0, cosine}, roughness);
+  };
+  return o_m / (o_z * m_z * (1 + masked(o_z) + masked(i_z)));
+}
+
 }  // namespace
 
-ChainTracer::ChainTracer(const Scene& scene, const Accel& accel) : scene_(scene), accel_(accel) {
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) caster_.push_back(is_plain_specular(scene.materials, i));
+ChainTracer::ChainTracer(const Scene& scene, const Accel& accel, float max_roughness) : scene_(scene), accel_(accel) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    casters_.push_back(std::uint32_t(is_plain_specular(scene.materials, i)               ? Caster::smooth
+                                     : is_plain_rough(scene.materials, i, max_roughness) ? Caster::rough
+                                                                                         : Caster::none));
 }
 
 bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind,
@@ -76,23 +115,39 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
       media = v.media_toward(ray.d), ray = v.ray_toward(ray.d), ++crossings;
       continue;
     }
-    if (!v.bsdf.is_delta || !caster_[v.x.material] || v.x.ray_facing) return false;
+    const Caster caster = Caster(caster_at<F>(v.x, v.bsdf.is_delta, true));
+    if (caster == Caster::none) return false;
     const bool reflects = kind.reflects(events);
-    const SpecularLobe<float> lobe = specular_lobe(BsdfKind(v.bsdf.kind), v.bsdf.slots, v.wo.z, reflects);
-    chain.left *= lobe.weight;
-    if (!(max_component(chain.left) > 0)) return false;
-
-    const Vec3d ng = to_double(v.x.point.ng), ns = to_double(v.bsdf.frame.n);
-    const double side = dot(ns, r.d) > 0 ? -1 : 1;
-    if (std::abs(dot(ng, r.d)) < 1e-6) return false;
+    const Vec3d ng = to_double(v.x.point.ng), ns = to_double(v.bsdf.frame.n), d = r.d;
+    const double side = dot(ns, d) > 0 ? -1 : 1;
+    if (std::abs(dot(ng, d)) < 1e-6) return false;
     r.move(distance, ng);
     r.p = to_double(v.x.point.p);
     const NormalGradient gradient = normal_gradient(scene_.geometry, met.hit, v.x.point.p, v.bsdf.frame.n, ray.time);
-    const std::array<Vec3d, 2> dn{gradient.along(r.dp[0]) * side, gradient.along(r.dp[1]) * side};
+    const MovingNormal shading{ns * side, {gradient.along(r.dp[0]) * side, gradient.along(r.dp[1]) * side}};
+    MovingNormal m = shading;
+    Roughness<float> roughness{};
+    if (caster == Caster::rough) {
+      roughness = specular_facets(BsdfKind(v.bsdf.kind), v.bsdf.slots);
+      m = facet_at(shading,
+                   to_double(sample_ggx_normal(roughness, random.fork(events * numbers_per_event + of_facet).next2())));
+    }
+    const double o_m = -dot(d, m.n);
+    if (!(o_m > 0)) return false;
+    const SpecularLobe<float> lobe =
+        specular_lobe(BsdfKind(v.bsdf.kind), v.bsdf.slots, std::copysign(float(o_m), v.wo.z), reflects);
     if (reflects)
-      r.reflect(ns * side, dn);
-    else if (lobe.relative_eta != 1 && !r.refract(ns * side, dn, double(lobe.relative_eta)))
+      r.reflect(m.n, m.dn);
+    else if (lobe.relative_eta != 1 && !r.refract(m.n, m.dn, double(lobe.relative_eta)))
       return false;
+    chain.left *= lobe.weight;
+    if (caster == Caster::rough) {
+      const double i_z = dot(r.d, shading.n) * (reflects ? 1 : -1);
+      if (!(i_z > 0)) return false;
+      chain.left = chain.left * facet_weight(float(o_m), float(-dot(d, shading.n)), float(i_z),
+                                             float(dot(m.n, shading.n)), roughness);
+    }
+    if (!(max_component(chain.left) > 0)) return false;
     chain.at[events] = {met.hit.geometry, met.hit.instance};
     const Vec3f onward = to_float(r.d);
     if (++events == kind.length) chain.last = stored(v);

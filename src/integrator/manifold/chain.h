@@ -1,5 +1,6 @@
-// Specular chains: what a ray from a rough surface becomes at mirrors and smooth glass whose events are given, with its
-// differentials.
+// Specular chains: what a ray from a rough surface becomes at mirrors and glass whose events are given, with its
+// differentials. Slightly rough surfaces take part by one of their facets, whose normal is given, too (Zeltner,
+// Georgiev and Jakob 2020, "Specular Manifold Sampling", sec. 4.2).
 #pragma once
 #include <array>
 #include <vector>
@@ -24,6 +25,9 @@ struct ChainPlace {
   bool operator==(const ChainPlace&) const = default;
 };
 
+// How a surface takes part in chains.
+enum class Caster : std::uint32_t { none, smooth, rough };
+
 // The ray that leaves the last vertex of a chain. Differentials are with respect to the two parameters a and b of the
 // first direction, w + a s + b t with orthonormal s and t.
 struct SpecularChain {
@@ -38,13 +42,24 @@ struct SpecularChain {
 // Traces chains through a scene without participating media.
 class ChainTracer {
  public:
-  // Both must outlive it.
-  ChainTracer(const Scene& scene, const Accel& accel);
+  // Both must outlive it. Rough surfaces take part up to this roughness.
+  ChainTracer(const Scene& scene, const Accel& accel, float max_roughness);
 
-  // Whether the material has events of chains.
-  bool is_caster(std::size_t material) const { return caster_[material]; }
+  // How surfaces of the material take part.
+  Caster caster(std::size_t material) const { return Caster(casters_[material]); }
+  // The same at surfaces, in every lane; none where the surface is a curve, or is smooth although its material is
+  // rough, or the reverse.
+  template <class F>
+  Uint<F> caster_at(const SurfaceHit<F>& x, Mask<F> is_delta, Mask<F> on) const {
+    const Uint<F> caster = gather(casters_.data(), select(on, x.material, Uint<F>(0u)));
+    const Uint<F> wanted =
+        select(is_delta, Uint<F>(std::uint32_t(Caster::smooth)), Uint<F>(std::uint32_t(Caster::rough)));
+    return select(on & !x.ray_facing & (caster == wanted), caster, Uint<F>(std::uint32_t(Caster::none)));
+  }
   // Follows the unit direction w from a rough vertex. False where the ray does not meet as many surfaces with such
-  // events. `random` decides for mixtures of materials: chains with the same numbers go through the same scene.
+  // events. `random` decides for mixtures of materials and for facets: chains with the same numbers go through the same
+  // scene. A facet's normal has the density D(m) cos(m), which depends on no direction, and the weight of the chain is
+  // divided by it.
   bool trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind, const RandomStream<float>& random,
              SpecularChain& chain, std::uint64_t& rays) const;
 
@@ -54,7 +69,7 @@ class ChainTracer {
  private:
   const Scene& scene_;
   const Accel& accel_;
-  std::vector<bool> caster_;  // by material
+  std::vector<std::uint32_t> casters_;  // a Caster by material
 };
 
 }  // namespace montelux

@@ -31,21 +31,23 @@ constexpr std::uint32_t sure_walks = 256;
 
 }  // namespace
 
-std::shared_ptr<const ManifoldLight> ManifoldLight::make(const Scene& scene, const Accel& accel, int length) {
-  if (!scene.lights.has_delta() || length < 1) return nullptr;
-  const auto is_caster = [&](std::size_t material) { return is_plain_specular(scene.materials, material); };
-  const std::shared_ptr<ManifoldLight> made(new ManifoldLight(scene, accel, is_caster));
+std::shared_ptr<const ManifoldLight> ManifoldLight::make(const Scene& scene, const Accel& accel,
+                                                         const ChainLimits& limits) {
+  if (!scene.lights.has_delta() || limits.length < 1) return nullptr;
+  const std::shared_ptr<ManifoldLight> made(new ManifoldLight(scene, accel, limits));
   if (made->casters_.empty()) return nullptr;
-  made->list_searches(length);
+  made->list_searches();
   if (made->searches_.empty()) return nullptr;
   made->choice_.emplace(made->learn_searches());
   return made;
 }
 
-ManifoldLight::ManifoldLight(const Scene& scene, const Accel& accel, const std::function<bool(std::size_t)>& is_caster)
-    : tracer_(scene, accel), casters_(scene, is_caster) {}
+ManifoldLight::ManifoldLight(const Scene& scene, const Accel& accel, const ChainLimits& limits)
+    : length_(std::uint32_t(limits.length)),
+      tracer_(scene, accel, limits.max_roughness),
+      casters_(scene, [&](std::size_t material) { return tracer_.caster(material) != Caster::none; }) {}
 
-void ManifoldLight::list_searches(int length) {
+void ManifoldLight::list_searches() {
   const LightSet& lights = tracer_.scene().lights;
   for (std::uint32_t i = 0; i < lights.count(); ++i) {
     const LightKind kind = lights.kind(LightId(i));
@@ -53,7 +55,7 @@ void ManifoldLight::list_searches(int length) {
     const LightEmission<float> sent = lights.emit<float>(i, {0.5f, 0.5f}, {0.5f, 0.5f}, true);
     const bool is_distant = kind == LightKind::distant;
     const DeltaLight light{LightId(i), is_distant, is_distant ? unit(-to_double(sent.d)) : to_double(sent.p)};
-    for (std::uint32_t n = 1; n <= std::uint32_t(length); ++n)
+    for (std::uint32_t n = 1; n <= length_; ++n)
       for (std::uint32_t reflections = 0; reflections < (1u << n); ++reflections)
         searches_.push_back({light, {n, reflections}, {}});
   }
@@ -68,15 +70,15 @@ std::vector<double> ManifoldLight::learn_searches() {
     shares[i] = double(by_power.mass<float>(std::uint32_t(searches_[i].light.id)).value);
     powers += shares[i];
   }
-  const std::size_t max_length = searches_.back().kind.length;
-  const auto counts = [&](const SmoothChain& chain) { return chain.is_plain && chain.reflects.size() <= max_length; };
+  const auto counts = [&](const SmoothChain& chain) { return chain.is_plain && chain.reflects.size() <= length_; };
+  const auto passes = [&](std::size_t material) { return tracer_.caster(material) == Caster::rough; };
   const RandomStream<float> all(0x452821e6u, 0x38d01377u);
   for (std::uint32_t i = 0; i < learning_walks; ++i) {
     RandomStream<float> random = all.fork(i);
     const auto which = std::size_t(double(random.next()) * double(searches_.size()));  // of each light as many
     const Search& any = searches_[std::min(which, searches_.size() - 1)];
     const Vec3f target = casters_.point(random);
-    const auto chain = follow_light(scene, tracer_.accel(), any.light.id, target, random, counts);
+    const auto chain = follow_light(scene, tracer_.accel(), any.light.id, target, random, counts, passes);
     if (!chain) continue;
     const std::size_t length = chain->reflects.size();
     std::uint32_t reflections = 0;  // in the order of a path from the eye
@@ -105,7 +107,7 @@ std::optional<ChainSolution> ManifoldLight::solution(const StoredVertex<float>& 
     const auto end = std::size_t(double(random.next()) * double(search.ends.size()));
     const bool learned = u >= undirected + toward_any && !search.ends.empty();
     const Vec3f way = (learned ? search.ends[std::min(end, search.ends.size() - 1)] : casters_.point(random)) - x.p;
-    if (const float distance = length(way); distance > 0) start = way * (1 / distance);
+    if (const float distance = montelux::length(way); distance > 0) start = way * (1 / distance);
   }
   return walk_to_light(tracer_, x, start, search.kind, search.light, of_scene, rays);
 }
@@ -130,7 +132,7 @@ double ManifoldLight::reciprocal_probability(const StoredVertex<float>& x, const
   }
 }
 
-ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, std::uint32_t max_events,
+ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const ChainLengths<std::uint32_t>& lengths,
                                        std::uint64_t& rays) const {
   const LightSet& lights = tracer_.scene().lights;
   const RandomStream<float> random = x.random.fork(manifold_stream), of_scene = random.fork(of_the_scene);
@@ -138,7 +140,7 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, std::uint32
   const Search& search = searches_[chosen.index];
   const std::uint32_t number = std::uint32_t(search.light.id), events = search.kind.length + 1;
   const ChainLight<float> none{gray(0.0f), number, events};
-  if (events > max_events) return none;
+  if (search.kind.length < lengths.min || search.kind.length > lengths.max) return none;
   const auto found = solution(x, search, random.fork(walking), of_scene, rays);
   if (!found) return none;
 
@@ -169,22 +171,33 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, std::uint32
 }
 
 template <class F>
-ChainLight<F> chain_light(const ManifoldLight& lights, const StoredVertex<F>& x, Mask<F> on, Uint<F> max_events,
-                          std::uint64_t& rays) {
+ChainLight<F> chain_light(const ManifoldLight& lights, const StoredVertex<F>& x, Mask<F> on,
+                          const ChainLengths<Uint<F>>& lengths, std::uint64_t& rays) {
   ChainLight<F> all{gray(F(0.0f)), Uint<F>(0u), Uint<F>(1u)};
   for_each_lane(on, [&](int k) {
     StoredVertex<float> one;
     get_lane_words(x, k, one);
-    const ChainLight<float> light = lights.light(one, lane(max_events, k), rays);
+    const ChainLight<float> light = lights.light(one, {lane(lengths.min, k), lane(lengths.max, k)}, rays);
     set_lane(all.scattered, k, light.scattered), set_lane(all.number, k, light.number),
         set_lane(all.events, k, light.events);
   });
   return all;
 }
 
-template ChainLight<float> chain_light(const ManifoldLight&, const StoredVertex<float>&, bool, std::uint32_t,
-                                       std::uint64_t&);
+std::uint32_t chain_length(const ManifoldLight* lights) { return lights ? lights->length() : 0; }
+
+template <class F>
+Mask<F> casts(const ManifoldLight& lights, const SurfaceHit<F>& x, Mask<F> is_delta, Mask<F> on) {
+  return lights.tracer().caster_at(x, is_delta, on) != Uint<F>(std::uint32_t(Caster::none));
+}
+
+template ChainLight<float> chain_light(const ManifoldLight&, const StoredVertex<float>&, bool,
+                                       const ChainLengths<std::uint32_t>&, std::uint64_t&);
 template ChainLight<NativeFloats> chain_light(const ManifoldLight&, const StoredVertex<NativeFloats>&,
-                                              Mask<NativeFloats>, Uint<NativeFloats>, std::uint64_t&);
+                                              Mask<NativeFloats>, const ChainLengths<Uint<NativeFloats>>&,
+                                              std::uint64_t&);
+template bool casts(const ManifoldLight&, const SurfaceHit<float>&, bool, bool);
+template Mask<NativeFloats> casts(const ManifoldLight&, const SurfaceHit<NativeFloats>&, Mask<NativeFloats>,
+                                  Mask<NativeFloats>);
 
 }  // namespace montelux

@@ -1,5 +1,5 @@
-// Manifold next-event estimation: light of delta lights that reaches a rough surface by way of mirrors and smooth
-// glass, without bias (Zeltner, Georgiev and Jakob 2020, "Specular Manifold Sampling", sec. 4.3).
+// Manifold next-event estimation: light of delta lights that reaches a rough surface by way of mirrors and glass,
+// without bias (Zeltner, Georgiev and Jakob 2020, "Specular Manifold Sampling", sec. 4.2 and 4.3).
 #pragma once
 #include <memory>
 #include <vector>
@@ -13,14 +13,19 @@ namespace montelux {
 
 class ManifoldLight {
  public:
-  // Chains have up to `length` specular vertices. Null where the scene has no delta light or no surface with such
-  // events, so that there is none. Scene and accel must outlive it; the scene must have no participating media.
-  static std::shared_ptr<const ManifoldLight> make(const Scene& scene, const Accel& accel, int length);
+  // Null where the scene has no delta light or no surface with events of chains, so that there is none. Scene and accel
+  // must outlive it; the scene must have no participating media.
+  static std::shared_ptr<const ManifoldLight> make(const Scene& scene, const Accel& accel, const ChainLimits& limits);
 
-  // At a rough vertex, whose light may scatter up to `max_events` times, with the numbers of the vertex. A walk from a
+  // Of chains at most.
+  std::uint32_t length() const { return length_; }
+  const ChainTracer& tracer() const { return tracer_; }
+
+  // At a rough vertex, by chains of these lengths, with the numbers of the vertex. A walk from a
   // random start finds a chain with a probability that is unknown; the number of walks until another one finds the same
   // chain estimates its reciprocal. Adds the rays that are traced to `rays`.
-  ChainLight<float> light(const StoredVertex<float>& x, std::uint32_t max_events, std::uint64_t& rays) const;
+  ChainLight<float> light(const StoredVertex<float>& x, const ChainLengths<std::uint32_t>& lengths,
+                          std::uint64_t& rays) const;
 
  private:
   // What is sought: chains of one kind to one light.
@@ -29,8 +34,8 @@ class ManifoldLight {
     ChainKind kind;
     std::vector<Vec3f> ends;  // places where light has left such chains, on its way to some rough surface
   };
-  ManifoldLight(const Scene& scene, const Accel& accel, const std::function<bool(std::size_t)>& is_caster);
-  void list_searches(int length);
+  ManifoldLight(const Scene& scene, const Accel& accel, const ChainLimits& limits);
+  void list_searches();
   // By walks from the lights: how much light comes by each search to rough surfaces, roughly, which decides how often
   // it is made; and the ends of its chains, where most walks start.
   std::vector<double> learn_searches();
@@ -42,6 +47,7 @@ class ManifoldLight {
                                 const RandomStream<float>& random, const RandomStream<float>& of_scene,
                                 std::uint64_t& rays) const;
 
+  std::uint32_t length_;
   ChainTracer tracer_;
   SmoothTargets casters_;
   std::vector<Search> searches_;

@@ -144,6 +144,7 @@ struct PathLight {
     });
   }
   MONTELUX_INLINE void medium(const Spectrum<F>& contribution, Mask<F> on) {
+    on = counts_light(source, path, on);
     gather_light(path, on, contribution, tally, [&] {
       return LightOrigin<F>{path.depth, Uint<F>(lights.count()), Technique::bsdf_sampling};  // after all lights
     });
@@ -169,6 +170,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
   const U max_depth = U(settings.max_depth ? std::uint32_t(*settings.max_depth) : 0x7fffffffu);
   const LightWeights weights = settings.light_weights();
   PathState<F> path{};
+  [[maybe_unused]] ChainTail<F> chains(chain_length(settings.manifold_light.get()));
   PathLight<F, Source, Tally> met{lights, weights, source, path, tally};
   const auto finish = [&](M ended) {
     if (!any(ended)) return;
@@ -218,7 +220,16 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     LightSample<F> light = lights.template sample<F>(v.x.point.p, v.bsdf.light_normal, light_choice,
                                                      numbers.get2(dimension + U(path_dimension::light_point)),
                                                      settings.candidates > 0 ? M(false) : wants_light);
-    const M lit = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
+    M lit = settings.nee ? wants_light & light.valid : wants_light & light.valid & light.delta;
+    // Light of delta lights that chains from vertices before have found.
+    M is_found(false);
+    if constexpr (!in_media)
+      if (settings.manifold_light) {
+        chains.arrive(casts<F>(*settings.manifold_light, v.x, v.bsdf.is_delta, scatters), v.bsdf.is_delta,
+                      M(path.depth == U(0u)), scatters);
+        is_found = chains.min_length() > U(0u);
+        lit = lit & !(light.delta & is_found);
+      }
     const F lobe = numbers.get1(dimension + U(path_dimension::lobe));
     const Vec2<F> u2 = numbers.get2(dimension + U(path_dimension::direction));
     const auto choice = guide_choice(guide, v, wants_light, lobe);
@@ -250,7 +261,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
             // In media the shadow ray finds the transmittance.
             if constexpr (in_media)
               return {value, gray(segment_light.share(v.x.point.p, v.x.distance, sample, u_choice, v.in_medium))};
-            return {value, v.left_of_light(sample.wi, sample.distance)};
+            const Spectrum<F> left = v.left_of_light(sample.wi, sample.distance);
+            return {value, select(sample.delta & is_found, gray(F(0.0f)), left)};
           });
       direct = path.throughput * chosen.value, light.wi = chosen.wi, light.distance = chosen.distance;
       light_choice = chosen.u_choice;
@@ -277,11 +289,13 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       });
     }
 
-    // Light of delta lights that comes through mirrors and smooth glass.
+    // Light of delta lights that comes by way of mirrors and glass.
     if constexpr (!in_media)
       if (settings.manifold_light && any(wants_light)) {
+        const U deepest = max_depth - path.depth;  // at least 1 where light is wanted
+        const ChainLengths<U> lengths{chains.min_length(), select(wants_light, deepest - U(1u), U(0u))};
         const ChainLight<F> chain =
-            chain_light<F>(*settings.manifold_light, stored(v), wants_light, max_depth - path.depth, counts.shadow);
+            chain_light<F>(*settings.manifold_light, stored(v), wants_light, lengths, counts.shadow);
         gather_light(path, wants_light & (max_component(chain.scattered) > F(0.0f)), path.throughput * chain.scattered,
                      tally, [&] {
                        return LightOrigin<F>{path.depth + chain.events, chain.number, Technique::light_sampling};

@@ -97,6 +97,8 @@ Fields<PathSettings> light_fields() {
                    "specular events at most between a rough surface and a point, spot, goniometric, projection or "
                    "distant light, whose light is looked for there by walks on manifolds",
                    {{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"off", 0}})
+      .number("manifold-roughness", &PathSettings::manifold_roughness,
+              "GGX alpha of surfaces at most that manifold passes as it does smooth ones; 0: smooth ones alone", 0, 1)
       .boolean("guiding", &PathSettings::guiding,
                "directions also by a distribution of light over places and directions, learned before the render")
       .integer("guiding-paths", &PathSettings::guiding_paths, "paths from which guiding learns", 1024, 1 << 30);
@@ -129,6 +131,8 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
   for (const Fields<PathSettings>& fields : {light_fields(), common_fields()})
     if (Status read = fields.read(list, s); !read) return read.failure();
   if (!s.guiding && list.find("guiding-paths")) return Failure{"guiding-paths is for path guiding: guiding must be on"};
+  if (s.manifold == 0 && list.find("manifold-roughness"))
+    return Failure{"manifold-roughness is for manifold next-event estimation: manifold must be on"};
   if (s.roulette == PathRoulette::off && !s.max_depth)
     return Failure{"without roulette paths may never end: maxdepth must also be set"};
   return s;

@@ -51,6 +51,8 @@ struct PathSettings {
   // Specular events at most between a rough surface and a delta light whose light is looked for by walks on manifolds;
   // 0: none. What looks for it, made where there is none.
   int manifold = 0;
+  // GGX alpha of the surfaces that count as specular there, at most; 0: smooth ones alone.
+  float manifold_roughness = 0.01f;
   std::shared_ptr<const ManifoldLight> manifold_light;
   // Directions by a field that is learned before the render from so many paths; the field, made where there is none.
   bool guiding = false;

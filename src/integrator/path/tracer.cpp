@@ -15,7 +15,7 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
   if (settings.manifold > 0 && !settings.manifold_light)
-    settings_.manifold_light = ManifoldLight::make(scene, accel, settings.manifold);
+    settings_.manifold_light = ManifoldLight::make(scene, accel, {settings.manifold, settings.manifold_roughness});
   if (settings.guiding && !settings.guide)
     settings_.guide = std::make_shared<GuideField>(train_guide(scene, lights(), accel, settings_));
   if (settings.roulette == PathRoulette::efficiency && !settings.survival)

@@ -2,6 +2,7 @@
 // estimate are found.
 #include <gtest/gtest.h>
 
+#include "box_rooms.h"
 #include "integrator/irradiance_cache/filling.h"
 #include "light_room.h"
 
@@ -43,7 +44,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
     FirstHits<F> starts(scene.scene(), scene.accel(), pass, samples);
     CachedPaths<F, FirstHits<F>> paths(starts, cache, samples.size(), false);
     PathSettings settings_of_path = filling.path();
-    run_paths<F>(scene.scene(), scene.scene().lights, scene.accel(), settings_of_path, pass, samples, paths, no_tally);
+    run_cache_paths<F>(scene.scene(), scene.accel(), settings_of_path, pass, samples, paths, no_tally);
     std::vector<PixelPass> pixels(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) pixels[i].add(samples[i]);
     film.add_pass(all, 0, pixels);
@@ -64,6 +65,22 @@ TEST(IrradianceCache, agrees_with_path_in_a_coloured_room_and_planted_faults_are
   EXPECT_FALSE(caught(by_hand(scene, passes, 3)));
   EXPECT_TRUE(caught(by_hand(scene, passes, 3, {.irradiance = std::numbers::pi_v<float>})));
   EXPECT_TRUE(caught(by_hand(scene, passes, 3, {.irradiance = 0.8f})));
+  EXPECT_TRUE(caught(by_hand(scene, passes, 3, {.swapped = true})));
+}
+
+// A fog that glows, with a cloud and a lamp in it, in a box of walls.
+TEST(IrradianceCache, agrees_with_path_in_media_and_planted_faults_are_found) {
+  std::string text = foggy_room();
+  const std::size_t fog = text.find("\"float g\" 0.4");
+  text.insert(fog, "\"rgb Le\" [ 0.5 1 0.2 ] ");
+  const TestScene scene(text, ".", std::pair(16, 16));
+  const PassMeans path = measured(scene, "path", 32, 100, 1);
+  const Comparison c = compared(measured(scene, dense, 8, 60, 2), path);
+  EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
+  const auto caught = [&](const PassMeans& other) { return compared(other, path).differ(); };
+  constexpr int passes = 200;
+  EXPECT_FALSE(caught(by_hand(scene, passes, 3)));
+  EXPECT_TRUE(caught(by_hand(scene, passes, 3, {.irradiance = 0.7f})));
   EXPECT_TRUE(caught(by_hand(scene, passes, 3, {.swapped = true})));
 }
 

@@ -130,6 +130,96 @@ TEST(ManifoldLight, finds_the_light_that_light_tracing_finds) {
   }
 }
 
+// ---- slightly rough surfaces
+
+std::string rough(const std::string& material, double alpha) {
+  return "Material " + material + " \"float roughness\" [ " + std::to_string(alpha) +
+         " ] \"bool remaproughness\" false\n";
+}
+const std::string rough_glass = "\"dielectric\" \"float eta\" [ 1.2 ]";
+const std::string rough_gold = "\"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"";
+
+std::vector<Case> rough_cases() {
+  const auto pane = [](double y) {
+    const std::string at = " " + std::to_string(y) + " ";
+    return "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2  0 2 3 ] \"point3 P\" [ -3" + at + "-3  -3" + at +
+           "3  3" + at + "3  3" + at + "-3 ]\n";
+  };
+  const std::string ball = "Shape \"sphere\" \"float radius\" [ 1 ]\n";
+  return {
+      {"a ball", point + rough(rough_glass, 0.1) + ball},
+      {"a ball of triangles", point + rough(rough_glass, 0.05) + tessellated_sphere(32, 48)},
+      {"a ball of coloured glass",
+       point + rough("\"tinteddielectric\" \"float eta\" [ 1.3 ] \"rgb tint\" [ 0.9 0.5 0.2 ]", 0.1) + ball},
+      {"a pane that is rough on one side",
+       point + rough(rough_glass, 0.2) + pane(0.2) + "Material \"dielectric\" \"float eta\" [ 1.2 ]\n" + pane(-0.2)},
+      {"a ring of gold",
+       "LightSource \"spot\" \"rgb I\" [ 3 1 5 ] \"point3 from\" [ 1.2 -0.8 0.1 ] \"point3 to\" [ -0.6 -1.6 0 ] "
+       "\"float coneangle\" [ 40 ]\n" +
+           rough(rough_gold, 0.15) +
+           "Translate 0 -1.9 0\nRotate -90 1 0 0\nShape \"cylinder\" \"float radius\" [ 0.7 ] \"float zmin\" [ 0 ] "
+           "\"float zmax\" [ 0.4 ]\n",
+       1},
+      {"a mirror with normals",
+       "LightSource \"distant\" \"rgb L\" [ 3 1 5 ] \"point3 from\" [ -1 1 0.2 ] \"point3 to\" [ 0.9 -1.2 0 ]\n" +
+           rough(rough_gold, 0.2) +
+           "Translate 0.9 -1.2 0\nShape \"bilinearmesh\" \"point3 P\" [ 0 -0.5 -0.6  0 -0.5 0.6  0.3 0.7 -0.6  0.3 0.6 "
+           "0.6 ] \"normal N\" [ -1 0.2 0.1  -1 0.1 -0.1  -2 0.6 0.1  -1 0.3 -0.1 ]\n",
+       1},
+  };
+}
+
+TEST(ManifoldLight, passes_slightly_rough_surfaces_as_light_tracing_does) {
+  const std::vector<Case> all = rough_cases();
+  const double own = sidak_level(family_level, 3.0 * double(all.size()));
+  for (const Case& c : all) {
+    SCOPED_TRACE(c.name);
+    const TestScene scene(head + floor_patch + c.world);
+    const std::string depth = "maxdepth=" + std::to_string(c.length + 1);
+    const Mean light = measure(scene, "light:" + depth, 4096, 11);
+    const std::string way = "path:manifold=" + std::to_string(c.length) + "," + depth;
+    const Mean m = measure(scene, way + ",manifold-roughness=0.3", c.samples, 12);
+    const Mean plain = measure(scene, way, c.samples, 13);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::ostringstream text;
+      text << "component " << k << ": " << m.mean[k] << " +- " << m.standard_error[k] << ", light " << light.mean[k]
+           << " +- " << light.standard_error[k] << ", by light sampling " << plain.mean[k] << " +- "
+           << plain.standard_error[k];
+      if (std::getenv("MONTELUX_SHOW")) std::printf("%s: %s\n", c.name, text.str().c_str());
+      EXPECT_GT(p_value_of_difference(m, light, k, 1), own) << text.str();
+      EXPECT_LT(p_value_of_difference(m, light, k, c.fault), own) << text.str();
+    }
+  }
+}
+
+// Where rough mirrors are seen by way of each other and through rough glass, all tails of paths occur.
+TEST(ManifoldLight, counts_each_path_once_where_chains_may_begin_at_rough_mirrors) {
+  const TestScene scene(
+      "Film \"rgb\" \"integer xresolution\" [ 16 ] \"integer yresolution\" [ 16 ]\nPixelFilter \"box\"\n"
+      "LookAt 0 1.5 -4  0 0.3 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n"
+      "LightSource \"point\" \"rgb I\" [ 5 4 2 ] \"point3 from\" [ 0.5 3 -0.5 ]\n"
+      "Material \"diffuse\" \"rgb reflectance\" [ 0.6 0.3 0.15 ]\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [ -3 -0.5 -3  -3 -0.5 3  3 -0.5 -3  3 -0.5 3 ]\n" +
+      rough(rough_gold, 0.3) +
+      "Shape \"bilinearmesh\" \"point3 P\" [ -2 -0.5 1.5  2 -0.5 1.5  -2 2 1.5  2 2 1.5 ]\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [ -2 -0.5 1.5  -2 -0.5 -1.5  -2 2 1.5  -2 2 -1.5 ]\n" +
+      rough(rough_glass, 0.25) + "Shape \"sphere\" \"float radius\" 0.5\n");
+  const Mean path = measure(scene, "path:maxdepth=5", 1024, 21);
+  const double own = sidak_level(family_level, 6);
+  for (int length = 1; length <= 2; ++length) {
+    const std::string way = "path:maxdepth=5,manifold=" + std::to_string(length) + ",manifold-roughness=0.3";
+    const Mean m = measure(scene, way, 256, 22);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::ostringstream text;
+      text << way << ", component " << k << ": " << m.mean[k] << " +- " << m.standard_error[k] << ", path "
+           << path.mean[k] << " +- " << path.standard_error[k];
+      if (std::getenv("MONTELUX_SHOW")) std::printf("%s\n", text.str().c_str());
+      EXPECT_GT(p_value_of_difference(m, path, k, 1), own) << text.str();
+      EXPECT_LT(p_value_of_difference(m, path, k, 1.1), own) << text.str();
+    }
+  }
+}
+
 // One path a lane and one path alone give the same bits.
 TEST(ManifoldLight, does_not_depend_on_the_lanes) {
   const TestScene scene(head + floor_patch + cases()[0].world);

@@ -1,4 +1,5 @@
-// Error bars of bidirectional path tracing, whose pixels share splats, and of Markov chains, whose pixels share chains:
+// Error bars of bidirectional path tracing, whose pixels share splats, of Markov chains, whose pixels share chains, of
+// paths with chains to lights, which divide by estimated probabilities, and of ways with a bias, about their own mean:
 // 95 % intervals of pixels and of the image mean cover 93 % to 97 %, and the estimated mean squared error is the true
 // one within a tenth. Prints the table of docs/error-bars.md.
 #include <gtest/gtest.h>
@@ -20,15 +21,54 @@ constexpr int seeds_of_chains = 50, small_seeds_of_chains = 150, seeds_of_strate
 constexpr double low = 0.93, high = 0.97, ratio_low = 0.9, ratio_high = 1.1;
 constexpr double family = 0.01;
 
+// Light of lamps without a size by way of flat mirrors and panes. What curved ones focus has no finite variance.
+const std::vector<ErrorBarScene>& scenes_of_chains() {
+  const std::string head = error_bar_head + R"(
+LookAt 0 0.6 -2.8  0 -0.3 0  0 1 0
+Camera "perspective" "float fov" [ 45 ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.05 0.05 0.05 ]
+)";
+  const std::string floor = R"(
+Material "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]
+Shape "bilinearmesh" "point3 P" [ -2 -1 -2  2 -1 -2  -2 -1 2  2 -1 2 ]
+Translate -0.4 -0.7 0
+Shape "sphere" "float radius" [ 0.3 ]
+)",
+                    wall = R"(Shape "bilinearmesh" "point3 P" [ 1.2 -1 -1  1.2 -1 1  1.2 1 -1  1.2 1 1 ])",
+                    pane = R"(Shape "bilinearmesh" "point3 P" [ -1 0.5 -1  1 0.5 -1  -1 0.5 1  1 0.5 1 ])";
+  static const std::vector<ErrorBarScene> scenes{
+      {"mirror", head + R"(LightSource "spot" "rgb I" [ 4 4 4 ] "point3 from" [ -0.5 1.5 -0.3 ] "point3 to" [ 1.2 0 0 ]
+Material "conductor" "float roughness" [ 0 ]
+)" + wall + floor},
+      {"pane", head + R"(LightSource "distant" "rgb L" [ 1 1 1 ] "point3 from" [ 0.4 1 -0.2 ] "point3 to" [ 0 0 0 ]
+Material "thindielectric"
+)" + pane + floor},
+      {"frosted pane", head + R"(LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ 0.3 2 0 ]
+Material "dielectric" "float roughness" [ 0.05 ] "bool remaproughness" false
+)" + pane + floor}};
+  return scenes;
+}
+
+// What the intervals should hold: the light of the scene, by path tracing or by the way itself where paths do not find
+// it; or, of a way with a bias, the mean of its passes.
+enum class Held { light, own_light, own_mean };
 struct Case {
   const char* way;
   const std::vector<ErrorBarScene>& scenes;
   PassPlan plan;
   int seeds, small_seeds;
+  Held held = Held::light;
 };
 const std::vector<Case>& cases() {
   static const std::vector<ErrorBarScene> box{error_bar_scenes()[0]};
   static const std::vector<Case> all{
+      {"path:manifold=1,manifold-roughness=0.1", scenes_of_chains(), plan, seeds, seeds_of_small_images,
+       Held::own_light},
+      {"sppm", error_bar_scenes(), plan, seeds, seeds_of_small_images, Held::own_mean},
+      {"photonmap", error_bar_scenes(), plan, seeds, seeds_of_small_images, Held::own_mean},
+      {"vcm", error_bar_scenes(), plan, seeds, seeds_of_small_images, Held::own_mean},
+      {"irradiance-cache", error_bar_scenes(), plan, seeds, seeds_of_small_images, Held::own_mean},
       {"bdpt", error_bar_scenes(), plan, seeds, seeds_of_small_images},
       {"metropolis", error_bar_scenes(), plan_of_chains, seeds_of_chains, small_seeds_of_chains},
       {"metropolis:strategies=bdpt", box, plan_of_strategies, seeds_of_strategies, small_seeds_of_strategies}};
@@ -43,11 +83,15 @@ double level_of_a_figure() {
 class ErrorBarsOfLightPaths : public testing::TestWithParam<Case> {};
 
 TEST_P(ErrorBarsOfLightPaths, cover_the_truth_as_often_as_they_say) {
-  const auto& [way, scenes, passes, own_seeds, small_seeds] = GetParam();
+  const auto& [way, scenes, passes, own_seeds, small_seeds, what] = GetParam();
   const double level = level_of_a_figure();
   for (const ErrorBarScene& s : scenes) {
     const TestScene scene(s.text), small(s.text, ".", std::pair{8, 8});
-    const Truth truth = truth_of(scene, {2048, 16}), small_truth = truth_of(small, {2048, 16});
+    const auto truth_of_pixels = [&, what = what, way = way, passes = passes](const TestScene& of) {
+      if (what == Held::own_mean) return truth_of(of, {passes.samples_per_pass, 1024}, way);
+      return what == Held::own_light ? truth_of(of, {512, 16}, way) : truth_of(of, {2048, 16});
+    };
+    const Truth truth = truth_of_pixels(scene), small_truth = truth_of_pixels(small);
     const Coverage c = measure_coverage(scene, truth, way, passes, own_seeds),
                    of_small = measure_coverage(small, small_truth, way, passes, small_seeds);
     const double held = c.images + of_small.images, images = c.seeds + of_small.seeds;
