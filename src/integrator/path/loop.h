@@ -1,5 +1,7 @@
 // The path loop: the whole estimator, for one path (F = float) and for a pack of them.
 #pragma once
+#include <optional>
+
 #include "integrator/features.h"
 #include "integrator/guiding/guided_scattering.h"
 #include "integrator/manifold/chain_light.h"
@@ -192,8 +194,10 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // The vertex: a point of a surface, or of a medium before it. Light counts by the throughput of the path.
     RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
-    const std::conditional_t<in_media, SegmentLight<F>, NoSegmentLight> segment_light(scene, lights, way.segment,
-                                                                                      way.left, M(on & may_scatter));
+    // Only where a medium may scatter the light of lamps at one point.
+    [[maybe_unused]] std::optional<SegmentLight<F>> segment_light;
+    if constexpr (in_media)
+      if (lights.has_points()) segment_light.emplace(scene, lights, way.segment, way.left, M(on & may_scatter));
     SegmentEnd<F> end = [&] {
       const RandomStream<F> random = numbers.stream(segment + U(path_dimension::own));
       if constexpr (in_media)
@@ -247,8 +251,9 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     F light_weight =
         select(light.delta, F(1.0f), weight_of_light_sample(weights, light.density, scattered.toward_light.density));
     if constexpr (in_media)
-      light_weight =
-          light_weight * segment_light.share(v.x.point.p, v.x.distance, light, light_choice, M(lit & v.in_medium));
+      if (segment_light)
+        light_weight =
+            light_weight * segment_light->share(v.x.point.p, v.x.distance, light, light_choice, M(lit & v.in_medium));
     Spectrum<F> direct =
         path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
     M shadow = lit & (max_component(direct) > F(0.0f));
@@ -259,8 +264,11 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
             BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, v.bsdf.frame.to_local(sample.wi), wanted);
             if constexpr (Guide::guides) choice.mix(sample.wi, value.density);
             // In media the shadow ray finds the transmittance.
-            if constexpr (in_media)
-              return {value, gray(segment_light.share(v.x.point.p, v.x.distance, sample, u_choice, v.in_medium))};
+            if constexpr (in_media) {
+              F share(1.0f);
+              if (segment_light) share = segment_light->share(v.x.point.p, v.x.distance, sample, u_choice, v.in_medium);
+              return {value, gray(share)};
+            }
             const Spectrum<F> left = v.left_of_light(sample.wi, sample.distance);
             return {value, select(sample.delta & is_found, gray(F(0.0f)), left)};
           });
@@ -281,13 +289,14 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
       });
     }
 
-    if constexpr (in_media) {
-      const auto also = segment_light.sample(
-          rays, numbers.stream(segment + U(path_dimension::own)).fork(U(segment_light_stream)), counts.shadow);
-      gather_light(path, also.on, also.contribution, tally, [&] {
-        return LightOrigin<F>{path.depth + U(1u), also.light, Technique::light_sampling};
-      });
-    }
+    if constexpr (in_media)
+      if (segment_light) {
+        const auto also = segment_light->sample(
+            rays, numbers.stream(segment + U(path_dimension::own)).fork(U(segment_light_stream)), counts.shadow);
+        gather_light(path, also.on, also.contribution, tally, [&] {
+          return LightOrigin<F>{path.depth + U(1u), also.light, Technique::light_sampling};
+        });
+      }
 
     // Light of delta lights that comes by way of mirrors and glass.
     if constexpr (!in_media)

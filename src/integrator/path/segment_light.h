@@ -12,12 +12,6 @@ namespace montelux {
 // Of the stream of a segment; it differs from the streams of materials, whose numbers are small.
 inline constexpr std::uint32_t segment_light_stream = 0x5bd1e995u;
 
-// Of scenes without participating media.
-struct NoSegmentLight {
-  template <class... All>
-  MONTELUX_INLINE explicit NoSegmentLight(const All&...) {}
-};
-
 template <class F>
 class SegmentLight {
  public:
@@ -28,8 +22,8 @@ class SegmentLight {
     Mask<F> on;
   };
 
-  // The segment, the throughput of the path at its start, and the lanes in which the path may scatter on it. All must
-  // outlive this.
+  // The segment, the throughput of the path at its start, and the lanes in which the path may scatter on it. Scene and
+  // lights, some of which are at one point, must outlive this.
   SegmentLight(const Scene& scene, const LightSet& lights, const Segment<F>& segment, const Spectrum<F>& throughput,
                Mask<F> on)
       : scene_(scene),
@@ -38,7 +32,6 @@ class SegmentLight {
         throughput_(throughput),
         on_(Mask<F>(false)),
         chooser_(no_side()) {
-    if (!lights.has_points()) return;
     const Uint<F> medium = segment.media.medium;
     on_ = on & (max_component(scene.media.scattering<F>(medium)) > F(0.0f));
     // Lamps are chosen as light sampling does it at a point in the middle of the part that is seen.
@@ -48,7 +41,8 @@ class SegmentLight {
 
   // The share of light sampling in the light of a lamp, from the path's own event at this distance of the segment;
   // light.delta, where u_choice has chosen the lamp at the event. 1 for other lights.
-  F share(const Vec3<F>& event, F distance, const LightSample<F>& light, F u_choice, Mask<F> on) const {
+  __attribute__((noinline)) F share(const Vec3<F>& event, F distance, const LightSample<F>& light, F u_choice,
+                                    Mask<F> on) const {
     Mask<F> two_ways = on & on_ & light.valid & light.delta;
     if (!any(two_ways)) return F(1.0f);
     const LightChoice<F> chosen = lights_.template choose<F>(event, no_side(), u_choice, two_ways);
@@ -63,7 +57,7 @@ class SegmentLight {
 
   // `random` belongs to the segment. Adds the rays that are traced to `traced`.
   template <class Rays>
-  Sample sample(const Rays& rays, RandomStream<F> random, std::uint64_t& traced) const {
+  __attribute__((noinline)) Sample sample(const Rays& rays, RandomStream<F> random, std::uint64_t& traced) const {
     const F u_choice = random.next(), u_distance = random.next();
     const LightChoice<F> chosen = lights_.template choose<F>(chooser_, no_side(), u_choice, on_);
     const LightPosition<F> lamp = lights_.template position<F>(chosen.light, on_ & chosen.valid);
