@@ -74,13 +74,11 @@ MovingNormal facet_at(const MovingNormal& shading, const Vec3d& local) {
   return facet;
 }
 
-// f |cos wi| over the density of wi, for directions at these cosines with the surface and the facet m, without the
-// event's own weight; m.z is that of the facet with the surface.
+// f |cos wi| over the density of wi, without the event's own weight, for a facet whose normal m has the density
+// D(m) cos(m). The cosines are those of wo with the facet, and of wo, wi and m with the surface.
 float facet_weight(float o_m, float o_z, float i_z, float m_z, const Roughness<float>& roughness) {
-  const auto masked = [&](float cosine) {
-    return ggx_lambda(Vec3f{safe_sqrt(1 - cosine * cosine), 0, cosine}, roughness);
-  };
-  return o_m / (o_z * m_z * (1 + masked(o_z) + masked(i_z)));
+  const auto at = [](float cosine) { return Vec3f{safe_sqrt(1 - cosine * cosine), 0, cosine}; };
+  return o_m * ggx_g2(at(o_z), at(i_z), roughness) / (o_z * m_z);
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"path:manifold=1,manifold-roughness=0.1", scenes_of_chains(), plan, seeds, seeds_of_small_images,
        Held::own_light},
-      {"sppm:photons=2000", error_bar_scenes(), plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},
+      {"sppm:photons=2000", box_and_lamps, plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},
+      {"sppm:photons=30000", sky, plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},
       {"photonmap:photons=2000", error_bar_scenes(), plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},
       {"vcm:photons=2000", error_bar_scenes(), plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},
       {"irradiance-cache", error_bar_scenes(), plan, seeds_with_bias, small_seeds_with_bias, Held::own_mean},

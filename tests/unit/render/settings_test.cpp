@@ -93,6 +93,7 @@ std::string companions(std::string_view integrator, std::string_view setting) {
   if (setting == "alpha") return "frames=8";
   if (setting == "medium-radius") return "photons=20000";  // of the foggy room
   if (setting == "guiding-paths") return "guiding=on";
+  if (setting == "manifold-roughness") return "manifold=1";
   return "";
 }
 
