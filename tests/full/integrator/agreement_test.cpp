@@ -134,10 +134,10 @@ const std::vector<HardScene>& hard_scenes() {
        {{"bdpt"}, {"path", 64}, {merging}}},
       {"pool", pool(), {{"path", 64}, {"bdpt"}, {merging}}},
       {"point_lamps", point_lamps(), {{"bdpt"}, {"path:manifold=1"}, {merging}}},
-      {"door_ajar", door_ajar(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}},
-      {"glass_shade", glass_shade(), {{"bdpt"}, {"path", 64}, {few}, {"metropolis", 64}}},
+      {"door_ajar", door_ajar(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}}},
+      {"glass_shade", glass_shade(), {{"bdpt"}, {"path", 64}, {few}}},
       {"glossy", glossy(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}},
-      {"many_lamps", many_lamps(), {{"path", 64}, {"light", 64}, {"bdpt"}, {few}, {"metropolis", 64}}},
+      {"many_lamps", many_lamps(), {{"path", 64}, {"light", 64}, {"bdpt"}, {few}}},
       {"fog", fog(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}}};
   return scenes;
 }
