@@ -138,7 +138,7 @@ const std::vector<HardScene>& hard_scenes() {
       {"glass_shade", glass_shade(), {{"bdpt"}, {"path", 64}, {few}}},
       {"glossy", glossy(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}},
       {"many_lamps", many_lamps(), {{"path", 64}, {"light", 64}, {"bdpt"}, {few}}},
-      {"fog", fog(), {{"bdpt"}, {"path", 64}, {"light", 64}, {few}, {"metropolis", 64}}}};
+      {"fog", fog(), {{"bdpt"}, {"path", 64}, {few}, {"metropolis", 64}}}};
   return scenes;
 }
 double level_of_a_pair() {
