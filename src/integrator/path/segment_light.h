@@ -39,8 +39,9 @@ class SegmentLight {
     chooser_ = segment.ray.o + segment.ray.d * (0.5f * min(segment.hit.t, mean_free_path));
   }
 
-  // The share of light sampling in the light of a lamp, from the path's own event at this distance of the segment;
-  // light.delta, where u_choice has chosen the lamp at the event. 1 for other lights.
+  // The share of the path's own event, at this distance from the segment's start, in the light of the lamp that
+  // u_choice has chosen there: both densities are those of the event per unit of length, times the probability of the
+  // lamp. 1 for other lights.
   __attribute__((noinline)) F share(const Vec3<F>& event, F distance, const LightSample<F>& light, F u_choice,
                                     Mask<F> on) const {
     Mask<F> two_ways = on & on_ & light.valid & light.delta;
