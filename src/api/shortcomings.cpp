@@ -29,7 +29,7 @@ std::vector<std::string> missing_light_of(const LoadedScene& scene) {
   std::vector<std::string> names;
   const std::string& stated = parts.picture.integrator;
   for (const MissingLight& light : missing_light(light_search(stated), parts.scene, *parts.accel, defaults.width,
-                                                 defaults.height, chain_length(stated)))
+                                                 defaults.height, stated_chain_length(stated)))
     names.push_back(light.name);
   return names;
 }

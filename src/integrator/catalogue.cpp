@@ -116,7 +116,7 @@ LightSearch light_search(std::string_view text) {
   return LightSearch::none;
 }
 
-int chain_length(std::string_view text) {
+int stated_chain_length(std::string_view text) {
   const auto choice = parse_choice(text);
   if (!choice || choice->name != "path") return 0;
   const auto read = read_choice(*choice);

@@ -27,7 +27,7 @@ LightSearch light_search(std::string_view text);
 // The same choice, whose settings have their present names where they were stated by earlier ones.
 ChoiceText with_present_names(ChoiceText choice);
 // Its ChosenIntegrator::chain_length.
-int chain_length(std::string_view text);
+int stated_chain_length(std::string_view text);
 
 // Whether name and settings are in the catalogue, for a message before the scene is read.
 Status check_integrator(const ChoiceText& choice);

@@ -27,6 +27,12 @@ struct MediumDistances {
   Uint<F> first;           // dimension of the first segment's pair of numbers; those of crossings follow
   Spectrum<F> throughput;  // of the path at the ray's origin
 };
+// The same, where each segment is reported before its distance is drawn:
+//   segments.begin(Segment<F>, throughput of the path at its start, on, RandomStream<F> of the segment's end)
+template <class F, class Numbers, class Segments>
+struct ReportedDistances : MediumDistances<F, Numbers> {
+  Segments& segments;
+};
 
 template <class F>
 Hit<F> select_hit(Mask<F> m, const Hit<F>& a, const Hit<F>& b) {
@@ -156,8 +162,10 @@ MONTELUX_INLINE SegmentEnd<F> end_segment(const Scene& scene, RayProgress<F>& wa
     at.on_surface = rays.found & (segment.hit.t < F(ray_infinity));
     if constexpr (Lights::sees_media)
       if (media.emits()) lights.medium(way.left * media.emitted<F>(medium, segment.hit.t), rays.found);
+    const Spectrum<F> throughput = distances.throughput * way.left;
+    if constexpr (requires { distances.segments; }) distances.segments.begin(segment, throughput, rays.found, random);
     const DistanceSample<F> sampled = media.sample_distance<F>(
-        medium, distances.throughput * way.left, segment.hit.t,
+        medium, throughput, segment.hit.t,
         distances.numbers.get2(distances.first + way.crossings * U(path_dimension::per_crossing)));
     way.left = select(rays.found, way.left * sampled.weight, way.left);
     at.in_medium = rays.found & sampled.is_event, at.on_surface = at.on_surface & !at.in_medium;

@@ -55,6 +55,33 @@ inline const std::string gaussian = "\"gaussian\"",
                          lens = R"(Camera "perspective" "float fov" 60 "float lensradius" 0.05
   "float focaldistance" 2.5)";
 
+// Fog around the camera, a cloud of another sort in it with a lamp at one point, and an area light.
+inline const std::string fog_with_cloud = R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 0.1 0.05 0.2 ] "rgb sigma_s" [ 0.2 0.3 0.5 ]
+  "float g" 0.5
+MakeNamedMedium "cloud" "string type" "homogeneous" "rgb sigma_a" [ 0 0.1 0.1 ] "rgb sigma_s" [ 2 1 0.5 ]
+MediumInterface "" "fog"
+LookAt 0 1 -3   0 1 0   0 1 0
+Camera "perspective" "float fov" 50
+WorldBegin
+MediumInterface "fog" "fog"
+LightSource "point" "rgb I" [ 3 2 1 ] "point3 from" [ 0 1 0 ]
+AttributeBegin
+  Material "interface"
+  MediumInterface "cloud" "fog"
+  Translate 0 1 0
+  Shape "sphere" "float radius" 0.6
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 5 8 ] "bool twosided" true
+  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+  Shape "bilinearmesh" "point3 P" [ 0.8 1.8 -0.2  1.2 1.8 -0.2  0.8 1.6 0.2  1.2 1.6 0.2 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.7 0.5 0.3 ]
+Shape "bilinearmesh" "point3 P" [ -3 0 -3  3 0 -3  -3 0 3  3 0 3 ]
+Shape "bilinearmesh" "point3 P" [ -3 0 2  3 0 2  -3 4 2  3 4 2 ]
+)";
+
 // Passes as they come, each of `per_pass` frames.
 inline PassMeans measured(const TestScene& scene, const std::string& way, int per_pass, int passes,
                           std::uint32_t seed) {

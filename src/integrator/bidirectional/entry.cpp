@@ -2,8 +2,8 @@
 
 #include "integrator/bidirectional/bdpt.h"
 #include "integrator/bidirectional/vcm.h"
+#include "integrator/footprint.h"
 #include "integrator/notes.h"
-#include "integrator/photons/sppm.h"
 
 namespace montelux {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "integrator/footprint.h"
 #include "integrator/irradiance_cache/integrator.h"
 #include "integrator/notes.h"
-#include "integrator/photons/sppm.h"
 
 namespace montelux {
 

@@ -3,8 +3,11 @@
 // inverse square of the distance. So a second event is drawn by the angle at which the lamp sees the segment (Kulla and
 // Fajardo 2012), for this light alone, and both are combined by the balance heuristic.
 #pragma once
+#include <optional>
+
 #include "mc/mis.h"
 #include "medium/equiangular.h"
+#include "transport/next_vertex.h"
 #include "transport/transmittance.h"
 
 namespace montelux {
@@ -30,13 +33,16 @@ class SegmentLight {
         lights_(lights),
         segment_(segment),
         throughput_(throughput),
-        on_(Mask<F>(false)),
-        chooser_(no_side()) {
-    const Uint<F> medium = segment.media.medium;
-    on_ = on & (max_component(scene.media.scattering<F>(medium)) > F(0.0f));
-    // Lamps are chosen as light sampling does it at a point in the middle of the part that is seen.
-    const F mean_free_path = F(float(spectrum_size)) / max(sum(scene.media.extinction<F>(medium)), F(1e-30f));
-    chooser_ = segment.ray.o + segment.ray.d * (0.5f * min(segment.hit.t, mean_free_path));
+        on_(on & (max_component(scene.media.scattering<F>(segment.media.medium)) > F(0.0f))),
+        chooser_(middle()) {}
+
+  // The rays of these lanes are on their next segment, that of `next`, which differs from the present one there alone.
+  void replace(Mask<F> on, const SegmentLight& next) {
+    const Media<F> media = select_media<F>(on, next.segment_.media, segment_.media);
+    segment_ = next.segment_, segment_.media = media;
+    throughput_ = select(on, next.throughput_, throughput_);
+    on_ = (on & next.on_) | (on_ & !on);
+    chooser_ = select<F>(on, next.chooser_, chooser_);
   }
 
   // The share of the path's own event, at this distance from the segment's start, in the light of the lamp that
@@ -88,7 +94,12 @@ class SegmentLight {
 
  private:
   static Vec3<F> no_side() { return {F(0.0f), F(0.0f), F(0.0f)}; }
-  static F sum(const Spectrum<F>& s) { return average(s) * float(spectrum_size); }
+  // Of the part of the segment that is seen. Lamps are chosen as light sampling does it there.
+  Vec3<F> middle() const {
+    const F extinction = average(scene_.media.extinction<F>(segment_.media.medium)) * float(spectrum_size);
+    const F mean_free_path = F(float(spectrum_size)) / max(extinction, F(1e-30f));
+    return segment_.ray.o + segment_.ray.d * (0.5f * min(segment_.hit.t, mean_free_path));
+  }
   F mass(Uint<F> light, const Vec3<F>& p, Mask<F> on) const {
     return lights_.template choice_mass<F>(light, p, no_side(), on).value;
   }
@@ -101,10 +112,44 @@ class SegmentLight {
 
   const Scene& scene_;
   const LightSet& lights_;
-  const Segment<F> segment_;
-  const Spectrum<F> throughput_;
+  Segment<F> segment_;
+  Spectrum<F> throughput_;
   Mask<F> on_;
   Vec3<F> chooser_;
+};
+
+// The second events on all segments of rays that go straight on through interfaces up to one vertex, as
+// ReportedDistances has them. add(SegmentLight<F>::Sample) receives what each event contributes.
+template <class F, class Rays, class Add>
+class RaySegmentLights {
+ public:
+  // `on`: where paths may scatter. Without lights at one point nothing happens. What is referred to must outlive this;
+  // rays that are traced are added to `traced`.
+  RaySegmentLights(const Scene& scene, const Rays& rays, Mask<F> on, std::uint64_t& traced, Add add)
+      : scene_(scene), rays_(rays), on_(on), traced_(traced), add_(add) {}
+
+  void begin(const Segment<F>& segment, const Spectrum<F>& throughput, Mask<F> on, const RandomStream<F>& random) {
+    if (!scene_.lights.has_points()) return;
+    const SegmentLight<F> light(scene_, scene_.lights, segment, throughput, on & on_);
+    if (const auto sample = light.sample(rays_, random.fork(Uint<F>(segment_light_stream)), traced_); any(sample.on))
+      add_(sample);
+    if (last_)
+      last_->replace(on, light);
+    else
+      last_.emplace(light);
+  }
+  // As SegmentLight::share(), of an event on a ray's last segment.
+  F share(const Vec3<F>& event, F distance, const LightSample<F>& light, F u_choice, Mask<F> on) const {
+    return last_ ? last_->share(event, distance, light, u_choice, on) : F(1.0f);
+  }
+
+ private:
+  const Scene& scene_;
+  const Rays& rays_;
+  const Mask<F> on_;
+  std::uint64_t& traced_;
+  Add add_;
+  std::optional<SegmentLight<F>> last_;
 };
 
 }  // namespace montelux

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "integrator/footprint.h"
 #include "integrator/notes.h"
 #include "integrator/photons/photonmap.h"
 #include "integrator/photons/pilot.h"

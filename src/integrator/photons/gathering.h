@@ -7,23 +7,12 @@
 #include "integrator/first_vertex.h"
 #include "integrator/path/first_hits.h"
 #include "integrator/path/light_weights.h"
+#include "integrator/path/segment_light.h"
+#include "integrator/photons/gathering_tallies.h"
 #include "integrator/photons/lookup.h"
 #include "transport/connection.h"
 
 namespace montelux {
-
-// The layers of a tile in a pass with layers: where the light of the paths comes from, and that of gather rays.
-class GatheringTallies {
- public:
-  // `layers`: null: there are none.
-  GatheringTallies(const LayerPlan* layers, std::span<ExactRgb> sums) {
-    if (layers) both_.emplace(std::array{LayerTally(*layers, 1, sums), LayerTally(*layers, 1, sums)});
-  }
-  std::array<LayerTally, 2>* get() { return both_ ? &*both_ : nullptr; }
-
- private:
-  std::optional<std::array<LayerTally, 2>> both_;
-};
 
 // A gather ray on its way, one a lane: words alone, as set_lane_words takes them.
 template <class F>
@@ -122,6 +111,9 @@ class PhotonGathering {
     const U index = path.index * U(std::uint32_t(rules_.gather_rays)) + ray;
     return numbers_of<F>(gather_points(pass, rules_.gather_rays), PathSite<F>{path.x, path.y, index});
   }
+  struct NoSegments {
+    MONTELUX_INLINE void begin(const auto&...) const {}
+  };
   static U dimension_of(const PathState<F>& path) {
     return U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
   }
@@ -131,9 +123,11 @@ class PhotonGathering {
       if (layers.tally) record(layers, met, path, contribution, {path.depth, number, technique});
     };
   }
-  // The vertex that a path has met, with the light met on the way.
-  template <class Weight, NumberSource<F> Numbers>
-  NextVertex<F> arrive(PathState<F>& path, M on, const Numbers& numbers, Weight weight, const Layers& layers) {
+  // The vertex that a path has met, with the light met on the way. In media `segments` receives its segments, as
+  // ReportedDistances has it.
+  template <class Weight, NumberSource<F> Numbers, class Segments>
+  NextVertex<F> arrive(PathState<F>& path, M on, const Numbers& numbers, Weight weight, const Layers& layers,
+                       Segments& segments) {
     const U dimension = dimension_of(path);
     const auto follow = [&](const auto& distances) {
       return follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
@@ -142,7 +136,8 @@ class PhotonGathering {
     };
     const NextVertex<F> at = [&] {
       if constexpr (in_media)
-        return follow(MediumDistances<F, Numbers>{numbers, dimension + U(path_dimension::distance), path.throughput});
+        return follow(ReportedDistances<F, Numbers, Segments>{
+            {numbers, dimension + U(path_dimension::distance), path.throughput}, segments});
       else
         return follow(NoDistances{});
     }();
@@ -217,8 +212,18 @@ class PhotonGathering {
     const auto sampler = numbers_of(pass.points, path);
     const U dimension = dimension_of(path);
     const Layers layers = of_paths();
-    NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers);
-    const M scatters = on & at.found & !ends & may_scatter(path);
+    const M may = may_scatter(path) & !ends;
+    Spectrum<F> along = gray(F(0.0f));  // what events on the segments scatter: it is not directly visible
+    const auto add_segment_light = [&](const typename SegmentLight<F>::Sample& also) {
+      along += select(also.on, also.contribution, gray(F(0.0f)));
+      if (layers.tally)
+        layers.tally->template add<F>(also.on, also.contribution * path.weight,
+                                      {path.depth + U(1u), also.light, Technique::light_sampling});
+    };
+    RaySegmentLights<F, Rays, decltype(add_segment_light)> segments(scene_, rays_, on & may & M(rules_.nee),
+                                                                    counts_.shadow, add_segment_light);
+    NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers, segments);
+    const M scatters = on & at.found & may;
     const M rough = scatters & !at.bsdf.is_delta;
     at.context.densities = Densities::exact;
 
@@ -237,7 +242,13 @@ class PhotonGathering {
     const BsdfSample<F>& next = scattered.next;
     if (const M shown = is_shown(path, M(on & at.found), scatters); any(shown))
       write_features(at, albedo_of(at, next, u, M(scatters & shown)), path, shown, out);
-    if (any(queries)) add_direct(path, at, {light, u_choice, queries}, scattered.toward_light);
+    path.radiance += along;
+    if (any(queries)) {
+      F share(1.0f);
+      if constexpr (in_media)
+        share = segments.share(at.x.point.p, at.x.distance, light, u_choice, M(queries & at.in_medium));
+      add_direct(path, at, {light, u_choice, share, queries}, scattered.toward_light);
+    }
     if (any(rough)) {
       add_photons(path, in_view_, at, rough, layers);
       if (beyond_) send_gather_rays(pass, path, at, rough);
@@ -258,15 +269,17 @@ class PhotonGathering {
     return left;
   }
 
-  // A point of a light, and the number that chose the light.
+  // A point of a light, the number that chose the light, and the share of this sample in a delta light.
   struct DrawnLight {
     const LightSample<F>& sample;
     F u_choice;
+    F share_of_delta;
     M on;
   };
   void add_direct(PathState<F>& path, const NextVertex<F>& at, const DrawnLight& drawn, const BsdfValue<F>& value) {
     const LightSample<F>& light = drawn.sample;
-    const F share = select(light.delta, F(1.0f), weight_of_light_sample(mis_, light.density, value.density));
+    const F share =
+        select(light.delta, drawn.share_of_delta, weight_of_light_sample(mis_, light.density, value.density));
     const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density.value);
     const M shadow = drawn.on & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
@@ -349,7 +362,8 @@ class PhotonGathering {
     PathState<F>& path = ray.path;
     const auto numbers = gather_numbers(pass, path, path.output);
     const U dimension = dimension_of(path);
-    NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays());
+    NoSegments unreported;  // photons represent what events on a gather ray receive
+    NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays(), unreported);
     const M scatters = on & at.found & may_scatter(path);
     at.context.densities = Densities::exact;
     const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));

@@ -18,10 +18,6 @@ PhotonPaths sppm_paths(const SppmSettings& settings, int pixels);
 // both its bias, as n^(2 (alpha - 1) / d), and its variance, as n^-alpha.
 double sppm_radius(double radius, double alpha, int frame, int dimensions = 2);
 
-// Three pixels, where the middle one of some camera rays meets its first rough surface; at most a hundredth of the
-// scene's diagonal.
-float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int height);
-
 // Each frame follows light paths, stores their photons, and gathers them by a path from each pixel.
 class SppmIntegrator final : public CoupledIntegrator {
  public:

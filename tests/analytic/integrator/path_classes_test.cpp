@@ -41,7 +41,7 @@ std::string name_of(const std::string& way) { return way.substr(0, way.find(':')
 // By which the scenes' table knows it: its name, but where a setting decides which light is looked for.
 std::string key_of(const std::string& way) {
   if (way.find("strategies=bdpt") != std::string::npos) return "bdpt";
-  return chain_length(way) > 0 ? way : name_of(way);
+  return stated_chain_length(way) > 0 ? way : name_of(way);
 }
 LightSearch search_of(const std::string& way) { return light_search(way); }
 

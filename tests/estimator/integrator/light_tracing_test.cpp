@@ -95,41 +95,15 @@ TEST(LightTracing, agrees_with_path_where_things_move) {
   EXPECT_FALSE(c.differ()) << c.smallest << " of " << c.tests;
 }
 
-// Fog around the camera, a cloud of another sort in it, lamps in both.
 TEST(LightTracing, agrees_with_path_and_bdpt_in_media) {
-  const std::string text = R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
-MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 0.1 0.05 0.2 ] "rgb sigma_s" [ 0.2 0.3 0.5 ]
-  "float g" 0.5
-MakeNamedMedium "cloud" "string type" "homogeneous" "rgb sigma_a" [ 0 0.1 0.1 ] "rgb sigma_s" [ 2 1 0.5 ]
-MediumInterface "" "fog"
-LookAt 0 1 -3   0 1 0   0 1 0
-Camera "perspective" "float fov" 50
-WorldBegin
-MediumInterface "fog" "fog"
-LightSource "point" "rgb I" [ 3 2 1 ] "point3 from" [ 0 1 0 ]
-AttributeBegin
-  Material "interface"
-  MediumInterface "cloud" "fog"
-  Translate 0 1 0
-  Shape "sphere" "float radius" 0.6
-AttributeEnd
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 3 5 8 ] "bool twosided" true
-  Material "diffuse" "rgb reflectance" [ 0 0 0 ]
-  Shape "bilinearmesh" "point3 P" [ 0.8 1.8 -0.2  1.2 1.8 -0.2  0.8 1.6 0.2  1.2 1.6 0.2 ]
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.7 0.5 0.3 ]
-Shape "bilinearmesh" "point3 P" [ -3 0 -3  3 0 -3  -3 0 3  3 0 3 ]
-Shape "bilinearmesh" "point3 P" [ -3 0 2  3 0 2  -3 4 2  3 4 2 ]
-)";
-  const TestScene scene(text);
+  const TestScene scene(fog_with_cloud);
   const PassMeans bdpt = measured(scene, "bdpt", 16, 60, 1), light = measured(scene, "light", 16, 100, 2);
   for (const auto& [way, means] : {std::pair("path", measured(scene, "path", 16, 100, 3)), std::pair("light", light)}) {
     const Comparison c = compared(means, bdpt);
     EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
   }
   // The lamps' own media matter.
-  std::string clear = text;
+  std::string clear = fog_with_cloud;
   clear.replace(clear.find("MediumInterface \"cloud\" \"fog\""), 31, "MediumInterface \"cloud\" \"\"");
   EXPECT_TRUE(compared(measured(TestScene(clear), "light", 16, 100, 2), bdpt).differ());
 }

@@ -117,6 +117,28 @@ TEST(PhotonsInFog, agree_with_path_in_a_coloured_room_and_planted_faults_are_fou
   EXPECT_TRUE(caught({.direct_twice = true}));
 }
 
+// Direct light alone is unbiased. The lamp is behind an interface, and another one stands before it.
+TEST(PhotonsInFog, have_the_light_of_lamps_at_one_point) {
+  const auto fog = [](const std::string& strength) {
+    return TestScene(fog_with_cloud + "LightSource \"spot\" \"rgb I\" [ " + strength +
+                     " 1 3 ] \"point3 from\" [ -0.4 1.2 -1.2 ] \"point3 to\" [ 0 0 0 ]\n");
+  };
+  const TestScene scene = fog("2"), brighter = fog("2.4");
+  const PassMeans path = measured(scene, "path:maxdepth=1", 16, 100, 1);
+  const auto differ = [&](const TestScene& other, const std::string& way) {
+    const Comparison c = compared(measured(other, way + ",maxdepth=1", 16, 100, 2), path);
+    return c.differ();
+  };
+  EXPECT_FALSE(differ(scene, in_general));
+  EXPECT_FALSE(differ(scene, gathered));
+  EXPECT_TRUE(differ(brighter, in_general));
+  const PassMeans all = measured(scene, "path", 16, 60, 3);
+  for (const std::string way : {in_general, gathered}) {
+    const Comparison c = compared(measured(scene, way, 16, 40, 4), all);
+    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+  }
+}
+
 TEST(PhotonsInFog, end_where_maxdepth_says) {
   const TestScene scene(foggy_room);
   for (const int depth : {1, 2}) {
