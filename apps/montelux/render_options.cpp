@@ -172,8 +172,8 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
       into(render.layers, parse_layers));
   verb.add_flag(
       "--measure-bias", render.measure_bias,
-      "measure by how much maxdepth and maxcomponent bias the mean: an eighth of the samples is taken without "
-      "them as well");
+      "measure by how much maxdepth, maxcomponent, radii and other biased settings change the mean of the image: an "
+      "eighth of the samples is taken without bias as well");
   add_option(verb, {"--set", "key=value", "a setting of the integrator, such as maxdepth=8; may be repeated", true},
              [&render](const std::string& text) -> Status {
                auto setting = parse_setting(text);

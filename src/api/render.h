@@ -58,7 +58,7 @@ struct RenderOptions {
   std::optional<LayerRequest> layers;                         // of an integrator that has them
   bool denoise = false;                                       // remove noise; adds the layers of both halves
   std::optional<ShutterTimes> shutter;                        // default: the file's
-  bool measure_bias = false;                                  // of a depth limit and of a clamp, by paired samples
+  bool measure_bias = false;                                  // by paired samples of an unbiased integrator
   std::optional<int> samples_per_pass;                        // default: by the number of samples
   std::optional<PassRange> passes;                            // only these, of those that the samples make
   std::optional<FilmCheckpoint> checkpoint;

@@ -28,8 +28,36 @@ Result<const DirectPreset*> find_preset(const std::optional<std::string>& name) 
   return unknown_name("preset", *name, views_of(names));
 }
 
-// The same integrator without a limit of depth and without a clamp, whose samples show what these change.
-Status plan_unbiased(ChoiceText choice, const LoadedScene::Parts& parts, const RenderOptions& options,
+// The integrator whose samples show the bias of the chosen one: of an integrator whose pixels share no samples the same
+// without a limit of depth and without a clamp; of another one `path`.
+Result<ChosenIntegrator> unbiased_partner(const ChosenIntegrator& chosen, ChoiceText choice,
+                                          const LoadedScene::Parts& parts) {
+  if (!chosen.integrator) choice = {"path", {}};
+  for (const std::string name : {"maxdepth", "maxcomponent"}) {
+    const bool is_set =
+        std::ranges::any_of(chosen.biases, [&](const std::string& bias) { return bias.starts_with(name + "="); });
+    if (!is_set && chosen.integrator) continue;
+    std::erase_if(choice.settings, [&](const auto& setting) { return setting.first == name; });
+    choice.settings.emplace_back(name, "none");
+  }
+  auto partner = choose_integrator(choice, integrator_defaults(parts.picture), parts.scene, *parts.accel);
+  if (!partner) return partner;
+  const std::string biases = fmt::format("{}", fmt::join(chosen.biases, ", "));
+  if (!partner->biases.empty() || !partner->integrator)
+    return Failure{
+        fmt::format("the bias of {} cannot be measured: only that of maxdepth and maxcomponent can, and that "
+                    "of integrators whose pixels share samples",
+                    biases)};
+  note_light(*partner, parts);
+  std::vector<std::string> unseen;
+  for (const std::string& light : partner->missing)
+    if (std::ranges::find(chosen.missing, light) == chosen.missing.end()) unseen.push_back(light);
+  if (!unseen.empty())
+    return Failure{fmt::format("the bias of {} cannot be measured: {}, which has none, misses {}", biases,
+                               partner->name, fmt::join(unseen, ", "))};
+  return partner;
+}
+Status plan_unbiased(const ChoiceText& choice, const LoadedScene::Parts& parts, const RenderOptions& options,
                      RenderPlan& plan) {
   if (options.checkpoint || options.resume)
     return Failure{"the bias of a film that is saved or resumed is not measured"};
@@ -37,22 +65,9 @@ Status plan_unbiased(ChoiceText choice, const LoadedScene::Parts& parts, const R
     plan.chosen.notes.push_back("the integrator has no bias to measure");
     return Done{};
   }
-  const Failure other{
-      fmt::format("the bias of {} cannot be measured: only that of maxdepth and maxcomponent can, of an "
-                  "integrator whose pixels share no samples",
-                  fmt::join(plan.chosen.biases, ", "))};
-  if (!plan.chosen.integrator) return other;
-  for (const std::string name : {"maxdepth", "maxcomponent"}) {
-    const bool is_set =
-        std::ranges::any_of(plan.chosen.biases, [&](const std::string& bias) { return bias.starts_with(name + "="); });
-    if (!is_set) continue;
-    std::erase_if(choice.settings, [&](const auto& setting) { return setting.first == name; });
-    choice.settings.emplace_back(name, "none");
-  }
-  auto unbiased = choose_integrator(choice, integrator_defaults(parts.picture), parts.scene, *parts.accel);
-  if (!unbiased) return unbiased.failure();
-  if (!unbiased->biases.empty() || !unbiased->integrator) return other;
-  plan.unbiased = std::move(unbiased->integrator);
+  auto partner = unbiased_partner(plan.chosen, choice, parts);
+  if (!partner) return partner.failure();
+  plan.unbiased = std::move(partner->integrator);
   plan.settings.unbiased = plan.unbiased.get();
   return Done{};
 }
@@ -75,9 +90,9 @@ Status plan_integrator(const LoadedScene::Parts& parts, const RenderOptions& opt
     if (!chosen) return chosen.failure();
     plan.chosen = *std::move(chosen);
   }
+  note_light(plan.chosen, parts);
   if (options.measure_bias)
     if (Status good = plan_unbiased(*choice, parts, options, plan); !good) return good;
-  note_light(plan.chosen, parts);
   plan.replaced = replaced_in(parts.info, options.integrator || preset, options.sampler.has_value());
   plan.preparation = since_choice.seconds();
   return Done{};

@@ -18,10 +18,10 @@ bool is_finite(const Rgb& color) {
 PairedBias::PairedBias(const PixelIntegrator& unbiased, std::size_t tiles)
     : unbiased_(unbiased), every_(std::clamp<std::size_t>(tiles, 1, share)) {}
 
-// Of each group of consecutive tiles one in turn, so that every pass sees all parts of the picture.
-bool PairedBias::compares(std::size_t tile, int pass) const {
+// Of each group of consecutive tiles one in turn, so that every turn sees all parts of the picture.
+bool PairedBias::compares(std::size_t tile, std::size_t turn) const {
   const std::size_t group = tile / every_, first = (group * 0x9e3779b1u >> 16) % every_;
-  return (tile + first + std::size_t(pass)) % every_ == 0;
+  return (tile + first + turn) % every_ == 0;
 }
 
 void PairedBias::add(std::size_t tile, int pass, int samples_per_pixel, std::span<const PixelSample> biased,
@@ -35,20 +35,16 @@ void PairedBias::add(std::size_t tile, int pass, int samples_per_pixel, std::spa
   }
   for (double& channel : sum.difference) channel /= samples_per_pixel;
   const std::scoped_lock lock(mutex_);
-  sums_[pass][tile] = sum;
+  sums_[pass][tile] += sum;
 }
 
 BiasOfPasses PairedBias::bias() {
   const std::scoped_lock lock(mutex_);
   Sum all;
   std::map<int, Sum> passes;
-  const auto add_to = [](Sum& to, const Sum& sum) {
-    for (std::size_t c = 0; c < rgb_size; ++c) to.difference[c] += sum.difference[c];
-    to.pixels += sum.pixels;
-  };
   for (const auto& [pass, tiles] : sums_) {
-    for (const auto& [tile, sum] : tiles) add_to(passes[pass], sum);
-    add_to(all, passes[pass]);
+    for (const auto& [tile, sum] : tiles) passes[pass] += sum;
+    all += passes[pass];
   }
   BiasOfPasses bias;
   for (const auto& [pass, sum] : passes)

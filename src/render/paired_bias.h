@@ -9,17 +9,19 @@
 
 namespace montelux {
 
-// Compares samples of a biased integrator with those that an unbiased one takes with the same numbers. Where the
-// options of the former change nothing both are equal, so their difference has far less noise than each of them. One
-// tile of `every` is compared in each pass, and each tile once in so many passes.
+// Compares samples of a biased integrator with those that an unbiased one takes with the same numbers. Where both
+// integrators are the same except for a limit or a clamp, the difference of samples has far less noise than each of
+// them. One tile of `every` is compared at each turn, and each tile once in so many turns. A turn is a pass, or a frame
+// of one.
 class PairedBias {
  public:
   // `unbiased` must outlive this.
   PairedBias(const PixelIntegrator& unbiased, std::size_t tiles);
 
   const PixelIntegrator& unbiased() const { return unbiased_; }
-  bool compares(std::size_t tile, int pass) const;
-  // The samples of both in such a tile and pass. Those that are not finite in both do not count. Thread-safe.
+  bool compares(std::size_t tile, std::size_t turn) const;
+  // The samples of both in such a tile, at a turn of the pass. Those that are not finite in both do not count.
+  // Thread-safe; turns of one pass must follow one another.
   void add(std::size_t tile, int pass, int samples_per_pixel, std::span<const PixelSample> biased,
            std::span<const PixelSample> unbiased);
   // Of the mean of the picture; the same bits whatever the order in which tiles came. The mean over passes is the sum
@@ -32,11 +34,16 @@ class PairedBias {
   struct Sum {
     MeanDifference difference{};
     double pixels = 0;
+    Sum& operator+=(const Sum& other) {
+      for (std::size_t c = 0; c < rgb_size; ++c) difference[c] += other.difference[c];
+      pixels += other.pixels;
+      return *this;
+    }
   };
   const PixelIntegrator& unbiased_;
   std::size_t every_;
   std::mutex mutex_;
-  std::map<int, std::map<std::size_t, Sum>> sums_;  // by pass and tile
+  std::map<int, std::map<std::size_t, Sum>> sums_;  // over the turns of a pass, by pass and tile
 };
 
 }  // namespace montelux

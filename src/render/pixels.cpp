@@ -160,7 +160,7 @@ class PixelWork final : public StagedWork {
     if (settings_.plan.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
     RayCounts rays = trace(request, space);
-    const bool compares = paired_ && paired_->compares(number, pass);
+    const bool compares = paired_ && paired_->compares(number, std::size_t(pass));
     if (compares) {
       space.unbiased.resize(space.samples.size());
       rays += paired_->unbiased().trace(request, space.unbiased);

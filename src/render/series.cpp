@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/paired_bias.h"
 #include "render/watch.h"
 
 namespace montelux {
@@ -37,6 +38,7 @@ class SeriesWork final : public StagedWork {
       has_image_ = film_.passes(tiles_.front().bounds) > 0;
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
+    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
     over_ = is_whole_ = is_planned();
     if (!over_) begin_series();
   }
@@ -47,6 +49,7 @@ class SeriesWork final : public StagedWork {
     if (incomplete_) add_to_film(*incomplete_);
     if (bias_of_incomplete_) bias_[*incomplete_] = *bias_of_incomplete_;
     if (mixing_of_incomplete_) mixing_[*incomplete_] = *mixing_of_incomplete_;
+    if (paired_) bias_ = paired_->bias();
     watch_.report_end(*this, observer);
     memories_.keep_first(std::size_t(pass_));
     const double seconds = watch_.seconds();
@@ -81,7 +84,7 @@ class SeriesWork final : public StagedWork {
 
   void run_unit(std::size_t unit, int number) override {
     Worker& worker = workers_[std::size_t(number)];
-    worker.rays += units_ ? series_->run_unit(step_, unit) : do_tile(tiles_[unit], worker);
+    worker.rays += units_ ? series_->run_unit(step_, unit) : do_tile(unit, worker);
   }
 
   RenderState state() override {
@@ -123,7 +126,7 @@ class SeriesWork final : public StagedWork {
  private:
   struct Worker {
     RayCounts rays;
-    std::vector<PixelSample> samples;
+    std::vector<PixelSample> samples, unbiased;
     std::vector<ExactRgb> sums;
   };
 
@@ -131,15 +134,32 @@ class SeriesWork final : public StagedWork {
   int pass_number() const { return settings_.plan.first_pass + pass_; }
 
   // A tile belongs to one thread at a time.
-  RayCounts do_tile(SeriesTile& tile, Worker& worker) {
+  RayCounts do_tile(std::size_t number, Worker& worker) {
+    SeriesTile& tile = tiles_[number];
     std::vector<PixelSample>& samples = worker.samples;
     samples.assign(std::size_t(tile.bounds.area()), {});
     worker.sums.assign(tile.sums.size(), {});
-    const RayCounts rays = settings_.image.layers ? series_->run_layers(step_, tile.bounds, samples, worker.sums)
-                                                  : series_->run(step_, tile.bounds, samples);
+    RayCounts rays = settings_.image.layers ? series_->run_layers(step_, tile.bounds, samples, worker.sums)
+                                            : series_->run(step_, tile.bounds, samples);
     if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
     for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
     for (std::size_t i = 0; i < worker.sums.size(); ++i) tile.sums[i] += worker.sums[i];
+    if (paired_ && paired_->compares(number, turn())) rays += compare(number, worker);
+    return rays;
+  }
+  // Of all frames that are shown.
+  std::size_t turn() const {
+    return std::size_t(pass_number()) * std::size_t(settings_.plan.samples_per_pass) +
+           std::size_t(step_.frame - integrator_.warm_up());
+  }
+  // The tile's samples in this frame with unbiased ones.
+  RayCounts compare(std::size_t number, Worker& worker) {
+    TilePass request{tiles_[number].bounds, settings_.image.points(pass_number(), frames_), settings_.image.shutter};
+    request.only = std::uint32_t(step_.frame);
+    if (film_.grid().stride > 1) request.grid = film_.grid();
+    worker.unbiased.assign(worker.samples.size(), {});
+    const RayCounts rays = paired_->unbiased().trace(request, worker.unbiased);
+    paired_->add(number, pass_number(), 1, worker.samples, worker.unbiased);
     return rays;
   }
   // The number of sums of a tile's layers.
@@ -244,6 +264,7 @@ class SeriesWork final : public StagedWork {
   std::optional<int> incomplete_;  // the pass of the last series, if it ended early
   std::optional<MeanDifference> bias_of_incomplete_;
   std::optional<MixingFigures> mixing_of_incomplete_;
+  std::optional<PairedBias> paired_;
   BiasOfPasses bias_;       // of the passes that are done
   MixingOfPasses mixing_;   // likewise
   bool has_image_ = false;  // a series is done

@@ -12,6 +12,11 @@ Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]
 AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] "bool twosided" true
 Shape "sphere" "float radius" 1
 """
+# A cube of the same, seen toward a corner: kernels of photons lose light at its edges.
+CUBE = FURNACE[:FURNACE.index("Camera")] + """LookAt 0 0 0  1 0.9 0.8  0 1 0
+""" + FURNACE[FURNACE.index("Camera"):FURNACE.index("Shape")] + """Shape "bilinearmesh" "integer indices" [ 0 1 2 3  4 5 6 7  0 1 4 5  2 3 6 7  0 2 4 6  1 3 5 7 ]
+  "point3 P" [ -1 -1 -1   1 -1 -1   -1 1 -1   1 1 -1   -1 -1 1   1 -1 1   -1 1 1   1 1 1 ]
+"""
 
 
 class BiasTest(ProgramTest):
@@ -38,9 +43,24 @@ class BiasTest(ProgramTest):
             self.assertLess(bias, -0.1)
             self.assertAlmostEqual(mean - bias, 2, delta=4 * error + 4 * written["standard_error"][0])
 
+    def test_integrators_whose_pixels_share_samples_are_compared_with_path(self):
+        (self.folder / "furnace.pbrt").write_text(CUBE)
+        for way in ("sppm:radius=0.8,alpha=1,photons=8192", "photonmap:radius=0.8,photons=16384,gather-rays=0",
+                    "vcm:radius=0.4,connect=off", "irradiance-cache:maxdepth=2", "restir-gi:maxdepth=2"):
+            with self.subTest(way):
+                written = self.written(way, "--measure-bias")
+                bias = written["measured_bias"]
+                for mean, stated, one, other in zip(written["mean"], bias["mean"], bias["standard_error"],
+                                                    written["standard_error"]):
+                    self.assertGreater(abs(mean - 2), 5 * one)  # there is a bias to find
+                    self.assertLess(abs(mean - stated - 2), 4 * one + 4 * other)
+
     def test_it_is_stated_and_has_the_same_bits_for_any_threads(self):
         options = ["path:maxdepth=1", "--measure-bias", "--threads"]
         self.assertEqual(self.written(*options, 1)["measured_bias"], self.written(*options, 3)["measured_bias"])
+        shared = ["sppm", *options[1:]]
+        self.assertEqual(self.written(*shared, 1)["measured_bias"], self.written(*shared, 3)["measured_bias"])
+        self.written(*options, 1)
         said = self.run_program("info", "a.exr").stdout
         self.assertIn("maxdepth=1", said)
         self.assertIn("as measured", said)
@@ -55,7 +75,12 @@ class BiasTest(ProgramTest):
         def refused(*options):
             return self.run_program("render", "furnace.pbrt", "--spp", 4, "-o", "b.exr", "--measure-bias", *options,
                                     status=2).stderr
-        self.assertIn("maxdepth", refused("--integrator", "restir-gi:maxdepth=3"))
+        (self.folder / "furnace.pbrt").write_text(FURNACE + """LightSource "point" "point3 from" [ 0 0.5 0 ]
+Material "dielectric"
+Shape "sphere" "float radius" 0.2
+""")
+        self.assertIn("path, which has none, misses", refused("--integrator", "sppm"))
+        self.assertIn("maxcomponent", refused("--integrator", "direct:pattern=uniform-grid"))
         self.assertIn("saved", refused("--integrator", "path:maxdepth=3", "--checkpoint", "b.film"))
         self.assertFalse((self.folder / "b.exr").exists())
         said = self.run_program("render", "furnace.pbrt", "--spp", 4, "-o", "b.exr", "--measure-bias", "--integrator",

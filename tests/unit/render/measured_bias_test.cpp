@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/series.h"
 #include "render_scenes.h"
 
 namespace montelux::test {
@@ -50,6 +51,16 @@ Shape "bilinearmesh" "integer indices" [ 0 1 2 3  4 5 6 7  0 1 4 5  2 3 6 7  0 2
   s.begun = nullptr, s.keeping.keep = {};
   EXPECT_TRUE(render(path.any(), s, silent).bias.empty());
   EXPECT_TRUE(render(unmeasured.any(), s, silent).bias.empty());
+
+  // Series are compared with the unbiased samples of the same numbers.
+  const ChosenIntegrator limited = scene.integrator("path:maxdepth=1");
+  const PassesAsSeries same(*path.any().pixel()), darker(*limited.any().pixel());
+  s = scene.settings(PointSetKind::blue_noise, {1, 3}, 1, 1), s.unbiased = path.any().pixel();
+  EXPECT_EQ(render(same, s, silent).bias, (BiasOfPasses{{0, {}}, {1, {}}, {2, {}}}));
+  const BiasOfPasses lost = render(darker, s, silent).bias;
+  ASSERT_EQ(lost.size(), 3u);
+  for (const auto& [pass, difference] : lost)
+    for (const double channel : difference) EXPECT_LT(channel, -0.01);
 }
 
 }  // namespace
