@@ -1,5 +1,4 @@
 # cmake --install: the program, the library as one static archive, its headers and a package for find_package(Montelux).
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The layers are archives of their own, of which a user needs none: the installed library holds all of their objects.

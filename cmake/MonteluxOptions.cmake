@@ -20,6 +20,7 @@ set(MONTELUX_SPECTRUM_SIZE 3 CACHE STRING "Components of what a path carries: 3,
 if(NOT MONTELUX_SPECTRUM_SIZE MATCHES "^[34]$")
   message(FATAL_ERROR "MONTELUX_SPECTRUM_SIZE must be 3 or 4, not \"${MONTELUX_SPECTRUM_SIZE}\"")
 endif()
+option(MONTELUX_PORTABLE "Build the program for several instruction sets, with a launcher (cmake/MonteluxPortable.cmake)" OFF)
 option(MONTELUX_TESTS "Build the tests" ON)
 option(MONTELUX_BENCH "Build the benchmarks" OFF)
 option(MONTELUX_WERROR "Treat warnings as errors" ON)
