@@ -1,6 +1,7 @@
 #include "integrator/splats.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace montelux {
 
@@ -34,7 +35,7 @@ bool SplatPlane::add_to(Pixel& pixel, const Rgb& value, float weight) {
   float largest = 0;  // of the components, and not a number where one is not
   for (int i = 0; i < rgb_size; ++i) largest += std::abs(value.c[i]);
   if (!(largest * std::abs(weight) < ExactSum::largest)) {
-    pixel.broken.store(true, std::memory_order_relaxed);
+    pixel.broken = true;
     return false;
   }
   for (int i = 0; i < rgb_size; ++i) pixel.sums[i].add(value.c[i] * weight);
@@ -57,9 +58,12 @@ void SplatPlane::for_each_pixel_near(Vec2f raster, Visit visit) {
   // All pixels, or those that represent cells: by the coordinates of what is visited.
   const PixelBounds all = grid_.is_mean ? pixels : represented_cells(pixels);
   const int across = all.width(), count = all.area();
+  if (count == 0) return;
   const auto pixel_x = [&](int x) { return grid_.is_mean ? x : grid_.pixel_x(x); };
   const auto pixel_y = [&](int y) { return grid_.is_mean ? y : grid_.pixel_y(y); };
-  for (int begin = 0; begin < count; begin += lanes_of<F>) {
+  const auto cell_x = [&](int x) { return grid_.is_mean ? grid_.cell_x(x) : x; };
+  const auto cell_y = [&](int y) { return grid_.is_mean ? grid_.cell_y(y) : y; };
+  const auto visit_pack = [&](int begin) {
     Vec2<F> offset{F(0.0f), F(0.0f)};
     const int n = std::min(count - begin, lanes_of<F>);
     for (int k = 0; k < n; ++k) {
@@ -68,15 +72,13 @@ void SplatPlane::for_each_pixel_near(Vec2f raster, Visit visit) {
     }
     const F weight = filter_.evaluate(offset);
     for (int k = 0; k < n; ++k) {
-      const int x = all.x0 + (begin + k) % across, y = all.y0 + (begin + k) / across;
-      if (!grid_.is_mean) {
-        visit(x, y, lane(weight, k));
-        continue;
-      }
-      const int cell_x = grid_.cell_x(x), cell_y = grid_.cell_y(y);
-      visit(cell_x, cell_y, lane(weight, k) / float(grid_.pixels(cell_x, cell_y).area()));
+      const int x = cell_x(all.x0 + (begin + k) % across), y = cell_y(all.y0 + (begin + k) / across);
+      visit(x, y, grid_.is_mean ? lane(weight, k) / float(grid_.pixels(x, y).area()) : lane(weight, k));
     }
-  }
+  };
+  lock_and(cell_x(all.x0), cell_y(all.y0), cell_x(all.x1 - 1), cell_y(all.y1 - 1), [&] {
+    for (int begin = 0; begin < count; begin += lanes_of<F>) visit_pack(begin);
+  });
 }
 
 void SplatPlane::add(Vec2f raster, const Rgb& value) {
@@ -89,11 +91,22 @@ void SplatPlane::add(Vec2f raster, const Rgb& value, const LightOrigin<float>& f
   });
 }
 
+void SplatPlane::add_to_pixel(int x, int y, const Rgb& value) {
+  lock_and(x, y, x, y, [&] { add_to(pixel(x, y), value, 1.0f); });
+}
+
+void SplatPlane::add_to_pixel(int x, int y, const Rgb& value, const LightOrigin<float>& from) {
+  lock_and(x, y, x, y, [&] {
+    if (add_to(pixel(x, y), value, 1.0f)) add_to_layers(x, y, value, 1.0f, from);
+  });
+}
+
 Rgb SplatPlane::take(int x, int y) {
   Pixel& from = pixel(x, y);
   Rgb sum;
-  for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(from.sums[i].take().value());
-  if (from.broken.exchange(false, std::memory_order_relaxed)) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+  for (int i = 0; i < rgb_size; ++i) sum.c[i] = float(from.sums[i].value());
+  if (from.broken) sum = gray_rgb(std::numeric_limits<float>::quiet_NaN());
+  from = {};
   return sum;
 }
 
@@ -109,7 +122,7 @@ void SplatPlane::take_into(int x, int y, PixelSample& sample, std::span<ExactRgb
     const Pixel& from = pixel(x, y);
     for (std::size_t i = 0; i < sums.size(); ++i)
       for (int c = 0; c < rgb_size; ++c)
-        sums[i].c[c] += i == 0 ? from.sums[c].sum() : layer_sums(x, y, i - 1)[c].take();
+        sums[i].c[c] += i == 0 ? from.sums[c] : std::exchange(layer_sums(x, y, i - 1)[c], {});
   }
   const Rgb splats = take(x, y);
   bool good = true;

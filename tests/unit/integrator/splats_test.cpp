@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "math/shared_exact_sum.h"
 #include "mc/random.h"
 
 namespace montelux {
@@ -73,6 +74,31 @@ TEST(SplatPlane, gives_each_pixel_its_filtered_share_whatever_the_order) {
         EXPECT_EQ(forward.take(x, y)[1], 0);
       }
   }
+}
+
+TEST(SplatPlane, has_the_same_sums_whatever_the_threads) {
+  constexpr int threads = 4;
+  const PixelBounds bounds{2, 1, 39, 35};
+  const Filter filter(MitchellFilter(MitchellProfile{}, MitchellProfile{}));
+  const std::vector<Splat> all = splats(bounds, 20000);
+  SplatPlane one(bounds, filter), shared(bounds, filter);
+  const auto add_to = [&](SplatPlane& plane, std::size_t i) {
+    plane.add(all[i].raster, all[i].value);
+    plane.add_to_pixel(17 + int(i % 3), 16 + int(i % 2), all[i].value);  // all threads at four squares
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) add_to(one, i);
+  {
+    std::vector<std::jthread> pool;
+    for (std::size_t t = 0; t < threads; ++t)
+      pool.emplace_back([&, t] {
+        for (std::size_t i = t; i < all.size(); i += threads) add_to(shared, i);
+      });
+  }
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const Rgb a = one.take(x, y), b = shared.take(x, y);
+      for (int i = 0; i < rgb_size; ++i) ASSERT_EQ(a[i], b[i]) << x << " " << y;
+    }
 }
 
 TEST(SplatPlane, reaches_exactly_the_places_within_the_filter_of_a_pixel) {
