@@ -1,5 +1,7 @@
 // Subpaths from the lights: stored to be connected, and splatted where the lens sees their vertices.
 #pragma once
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "integrator/bidirectional/light_end.h"
@@ -7,6 +9,7 @@
 #include "integrator/light_paths/lens.h"
 #include "integrator/light_paths/walk.h"
 #include "integrator/photons/tracing.h"
+#include "math/row_gather.h"
 #include "transport/stored_vertex.h"
 
 namespace montelux {
@@ -103,7 +106,7 @@ class LightVertices {
 
   void add(std::uint32_t path, LightVertex<float> vertex) {
     vertex.before = last_[path];
-    all_.push_back(vertex);
+    all_.push_back({vertex});
     last_[path] = std::uint32_t(all_.size());
   }
   // The last vertex of each path: its number, plus one; 0: it has none.
@@ -116,21 +119,26 @@ class LightVertices {
   template <class F>
   LightVertex<F> get(Uint<F> number, Mask<F> on) const {
     using U = Uint<F>;
-    constexpr std::size_t words = sizeof(LightVertex<float>) / 4;
+    constexpr std::size_t words = sizeof(LightVertex<float>) / 4, rows = sizeof(Record) / 4 / words_of_row;
     static_assert(sizeof(LightVertex<F>) == sizeof(LightVertex<float>) * lanes_of<F>);
-    const U first = select(on, number, U(0u)) * U(std::uint32_t(words));
+    const U first = select(on, number, U(0u)) * U(std::uint32_t(rows));
     LightVertex<F> vertex;
     auto* to = reinterpret_cast<char*>(&vertex);
-    const auto* from = reinterpret_cast<const std::uint32_t*>(all_.data());
-    for (std::size_t w = 0; w < words; ++w) {
-      const U word = gather(from + w, first);
-      std::memcpy(to + w * sizeof word, &word, sizeof word);
+    const auto* from = reinterpret_cast<const float*>(all_.data());
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto values = gather_rows<F>(from, first + U(std::uint32_t(row)));
+      const std::size_t begin = row * words_of_row, count = std::min(words - begin, std::size_t(words_of_row));
+      std::memcpy(to + begin * sizeof(F), values.data(), count * sizeof(F));
     }
     return vertex;
   }
 
  private:
-  std::vector<LightVertex<float>> all_;
+  // Whole rows of words.
+  struct alignas(4 * words_of_row) Record {
+    LightVertex<float> vertex;
+  };
+  std::vector<Record> all_;
   std::vector<std::uint32_t> last_;
 };
 
