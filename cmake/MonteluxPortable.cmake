@@ -1,7 +1,8 @@
 # One package for all x86-64 machines: the program in a build for each instruction set, so that it uses as many lanes as
 # a processor has, and a launcher that starts the right one. All builds have the options of this one.
 include(ExternalProject)
-set(MONTELUX_BUILDS "x86-64-v2;x86-64-v3;x86-64-v4" CACHE STRING "Instruction sets, the smallest first")
+set(MONTELUX_BUILDS "x86-64-v3;x86-64-v4" CACHE STRING
+    "Instruction sets, the smallest first: x86-64-v2 (4 lanes), x86-64-v3 (8), x86-64-v4 (16)")
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   message(FATAL_ERROR "MONTELUX_PORTABLE is for x86-64, not ${CMAKE_SYSTEM_PROCESSOR}")
 endif()
