@@ -1,4 +1,4 @@
-# One package for all x86-64 machines: the program in a build for each instruction set, so that it uses as many lanes as
+# One package for many x86-64 machines: the program in a build for each instruction set, so that it uses as many lanes as
 # a processor has, and a launcher that starts the right one. All builds have the options of this one.
 include(ExternalProject)
 set(MONTELUX_BUILDS "x86-64-v3;x86-64-v4" CACHE STRING

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "integrator/random_eye_ray.h"
 #include "transport/next_vertex.h"
 
 namespace montelux {
@@ -18,16 +19,14 @@ float radius_by_footprint(const Scene& scene, const Accel& accel, int width, int
   std::vector<double> footprints;
   for (std::uint32_t i = 0; i < rays; ++i) {
     RandomStream<float> random = all.fork(i);
-    const Vec2f place = random.next2(), lens = random.next2();
-    const float time = scene.shutter.time(random.next());
-    const Ray<float> eye =
-        scene.camera.generate(Vec2f{place.x * float(width), place.y * float(height)}, lens, time).ray;
+    const RandomEyeRay seen = random_eye_ray(scene, width, height, random);
+    const Ray<float>& eye = seen.ray;
     std::uint64_t traced = 0;
     const auto [found, hit] = accel.trace<F>(eye, true, RayUse::camera);
     const NextVertex<F> first =
         follow_ray<F>(scene, accel, free_point(eye.o), eye, hit, found, random.fork(0), traced, NoWeight{});
     if (!first.found) continue;
-    const float across = scene.camera.toward(first.x.point.p, lens, time).across.value;
+    const float across = scene.camera.toward(first.x.point.p, seen.lens, eye.time).across.value;
     float way = first.distance;
     std::optional<NextVertex<F>> at = first;
     for (int depth = 1; at->found && at->bsdf.is_delta && depth <= deepest; ++depth) {

@@ -7,6 +7,7 @@
 
 #include "integrator/catalogue.h"
 #include "integrator/first_vertex.h"
+#include "integrator/random_eye_ray.h"
 #include "integrator/smooth_walks.h"
 
 namespace montelux {
@@ -155,10 +156,8 @@ std::vector<BsdfKind> smooth_surfaces_in_view(const Scene& scene, const Accel& a
   std::set<BsdfKind> seen;
   for (std::uint32_t i = 0; i < rays; ++i) {
     RandomStream<float> random = all.fork(i);
-    const Vec2f place = random.next2(), lens = random.next2();
-    const float time = scene.shutter.time(random.next());
-    const Vec2f raster{place.x * float(width), place.y * float(height)};
-    if (const auto kind = look(scene, accel, scene.camera.generate(raster, lens, time).ray, random)) seen.insert(*kind);
+    if (const auto kind = look(scene, accel, random_eye_ray(scene, width, height, random).ray, random))
+      seen.insert(*kind);
   }
   return {seen.begin(), seen.end()};
 }

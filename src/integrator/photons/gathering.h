@@ -38,7 +38,8 @@ struct GatherRay {
 // caustic, and not theirs.
 //
 // In participating media (`in_media`) the same holds at events in media, where photons of such events are gathered.
-template <class F, class Rays, bool in_media = false>
+// `Segments` is RaySegmentLights, except in tests that plant a fault.
+template <class F, class Rays, bool in_media = false, template <class, class, class> class Segments = RaySegmentLights>
 class PhotonGathering {
  public:
   using U = Uint<F>;
@@ -125,9 +126,9 @@ class PhotonGathering {
   }
   // The vertex that a path has met, with the light met on the way. In media `segments` receives its segments, as
   // ReportedDistances has it.
-  template <class Weight, NumberSource<F> Numbers, class Segments>
+  template <class Weight, NumberSource<F> Numbers, class Receiver>
   NextVertex<F> arrive(PathState<F>& path, M on, const Numbers& numbers, Weight weight, const Layers& layers,
-                       Segments& segments) {
+                       Receiver& segments) {
     const U dimension = dimension_of(path);
     const auto follow = [&](const auto& distances) {
       return follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
@@ -136,7 +137,7 @@ class PhotonGathering {
     };
     const NextVertex<F> at = [&] {
       if constexpr (in_media)
-        return follow(ReportedDistances<F, Numbers, Segments>{
+        return follow(ReportedDistances<F, Numbers, Receiver>{
             {numbers, dimension + U(path_dimension::distance), path.throughput}, segments});
       else
         return follow(NoDistances{});
@@ -220,8 +221,8 @@ class PhotonGathering {
         layers.tally->template add<F>(also.on, also.contribution * path.weight,
                                       {path.depth + U(1u), also.light, Technique::light_sampling});
     };
-    RaySegmentLights<F, Rays, decltype(add_segment_light)> segments(scene_, rays_, on & may & M(rules_.nee),
-                                                                    counts_.shadow, add_segment_light);
+    Segments<F, Rays, decltype(add_segment_light)> segments(scene_, rays_, on & may & M(rules_.nee), counts_.shadow,
+                                                            add_segment_light);
     NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers, segments);
     const M scatters = on & at.found & may;
     const M rough = scatters & !at.bsdf.is_delta;

@@ -49,6 +49,21 @@ struct Fault {
   bool undivided = false;      // by the scattering coefficient
   bool direct_twice = false;   // photons straight from the light, beside next-event estimation
 };
+// What is planted in the second events on segments: the first ones count in full beside them; they are left out.
+template <class F, class Rays, class Add>
+struct UnsharedSegmentLights : RaySegmentLights<F, Rays, Add> {
+  using RaySegmentLights<F, Rays, Add>::RaySegmentLights;
+  F share(const auto&...) const { return F(1.0f); }
+};
+struct NoSegmentLight {
+  void operator()(const auto&...) const {}
+};
+template <class F, class Rays, class Add>
+struct UnseenSegmentLights : RaySegmentLights<F, Rays, NoSegmentLight> {
+  UnseenSegmentLights(const Scene& scene, const Rays& rays, Mask<F> on, std::uint64_t& traced, const Add&)
+      : RaySegmentLights<F, Rays, NoSegmentLight>(scene, rays, on, traced, {}) {}
+};
+template <template <class, class, class> class Segments = RaySegmentLights>
 PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const Fault& fault = {}) {
   using F = NativeFloats;
   using Sink = PhotonSink<F>;
@@ -90,7 +105,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
       map->count(map->box(0), radius), map->lay_out(radius), map->deal(0), map->put_in_order(0, 1);
     Film film(render.image.bounds);
     std::vector<PixelSample> samples(std::size_t(render.image.bounds.area()));
-    PhotonGathering<F, Accel, true>(
+    PhotonGathering<F, Accel, true, Segments>(
         s, scene.accel(), settings.gathering(),
         PhotonLookups{PhotonLookup(surfaces, settings.kernel), PhotonLookup(events, settings.kernel)})
         .run({render.image.bounds, points}, samples);
@@ -117,27 +132,22 @@ TEST(PhotonsInFog, agree_with_path_in_a_coloured_room_and_planted_faults_are_fou
   EXPECT_TRUE(caught({.direct_twice = true}));
 }
 
-// Direct light alone is unbiased. One lamp is behind an interface, another one before it. A light that is counted
-// twice, or by half, differs by more than what is planted.
-TEST(PhotonsInFog, have_the_light_of_lamps_at_one_point) {
-  const auto fog = [](const std::string& strength) {
-    return TestScene(fog_with_cloud + "LightSource \"spot\" \"rgb I\" [ " + strength +
-                     " 10 20 ] \"point3 from\" [ -0.4 1.2 -1.2 ] \"point3 to\" [ 0 0 0 ]\n");
-  };
-  const TestScene scene = fog("20"), brighter = fog("30");
-  const PassMeans path = measured(scene, "path:maxdepth=1", 16, 100, 1);
-  const auto differ = [&](const TestScene& other, const std::string& way) {
-    const Comparison c = compared(measured(other, way + ",maxdepth=1", 16, 100, 2), path);
-    return c.differ();
-  };
-  EXPECT_FALSE(differ(scene, in_general));
-  EXPECT_FALSE(differ(scene, gathered));
-  EXPECT_TRUE(differ(brighter, in_general));
-  const PassMeans all = measured(scene, "path", 16, 60, 3);
-  for (const std::string way : {in_general, gathered}) {
-    const Comparison c = compared(measured(scene, way, 16, 40, 4), all);
-    EXPECT_FALSE(c.differ()) << way << ": " << c.smallest << " of " << c.tests;
+// Direct light alone is unbiased. One lamp is behind an interface, another one before it.
+TEST(PhotonsInFog, have_the_light_of_lamps_at_one_point_and_planted_faults_are_found) {
+  const TestScene scene(fog_with_cloud +
+                        "LightSource \"spot\" \"rgb I\" [ 20 10 20 ] \"point3 from\" [ -0.4 1.2 -1.2 ] "
+                        "\"point3 to\" [ 0 0 0 ]\n");
+  PassMeans path;
+  for (const std::string limit : {"maxdepth=1", "maxdepth=none"}) {
+    path = measured(scene, "path:" + limit, 16, 80, 1);
+    for (const std::string way : {in_general, gathered}) {
+      const Comparison c = compared(measured(scene, way + "," + limit, 16, 80, 2), path);
+      EXPECT_FALSE(c.differ()) << way << limit << ": " << c.smallest << " of " << c.tests;
+    }
   }
+  EXPECT_FALSE(compared(by_hand(scene, 400, 4), path).differ());
+  EXPECT_TRUE(compared(by_hand<UnsharedSegmentLights>(scene, 400, 4), path).differ());
+  EXPECT_TRUE(compared(by_hand<UnseenSegmentLights>(scene, 400, 4), path).differ());
 }
 
 TEST(PhotonsInFog, end_where_maxdepth_says) {
