@@ -176,7 +176,7 @@ TEST(Photons, find_the_closed_form_of_every_scene_where_enough_of_them_arrive) {
       const TestScene scene(read_text(folder / e.scene), folder.string());
       const ChosenIntegrator chosen = scene.integrator(way);
       if (!chosen.missing.empty()) continue;
-      const Measured m = measure(scene, way, 4);
+      const Measured m = measure(scene, way, 2);
       EXPECT_EQ(m.non_finite, 0u) << way << " in " << e.scene;
       const bool arrives = m.standard_error < 0.05 * e.value && (m.standard_error > 0 || m.mean > 0);
       if (e.value != 0 && !arrives) continue;

@@ -1,5 +1,5 @@
 // Reuse of paths by reservoirs against the path tracer on small scenes of several bounces: image mean and blocks, over
-// independent passes, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
+// independent passes, at one level for all. tests/full/restir does the same to a standard error of 0.3 %.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -31,7 +31,7 @@ struct Measured {
   explicit Measured(const ReuseScene& t)
       : text(t),
         scene(t.text, textures_of_reuse_scenes()),
-        truth(measure_passes(scene, scene.integrator("path"), 256, passes, 100)) {}
+        truth(measure_passes(scene, scene.integrator("path"), 64, passes, 100)) {}
 };
 const std::vector<std::unique_ptr<Measured>>& scenes() {
   static const auto all = [] {
