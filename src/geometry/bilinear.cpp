@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "geometry/double3.h"
+#include "geometry/double_ray.h"
 #include "geometry/quadrature.h"
-#include "math/double_lanes.h"
 
 namespace montelux {
 
@@ -100,19 +99,6 @@ struct Corners {
   static Vec3<D> in(const Vec3d& p) { return {D(p.x), D(p.y), D(p.z)}; }
 };
 
-// A ray with the interval of its parameter, whose ends are of single precision.
-template <class D>
-struct PatchRay {
-  Vec3<D> o, d;
-  D t_min, t_max;
-};
-
-template <class D>
-struct PatchHits {
-  MaskOfDouble<D> found;
-  D t, u, v;
-};
-
 template <class D>
 Vec3<D> mix(D t, const Vec3<D>& a, const Vec3<D>& b) {
   return a * (D(1.0) - t) + b * t;
@@ -126,7 +112,7 @@ D largest_component(const Vec3<D>& p) {
 
 // The hits on the lines of constant u, if their v is on the patch.
 template <class D>
-PatchHits<D> hits_on_lines(const Corners<D>& q, const PatchRay<D>& ray, D u) {
+DoubleHits<D> hits_on_lines(const Corners<D>& q, const DoubleRay<D>& ray, D u) {
   const D slack = 1e-10;
   MaskOfDouble<D> found = (u >= -slack) & (u <= D(1.0) + slack);
   // Of the two lines of a patch that is nearly flat, one is far outside.
@@ -142,23 +128,21 @@ PatchHits<D> hits_on_lines(const Corners<D>& q, const PatchRay<D>& ray, D u) {
   // in the plane of a flat patch requires this, because no offset moves it out of that plane.
   const D magnitude = max(max(largest_component(q.p00), largest_component(q.p10)),
                           max(max(largest_component(q.p01), largest_component(q.p11)), largest_component(ray.o)));
-  const D rounded = rounded_to_float(t);
-  found = found & (t > ray.t_min) & (rounded > ray.t_min) & (rounded < ray.t_max);
-  found = found & (t * sqrt(dot(ray.d, ray.d)) > D(1e-12) * magnitude);
+  found = found & ray.contains(t) & (t * sqrt(dot(ray.d, ray.d)) > D(1e-12) * magnitude);
   return {found, t, u, min(max(v, D(0.0)), D(1.0))};
 }
 
 // The lines of constant u that a ray meets solve a + b u + c u^2 = 0 (Reshetov 2019).
 template <class D>
-PatchHits<D> nearest_hits(const Corners<D>& q, const PatchRay<D>& ray) {
+DoubleHits<D> nearest_hits(const Corners<D>& q, const DoubleRay<D>& ray) {
   const Vec3<D> e00 = q.p01 - q.p00, e11 = q.p11 - q.p10;
   const D a = dot(cross(q.p00 - ray.o, ray.d), e00), c = dot(cross(q.p10 - q.p00, q.p01 - q.p11), ray.d);
   const D b = dot(cross(q.p10 - ray.o, ray.d), e11) - a - c;
   const D discriminant = b * b - D(4.0) * a * c;
   const D h = (-b - copysign(sqrt(max(discriminant, D(0.0))), b)) / D(2.0);
   // A patch that is flat along u has c = 0 up to rounding; then h / c is far outside, and a / h is the hit.
-  const PatchHits<D> first = hits_on_lines(q, ray, select(c != D(0.0), h / c, D(-1.0)));
-  const PatchHits<D> second = hits_on_lines(q, ray, select(h != D(0.0), a / h, D(-1.0)));
+  const DoubleHits<D> first = hits_on_lines(q, ray, select(c != D(0.0), h / c, D(-1.0)));
+  const DoubleHits<D> second = hits_on_lines(q, ray, select(h != D(0.0), a / h, D(-1.0)));
   const MaskOfDouble<D> takes_second = second.found & ((!first.found) | (second.t < first.t));
   const MaskOfDouble<D> found = (discriminant >= D(0.0)) & (first.found | second.found);
   return {found, select(takes_second, second.t, first.t), select(takes_second, second.u, first.u),
@@ -168,38 +152,13 @@ PatchHits<D> nearest_hits(const Corners<D>& q, const PatchRay<D>& ray) {
 }  // namespace
 
 std::optional<ShapeHit> intersect(const BilinearPatch& s, const Ray<float>& ray, float t_min) {
-  const PatchHits<double> hit =
-      nearest_hits<double>(Corners<double>(in_double(s)), {to_double(ray.o), to_double(ray.d), t_min, ray.t_max});
-  if (!hit.found) return std::nullopt;
-  return ShapeHit{float(hit.t), {float(hit.u), float(hit.v)}};
+  const Corners<double> q(in_double(s));
+  return hit_after(ray, t_min, [&](const DoubleRay<double>& r) { return nearest_hits(q, r); });
 }
 
 void intersect(const BilinearPatch& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits) {
-  if (rays.size() == 1) {
-    hits[0] = intersect(s, rays[0], 0.0f);
-    return;
-  }
-  const Corners<Doubles> q(in_double(s));
-  for (std::size_t first = 0; first < rays.size(); first += double_lanes) {
-    const std::size_t n = std::min(rays.size() - first, std::size_t(double_lanes));
-    std::array<std::array<double, double_lanes>, 7> rows{};  // of each lane: o, d, t_max
-    for (std::size_t k = 0; k < n; ++k) {
-      const Ray<float>& ray = rays[first + k];
-      rows[0][k] = ray.o.x, rows[1][k] = ray.o.y, rows[2][k] = ray.o.z;
-      rows[3][k] = ray.d.x, rows[4][k] = ray.d.y, rows[5][k] = ray.d.z, rows[6][k] = ray.t_max;
-    }
-    const auto row = [&](std::size_t i) { return std::bit_cast<Doubles>(rows[i]); };
-    const PatchHits<Doubles> hit =
-        nearest_hits<Doubles>(q, {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, Doubles(0.0), row(6)});
-    const auto t = std::bit_cast<std::array<double, double_lanes>>(hit.t);
-    const auto u = std::bit_cast<std::array<double, double_lanes>>(hit.u);
-    const auto v = std::bit_cast<std::array<double, double_lanes>>(hit.v);
-    for (std::size_t k = 0; k < n; ++k) {
-      std::optional<ShapeHit>& to = hits[first + k];
-      to.reset();
-      if (lane(hit.found, int(k))) to = ShapeHit{float(t[k]), {float(u[k]), float(v[k])}};
-    }
-  }
+  const Patch patch = in_double(s);
+  hits_of(rays, hits, [&]<class D>(const DoubleRay<D>& r) { return nearest_hits(Corners<D>(patch), r); });
 }
 
 SurfacePoint<float> surface_point(const BilinearPatch& s, Vec2f uv) {

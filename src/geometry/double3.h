@@ -22,12 +22,15 @@ inline double mix(double t, double a, double b) { return (1 - t) * a + t * b; }
 inline Vec3d mix(double t, Vec3d a, Vec3d b) { return a * (1 - t) + b * t; }
 inline Vec3d abs_of(Vec3d a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
 
-inline Vec3d transform_direction(const Matrix4& m, Vec3d d) {
-  auto row = [&](int i) { return m.m[i][0] * d.x + m.m[i][1] * d.y + m.m[i][2] * d.z; };
+// D is double, or Doubles of math/double_lanes.h.
+template <class D = double>
+Vec3<D> transform_direction(const Matrix4& m, const Vec3<D>& d) {
+  const auto row = [&](int i) { return m.m[i][0] * d.x + m.m[i][1] * d.y + m.m[i][2] * d.z; };
   return {row(0), row(1), row(2)};
 }
-inline Vec3d transform_point(const Matrix4& m, Vec3d p) {
-  return transform_direction(m, p) + Vec3d{m.m[0][3], m.m[1][3], m.m[2][3]};
+template <class D = double>
+Vec3<D> transform_point(const Matrix4& m, const Vec3<D>& p) {
+  return transform_direction(m, p) + Vec3<D>{m.m[0][3], m.m[1][3], m.m[2][3]};
 }
 // Multiplies by the inverse transpose, given the `inverse`; not normalised.
 inline Vec3d transform_normal(const Matrix4& inverse, Vec3d n) {

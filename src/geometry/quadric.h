@@ -2,6 +2,7 @@
 // in double precision in its own object space, so that thin, huge and far shapes keep their shape.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "geometry/bounds.h"
 #include "geometry/shape_hit.h"
@@ -48,6 +49,10 @@ Ball ball_around(const Sphere& s);
 std::optional<ShapeHit> intersect(const Sphere& s, const Ray<float>& ray, float t_min);
 std::optional<ShapeHit> intersect(const Disk& s, const Ray<float>& ray, float t_min);
 std::optional<ShapeHit> intersect(const Cylinder& s, const Ray<float>& ray, float t_min);
+// The same for several rays from t = 0, bit for bit, eight at a time; as many hits as rays.
+void intersect(const Sphere& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits);
+void intersect(const Disk& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits);
+void intersect(const Cylinder& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits);
 
 // The point with parameters uv. ng is outward, reversed if reverse_orientation or (exclusively) the transform
 // swaps handedness.

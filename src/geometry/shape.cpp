@@ -15,8 +15,7 @@ std::optional<ShapeHit> intersect(const Shape& s, const Ray<float>& ray, float t
   return std::visit([&](const auto& x) { return intersect(x, ray, t_min); }, s);
 }
 void intersect(const Shape& s, std::span<const Ray<float>> rays, std::span<std::optional<ShapeHit>> hits) {
-  if (const auto* patch = std::get_if<BilinearPatch>(&s)) return intersect(*patch, rays, hits);
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(s, rays[i], 0.0f);
+  std::visit([&](const auto& x) { intersect(x, rays, hits); }, s);
 }
 SurfacePoint<float> surface_point(const Shape& s, Vec2f uv) {
   return std::visit([&](const auto& x) { return surface_point(x, uv); }, s);

@@ -35,6 +35,8 @@ struct DoubleTraits<Doubles> {
 };
 template <class D>
 using MaskOfDouble = typename DoubleTraits<D>::Mask;
+template <class D>
+inline constexpr int lanes_of_double = sizeof(D) / sizeof(double);
 
 // clang-format off
 MONTELUX_INLINE Doubles operator+(Doubles a, Doubles b) { return a.v + b.v; }
@@ -99,5 +101,7 @@ MONTELUX_INLINE double rounded_to_float(double a) { return double(float(a)); }
 MONTELUX_INLINE double lane(const Doubles& a, int k) { return a.v[k]; }
 MONTELUX_INLINE bool lane(const DoubleMask& a, int k) { return a.v[k] != 0; }
 MONTELUX_INLINE void set_lane(Doubles& a, int k, double x) { a.v[k] = x; }
+MONTELUX_INLINE double lane(double a, int) { return a; }
+MONTELUX_INLINE void set_lane(double& a, int, double x) { a = x; }
 
 }  // namespace montelux
