@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "geometry_samples.h"
 
 namespace montelux {
@@ -318,6 +321,41 @@ TEST(Shape, parameters_follow_their_definition) {
   EXPECT_EQ(limits.z_min, -0.5f);
   EXPECT_EQ(limits.z_max, 1);
   EXPECT_EQ(limits.phi_max, 360);
+}
+
+// The angles of the point that is hit, by the standard library in double precision. The shapes are whole, so that their
+// parameters are computed in single precision.
+TEST(Shape, parameters_of_whole_shapes_are_angles_to_single_precision) {
+  constexpr double pi = std::numbers::pi;
+  const Sphere ball{{}, false, 2, -2, 2, 360};
+  const Cylinder tube{{}, false, 2, -3, 3, 360};
+  const Disk plate{{}, false, 0, 2, 0, 360};
+  Stream r(41, 42);
+  double largest_u = 0, largest_v = 0;
+  int hits = 0, wrong_if_reversed = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const Ray<float> ray{{uniform(r, -4, 4), uniform(r, -4, 4), uniform(r, -4, 4)}, random_direction(r), infinity};
+    const auto compare = [&](const Shape& shape, auto v_of) {
+      const auto hit = intersect(shape, ray, 0);
+      if (!hit) return;
+      const Vec3d p = at(ray, hit->t);
+      const double across = std::hypot(p.x, p.y);
+      // Where a rounded distance hardly turns the azimuth.
+      if (across < 0.5) return;
+      const double turns = std::atan2(p.y, p.x) / (2 * pi), u = turns < 0 ? turns + 1 : turns;
+      const double off = std::abs(hit->uv.x - u);
+      largest_u = std::max(largest_u, std::min(off, 1 - off));
+      largest_v = std::max(largest_v, std::abs(hit->uv.y - v_of(p, across)));
+      ++hits, wrong_if_reversed += std::abs(1 - hit->uv.x - u) > 1e-4;
+    };
+    compare(ball, [&](const Vec3d& p, double across) { return 1 - std::atan2(across, p.z) / pi; });
+    compare(tube, [](const Vec3d& p, double) { return (p.z + 3) / 6; });
+    compare(plate, [](const Vec3d&, double across) { return (2 - across) / 2; });
+  }
+  EXPECT_GT(hits, 2000);
+  EXPECT_LT(largest_u, 1e-6);
+  EXPECT_LT(largest_v, 1e-6);
+  EXPECT_GT(wrong_if_reversed, 0.99 * hits);
 }
 
 TEST(Shape, bilinear_texture_coordinates_and_tangents_follow_the_corners) {
