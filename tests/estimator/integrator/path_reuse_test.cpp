@@ -1,5 +1,5 @@
 // Reuse of paths by reservoirs against the path tracer on small scenes of several bounces: image mean and blocks, over
-// independent passes, at one level for all. tests/full/restir does the same to a standard error of 0.3 %.
+// independent passes, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
 // Reuse by reservoirs against the path tracer on small scenes: image mean and blocks, over independent passes, at one
-// level for all. tests/full/restir does the same to a standard error of 0.3 %.
+// level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 
 #include "reuse_checks.h"

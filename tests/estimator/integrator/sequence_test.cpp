@@ -1,5 +1,5 @@
 // Reservoirs that continue over a sequence, against the path tracer of each picture: image mean and blocks,
-// over independent series, at one level for all. tests/full/restir does the same to a standard error of 0.3 %.
+// over independent series, at one level for all. tests/full/restir does the same to a standard error of 0.2 %.
 #include <gtest/gtest.h>
 
 #include "integrator/restir/history.h"

@@ -62,6 +62,7 @@ struct Case {
   int seeds, small_seeds;
   Held held = Held::light;
 };
+// Else the names of tests would show the bytes of the case.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.way; }
 const std::vector<Case>& cases() {
   static const std::vector<ErrorBarScene> box{error_bar_scenes()[0]}, sky{error_bar_scenes()[1]},

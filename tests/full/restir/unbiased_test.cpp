@@ -1,5 +1,5 @@
 // Reuse by reservoirs against the path tracer: image mean and blocks of 8x8 pixels, at a standard error of the image of
-// 0.3 % or less, at one level for all tests of direct light, and one for all of paths. What theory says to be biased
+// 0.2 % or less, at one level for all tests of direct light, and one for all of paths. What theory says to be biased
 // must fail.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace montelux::test {
 namespace {
 
 constexpr int size = 32;
-constexpr double level = 0.01, wanted_error = 0.003;
+constexpr double level = 0.01, wanted_error = 0.002;
 const char* const direct_ways[] = {
     "restir-di",
     "restir-di:visibility-reuse=off,candidates=8,radius=4,rounds=2,similar=off",

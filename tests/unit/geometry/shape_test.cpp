@@ -345,8 +345,9 @@ TEST(Shape, parameters_of_whole_shapes_are_angles_to_single_precision) {
       const double turns = std::atan2(p.y, p.x) / (2 * pi), u = turns < 0 ? turns + 1 : turns;
       const double off = std::abs(hit->uv.x - u);
       largest_u = std::max(largest_u, std::min(off, 1 - off));
-      largest_v = std::max(largest_v, std::abs(hit->uv.y - v_of(p, across)));
-      ++hits, wrong_if_reversed += std::abs(1 - hit->uv.x - u) > 1e-4;
+      const double v = v_of(p, across);
+      largest_v = std::max(largest_v, std::abs(hit->uv.y - v));
+      ++hits, wrong_if_reversed += std::abs(1 - hit->uv.x - u) > 1e-4 && std::abs(1 - hit->uv.y - v) > 1e-4;
     };
     compare(ball, [&](const Vec3d& p, double across) { return 1 - std::atan2(across, p.z) / pi; });
     compare(tube, [](const Vec3d& p, double) { return (p.z + 3) / 6; });
