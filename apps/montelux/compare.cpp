@@ -164,10 +164,19 @@ int finish_compare(const CompareArguments& arguments, Comparison& comparison, co
   return comparison.refusal.empty() ? done : differs;
 }
 
+// A report replaces no file that is something else by its name.
+Status check_report_file(const std::string& file) {
+  const std::string extension = extension_of(file);
+  if (!extension.empty() && extension != ".html" && extension != ".htm")
+    return Failure{fmt::format("cannot write '{}': the report is an HTML page, so its ending must be .html", file)};
+  return check_output_file(file);
+}
+
 int run_compare(CompareArguments& arguments) {
-  for (const auto& file : {arguments.save, arguments.report})
-    if (file)
-      if (Status good = check_output_file(*file); !good) return complain(good.error());
+  if (arguments.save)
+    if (Status good = check_comparison_file(*arguments.save); !good) return complain(good.error());
+  if (arguments.report)
+    if (Status good = check_report_file(*arguments.report); !good) return complain(good.error());
   std::optional<SavedComparison> saved;
   const ComparisonBudget more{arguments.repeats, arguments.comparison.seconds};
   if (arguments.resume) {

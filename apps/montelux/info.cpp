@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/images.h"
 #include "api/json_text.h"
 #include "api/render.h"
 #include "options.h"

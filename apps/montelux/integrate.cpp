@@ -111,7 +111,7 @@ Result<std::vector<IntegralRun>> run_watched(const IntegrateArguments& arguments
 
 int run_integrate(IntegrateArguments& arguments) {
   if (arguments.save)
-    if (Status good = check_output_file(*arguments.save); !good) return complain(good.error());
+    if (Status good = check_integral_file(*arguments.save); !good) return complain(good.error());
   std::optional<SavedIntegral> saved;
   if (arguments.resume) {
     Result<SavedIntegral> loaded = resumed(arguments);

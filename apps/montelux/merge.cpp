@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "api/images.h"
@@ -36,9 +37,32 @@ Integrals are merged from runs of different seeds; films from different passes o
 same bits as if that render had been one.
 )";
 
-bool is_picture(const std::string& file) {
-  constexpr std::string_view endings[] = {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg"};
-  return std::ranges::find(endings, extension_of(file)) != std::end(endings);
+// Whether the file is a film's by its name. Any other is more likely a slip than a film with an odd name.
+Status check_film_name(const std::string& file, const std::vector<std::string>& films) {
+  const std::string extension = extension_of(file);
+  const auto has_extension = [&](const std::string& film) { return extension_of(film) == extension; };
+  if (extension.empty() || extension == ".film" || std::ranges::any_of(films, has_extension)) return Done{};
+  return Failure{
+      fmt::format("cannot write '{}': -o takes a film (.film) or a picture (.exr .hdr .pfm .png .jpg)", file)};
+}
+
+Status check_output(const std::string& file, const MergeArguments& arguments, bool are_films) {
+  if (!are_films) return check_integral_file(file);
+  if (is_picture_name(file)) return check_picture_file(file);
+  if (Status good = check_film_name(file, arguments.files); !good) return good;
+  return check_film_file(file);
+}
+
+// Files that cannot be what is merged.
+std::vector<std::string> unusable(const std::vector<std::string>& files) {
+  std::vector<std::string> mistakes;
+  std::error_code ignored;
+  for (const std::string& file : files)
+    if (!std::filesystem::exists(file, ignored))
+      mistakes.push_back(fmt::format("there is no file {}", file));
+    else if (is_picture_name(file))
+      mistakes.push_back(fmt::format("{} is a picture; saved films and saved integrals can be merged", file));
+  return mistakes;
 }
 
 // Status of an output that cannot be written.
@@ -80,7 +104,7 @@ int merge_saved_films(const MergeArguments& arguments) {
   if (!total) return complain(total.error());
   PictureReport report{total->scene.string(), {}, {}, total->settings.seed, {}, {}, {}};
   for (const std::string& file : arguments.outputs) {
-    if (is_picture(file)) {
+    if (is_picture_name(file)) {
       report.files.push_back(file);
       continue;
     }
@@ -104,18 +128,17 @@ int merge_saved_films(const MergeArguments& arguments) {
 }
 
 int run_merge(const MergeArguments& arguments) {
-  for (const std::string& file : arguments.outputs)
-    if (Status good = check_output_file(file); !good) return complain(good.error());
-  const auto films = std::ranges::count_if(arguments.files, is_saved_film);
-  if (films == 0) {
-    for (const std::string& file : arguments.outputs)
-      if (is_picture(file)) return complain(fmt::format("{}: a picture is of films, and these are integrals", file));
-    return merge_saved_integrals(arguments);
-  }
-  if (films == std::ssize(arguments.files)) return merge_saved_films(arguments);
   const auto film = std::ranges::find_if(arguments.files, is_saved_film);
-  const auto other = std::ranges::find_if_not(arguments.files, is_saved_film);
-  return complain(fmt::format("{} is a saved film, and {} is not", *film, *other));
+  const auto integral = std::ranges::find_if(arguments.files, is_saved_integral);
+  const auto none = arguments.files.end();
+  std::vector<std::string> mistakes = unusable(arguments.files);
+  if (film != none && integral != none)
+    mistakes.push_back(
+        fmt::format("{} is a saved film, and {} is a saved integral: they cannot be merged", *film, *integral));
+  for (const std::string& file : arguments.outputs)
+    if (Status good = check_output(file, arguments, film != none); !good) mistakes.push_back(good.error());
+  if (!mistakes.empty()) return complain_of_all(mistakes);
+  return film != none ? merge_saved_films(arguments) : merge_saved_integrals(arguments);
 }
 
 }  // namespace
@@ -130,8 +153,8 @@ void add_merge(CLI::App& app, Action& chosen) {
       ->type_name("FILE");
   add_option(verb,
              {"-o,--output", "FILE",
-              "keep the merged film or integral; of films also a picture (.exr .hdr .pfm .png "
-              ".jpg); may be repeated",
+              "write the merged film or integral, or an image of the merged film (.exr .hdr .pfm .png .jpg); may be "
+              "repeated",
               true},
              append_to(arguments->outputs));
   add_output_options(verb, arguments->output);

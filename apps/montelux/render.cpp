@@ -211,7 +211,7 @@ Status check_saving(const RenderArguments& arguments) {
   if (arguments.every && !arguments.checkpoint) return Failure{"--checkpoint-every needs --checkpoint FILE"};
   if (render.passes && !arguments.checkpoint && arguments.files.empty())
     return Failure{"--passes renders a part: --checkpoint FILE saves it, to be merged, or -o FILE is its picture"};
-  return arguments.checkpoint ? check_output_file(*arguments.checkpoint) : Status(Done{});
+  return arguments.checkpoint ? check_film_file(*arguments.checkpoint) : Status(Done{});
 }
 
 // The film to be continued, with the scene and the options that it takes.

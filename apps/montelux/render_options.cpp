@@ -76,26 +76,25 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
   add_option(
       verb,
       {"--target-error", "ERROR",
-       "end as soon as the error is below this, with certainty --confidence: 2% (root of the mean relative square "
-       "over the pixels), pixels:5%@95% (95 % of the pixels within 5 %) or mean:0.1% (of the mean of the image); "
-       "--time or --spp are the most"},
+       "end when the error is below this with the probability --confidence: 2% (root of the mean squared relative "
+       "error), pixels:5%@95% (95 % of the pixels within 5 %) or mean:0.1% (of the mean of the image); --time or "
+       "--spp limit the render"},
       into(arguments.target, parse_target));
   add_option(verb, {"--confidence", "P", "probability that the true error is below the requested one (default 0.95)"},
              into(arguments.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));
   verb.add_flag(
       "--unbiased", arguments.unbiased,
-      "two stages: samples of a pilot decide their number, the image is of others, so that its mean is unbiased");
-  add_option(
-      verb,
-      {"--adaptive", "on|off",
-       "more passes for the tiles where they lower the requested error most (without one, that of the pixels); the "
-       "first passes decide, for each tile those of the tiles around it; default: off"},
-      [&arguments](const std::string& text) -> Status {
-        const Result<std::string> choice = parse_choice(text, {"on", "off"});
-        if (!choice) return choice.failure();
-        arguments.render.adaptive = *choice == "on";
-        return Done{};
-      });
+      "two stages: a pilot decides the number of samples, the image takes new ones, so that its mean is unbiased");
+  add_option(verb,
+             {"--adaptive", "on|off",
+              "more passes for tiles where they lower the requested error most (default: the error of the pixels), as "
+              "estimated from the first passes of the surrounding tiles; default: off"},
+             [&arguments](const std::string& text) -> Status {
+               const Result<std::string> choice = parse_choice(text, {"on", "off"});
+               if (!choice) return choice.failure();
+               arguments.render.adaptive = *choice == "on";
+               return Done{};
+             });
   for (const char* needs : {"--confidence", "--unbiased"}) verb.get_option(needs)->needs("--target-error");
   for (const char* other : {"--interactive-budget", "--preset", "--passes"})
     verb.get_option("--target-error")->excludes(other);
@@ -111,28 +110,35 @@ Result<PassRange> parse_passes(const std::string& text) {
   return Failure{fmt::format("takes a range of passes A:B, from 0, with its last pass, as 0:3; found \"{}\"", text)};
 }
 
+}  // namespace
+
+void add_pass_options(CLI::App& verb, RenderOptions& render) {
+  add_option(verb,
+             {"--passes", "A:B",
+              "only the passes A to B, counted from 0 and including B, of those that --spp defines; montelux "
+              "merge combines such films"},
+             into(render.passes, parse_passes));
+  add_option(verb,
+             {"--samples-per-pass", "K",
+              "samples per pixel in each pass; default: by the number of samples, or that of the saved film"},
+             into(render.samples_per_pass, [](const std::string& t) { return parse_whole(t, 1, 1 << 16); }));
+}
+
+namespace {
+
 // Films in files.
 void add_saving_options(CLI::App& verb, RenderArguments& arguments) {
-  add_option(verb, {"--checkpoint", "FILE", "save the film now and then and at the end, to be resumed or merged"},
+  add_option(verb, {"--checkpoint", "FILE", "save the film at intervals and at the end, to be resumed or merged"},
              text_into(arguments.checkpoint));
   add_option(verb, {"--checkpoint-every", "TIME", "how often (30s, 5m, 1h; default 5m)"},
              into(arguments.every, parse_time));
   add_option(
       verb,
       {"--resume", "FILE",
-       "continue a saved film, up to --spp samples per pixel in all or for --time more; default: what it lacks. Its "
-       "scene and settings need not be given"},
+       "continue a saved film, to --spp samples per pixel in total or for another --time; default: its remaining "
+       "passes. Scene and settings are read from it"},
       text_into(arguments.resume));
-  add_option(verb,
-             {"--passes", "A:B",
-              "only these of the passes that --spp makes, from 0, with the last one; montelux merge makes one film of "
-              "such parts"},
-             into(arguments.render.passes, parse_passes));
-  add_option(
-      verb,
-      {"--samples-per-pass", "K",
-       "samples per pixel in each pass; default: so that there are from 8 to 32 passes, or as the saved film has it"},
-      into(arguments.render.samples_per_pass, [](const std::string& t) { return parse_whole(t, 1, 1 << 16); }));
+  add_pass_options(verb, arguments.render);
   verb.get_option("--passes")->excludes("--time");
   for (const char* saving : {"--checkpoint", "--resume", "--passes"})
     for (const char* other : {"--frames", "--interactive-budget"}) verb.get_option(saving)->excludes(other);

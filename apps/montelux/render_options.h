@@ -31,6 +31,9 @@ struct RenderArguments {
   bool is_late(const Rendering& rendering) const { return render.budget && rendering.result.seconds > *render.budget; }
 };
 
+// Which passes a render has; and their number of samples.
+void add_pass_options(CLI::App& verb, RenderOptions& render);
+
 // `arguments` must outlive the verb.
 void add_render_options(CLI::App& verb, RenderArguments& arguments);
 

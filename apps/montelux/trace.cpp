@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
+#include "api/saved_film.h"
 #include "options.h"
+#include "render_options.h"
 #include "status.h"
 #include "verbs.h"
 
@@ -25,6 +27,7 @@ struct TraceArguments {
   RenderOptions render;
   std::pair<int, int> pixel{};
   std::optional<int> sample;
+  std::optional<std::string> film;
   bool json = false, quiet = false;
 };
 
@@ -132,7 +135,18 @@ void print_json(const SampleTrace& t) {
   fmt::print("{}\n", json_text(std::move(json), 2));
 }
 
-int run_trace(const TraceArguments& arguments) {
+int run_trace(TraceArguments& arguments) {
+  if (arguments.scene.empty() && !arguments.film)
+    return complain("SCENE is required, or --film FILE; see montelux trace --help");
+  std::optional<SavedFilm> film;
+  if (arguments.film) {
+    Result<SavedFilm> saved = load_film(*arguments.film);
+    if (!saved) return complain(saved.error());
+    film = *std::move(saved);
+    if (arguments.scene.empty()) arguments.scene = film->scene.string();
+    take_options(*film, arguments.load, arguments.render);
+    arguments.render.resume = &*film;
+  }
   const LoadResult loaded = load_scene(arguments.scene, arguments.load);
   print_diagnostics(loaded.diagnostics, arguments.quiet);
   if (!loaded.scene) return bad_input;
@@ -156,12 +170,17 @@ void add_trace(CLI::App& app, Action& chosen) {
       *app.add_subcommand("trace", "Trace one sample of a pixel again, and print its path vertex by vertex");
   TraceArguments& a = *arguments;
   add_scene_options(verb, a.scene, a.load);
+  verb.get_option("SCENE")->required(false);
   add_option(verb, {"--pixel", "X,Y", "the pixel, counted from the upper left corner from 0,0"},
              into(a.pixel, parse_pixel));
   verb.get_option("--pixel")->required();
   add_option(verb,
              {"--sample", "K", "number of the sample from 0, or brightest: that of the largest luminance (default)"},
              into(a.sample, parse_sample));
+  add_option(verb,
+             {"--film", "FILE",
+              "trace samples of this film, which montelux render --checkpoint saved: its scene, settings and passes"},
+             text_into(a.film));
   add_option(verb, {"--spp", "N", "samples per pixel of the render (default: of the scene)"},
              into(a.render.samples, [](const std::string& text) { return parse_whole(text, 1, 1 << 24); }));
   add_option(verb, {"--seed", "N", "seed of the render (default: of the scene)"},
@@ -182,14 +201,18 @@ void add_trace(CLI::App& app, Action& chosen) {
                a.render.settings.push_back(*std::move(setting));
                return Done{};
              });
+  add_pass_options(verb, a.render);
+  for (const char* other : {"--spp", "--seed", "--integrator", "--sampler", "--set", "--passes", "--samples-per-pass"})
+    verb.get_option("--film")->excludes(other);
   verb.add_flag("--json", a.json, "the path as one JSON object");
   verb.add_flag("--quiet", a.quiet, "no notes or warnings");
   verb.footer(
-      "With the same --spp, --seed, --sampler and integrator a sample is the one that render took: the mean of all is "
-      "the "
-      "pixel.\n\nExamples:\n"
+      "With the same --spp, --samples-per-pass, --passes, --seed, --sampler and integrator a sample is the one that "
+      "render took: the\nmean of all is the pixel. A render that ended by --time or --target-error, or is adaptive, is "
+      "traced by its film\n(render --checkpoint).\n\nExamples:\n"
       "  montelux trace scene.pbrt --pixel 120,45\n"
-      "  montelux trace scene.pbrt --pixel 120,45 --sample 17 --spp 64 --json");
+      "  montelux trace scene.pbrt --pixel 120,45 --sample 17 --spp 64 --json\n"
+      "  montelux trace --film room.film --pixel 120,45");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_trace(*arguments); }; });
 }
 

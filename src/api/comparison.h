@@ -114,13 +114,15 @@ Result<Comparison> continue_comparison(const LoadedScene& scene, SavedComparison
                                        const ComparisonObserver& observer);
 
 // Changes with the content of the scene's file and of every file beside it or below that its text, or that of a text it
-// includes, names; and with that of an environment that takes the place of the scene's own. Files of the names in
-// `written` are none of the scene: it names the picture that is made of it.
+// includes, names; and with that of an environment that takes the place of the scene's own. Files in `written`
+// are not part of the scene: the scene names the picture that is rendered from it.
 std::uint64_t scene_fingerprint(const std::filesystem::path& scene,
                                 const std::optional<EnvironmentOptions>& environment = {},
                                 const std::vector<std::string>& written = {});
 Status save_comparison(const std::filesystem::path& file, const SavedComparison& comparison);
 // Fails where the file cannot be read, is of another kind or version, or its scene has changed.
 Result<SavedComparison> load_comparison(const std::filesystem::path& file);
+// Why a comparison could not be saved to this file, as check_film_file().
+Status check_comparison_file(const std::filesystem::path& file);
 
 }  // namespace montelux

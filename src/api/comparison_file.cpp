@@ -228,6 +228,8 @@ Status save_comparison(const fs::path& file, const SavedComparison& c) {
   return save_json(file, std::move(json));
 }
 
+Status check_comparison_file(const fs::path& file) { return check_saved_target(file, saved_format); }
+
 Result<SavedComparison> load_comparison(const fs::path& file) {
   return load_saved<Json>(file, saved_format, [](const Json& json) {
     SavedComparison saved = saved_from(json);

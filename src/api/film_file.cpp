@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -343,14 +342,9 @@ std::optional<int> common_pass(const Film& a, const Film& b) {
 
 }  // namespace
 
-bool is_saved_film(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return false;  // opening a pipe that nobody writes to would wait
-  std::string begin(64, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), std::streamsize(begin.size()));
-  return begin.find("\"montelux film\"") != std::string::npos;
-}
+bool is_saved_film(const fs::path& file) { return begins_as(file, saved_format); }
+
+Status check_film_file(const fs::path& file) { return check_saved_target(file, saved_format); }
 
 Result<SavedFilm> load_film(const fs::path& file) { return load_saved_bytes<Json>(file, saved_format, saved_from); }
 

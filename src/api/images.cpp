@@ -79,9 +79,13 @@ std::optional<ToneCurve> tone_curve_named(std::string_view name) {
   return std::nullopt;
 }
 
-Status check_picture_file(const std::filesystem::path& file) {
+bool is_picture_name(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);
-  if (!contains(linear_extensions, extension) && !contains(display_extensions, extension))
+  return contains(linear_extensions, extension) || contains(display_extensions, extension);
+}
+
+Status check_picture_file(const std::filesystem::path& file) {
+  if (!is_picture_name(file))
     return Failure{fmt::format("cannot write '{}': its extension must be one of {}, {}", file.string(),
                                fmt::join(linear_extensions, ", "), fmt::join(display_extensions, ", "))};
   return check_output_file(file);

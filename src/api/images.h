@@ -27,6 +27,9 @@ Status check_picture_file(const std::filesystem::path& file);
 // The extension of a file name with its dot, in lower case; it selects the format.
 std::string extension_of(const std::filesystem::path& file);
 
+// Whether the extension is that of a picture that can be written.
+bool is_picture_name(const std::filesystem::path& file);
+
 // Whether it is an 8-bit format for display: .png, .jpg.
 bool is_display_file(const std::filesystem::path& file);
 

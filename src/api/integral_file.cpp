@@ -93,6 +93,10 @@ Result<SavedIntegral> load_integral(const std::filesystem::path& file) {
   return load_saved<Json>(file, saved_format, saved_from);
 }
 
+bool is_saved_integral(const std::filesystem::path& file) { return begins_as(file, saved_format); }
+
+Status check_integral_file(const std::filesystem::path& file) { return check_saved_target(file, saved_format); }
+
 Result<SavedIntegral> merge_integrals(const std::vector<SavedIntegral>& parts) {
   if (parts.empty()) return Failure{"there is nothing to merge"};
   SavedIntegral total = parts.front();

@@ -77,6 +77,9 @@ std::optional<lab::Budget> rest_of_budget(const SavedIntegral& saved);
 
 Status save_integral(const std::filesystem::path& file, const SavedIntegral& saved);
 Result<SavedIntegral> load_integral(const std::filesystem::path& file);
+// Whether the file claims to be saved integrals; and why they could not be saved to it, as check_film_file().
+bool is_saved_integral(const std::filesystem::path& file);
+Status check_integral_file(const std::filesystem::path& file);
 // Equivalent to a single run. Fails if integrals or methods differ, or two runs share a seed.
 Result<SavedIntegral> merge_integrals(const std::vector<SavedIntegral>& parts);
 

@@ -114,13 +114,6 @@ RenderFacts facts_of(const Header& header, double confidence) {
 
 }  // namespace
 
-bool is_picture_name(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
-  for (std::string_view known : {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg"})
-    if (extension == known) return true;
-  return false;
-}
-
 Result<PictureInfo> picture_info(const std::filesystem::path& file, double confidence) {
   const Result<Image> image = read_image(file);
   if (!image) return image.failure();

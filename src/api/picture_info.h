@@ -62,9 +62,6 @@ struct PictureInfo {
   std::vector<Attribute> header;        // all entries "montelux:NAME", as NAME
 };
 
-// Whether a file of this name is taken as a picture, by its extension.
-bool is_picture_name(const std::filesystem::path& file);
-
 // Fails if it cannot be read. `confidence`: of the interval of the mean.
 Result<PictureInfo> picture_info(const std::filesystem::path& file, double confidence = default_confidence);
 

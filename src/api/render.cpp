@@ -21,25 +21,11 @@ std::uint64_t fingerprint_of(const LoadedScene::Parts& parts, const RenderOption
   return scene_fingerprint(parts.info.file, parts.load.environment, written);
 }
 
-// The description of a film that is rendered, without the film itself.
-SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderOptions& options) {
-  const ImageSettings& image = plan.settings.image;
-  const PassPlan& passes = plan.settings.plan;
-  LoadOptions load = parts.load;
-  load.resolution = {image.width, image.height}, load.resolution_scale.reset();
-  SavedFilm film{std::filesystem::absolute(parts.info.file),
-                 load,
-                 fingerprint_of(parts, options),
-                 {plan.integrator_text, std::string(name_of(image.sampler)),
-                  options.all_layers() ? to_text(*options.all_layers()) : "", image.seed, passes.samples_per_pass,
-                  image.width, image.height, image.bounds},
-                 options,
-                 {},
-                 facts_of(parts, plan, plan.settings),
-                 {Film({}), {}, 0}};
-  const bool has_number = !options.target || (options.resume && options.passes);
-  if (!options.seconds && has_number) film.wanted = PassRange{passes.first_pass, passes.first_pass + passes.passes - 1};
-  return film;
+// Over all tiles.
+std::size_t passes_in(const Film& film) {
+  std::size_t passes = 0;
+  for (const auto& [index, tile] : film.tiles()) passes += tile.passes.size();
+  return passes;
 }
 
 // Saves the snapshots of a film in a file, and reports the first failure to the user.
@@ -69,6 +55,26 @@ class Checkpoint {
 
 }  // namespace
 
+SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderOptions& options) {
+  const ImageSettings& image = plan.settings.image;
+  const PassPlan& passes = plan.settings.plan;
+  LoadOptions load = parts.load;
+  load.resolution = {image.width, image.height}, load.resolution_scale.reset();
+  SavedFilm film{std::filesystem::absolute(parts.info.file),
+                 load,
+                 fingerprint_of(parts, options),
+                 {plan.integrator_text, std::string(name_of(image.sampler)),
+                  options.all_layers() ? to_text(*options.all_layers()) : "", image.seed, passes.samples_per_pass,
+                  image.width, image.height, image.bounds},
+                 options,
+                 {},
+                 facts_of(parts, plan, plan.settings),
+                 {Film({}), {}, 0}};
+  const bool has_number = !options.target || (options.resume && options.passes);
+  if (!options.seconds && has_number) film.wanted = PassRange{passes.first_pass, passes.first_pass + passes.passes - 1};
+  return film;
+}
+
 Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& options, RenderObserver& observer) {
   const LoadedScene::Parts& parts = scene.parts();
   Result<RenderPlan> plan = plan_render(parts, options);
@@ -79,8 +85,10 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   if (options.budget) return Failure{"a picture within a time budget is not saved, and continues no saved film"};
   RenderSettings settings = plan->settings;
   SavedFilm film = description_of(parts, *plan, options);
+  std::optional<std::size_t> begun_passes;
   if (options.resume) {
     if (Status good = check_continues(*options.resume, film); !good) return good.failure();
+    begun_passes = passes_in(options.resume->begun.film);
     settings.begun = &options.resume->begun;
     film.adaptive = options.resume->adaptive;
   }
@@ -91,6 +99,8 @@ Result<Rendering> render_scene(const LoadedScene& scene, const RenderOptions& op
   }
   Rendering rendering = render_picture(parts, *plan, std::move(settings), observer, &film);
   if (checkpoint) rendering.saved = checkpoint->status();
+  if (begun_passes == passes_in(rendering.result.film) && !rendering.result.interrupted)
+    rendering.notes.push_back("the saved film has all of this already: no pass was added");
   return rendering;
 }
 

@@ -50,6 +50,9 @@ Shutter shutter_for(const ShutterTimes& times, const PictureSettings& picture);
 
 PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderSettings& settings);
 
+// The description of a film that is rendered, without the film itself.
+SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan, const RenderOptions& options);
+
 // Renders one image: that of the plan, with settings whose seed, shutter, memories and film may differ. `film`, if
 // there is one, receives the length of the passes and the time of the preparation before it is saved.
 // Unless it is one of a sequence, its noise is removed if the plan says so.

@@ -26,6 +26,14 @@ struct SavedFormat {
   int oldest = version;     // that is read, with all up to that which is written
 };
 
+// Whether a file begins as one of this format does. A pipe does not, and is not opened: one that nobody writes to would
+// wait.
+bool begins_as(const std::filesystem::path& file, const SavedFormat& format);
+
+// Whether work can be saved to a file, for a check before the work. Its name must not be that of a picture or a scene,
+// and a file that exists must be of the same format or empty, so that a slip never costs a scene or a picture.
+Status check_saved_target(const std::filesystem::path& file, const SavedFormat& format);
+
 // Throws std::invalid_argument on a file of another kind or version.
 template <class Json>
 void check_format(const Json& json, const SavedFormat& format) {

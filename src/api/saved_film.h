@@ -56,6 +56,9 @@ Result<SavedFilm> load_film(const std::filesystem::path& file);
 Status save_film(const std::filesystem::path& file, const SavedFilm& film);
 // Whether the file claims to be a saved film.
 bool is_saved_film(const std::filesystem::path& file);
+// Why a film could not be saved to this file: its name is that of a picture or a scene, there is a file of another
+// kind, or it cannot be written. To be called before a render, so that the work is not lost.
+Status check_film_file(const std::filesystem::path& file);
 
 // Options that a saved film decides and that are not given take its values.
 void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& options);

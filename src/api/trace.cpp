@@ -4,9 +4,28 @@
 
 #include <cmath>
 
+#include "api/film_keeper.h"
 #include "api/render_plan.h"
 
 namespace montelux {
+
+namespace {
+
+// The numbers of the passes that a pixel has: in the saved film, or in the plan.
+std::vector<int> passes_of_pixel(const PassPlan& plan, const SavedFilm* film, int x, int y) {
+  std::vector<int> numbers;
+  if (!film) {
+    for (int i = 0; i < plan.passes; ++i) numbers.push_back(plan.first_pass + i);
+    return numbers;
+  }
+  for (const auto& [index, tile] : film->begun.film.tiles()) {
+    const PixelBounds& b = tile.cells;
+    if (x >= b.x0 && y >= b.y0 && x < b.x1 && y < b.y1) numbers = film->begun.film.pass_numbers(b);
+  }
+  return numbers;
+}
+
+}  // namespace
 
 Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& options, int x, int y,
                                  std::optional<int> sample) {
@@ -14,17 +33,22 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
   Result<RenderPlan> planned = plan_render(parts, options);
   if (!planned) return planned.failure();
   const RenderPlan& plan = *planned;
+  if (options.resume)
+    if (Status good = check_continues(*options.resume, description_of(parts, plan, options)); !good)
+      return good.failure();
   const ImageSettings& image = plan.settings.image;
-  const PassPlan& passes = plan.settings.plan;
   const PixelBounds& b = image.bounds;
   if (x < b.x0 || y < b.y0 || x >= b.x1 || y >= b.y1)
     return Failure{fmt::format("pixel {},{} is outside of the picture, whose pixels are {},{} to {},{}", x, y, b.x0,
                                b.y0, b.x1 - 1, b.y1 - 1)};
-  const int in_pass = passes.samples_per_pass, all = passes.samples();
+  const std::vector<int> passes = passes_of_pixel(plan.settings.plan, options.resume, x, y);
+  if (passes.empty()) return Failure{fmt::format("the saved film has no samples of pixel {},{} yet", x, y)};
+  const int in_pass = plan.settings.plan.samples_per_pass, all = in_pass * int(passes.size());
+  const auto pass_of = [&](int number) { return passes[std::size_t(number / in_pass)]; };
   if (sample && (*sample < 0 || *sample >= all))
     return Failure{fmt::format("the pixel has samples 0 to {}; found {}", all - 1, *sample)};
   const auto trace = [&](int number) -> std::optional<TracedPath> {
-    TilePass pass{{x, y, x + 1, y + 1}, image.points(passes.first_pass + number / in_pass, in_pass), image.shutter};
+    TilePass pass{{x, y, x + 1, y + 1}, image.points(pass_of(number), in_pass), image.shutter};
     pass.only = std::uint32_t(number % in_pass);
     return plan.chosen.integrator ? plan.chosen.integrator->trace_path(pass) : std::nullopt;
   };
@@ -45,7 +69,7 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
     result.sample = k, result.path = std::move(path);
   }
   for (int c = 0; c < rgb_size; ++c) result.pixel_mean.c[c] = float(sum[std::size_t(c)] / all);
-  result.pass = passes.first_pass + result.sample / in_pass, result.index = result.sample % in_pass;
+  result.pass = pass_of(result.sample), result.index = result.sample % in_pass;
   result.materials = parts.info.materials_by_number;
   for (std::uint32_t i = 0; i < parts.scene.lights.count(); ++i)
     result.light_names.emplace_back(light_kind_names[std::size_t(parts.scene.lights.kind(LightId(i)))]);

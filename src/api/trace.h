@@ -18,9 +18,10 @@ struct SampleTrace {
   std::vector<std::string> light_names;  // kind of light number i
 };
 
-// The path of sample `sample` of the pixel, in a render with these options; no number: the sample with the largest
-// luminance among all of the pixel. Fails where the pixel or the sample is not in the picture, the options are wrong,
-// or the integrator has no paths to show.
+// The path of sample `sample` of the pixel, in a render with these options or in the saved film that they resume, whose
+// samples are counted in the order of its passes; no number: the sample with the largest luminance among all of the
+// pixel. Fails where the pixel or the sample is not in the picture, the options are wrong, or the integrator has no
+// paths to show.
 Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& options, int x, int y,
                                  std::optional<int> sample);
 

@@ -73,15 +73,15 @@ class FilesTest(ProgramTest):
 
 
 class FullDisk(FilesTest):
-    def assert_old_file_stays(self, name, *arguments, limit=600):
-        (self.folder / name).write_text("old")
+    def assert_old_file_stays(self, name, *arguments, limit=600, old="old"):
+        (self.folder / name).write_text(old)
         before = self.names()
         result = self.run_with(*arguments, status=FAILED, preexec_fn=limit_of_size(limit))
         said = result.stderr.decode()
         self.assertEqual(said.count("cannot write"), 1, said)
         self.assertEqual(said.count("\n"), 1, said)
         self.assertIn(f"'{name}': File too large", said)
-        self.assertEqual((self.folder / name).read_text(), "old")
+        self.assertEqual((self.folder / name).read_text(), old)
         self.assertEqual(self.names(), before)
 
     def test_every_format_of_a_render_is_checked(self):
@@ -113,13 +113,20 @@ class FullDisk(FilesTest):
         self.assert_old_file_stays("map.png", "diff", one, other, "-o", "map.png")
         self.assert_old_file_stays("map.exr", "diff", one, other, "-o", "map.exr")
         integral = ["integrate", "x", "--over", "x=0:1", "--method", "uniform:passes=64", "--samples", "6400", "--quiet"]
-        self.assert_old_file_stays("run.json", *integral, "--save", "run.json")
+        integrals, run = '{"format": "montelux integrals"', '{"format": "montelux comparison"'  # saved work replaces its like
+        self.assert_old_file_stays("run.json", *integral, "--save", "run.json", old=integrals)
         for seed in 1, 2:
             self.run_program(*integral, "--seed", seed, "--save", f"{seed}.json")
-        self.assert_old_file_stays("both.json", "merge", "1.json", "2.json", "--quiet", "-o", "both.json")
+        self.assert_old_file_stays("both.json", "merge", "1.json", "2.json", "--quiet", "-o", "both.json", old=integrals)
         comparison = ["compare", SCENE, *SMALL, "-a", "path", "-b", "naive", "--spp", "1", "--repeats", "2", "--no-cache",
                    "--no-slopes", "--no-attribution"]
-        self.assert_old_file_stays("run.json", *comparison, "--save", "run.json")
+        self.assert_old_file_stays("run.json", *comparison, "--save", "run.json", old=run)
+        (self.folder / "own.pbrt").write_bytes(SCENE.read_bytes())
+        for other in (["--save", "1.json"], ["--save", "a.exr"], ["-o", "other.pfm"], ["-o", "own.pbrt"]):
+            self.assertIn("cannot write", self.run_program(*comparison, *other, status=2).stderr)
+        for other in "run.json", "other.pfm", "own.pbrt":
+            self.assertIn("cannot write", self.run_program(*integral, "--save", other, status=2).stderr)
+        self.assertEqual((self.folder / "own.pbrt").read_bytes(), SCENE.read_bytes())
 
     def test_the_files_of_a_report_are_checked(self):
         # Its status was 2 as for input that cannot be used; a full disk is detected only after the work.

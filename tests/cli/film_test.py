@@ -309,11 +309,35 @@ class Films(ProgramTest):
                 self.refused("render", SCENE, "--resume", "bad.film", "-o", "x.exr", saying=f"bad.film.*{saying}")
                 if b'"montelux film"' in content[:64]:
                     self.refused("merge", "bad.film", "-o", "x.film", saying=saying)
-        self.refused("merge", "good.film", "bad.film", "-o", "x.film", saying="good.film is a saved film, and bad.film")
+        self.refused("merge", "good.film", "bad.film", "-o", "x.film", saying="bad.film' cannot be read: it is not a file that montelux render --checkpoint wrote")
         self.run_program("integrate", "4*x^3", "--over", "x=0:1", "--samples", "100", "--save", "i.json")
-        self.refused("merge", "good.film", "i.json", "-o", "x.film", saying="good.film is a saved film, and i.json")
+        again = self.run_program("render", "--resume", "good.film", "-o", "x.exr")
+        self.assertIn("the saved film has all of this already: no pass was added", again.stderr)
+        self.refused("merge", "good.film", "i.json", "-o", "x.film", saying="good.film is a saved film, and i.json is a saved integral")
         self.refused("render", "--resume", "i.json", "-o", "x.exr", saying="not a file that montelux render --checkpoint")
         self.refused("render", "--resume", "none.film", "-o", "x.exr", saying="none.film")
+
+    def test_a_film_replaces_nothing_but_a_film(self):
+        self.run_program("render", SCENE, *PLAN, "--passes", "0:0", "--checkpoint", "a.film")
+        scene = self.folder / "own.pbrt"
+        scene.write_bytes(SCENE.read_bytes())
+        (self.folder / "notes.txt").write_text("notes")
+        (self.folder / "empty.film").touch()
+        before = {p.name: p.read_bytes() for p in self.folder.iterdir()}
+        for target, saying in (("own.pbrt", "needs another ending than a scene"), ("x.exr", "ending than a picture"),
+                               ("notes.txt", "exists and is not a saved film, so it is not replaced")):
+            with self.subTest(target=target):
+                self.refused("render", scene, *PLAN, "--checkpoint", target, "-o", "y.exr",
+                             saying=f"cannot write '{target}': .*{saying}")
+        for target in "own.pbrt", "m.gif", "notes.txt", "m.json":
+            with self.subTest(target=target):
+                self.refused("merge", "a.film", "-o", target, saying=f"cannot write '{target}'.*-o takes a film")
+        said = self.run_program("merge", "a.film", "none.film", "x.exr", "-o", "m.gif", status=2).stderr
+        self.assertRegex(said, "there is no file none.film\n.*there is no file x.exr\n.*cannot write 'm.gif'")
+        self.assertEqual({p.name: p.read_bytes() for p in self.folder.iterdir()}, before)
+        for target in "empty.film", "a.film", "none":
+            self.run_program("merge", "a.film", "-o", target)
+            self.assertEqual((self.folder / target).read_bytes(), before["a.film"])
 
     def test_a_film_that_cannot_be_saved_is_an_error(self):
         self.refused("render", SCENE, *PLAN, "--checkpoint", "none/room.film", "-o", "x.exr", saying="none/room.film")

@@ -53,6 +53,29 @@ class Trace(ProgramTest):
             other = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "6")
             self.assertNotAlmostEqual(shown[0], other["pixel_mean"][0], delta=1e-4 * shown[0])
 
+    def test_the_passes_may_be_those_of_any_render_or_of_a_film(self):
+        small = ["--resolution", "4x4", "--seed", "5"]
+        for plan in (["--spp", "16", "--samples-per-pass", "4"], ["--spp", "32", "--passes", "2:5"],
+                     ["--time", "20ms"], ["--target-error", "30%", "--spp", "4096"],
+                     ["--spp", "256", "--adaptive", "on"]):
+            with self.subTest(plan=plan):
+                film = ["--checkpoint", "a.film"]
+                for x, y in (3, 2), (0, 0):
+                    shown = self.pixel(SCENE, x, y, 4, 4, *plan, *film, "--seed", "5")
+                    traces = [self.traced("--film", "a.film", "--pixel", f"{x},{y}")]
+                    if plan[0] == "--spp" and "--adaptive" not in plan:
+                        traces.append(self.traced(SCENE, *small, "--pixel", f"{x},{y}", *plan))
+                        self.assertEqual(traces[0], traces[1])
+                    for a, b in zip(shown, traces[0]["pixel_mean"]):
+                        self.assertAlmostEqual(a, b, delta=2e-6 * abs(b))
+        for wrong, saying in ((["--film", "a.film", "--spp", "4"], "excludes"), ([], "SCENE is required, or --film"),
+                              (["--film", SCENE], "cannot be read"), (["--film", "none.film"], "none.film")):
+            self.assertIn(saying, self.run_program("trace", *wrong, "--pixel", "1,1", status=2).stderr)
+        other = self.folder / "other.pbrt"
+        other.write_bytes(SCENE.read_bytes() + b"\nLightSource \"infinite\"\n")
+        self.assertIn("is not the scene", self.run_program("trace", other, "--film", "a.film", "--pixel", "1,1",
+                                                           status=2).stderr)
+
     def test_a_sample_is_the_sum_of_its_contributions(self):
         for scene in SCENE, self.fog():
             for k in 0, 3, 7:
