@@ -31,15 +31,15 @@ enum class Strata : std::uint8_t { grid, latin };
 // A method with its parameters; those of other methods are ignored.
 struct Method {
   MethodKind kind = MethodKind::automatic;
-  std::uint32_t passes = 0;  // independent randomisations; 0: depends on the method
+  std::optional<int> passes;  // independent randomisations; absent: depends on the method
   Strata strata = Strata::grid;
-  std::optional<double> coefficient;  // of the control variate; absent: the best one, fitted on the other passes
+  std::optional<float> coefficient;  // of the control variate; absent: the best one, fitted on the other passes
   MisHeuristic heuristic = MisHeuristic::balance;
   PointSetKind points = PointSetKind::sobol;  // one with cube_fill()
   bool baker = false;  // fold each coordinate by the baker's transformation, which makes the integrand periodic
   bool adapt = false;  // qmc: through an adaptive map of each coordinate
-  std::uint32_t candidates = 16, resamples = 1;  // ris: M and N
-  double step = 0.3;                             // metropolis: the size of a small step; 0 < step <= 1
+  int candidates = 16, resamples = 1;  // ris: M and N
+  float step = 0.3f;                   // metropolis: the size of a small step; 0 < step <= 1
 };
 
 // Every method by name, in the order of MethodKind, with its parameters.

@@ -76,11 +76,11 @@ std::string_view Schedule::note() const {
 
 // The number of passes; sets their length if it does not follow from an earlier run.
 std::uint64_t Schedule::fixed_passes(std::uint64_t samples) {
-  const bool given = state_.method.passes > 0 && passes_ == 0;
+  const bool given = state_.method.passes && passes_ == 0;
   if (passes_ > 0 && samples / length_ > max_new_passes)
     length_ = std::clamp(technique_.fitting(samples / max_new_passes), length_, std::max(length_, max_length()));
   if (passes_ == 0) {
-    std::uint64_t passes = given ? state_.method.passes : traits_.passes;
+    std::uint64_t passes = given ? std::uint64_t(*state_.method.passes) : traits_.passes;
     if (!given) passes = std::max(passes, (samples + max_length() - 1) / max_length());
     length_ = std::max(traits_.min_samples, technique_.fitting(std::max(traits_.min_samples, samples / passes)));
     if (length_ > max_samples_of_pass)
@@ -112,7 +112,8 @@ StopReason Schedule::run_fixed(std::uint64_t samples) {
 // the remaining time or samples are used for more passes of the same length.
 StopReason Schedule::run_growing() {
   if (passes_ == 0) {
-    passes_ = state_.method.passes > 0 ? state_.method.passes : std::max<std::uint32_t>(16, traits_.passes);
+    const auto stated = state_.method.passes;
+    passes_ = stated ? std::uint32_t(*stated) : std::max<std::uint32_t>(16, traits_.passes);
     length_ = std::bit_ceil(std::max(traits_.min_samples, first_look / passes_));
     if (budget_.samples) length_ = std::min(length_, *budget_.samples / passes_);
     length_ = std::max(traits_.min_samples, technique_.fitting(std::max(traits_.min_samples, length_)));

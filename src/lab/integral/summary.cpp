@@ -41,7 +41,8 @@ PassMeans pass_means(const IntegralState& state) {
     const double variance = squares - p.control_squares - (rest > 0 ? c * c / rest : 0);
     const double covariance = products - p.control_products - (rest > 0 ? c * s / rest : 0);
     const double fitted = variance > 0 ? covariance / variance : 0;
-    const double coefficient = state.method.coefficient.value_or(fitted);
+    const auto& stated = state.method.coefficient;
+    const double coefficient = stated ? double(*stated) : fitted;
     if (p.samples > 0) result.means[i] -= coefficient * p.control_sum / double(p.samples);
     total += coefficient;
   }

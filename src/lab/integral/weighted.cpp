@@ -116,8 +116,8 @@ class Resampled final : public Technique {
   Resampled(const Problem& problem, const Method& method)
       : integrand_(problem.integrand),
         target_(problem.target),
-        candidates_(method.candidates),
-        resamples_(method.resamples) {
+        candidates_(std::uint32_t(method.candidates)),
+        resamples_(std::uint32_t(method.resamples)) {
     if (!problem.densities.empty()) source_.emplace(problem.densities.front(), integrand_.dimension);
   }
 

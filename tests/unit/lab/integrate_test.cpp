@@ -263,7 +263,7 @@ TEST(Methods, what_a_method_lacks_is_reported) {
 
 TEST(Methods, every_name_is_read_and_written_back) {
   for (const EntitySpec& entity : method_table()) EXPECT_EQ(to_text(method_named(entity.name)), entity.name);
-  EXPECT_EQ(to_text(method_named("qmc:baker=true,points=lattice")), "qmc:points=lattice,baker=true");
+  EXPECT_EQ(to_text(method_named("qmc:baker=true,points=lattice")), "qmc:points=lattice,baker=on");
   EXPECT_EQ(to_text(method_named("mis:heuristic=max")), "mis:heuristic=maximum");
 }
 
