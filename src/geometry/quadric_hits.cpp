@@ -55,18 +55,8 @@ DoubleMask within_azimuth(float phi_max, const Doubles& x, const Doubles& y) {
 
 bool is_whole(const Sphere& s) { return s.z_min <= -s.radius && s.z_max >= s.radius && s.phi_max >= 360; }
 
-// The parameters of points of whole shapes are computed in single precision, which has them to 1e-7 of their range;
-// those of parts in double precision, one by one.
-MONTELUX_INLINE float to_single(double x) { return float(x); }
-MONTELUX_INLINE Floats<double_lanes> to_single(const Doubles& x) {
-  return __builtin_convertvector(x.v, Floats<double_lanes>::Vector);
-}
-MONTELUX_INLINE void set_double(double& to, float x) { to = x; }
-MONTELUX_INLINE void set_double(Doubles& to, const Floats<double_lanes>& x) {
-  to = __builtin_convertvector(x.v, Doubles::Vector);
-}
-
-// u of a shape whose azimuth is not limited.
+// u of a shape whose azimuth is not limited. Single precision, which has parameters to 1e-7 of their range, is enough
+// for whole shapes; the parameters of parts are computed in double precision, one by one.
 template <class F>
 F whole_turn(F x, F y) {
   const F turns = atan2(y, x) * inv_two_pi;
@@ -76,7 +66,7 @@ template <class D>
 D azimuth_parameter(float phi_max, const D& x, const D& y) {
   D u;
   if (phi_max >= 360)
-    set_double(u, whole_turn(to_single(x), to_single(y)));
+    u = to_double(whole_turn(to_single(x), to_single(y)));
   else
     for (int k = 0; k < lanes_of_double<D>; ++k)
       set_lane(u, k, std::min(azimuth(lane(x, k), lane(y, k)) / phi_limit(phi_max), 1.0));
@@ -107,9 +97,9 @@ DoubleHits<D> nearest_hits(const Sphere& s, const DoubleRay<D>& ray) {
   if (!any(hit.found)) return hit;
   if (is_whole(s)) {
     const auto x = to_single(n.x), y = to_single(n.y), z = to_single(n.z);
-    set_double(hit.u, whole_turn(x, y));
+    hit.u = to_double(whole_turn(x, y));
     // From the south pole, where theta is pi, to the north pole.
-    set_double(hit.v, max(decltype(x + x)(1.0f) - atan2(sqrt(x * x + y * y), z) * inv_pi, decltype(x + x)(0.0f)));
+    hit.v = to_double(max(decltype(x + x)(1.0f) - atan2(sqrt(x * x + y * y), z) * inv_pi, decltype(x + x)(0.0f)));
     return hit;
   }
   for (int k = 0; k < lanes_of_double<D>; ++k) {

@@ -35,6 +35,7 @@ struct DoubleTraits<Doubles> {
 };
 template <class D>
 using MaskOfDouble = typename DoubleTraits<D>::Mask;
+// Lanes of D: 1 for double.
 template <class D>
 inline constexpr int lanes_of_double = sizeof(D) / sizeof(double);
 
@@ -91,12 +92,19 @@ MONTELUX_INLINE Doubles max(Doubles a, Doubles b) { return a.v > b.v ? a.v : b.v
 MONTELUX_INLINE double min(double a, double b) { return a < b ? a : b; }
 MONTELUX_INLINE double max(double a, double b) { return a > b ? a : b; }
 
-// The nearest value of single precision.
-MONTELUX_INLINE Doubles rounded_to_float(Doubles a) {
-  typedef float Singles __attribute__((vector_size(4 * double_lanes)));
-  return __builtin_convertvector(__builtin_convertvector(a.v, Singles), Doubles::Vector);
+// The nearest values of single precision, and back.
+MONTELUX_INLINE Floats<double_lanes> to_single(Doubles a) {
+  return __builtin_convertvector(a.v, Floats<double_lanes>::Vector);
 }
-MONTELUX_INLINE double rounded_to_float(double a) { return double(float(a)); }
+MONTELUX_INLINE float to_single(double a) { return float(a); }
+MONTELUX_INLINE Doubles to_double(Floats<double_lanes> a) { return __builtin_convertvector(a.v, Doubles::Vector); }
+MONTELUX_INLINE double to_double(float a) { return a; }
+
+// The nearest value of single precision, in double precision.
+template <class D>
+MONTELUX_INLINE D rounded_to_float(D a) {
+  return to_double(to_single(a));
+}
 
 MONTELUX_INLINE double lane(const Doubles& a, int k) { return a.v[k]; }
 MONTELUX_INLINE bool lane(const DoubleMask& a, int k) { return a.v[k] != 0; }

@@ -55,20 +55,32 @@ inline PassMeans measure_passes(const TestScene& scene, const ChosenIntegrator& 
   return m;
 }
 
-// Enough passes for a comparison of two image means to have the relative standard error `wanted`. First looks decide,
-// of which the second has as many passes as the first one says: a few do not show the spread of long tails.
-inline PassMeans measure_to(double wanted, const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
-                            std::uint32_t seed) {
-  int count = 48;
+// The standard deviation of the image means of passes, relative to their mean.
+inline double relative_spread(const PassMeans& m) {
+  const SampleSummary image = summarize(m.values[0]);
+  return std::sqrt(image.variance) / image.mean;
+}
+
+// Enough passes, at least `first`, for a comparison of two image means to have the relative standard error `wanted`.
+// Two looks decide: `spread(passes)` measures the relative spread by so many passes, new ones at each call. The second
+// look has as many as the first one requires, since a few passes do not show the spread of long tails.
+template <class Spread>
+int enough_passes(double wanted, int first, Spread&& spread) {
+  int count = first;
   for (int look = 0; look < 2; ++look) {
-    const SampleSummary image = summarize(measure_passes(scene, chosen, samples_per_pass, count, seed++).values[0]);
     // Both sides of a comparison add to its error.
-    const double per_pass = std::sqrt(image.variance) / image.mean, goal = 0.5 * wanted;
-    const int needed = int(per_pass * per_pass / (goal * goal)) + 1;
+    const double ratio = spread(count) / (0.5 * wanted);
+    const int needed = int(ratio * ratio) + 1;
     if (needed <= count) break;
     count = needed;
   }
-  return measure_passes(scene, chosen, samples_per_pass, count, seed);
+  return count;
+}
+
+inline PassMeans measure_to(double wanted, const TestScene& scene, const ChosenIntegrator& chosen, int samples_per_pass,
+                            std::uint32_t seed) {
+  const auto measured = [&](int passes) { return measure_passes(scene, chosen, samples_per_pass, passes, seed++); };
+  return measured(enough_passes(wanted, 48, [&](int passes) { return relative_spread(measured(passes)); }));
 }
 
 // Faults that leave the mean of the components as it is: light that has lost its colour, or has that of another

@@ -97,20 +97,21 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
   chain.w = w, chain.s = frame.s, chain.t = frame.t, chain.left = gray(1.0f), chain.at = {};
   RayDifferential r{to_double(from.p), to_double(w), {}, {to_double(frame.s), to_double(frame.t)}};
   r.dp = {Vec3d{0, 0, 0}, Vec3d{0, 0, 0}};
-  Ray<F> ray = from.ray_toward(w);
-  Media<F> media = from.media_toward(w);
+  Segment<F> segment{from.ray_toward(w), {}, from.media_toward(w)};
   std::uint32_t events = 0, crossings = 0;
   double distance = 0;  // since the last event
   while (events < kind.length) {
     ++rays;
-    const auto met = accel_.trace<F>(ray, true);
-    if (!met.found) return false;
-    const Vertex<F> v(scene_, {ray, met.hit, media}, {true, true},
+    const auto [found, hit] = accel_.trace<F>(segment.ray, true);
+    if (!found) return false;
+    segment.hit = hit;
+    const Vertex<F> v(scene_, segment, {true, true},
                       {TransportMode::radiance, random.fork(events * numbers_per_event + crossings)});
     distance += double(v.x.distance);
     chain.left *= v.media.along_wo().left(v.x.distance);
     if (v.bsdf.is_interface) {
-      media = v.media_toward(ray.d), ray = v.ray_toward(ray.d), ++crossings;
+      cross_interface(segment, v, true);
+      ++crossings;
       continue;
     }
     const Caster caster = Caster(caster_at<F>(v.x, v.bsdf.is_delta, true));
@@ -121,7 +122,8 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
     if (std::abs(dot(ng, d)) < 1e-6) return false;
     r.move(distance, ng);
     r.p = to_double(v.x.point.p);
-    const NormalGradient gradient = normal_gradient(scene_.geometry, met.hit, v.x.point.p, v.bsdf.frame.n, ray.time);
+    const NormalGradient gradient =
+        normal_gradient(scene_.geometry, hit, v.x.point.p, v.bsdf.frame.n, segment.ray.time);
     const MovingNormal shading{ns * side, {gradient.along(r.dp[0]) * side, gradient.along(r.dp[1]) * side}};
     MovingNormal m = shading;
     Roughness<float> roughness{};
@@ -146,10 +148,10 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
                                              float(dot(m.n, shading.n)), roughness);
     }
     if (!(max_component(chain.left) > 0)) return false;
-    chain.at[events] = {met.hit.geometry, met.hit.instance};
+    chain.at[events] = {hit.geometry, hit.instance};
     const Vec3f onward = to_float(r.d);
     if (++events == kind.length) chain.last = stored(v);
-    media = v.media_toward(onward), ray = v.ray_toward(onward), crossings = 0, distance = 0;
+    segment.media = v.media_toward(onward), segment.ray = v.ray_toward(onward), crossings = 0, distance = 0;
   }
   chain.p = r.p, chain.d = r.d, chain.dp = r.dp, chain.dd = r.dd;
   return true;

@@ -109,14 +109,15 @@ Entity stated_integrator(const IntegratorDesc& integrator) {
     if (name == "radius") s.radius = to_float(value);
     if (name == "large-step") s.large_step = to_float(value);
   }
-  std::string_view name = "volpath";
-  if (integrator.name == "naive")
-    name = "simplepath", s.sample_lights = false;
-  else if (integrator.name == "metropolis")
-    name = "mlt";
-  else if (integrator.name != "path" && find_entity(integrator_models().specs(), integrator.name))
-    name = integrator.name;
-  return integrator_models().write(name, s);
+  const Models<StatedIntegrator>& models = integrator_models();
+  if (integrator.name == "naive") {
+    s.sample_lights = false;
+    return models.write("simplepath", s);
+  }
+  std::string_view word = "volpath";
+  for (const EntitySpec& spec : models.specs())
+    if (integrator.name != "path" && models.initial(spec.name).name == integrator.name) word = spec.name;
+  return models.write(word, s);
 }
 
 }  // namespace

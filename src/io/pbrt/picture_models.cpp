@@ -155,7 +155,7 @@ Fields<Integrator> metropolis() {
 
 Fields<Integrator> photons() {
   Fields<Integrator> fields = depth();
-  fields.integer("photonsperiteration", &Integrator::photons, "light paths in each frame; -1: one per pixel", -1,
+  fields.integer("photonsperiteration", &Integrator::photons, "light paths in each frame; 0 or less: one per pixel", -1,
                  1 << 28);
   fields.optional("radius", &Integrator::radius, "radius of the first frame; default three pixels wide", 1e-30,
                   unlimited);

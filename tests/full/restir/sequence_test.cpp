@@ -10,16 +10,17 @@ namespace {
 constexpr int size = 32;
 constexpr double level = 0.01, wanted_error = 0.002;
 
-// Enough passes for the error that is wanted, by a first look.
+// With enough passes for the wanted error in each picture.
 std::vector<PassMeans> measured_well(const TestScene& scene, const ChosenIntegrator& chosen, SequencePlan plan) {
-  double per_pass = 0;
-  for (const PassMeans& picture : measure_sequence(scene, chosen, plan)) {
-    const SampleSummary image = summarize(picture.values[0]);
-    per_pass = std::max(per_pass, std::sqrt(image.variance) / image.mean);
-  }
-  // Both sides of a comparison add to its error.
-  const double goal = 0.5 * wanted_error;
-  plan.passes = std::max(plan.passes, int(per_pass * per_pass / (goal * goal)) + 1), ++plan.seed;
+  const auto largest_spread = [&](int passes) {
+    plan.passes = passes;
+    double largest = 0;
+    for (const PassMeans& picture : measure_sequence(scene, chosen, plan))
+      largest = std::max(largest, relative_spread(picture));
+    ++plan.seed;
+    return largest;
+  };
+  plan.passes = enough_passes(wanted_error, plan.passes, largest_spread);
   return measure_sequence(scene, chosen, plan);
 }
 

@@ -200,6 +200,7 @@ TEST(Writing, keeps_the_picture_in_the_words_of_the_file) {
       "Integrator \"mlt\" \"float largestepprobability\" 0.4 \"integer mutationsperpixel\" 33",
       "Integrator \"sppm\" \"integer photonsperiteration\" 5000 \"float radius\" 0.25 \"integer seed\" 9",
       "Integrator \"bdpt\" \"string lightsampler\" \"power\"",
+      "Integrator \"lightpath\" \"integer maxdepth\" 6",
       "Sampler \"stratified\" \"integer xsamples\" 4 \"integer ysamples\" 4 \"integer seed\" 8",
       "Sampler \"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 3 \"bool jitter\" false",
       "Sampler \"paddedsobol\" \"integer pixelsamples\" 7 Option \"integer seed\" 4",
