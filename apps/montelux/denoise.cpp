@@ -86,8 +86,8 @@ void add_denoise(CLI::App& app, Action& chosen) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb.add_option(
           "--before", arguments->before,
-          "the image of the sequence before this one (.exr); may be repeated, the latest first. Takes the layer "
-          "motion, and frames with independent samples")
+          "an earlier image of the sequence (.exr); may be repeated, the latest first. Requires the layer motion "
+          "and frames with independent samples")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -26,8 +26,9 @@ constexpr const char* notes = R"(Examples:
   montelux diff a.exr b.exr
   montelux render --help
 
-Exit status: 0 done; 1 diff found a difference, or with --strict an integral has warnings; 2 options, scene, images or
-integral are invalid; 3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by
+Exit status: 0 done; 1 diff found a difference, with --strict an integral has warnings, the reference of compare is not
+good enough, or a verdict of lab fails; 2 options, scene, images or integral are invalid;
+3 a file or the results cannot be written, or an unexpected failure; 129, 130, 141 and 143 ended by
 SIGHUP, SIGINT, SIGPIPE or SIGTERM, finished work is written.
 )";
 

@@ -39,7 +39,7 @@ struct LoadOptions {
   bool huge_pages = false;
 };
 
-// Something of ours that serves for what the file names.
+// A substitute of Montelux for a name in the scene file.
 struct Replacement {
   std::string family, name, by;  // "integrator", "bdpt", "path"
 };

@@ -15,7 +15,7 @@
 
 namespace montelux {
 
-// Whether the work at hand is still wanted. May be called from many threads at once.
+// Whether the current work should stop. May be called from many threads at once.
 class StopQuery {
  public:
   virtual ~StopQuery() = default;
@@ -101,7 +101,7 @@ struct SeriesStep {
 // By colour.
 using MeanDifference = std::array<double, rgb_size>;
 
-// Frames that follow one another, each with what the ones before have learned, over all pixels. A step may begin when
+// Consecutive frames over all pixels, each of which uses the state of the previous frames. A step may begin when
 // all units of the step before it are done; the units of one step may be run by many threads at once. They are the
 // tiles of the picture, or parts of what the step works on instead of pixels: light paths, cells of a hash grid,
 // elements, Markov chains.

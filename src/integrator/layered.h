@@ -1,4 +1,4 @@
-// Pixel integrators that tell a tally where their light comes from: with layers and without, by the same code.
+// Pixel integrators that report to a tally where their light comes from: with layers and without, by the same code.
 #pragma once
 #include <algorithm>
 

@@ -6,10 +6,10 @@ namespace montelux {
 
 // Paths end after so many scattering events, if there is a limit.
 void note_depth(ChosenIntegrator& chosen, std::optional<int> max_depth);
-// Where light at some surfaces is looked for by points of lights alone, as by this setting.
+// Where this setting samples only points of lights, so that masked emitters are not found.
 void note_masked(ChosenIntegrator& chosen, const Scene& scene, std::string_view setting);
-// Where directions are drawn without regard to the BSDF, as by this setting: none is that of a smooth coat's
-// reflection.
+// Where this setting samples directions independently of the BSDF, and so never the mirror reflection of a smooth
+// coat.
 void note_smooth_coats(ChosenIntegrator& chosen, const Scene& scene, std::string_view setting);
 // Where rays from the lights meet curves that face every ray.
 void note_facing_curves(ChosenIntegrator& chosen, const Scene& scene);

@@ -98,7 +98,7 @@ class LayerTally {
     for_each_lane(on, [&](int k) { add_lane(k, lane(contribution, k), lane_of(from, k)); });
   }
 
-  // The sample of lane k is done. One that is not finite, or beyond what the sums can hold, is left out, and shows it.
+  // The sample of lane k is done. One that is not finite, or beyond the range of the sums, is excluded and set to NaN.
   void finish(int k, std::uint32_t output, PixelSample& sample) {
     const auto lane_sums = std::span(lanes_).subspan(std::size_t(k) * stride_, stride_);
     float& brightness = brightness_[std::size_t(k)];

@@ -106,7 +106,7 @@ class PreparedScene {
 };
 
 // Checks the description, reads the files that it names and builds the acceleration structure. The error holds a
-// message for everything that is wrong. The description may change or go afterwards.
+// message for everything that is wrong. The description may be changed or destroyed afterwards.
 Result<PreparedScene> prepare(const Scene& scene, const PrepareOptions& options = {});
 
 // The same for a scene file: .pbrt, .pbrt.gz, .gltf or .glb.

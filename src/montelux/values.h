@@ -87,7 +87,7 @@ struct Parameter {
 };
 using Parameters = std::vector<Parameter>;
 
-// A thing of a family by Montelux's name for it, with its parameters: Model{"conductor", {{"roughness", 0.1}}}. Names,
+// A material, a light, ... by Montelux's name, with its parameters: Model{"conductor", {{"roughness", 0.1}}}. Names,
 // ranges and defaults are those of `montelux list` (docs/formats.md); what is not stated has its default.
 struct Model {
   std::string name;

@@ -57,7 +57,7 @@ struct PlanOfPilot {
 
 // The plan for a render to a target, of at most `max_samples` samples per pixel. Passes should be as long as possible
 // while there are enough of them, so the number of samples is predicted from a few passes of numbers that the render
-// itself never takes. Each such pilot has two passes over all pixels, and takes less than a tenth of the predicted
+// itself never takes. Each such pilot has two passes over all pixels, and takes at most a sixteenth of the predicted
 // samples; it is replaced by a longer one as long as that is so. Ends early if the observer requests a stop.
 PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
                             int max_samples, RenderObserver& observer);

@@ -121,7 +121,7 @@ struct IntegratorDesc {
   SourceLocation where{};
 };
 
-// A name of the file that Montelux serves by another one.
+// A name in the file that Montelux replaces by another one.
 struct ReplacedName {
   std::string family, stated, instead;
 };

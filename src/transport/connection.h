@@ -65,8 +65,8 @@ template <class F>
 LightConnection<F> connect(const LightSet& lights, const StoredVertex<F>& vertex, const LightPoint<F>& point,
                            Mask<F> on) {
   const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
-  // A surface that lies in its own plane sends itself nothing, and no technique finds it there; rounding may say
-  // otherwise, by next to nothing, and would be counted among those that could have made the sample.
+  // A flat light contributes nothing to points in its own plane, and no technique samples it there. Rounding could make
+  // the target slightly positive, so that this vertex counts among those that could have produced the sample.
   const Mask<F> has_plane = point.place <= in_lanes<F>(LightPlace::two_sided_surface);
   const F rounding = dot(abs(point.n), (abs(vertex.p) + abs(point.p)) * F(0x1p-21f));
   const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);

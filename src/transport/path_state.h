@@ -23,7 +23,7 @@ struct PathState {
   F weight;                        // of the camera and the filter (which may be negative), for the result
   F time;                          // at which the camera looked
   F eta_scale;                     // squared relative indices of refraction crossed; roulette takes it out
-  F survival;                      // probability with which roulette let the path come so far
+  F survival;                      // probability that the path has survived roulette so far
   Uint<F> depth;                   // scattering events so far
   Uint<F> crossings;               // interfaces gone through so far
   Uint<F> x, y, index;             // pixel, and number of the sample there
@@ -97,8 +97,8 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
 
 // ---- from one vertex to the next, in this order: the path scatters, survives roulette, leaves, and is traced
 
-// The event that scatters the path joins its weights. One whose weight is not a number ends the path and shows in the
-// count of such samples. Returns the lanes that continue.
+// Multiplies the throughput by the weight of the event. An event whose weight is not finite ends the path, and the
+// sample is counted as non-finite. Returns the lanes that continue.
 template <class F>
 MONTELUX_INLINE Mask<F> scatter_path(PathState<F>& path, const BsdfSample<F>& event, Mask<F> on) {
   const Mask<F> broken = on & !is_finite(max_component(event.weight));

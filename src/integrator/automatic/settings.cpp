@@ -71,8 +71,8 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
 
 EntitySpec automatic_spec() {
   return {"auto",
-          "chooses between path and others that estimate the same image, by short pilots: the one with the least error "
-          "for its time; path unless another one is better with confidence",
+          "chooses by short pilots among integrators that estimate the same image: path, unless another one is "
+          "significantly more efficient",
           automatic_fields().specs({})};
 }
 

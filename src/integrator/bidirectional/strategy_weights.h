@@ -6,7 +6,7 @@
 // drawn the same vertex except for a small distance. The weight of a strategy is mis(n p) over the sum of mis(n p) of
 // all strategies, with their densities p and numbers of samples n; mis(x) = x, or x^2. The sum falls into the
 // strategies with fewer vertices from the light and those with fewer from the eye, each relative to the one at hand,
-// and each subpath carries what its own vertices contribute. Roulette is in none of these densities: what it leaves
+// and each subpath carries what its own vertices contribute. These densities exclude roulette: what survives it
 // counts accordingly more in every strategy, so the weights still sum to one.
 #pragma once
 #include "mc/density.h"

@@ -25,11 +25,10 @@ Fields<MetropolisSettings> metropolis_fields() {
 }  // namespace
 
 EntitySpec metropolis_spec() {
-  return {
-      "metropolis",
-      "Metropolis light transport on the numbers of paths: bright paths that are hard to find are varied; for light "
-      "that few paths carry",
-      metropolis_fields().specs({})};
+  return {"metropolis",
+          "Metropolis light transport in primary sample space: Markov chains mutate the random numbers of paths; for "
+          "light that few paths carry",
+          metropolis_fields().specs({})};
 }
 
 MetropolisSettings metropolis_settings(const ParameterList& list, std::optional<int> max_depth) {

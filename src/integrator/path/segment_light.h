@@ -1,6 +1,6 @@
 // Light of lamps at one point that a medium scatters along a segment of a path. The event that the path draws there is
 // near the lamp by chance alone, and light sampling from it has no finite variance: the irradiance grows with the
-// inverse square of the distance. So a second event is drawn by the angle at which the lamp sees the segment (Kulla and
+// inverse square of the distance. So a second event is drawn by equiangular sampling of the segment (Kulla and
 // Fajardo 2012), for this light alone, and both are combined by the balance heuristic.
 #pragma once
 #include <optional>

@@ -94,13 +94,13 @@ Fields<PathSettings> light_fields() {
             "would contribute); default: as stated by the scene",
             read_light_selection)
       .choice<int>("manifold", &PathSettings::manifold,
-                   "specular events at most between a rough surface and a point, spot, goniometric, projection or "
-                   "distant light, whose light is looked for there by walks on manifolds",
+                   "manifold next-event estimation: maximum number of specular events between a rough surface and a "
+                   "point, spot, goniometric, projection or distant light",
                    {{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"off", 0}})
       .number("manifold-roughness", &PathSettings::manifold_roughness,
-              "GGX alpha of surfaces at most that manifold passes as it does smooth ones; 0: smooth ones alone", 0, 1)
+              "largest GGX alpha of surfaces that manifold treats like smooth ones; 0: smooth surfaces only", 0, 1)
       .boolean("guiding", &PathSettings::guiding,
-               "directions also by a distribution of light over places and directions, learned before the render")
+               "path guiding: also sample directions from a distribution that is learned before the render")
       .integer("guiding-paths", &PathSettings::guiding_paths, "paths from which guiding learns", 1024, 1 << 30);
   return fields;
 }

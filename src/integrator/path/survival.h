@@ -1,5 +1,5 @@
-// Russian roulette for efficiency: where a path lives on with the probability that makes variance times cost least, as
-// a pilot before the render measured it.
+// Russian roulette for efficiency: a path survives with the probability that minimises variance times cost, as measured
+// by a pilot before the render.
 #pragma once
 #include <span>
 #include <vector>

@@ -10,7 +10,7 @@ Fields<SppmSettings> sppm_fields() {
   fields.integer("photons", &S::photons, "light paths in each frame; 0: one per pixel, at least 16384", 0, 1 << 28)
       .number("radius", &S::radius, "radius of the first frame in world units; 0: three pixels wide", 0, 1e30)
       .number("medium-radius", &S::medium_radius,
-              "the same in participating media, where photons are gathered in balls; 0: holds some 8 photons", 0, 1e30)
+              "the same in participating media, where photons are gathered in balls; 0: holds about 2 photons", 0, 1e30)
       .number("alpha", &S::alpha, "share of the photons that is kept as the radius shrinks; 1: constant radius", 1e-3,
               1)
       .choice<PhotonKernel>("kernel", &S::kernel, "weight of a photon by its distance", photon_kernel_names())

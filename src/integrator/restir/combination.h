@@ -1,4 +1,4 @@
-// Reservoirs of several pixels become one, or one for each of them; and the light that all of them bring.
+// Combines the reservoirs of several pixels to one, or to one for each of them, and computes their light.
 #pragma once
 #include "integrator/restir/first_stage.h"
 #include "integrator/restir/inputs.h"
@@ -8,7 +8,7 @@
 namespace montelux {
 
 // Which kinds of samples are shown as the sum over all that are combined, and not as the chosen one alone: those whose
-// targets know what is in the way, where shares sum to one for each sample.
+// targets include visibility, where shares sum to one for each sample.
 struct ImageSums {
   bool lights = false, paths = false;
 };

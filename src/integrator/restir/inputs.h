@@ -1,4 +1,4 @@
-// What pixels bring to a combination: their vertices and reservoirs, side by side in lanes.
+// What pixels contribute to a combination: their vertices and reservoirs, side by side in lanes.
 #pragma once
 #include <vector>
 

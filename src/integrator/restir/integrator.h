@@ -1,5 +1,5 @@
 // Spatiotemporal resampling by reservoirs, of direct light (Bitterli et al. 2020) and of paths (Ouyang et al. 2021, Lin
-// et al. 2022), as an offline estimator: series of frames are independent, so their spread is an honest error bar.
+// et al. 2022), as an offline estimator: series of frames are independent, so their spread is a valid error bar.
 // docs/reuse.md has the method.
 #pragma once
 #include "accel/accel.h"

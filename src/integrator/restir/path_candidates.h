@@ -133,7 +133,7 @@ class PathCandidates {
     return left | (on & !moves);
   }
 
-  // What is left of the light of the way that has led here.
+  // Multiplies the weights by the transmittance `left` of the last segment.
   void absorb(const Spectrum<F>& left, M on) {
     PathWalk<F>& w = walk_;
     w.weight = select(on, w.weight * left, w.weight), w.leaving = select(on, w.leaving * left, w.leaving);

@@ -1,5 +1,5 @@
-// A path behind a pixel's vertex as it is handed to other pixels: numbers with which to scatter again, up to the place
-// where it is joined to what it found (Lin et al. 2022, sec. 7: the hybrid shift).
+// A path beyond a pixel's vertex as other pixels reuse it: the random numbers to replay up to the reconnection vertex,
+// and what is kept from there (Lin et al. 2022, sec. 7: the hybrid shift).
 //
 // Paths are counted in a measure that all pixels share: the random numbers of the events that are scattered again, then
 // the area of the surface (or the measure of the light point) to which the path is joined, then the solid angle in

@@ -1,6 +1,6 @@
-// The shift of paths: another pixel scatters with the same numbers, and is then joined to the same surface or light
-// (Lin et al. 2022, sec. 7). With no event scattered again it is the reconnection shift, with nothing to join to but
-// the light the random replay shift.
+// The shift of paths: another pixel scatters with the same numbers, and then reconnects to the same surface or light
+// (Lin et al. 2022, sec. 7: the hybrid shift). Without replayed events it is the reconnection shift; with reconnection
+// at the light only, the random replay shift.
 #pragma once
 #include "integrator/restir/path_sample.h"
 #include "transport/next_vertex.h"

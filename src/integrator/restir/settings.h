@@ -28,8 +28,8 @@ struct RestirSettings {
   bool groups = true;
   int neighbours = 15, rounds = 1;
   float radius = 2;
-  // In groups: pixels of one object stand together. Else: neighbours whose surface looks another way, or lies at
-  // another depth, are passed over.
+  // In groups: pixels of one object are grouped first. Else: neighbours whose surface has a different normal or depth
+  // are skipped.
   bool similar = true;
   // The pixel's own reservoir of the frame before, of at most m_cap times the confidence of a new one; for a picture's
   // first frame, that of the picture before.
@@ -38,9 +38,9 @@ struct RestirSettings {
   // In a sequence, series continue from each picture to the next.
   bool carry = true;
   ReuseWeights weights = ReuseWeights::pairwise;
-  // Targets of direct light know what is in the way: more shadow rays, better samples.
+  // Targets of direct light include visibility: more shadow rays, better samples.
   bool visibility_reuse = true;
-  int frames = 16, warm_up = 0;  // frames of a series; those before them that only teach
+  int frames = 16, warm_up = 0;  // frames of a series; preceding ones that only fill reservoirs
   // Direct light at the first rough surface is shared; no: it is each pixel's own.
   bool direct = true;
   PathReuse indirect;

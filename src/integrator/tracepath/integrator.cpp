@@ -175,7 +175,7 @@ static Fields<TracePathSettings> tracepath_fields() {
 
 EntitySpec tracepath_spec() {
   return {"tracepath",
-          "the recursive TracePath of COS 526, corrected: emitted or reflected light; a light, and elsewhere",
+          "the recursive TracePath of COS 526, corrected: emitted light, or two rays: to a light, and elsewhere",
           tracepath_fields().specs({})};
 }
 
