@@ -1,6 +1,6 @@
 // The plan of the numbers of a path: which coordinate of its sample point decides what, so that no two decisions share
-// one. Streams are numbered, too, on their own: coordinate 4 and stream 4 have nothing in common. There is one plan for
-// paths from the camera, and one for paths from a light.
+// one. Streams have the numbers of coordinates, but are independent of them, except that a recorded point chooses among
+// several streams by the coordinate (numbers.h). One plan is for paths from the camera, one for paths from a light.
 #pragma once
 #include <cstdint>
 

@@ -274,7 +274,7 @@ class PathCandidates {
     const M continues = event.valid & !broken;
 
     const M behind = continues & (w.joined != U(0u));
-    const M joins = continues & (w.joined == U(0u)) & may_join(leg, event.density) &
+    const M joins = continues & !event.delta & (w.joined == U(0u)) & may_join(leg, event.density) &
                     (w.events <= U(std::uint32_t(shared_.reuse.max_replayed) + 1));
     if (any(joins)) {
       w.at = select_words(joins, surface_of(vertex), w.at);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lab/integral/summary.h"
+#include "mc/weighted_mean.h"
 
 namespace montelux::lab {
 namespace {
@@ -20,24 +21,12 @@ constexpr double dominant_share = 0.1;
 // For unbounded terms that are known to have a variance, the largest often has a large share.
 constexpr double dominant_share_of_singular = 0.5;
 
-// The mean of values over passes weighted by their samples, with Student's degrees of freedom.
-struct WeightedMean {
-  double mean = 0, standard_error = 0, degrees = 0;
-};
+// The mean of values over passes, weighted by their samples.
 template <class Value>
 WeightedMean over_passes(const std::vector<PassRecord>& passes, Value value) {
-  WeightedMean m;
-  double n = 0, weights = 0, squares = 0;
-  for (const PassRecord& p : passes) n += double(p.samples), m.mean += double(p.samples) * value(p);
-  if (n == 0) return m;
-  m.mean /= n;
-  for (const PassRecord& p : passes) {
-    const double weight = double(p.samples) / n, distance = value(p) - m.mean;
-    weights += weight * weight, squares += weight * weight * distance * distance;
-  }
-  m.degrees = 1 / weights - 1;
-  if (m.degrees > 0) m.standard_error = std::sqrt(squares / weights / m.degrees);
-  return m;
+  return weighted_mean(
+      passes.size(), [&](std::size_t i) { return double(passes[i].samples); },
+      [&](std::size_t i) { return value(passes[i]); });
 }
 
 double two_sided_p(double mean, double standard_error, double degrees) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lab/integral/diagnosis.h"
+#include "mc/weighted_mean.h"
 
 namespace montelux::lab {
 namespace {
@@ -63,21 +64,11 @@ PassEstimate estimate_of(const IntegralState& state) {
   const PassMeans values = pass_means(state);
   PassEstimate e;
   e.coefficient = values.coefficient;
-  double n = 0, weight_squares = 0, squares = 0;
-  for (const PassRecord& p : state.passes) n += double(p.samples);
-  if (n == 0) return e;
-  for (std::size_t i = 0; i < values.means.size(); ++i) e.mean += double(state.passes[i].samples) * values.means[i];
-  e.mean /= n;
-  for (std::size_t i = 0; i < values.means.size(); ++i) {
-    const double weight = double(state.passes[i].samples) / n, distance = values.means[i] - e.mean;
-    weight_squares += weight * weight;
-    squares += weight * weight * distance * distance;
-  }
-  // With equal weights that is Student's interval; with unequal ones the passes count as fewer.
-  const double passes = 1 / weight_squares;
-  e.degrees = passes - 1;
+  const WeightedMean m = weighted_mean(
+      values.means.size(), [&](std::size_t i) { return double(state.passes[i].samples); },
+      [&](std::size_t i) { return values.means[i]; });
+  e.mean = m.mean, e.degrees = m.degrees, e.standard_error = m.standard_error;
   if (!(e.degrees > 0)) return e;
-  e.standard_error = std::sqrt(squares * passes / e.degrees);
   // What sums of doubles leave of terms that are all alike.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(e.mean);
   e.spread = e.standard_error > rounding;
