@@ -5,6 +5,7 @@
 #include "integrator/photons/lookup.h"
 #include "mc/roulette.h"
 #include "transport/connection.h"
+#include "transport/path_steps.h"
 
 namespace montelux {
 
@@ -87,20 +88,19 @@ class EyeSubpaths {
                               {path.depth, number, technique, U(0u), false, share});
     };
     const auto sink_of_met = [&](const M& met, const auto&... light) { sink(met & wants_met, light...); };
-    const auto follow = [&](const auto& distances) {
-      return follow_ray<F>(scene_, frame_.rays, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
-                           sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink_of_met,
-                           distances);
+    const auto arrive_by = [&](const auto& distances) {
+      return arrive_path<F>(scene_, frame_.rays, path, on, wants_met,
+                            sampler.stream(dimension + U(path_dimension::own)), counts_.scattered, weight, sink_of_met,
+                            distances);
     };
     NextVertex<F> at = [&] {
       if constexpr (in_media)
-        return follow(MediumDistances<F, Numbers>{sampler, dimension + U(path_dimension::distance), path.throughput});
+        return arrive_by(
+            MediumDistances<F, Numbers>{sampler, dimension + U(path_dimension::distance), path.throughput});
       else
-        return follow(NoDistances{});
+        return arrive_by(NoDistances{});
     }();
-    path.radiance += select(M(on & wants_met), path.throughput * at.emitted, gray(F(0.0f)));
-    path.throughput = select(on, path.throughput * at.left, path.throughput);
-    arrive(path, at, sampler, first);
+    weigh_arrival(path, at, sampler, first);
 
     M scatters = on & at.found;
     if (frame_.paths.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*frame_.paths.max_depth)));
@@ -147,13 +147,8 @@ class EyeSubpaths {
     leave_vertex(path, at, wi, next, moves, M(false));
 
     // The next vertex, or the sky.
-    const M found = trace_path(path, frame_.rays, moves, counts_.scattered);
-    if constexpr (!in_media)
-      if (const M escapes = moves & !found & sees_next(vertices); any(escapes))
-        path.radiance +=
-            path.throughput * sky_light<F>(lights, {path.p, path.n, path.media}, path.d, escapes, weight, sink);
-    // In media a ray that meets no surface may still scatter.
-    const M ended = on & !(in_media ? moves : moves & found);
+    const M ended = on & !trace_on<F, in_media>(scene_, frame_.rays, path, moves, sees_next(vertices),
+                                                counts_.scattered, weight, sink);
     const Spectrum<F> radiance = path.radiance * path.weight;
     for_each_lane(ended, [&](int k) {
       PixelSample& sample = out[lane(path.output, k)];
@@ -178,7 +173,7 @@ class EyeSubpaths {
       return frame_.wants(U(0u), vertices + U(1u));
   }
   template <class Numbers>
-  void arrive(const PathState<F>& path, const NextVertex<F>& at, const Numbers& sampler, M first) {
+  void weigh_arrival(const PathState<F>& path, const NextVertex<F>& at, const Numbers& sampler, M first) {
     const F cos = area_cosine<F, in_media>(at, at.d);
     weights_ = frame_.weights.arrive(weights_, length_squared(at.x.point.p - path.p), cos, at.passing);
     if (!any(first)) return;

@@ -11,6 +11,7 @@
 #include "integrator/photons/gathering_tallies.h"
 #include "integrator/photons/lookup.h"
 #include "transport/connection.h"
+#include "transport/path_steps.h"
 
 namespace montelux {
 
@@ -130,21 +131,15 @@ class PhotonGathering {
   NextVertex<F> arrive(PathState<F>& path, M on, const Numbers& numbers, Weight weight, const Layers& layers,
                        Receiver& segments) {
     const U dimension = dimension_of(path);
-    const auto follow = [&](const auto& distances) {
-      return follow_ray<F>(scene_, rays_, {path.p, path.n, path.media}, ray_of(path), path.hit, on,
-                           numbers.stream(dimension + U(path_dimension::own)), counts_.scattered, weight,
-                           sink_for(path, layers), distances);
+    const auto arrive_by = [&](const auto& distances) {
+      return arrive_path<F>(scene_, rays_, path, on, on, numbers.stream(dimension + U(path_dimension::own)),
+                            counts_.scattered, weight, sink_for(path, layers), distances);
     };
-    const NextVertex<F> at = [&] {
-      if constexpr (in_media)
-        return follow(ReportedDistances<F, Numbers, Receiver>{
-            {numbers, dimension + U(path_dimension::distance), path.throughput}, segments});
-      else
-        return follow(NoDistances{});
-    }();
-    path.radiance += select(on, path.throughput * at.emitted, gray(F(0.0f)));
-    path.throughput = select(on, path.throughput * at.left, path.throughput);
-    return at;
+    if constexpr (in_media)
+      return arrive_by(ReportedDistances<F, Numbers, Receiver>{
+          {numbers, dimension + U(path_dimension::distance), path.throughput}, segments});
+    else
+      return arrive_by(NoDistances{});
   }
   M may_scatter(const PathState<F>& path) const {
     return rules_.max_depth ? path.depth < U(std::uint32_t(*rules_.max_depth)) : M(true);
@@ -200,12 +195,7 @@ class PhotonGathering {
     moves = survive_roulette(path, select(plays, survival_by_throughput(path), F(1.0f)),
                              numbers.get1(dimension + U(path_dimension::roulette)), moves);
     leave_vertex(path, at, at.bsdf.frame.to_world(next.wi), next, moves, M(false));
-    const M found = trace_path(path, rays_, moves, counts_.scattered);
-    if constexpr (in_media) return moves;
-    if (const M escapes = moves & !found; any(escapes))
-      path.radiance += path.throughput * sky_light<F>(scene_.lights, {path.p, path.n, path.media}, path.d, escapes,
-                                                      weight, sink_for(path, layers));
-    return moves & found;
+    return trace_on<F, in_media>(scene_, rays_, path, moves, moves, counts_.scattered, weight, sink_for(path, layers));
   }
 
   // One vertex of every path; gives the lanes that continue. `ends`: those that only look for emission.
