@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "camera/description.h"
 #include "io/checks.h"
 #include "io/numbers.h"
 #include "io/text_file.h"
+#include "light/point.h"
+#include "scene/description.h"
 #include "scene/picture.h"
 
 namespace montelux {
@@ -37,7 +40,9 @@ void check_window(const Entity& entity, std::string_view name, Reporter& report)
 }
 
 void check_film(const Entity& film, Reporter& report) {
-  std::int64_t x = film.parameters.integer("xresolution", 1280), y = film.parameters.integer("yresolution", 720);
+  const FilmDesc defaults;
+  std::int64_t x = film.parameters.integer("xresolution", defaults.width);
+  std::int64_t y = film.parameters.integer("yresolution", defaults.height);
   // A side that is out of its own range was reported there.
   if (std::string complaint = size_complaint(x, y); !complaint.empty() && std::max(x, y) <= max_picture_side)
     report.error(place_of(film, "xresolution"), complaint);
@@ -51,7 +56,9 @@ void check_film(const Entity& film, Reporter& report) {
 
 void check_camera(const Entity& camera, Reporter& report) {
   check_window<float>(camera, "screenwindow", report);
-  float open = camera.parameters.number("shutteropen", 0), close = camera.parameters.number("shutterclose", 1);
+  const CameraDesc defaults;
+  float open = camera.parameters.number("shutteropen", defaults.shutter_open);
+  float close = camera.parameters.number("shutterclose", defaults.shutter_close);
   if (open > close) report.error(place_of(camera, "shutterclose"), "the shutter closes before it opens");
   if (open == close)
     report.error(place_of(camera, "shutterclose"), "the shutter closes when it opens, so every image is black");
@@ -77,12 +84,14 @@ void check_material(const Entity& material, Reporter& report) {
 
 void check_light(const Entity& light, Reporter& report) {
   const ParameterList& p = light.parameters;
+  const SpotLightDesc spot;  // a distant light has the same default points
   if (light.type == "spot" || light.type == "distant") {
-    Vec3f from = p.vec3("from", {0, 0, 0}), to = p.vec3("to", {0, 0, 1});
+    Vec3f from = p.vec3("from", spot.from), to = p.vec3("to", spot.to);
     if (from.x == to.x && from.y == to.y && from.z == to.z)
       report.error(place_of(light, "to"), "'from' and 'to' of a " + light.type + " light are the same point");
   }
-  if (light.type == "spot" && p.number("conedeltaangle", 5) > p.number("coneangle", 30))
+  if (light.type == "spot" &&
+      p.number("conedeltaangle", spot.cone_delta_angle) > p.number("coneangle", spot.cone_angle))
     report.error(place_of(light, p.find("conedeltaangle") ? "conedeltaangle" : "coneangle"),
                  "'conedeltaangle' is wider than 'coneangle'");
   if (light.type == "projection" && !p.find("filename"))
@@ -96,7 +105,7 @@ void check_light(const Entity& light, Reporter& report) {
 
 void check_curve(const Entity& curve, Reporter& report) {
   std::size_t points = curve.parameters.array<Vec3f>("P").size();
-  std::size_t degree = static_cast<std::size_t>(curve.parameters.integer("degree", 3));
+  std::size_t degree = static_cast<std::size_t>(curve.parameters.integer("degree", CurveDesc{}.degree));
   bool bspline = curve.parameters.string("basis", "bezier") == "bspline";
   if (points == 0) {
     report.error(curve.where, "shape 'curve' needs 'P', its control points");
@@ -119,15 +128,17 @@ void check_shape(const Entity& shape, Reporter& report) {
   const ParameterList& p = shape.parameters;
   if (shape.type == "curve") check_curve(shape, report);
   if (shape.type == "plymesh" && !p.find("filename")) report.error(shape.where, "shape 'plymesh' needs 'filename'");
-  if (shape.type == "disk" && p.number("innerradius", 0) >= p.number("radius", 1))
+  if (shape.type == "disk" && p.number("innerradius", DiskForm{}.inner_radius) >= p.number("radius", DiskForm{}.radius))
     report.error(place_of(shape, "innerradius"), "'innerradius' must be smaller than 'radius'");
   bool is_sphere = shape.type == "sphere", is_cylinder = shape.type == "cylinder";
   if (!is_sphere && !is_cylinder) return;
-  float end = is_sphere ? p.number("radius", 1) : 1.0f;
-  float low = p.number("zmin", -end), high = p.number("zmax", end);
+  const float radius = p.number("radius", SphereForm{}.radius);
+  const CylinderForm cylinder;
+  float low = p.number("zmin", is_sphere ? -radius : cylinder.z_min);
+  float high = p.number("zmax", is_sphere ? radius : cylinder.z_max);
   if (low == high)
     report.error(place_of(shape, "zmax"), "'zmin' and 'zmax' are equal: nothing is left of the " + shape.type);
-  if (is_sphere && (std::min(low, high) >= end || std::max(low, high) <= -end))
+  if (is_sphere && (std::min(low, high) >= radius || std::max(low, high) <= -radius))
     report.error(place_of(shape, "zmin"), "nothing is left of the sphere between 'zmin' and 'zmax'");
 }
 
