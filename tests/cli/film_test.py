@@ -162,8 +162,11 @@ class Films(ProgramTest):
         self.run_program("render", SCENE, *plan, "--spp", "10", "--checkpoint", "room.film")
         self.assertEqual(self.picture("--resume", "room.film", "--spp", "32", name="more.exr"), whole)
         # The same settings may be given again; a time adds to what there is.
-        stated = json.loads(self.run_program("render", SCENE, *plan, "--resume", "room.film", "--time", "200ms",
-                                           "--checkpoint", "longer.film", "--json").stdout)
+        for time in "200ms", "2s", "20s":  # a slow build takes longer than the first to load the scene
+            stated = json.loads(self.run_program("render", SCENE, *plan, "--resume", "room.film", "--time", time,
+                                               "--checkpoint", "longer.film", "--json").stdout)
+            if stated["passes"] > 5:
+                break
         self.assertGreater(stated["passes"], 5)
         self.refused("render", "--resume", "longer.film", saying="longer.film was rendered within a time; --time says")
         # As far as there are passes, they are those of the render that was not interrupted.
