@@ -7,7 +7,7 @@
 namespace montelux {
 
 // The vertex to which the rays of paths lead, on which they have met `hit`. The light on the way, as follow_ray() has
-// it, is added to the radiance in the lanes `counts`. `random` belongs to this vertex.
+// it, is added to the radiance in the lanes `counts`. `random` belongs to this vertex; rays are added to `traced`.
 template <class F, class Rays, class Weight, class Sink, class Distances = NoDistances>
 NextVertex<F> arrive_path(const Scene& scene, const Rays& rays, PathState<F>& path, Mask<F> on, Mask<F> counts,
                           const RandomStream<F>& random, std::uint64_t& traced, Weight weight, Sink sink,
@@ -21,7 +21,7 @@ NextVertex<F> arrive_path(const Scene& scene, const Rays& rays, PathState<F>& pa
 
 // Traces paths that have left a vertex. Where they meet no surface, the light of the sky is added in the lanes
 // `counts`. Returns the lanes that continue: those on a surface, and with media all, since a ray that meets no surface
-// may still scatter.
+// may still scatter. Adds the rays to `traced`.
 template <class F, bool in_media, class Rays, class Weight, class Sink>
 Mask<F> trace_on(const Scene& scene, const Rays& rays, PathState<F>& path, Mask<F> on, Mask<F> counts,
                  std::uint64_t& traced, Weight weight, Sink sink) {

@@ -312,11 +312,13 @@ class Films(ProgramTest):
                 self.refused("render", SCENE, "--resume", "bad.film", "-o", "x.exr", saying=f"bad.film.*{saying}")
                 if b'"montelux film"' in content[:64]:
                     self.refused("merge", "bad.film", "-o", "x.film", saying=saying)
-        self.refused("merge", "good.film", "bad.film", "-o", "x.film", saying="bad.film' cannot be read: it is not a file that montelux render --checkpoint wrote")
+        self.refused("merge", "good.film", "bad.film", "-o", "x.film",
+                     saying="bad.film' cannot be read: it is not a file that montelux render --checkpoint wrote")
         self.run_program("integrate", "4*x^3", "--over", "x=0:1", "--samples", "100", "--save", "i.json")
         again = self.run_program("render", "--resume", "good.film", "-o", "x.exr")
         self.assertIn("the saved film has all of this already: no pass was added", again.stderr)
-        self.refused("merge", "good.film", "i.json", "-o", "x.film", saying="good.film is a saved film, and i.json is a saved integral")
+        self.refused("merge", "good.film", "i.json", "-o", "x.film",
+                     saying="good.film is a saved film, and i.json is a saved integral")
         self.refused("render", "--resume", "i.json", "-o", "x.exr", saying="not a file that montelux render --checkpoint")
         self.refused("render", "--resume", "none.film", "-o", "x.exr", saying="none.film")
 

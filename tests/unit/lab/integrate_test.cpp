@@ -265,6 +265,8 @@ TEST(Methods, every_name_is_read_and_written_back) {
   for (const EntitySpec& entity : method_table()) EXPECT_EQ(to_text(method_named(entity.name)), entity.name);
   EXPECT_EQ(to_text(method_named("qmc:baker=true,points=lattice")), "qmc:points=lattice,baker=on");
   EXPECT_EQ(to_text(method_named("mis:heuristic=max")), "mis:heuristic=maximum");
+  // A default that is stated is the same number, to the last bit.
+  EXPECT_EQ(method_named("metropolis:step=0.3").step, method_named("metropolis").step);
 }
 
 TEST(Methods, wrong_names_and_values_are_reported) {
