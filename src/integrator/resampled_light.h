@@ -3,11 +3,9 @@
 #pragma once
 #include "light/light_set.h"
 #include "mc/resampling.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
-
-// Separates the numbers of resampling from those of the materials, which fork the same stream by small numbers.
-inline constexpr std::uint32_t resampling_stream = 0x9d2c5680u;
 
 // The chosen candidate: value / target * mean weight, an estimate of all the light that the candidates would contribute
 // if nothing were in the way. Black where none contributes anything.
@@ -42,7 +40,7 @@ ResampledLight<F> resample_light(int candidates, RandomStream<F> stream, Mask<F>
     const Mask<F> queries = on & light.valid;
     const Spectrum<F> contribution = value(light, queries);
     const F target = select(queries, average(contribution), F(0.0f));
-    const F weight = select(target > F(0.0f), target / light.density.value, F(0.0f));
+    const F weight = select(target > F(0.0f), target / light.density, F(0.0f));
     sum = sum + weight;
     const Mask<F> taken = u_take * sum < weight;
     chosen = {select(taken, light.wi, chosen.wi), select(taken, light.distance, chosen.distance),

@@ -98,8 +98,8 @@ LightEmission<F> LightSet::emit(Uint<F> light, Vec2<F> u_point, Vec2<F> u_direct
     r.p = select(good, e.p, r.p), r.p_error = select(good, e.p_error, r.p_error);
     r.n = select(good, e.n, r.n), r.d = select(good, e.d, r.d);
     r.radiance = select(good, e.radiance, r.radiance), r.flux = select(good, e.flux, r.flux);
-    r.position.value = select(good, e.position.value, r.position.value);
-    r.direction.value = select(good, e.direction.value, r.direction.value);
+    r.position = select(good, e.position, r.position);
+    r.direction = select(good, e.direction, r.direction);
     r.valid = r.valid | good;
     r.delta_position = r.delta_position | (good & e.delta_position);
     r.delta_direction = r.delta_direction | (good & e.delta_direction);

@@ -19,7 +19,7 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
         r.point.radiance = select(good, surface_emission(row, e.uv, good), r.point.radiance);
         const Mask<F> both = row.flag(light_two_sided);
         r.point.place = select(good & both, in_lanes<F>(LightPlace::two_sided_surface), r.point.place);
-        r.density.value = select(good, e.density.value, r.density.value);
+        r.density = select(good, e.density, r.density);
         r.valid = r.valid | good;
       });
       return;
@@ -28,7 +28,7 @@ LightPointDraw<F> LightSet::draw_light_point(Uint<F> light, Vec3<F> p, Vec3<F> n
     const Mask<F> good = m & s.valid;
     r.point.place = select(good, in_lanes<F>(is_delta(kind) ? LightPlace::delta : LightPlace::infinite), r.point.place);
     r.point.p = select(good, s.wi, r.point.p), r.point.radiance = select(good, s.radiance, r.point.radiance);
-    r.density.value = select(good, s.density.value, r.density.value);
+    r.density = select(good, s.density, r.density);
     r.valid = r.valid | good;
   });
   return r;

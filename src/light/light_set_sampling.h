@@ -93,7 +93,7 @@ LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<
     Mask<F> good = m & s.valid;
     r.wi = select(good, s.wi, r.wi), r.distance = select(good, s.distance, r.distance);
     r.radiance = select(good, s.radiance, r.radiance);
-    r.density.value = select(good, s.density.value, r.density.value);
+    r.density = select(good, s.density, r.density);
     r.valid = r.valid | good, r.delta = r.delta | (good & s.delta);
   });
   return r;

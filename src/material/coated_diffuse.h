@@ -85,7 +85,7 @@ BsdfValue<F> CoatedDiffuse<F>::evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContex
   const BsdfValue<F> walked = Walk::evaluate(wo, wi, context.in(walks));
   if (!any(context.on & summed)) return walked;
   const BsdfValue<F> s = summed_value(wo, wi, context);
-  return {select(walks, walked.f_cos, s.f_cos), {select(walks, walked.density.value, s.density.value)}};
+  return {select(walks, walked.f_cos, s.f_cos), select(walks, walked.density, s.density)};
 }
 
 template <class F>
@@ -99,7 +99,7 @@ BsdfSample<F> CoatedDiffuse<F>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfCo
   const Mask<F> delta = (walked.delta & walks) | (s.delta & summed);
   return {select(walks, walked.wi, s.wi),
           select(walks, walked.weight, s.weight),
-          {select(walks, walked.density.value, s.density.value)},
+          select(walks, walked.density, s.density),
           F(1.0f),
           valid,
           delta};

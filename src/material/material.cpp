@@ -17,13 +17,13 @@ BsdfSample<F> no_sample() {
 template <class F>
 MONTELUX_INLINE void merge(BsdfValue<F>& all, const BsdfValue<F>& part, Mask<F> mask) {
   all.f_cos = select(mask, part.f_cos, all.f_cos);
-  all.density.value = select(mask, part.density.value, all.density.value);
+  all.density = select(mask, part.density, all.density);
 }
 template <class F>
 MONTELUX_INLINE void merge(BsdfSample<F>& all, const BsdfSample<F>& part, Mask<F> mask) {
   all.wi = select(mask, part.wi, all.wi);
   all.weight = select(mask, part.weight, all.weight);
-  all.density.value = select(mask, part.density.value, all.density.value);
+  all.density = select(mask, part.density, all.density);
   all.eta_scale = select(mask, part.eta_scale, all.eta_scale);
   all.valid = (part.valid & mask) | (all.valid & !mask);
   all.delta = (part.delta & mask) | (all.delta & !mask);

@@ -38,6 +38,26 @@ template <class F>
 MONTELUX_INLINE Density<SolidAngle, F> to_solid_angle(Density<ProjectedSolidAngle, F> p, F cos) {
   return {p.value * abs(cos)};
 }
+// A value of an integrand over the density with which its point was drawn: an estimate of the integral, if the value is
+// per unit of the same measure.
+template <class Measure, class F>
+MONTELUX_INLINE F operator/(F value, Density<Measure, F> p) {
+  return value / p.value;
+}
+// The ratio of two densities at one point.
+template <class Measure, class F>
+MONTELUX_INLINE F operator/(Density<Measure, F> a, Density<Measure, F> b) {
+  return a.value / b.value;
+}
+// Of `number` points together, each drawn with the density; or of points that count that much.
+template <class Measure, class F>
+MONTELUX_INLINE Density<Measure, F> operator*(F number, Density<Measure, F> p) {
+  return {number * p.value};
+}
+template <class Measure, class F>
+MONTELUX_INLINE Density<Measure, F> select(Mask<F> m, Density<Measure, F> a, Density<Measure, F> b) {
+  return {select(m, a.value, b.value)};
+}
 // A discrete choice, then a point with the density.
 template <class Measure, class F>
 MONTELUX_INLINE Density<Measure, F> operator*(Mass<F> choice, Density<Measure, F> p) {

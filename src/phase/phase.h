@@ -35,7 +35,7 @@ struct PhaseFunction {
     PhaseSample<F> s{wo, {F(0.0f)}};
     for_each_present([&](const auto& phase, Mask<F> same) {
       const PhaseSample<F> own = phase.sample(wo, u);
-      s = {select(same, own.wi, s.wi), {select(same, own.density.value, s.density.value)}};
+      s = {select(same, own.wi, s.wi), select(same, own.density, s.density)};
     });
     return s;
   }

@@ -25,16 +25,58 @@ inline constexpr std::uint32_t per_vertex = 10;
 // Interfaces are no vertices, but each segment between them has a distance and a stream of its own.
 inline constexpr std::uint32_t per_crossing = 1u << 20;
 
-// A fork of the stream of a vertex, for what a shadow ray meets: unlike the forks of materials, whose numbers are
-// small.
-inline constexpr std::uint32_t shadow_stream = 0x1b873593u;
-
 // Reuse between pixels: the direction of the first rough vertex, and the streams of a pixel. Crossings have no numbers
 // before the first vertex, so that these are free.
 inline constexpr std::uint32_t rough_direction = 1u << 29;  // 2
 inline constexpr std::uint32_t reuse = 1u << 30;            // a stream
 
 }  // namespace path_dimension
+
+// The forks of the stream of a vertex, by what they decide. The forks of materials have small numbers; "+ i": one for
+// each i.
+namespace vertex_stream {
+
+inline constexpr std::uint32_t shadow = 0x1b873593u;         // what a shadow ray meets
+inline constexpr std::uint32_t connection = 0x3c6ef372u;     // + i: with the vertex i of a path from a light
+inline constexpr std::uint32_t resampling = 0x9d2c5680u;     // the candidates on lights
+inline constexpr std::uint32_t segment_light = 0x5bd1e995u;  // the second event of a segment in a medium
+inline constexpr std::uint32_t manifold = 0x9b1f6d2bu;       // the chains of mirrors and glass to a light
+inline constexpr std::uint32_t photon = 0x6a09e667u;         // + i: how the photon i is scattered
+inline constexpr std::uint32_t gather_ray = 0x9b05688cu;     // + i: the gather ray i
+
+}  // namespace vertex_stream
+
+// The forks of the stream of a pixel in one frame, where samples are reused. "+ i": in the stage i.
+namespace restir_stream {
+
+inline constexpr std::uint32_t bsdf = 1;               // of the vertex in view
+inline constexpr std::uint32_t lights = 2;             // its candidates on lights
+inline constexpr std::uint32_t met = 3;                // the light that its direction meets
+inline constexpr std::uint32_t temporal = 4;           // the combination with the last frame
+inline constexpr std::uint32_t path = 5;               // the candidate for its indirect light
+inline constexpr std::uint32_t spatial = 16;           // + i: the choice of neighbours
+inline constexpr std::uint32_t groups = 32;            // + i: the combination of groups of pixels
+inline constexpr std::uint32_t interfaces = 1u << 31;  // a fork of `met`
+
+}  // namespace restir_stream
+
+// The forks of the stream of one scattering event of a path that other pixels replay.
+namespace event_stream {
+
+inline constexpr std::uint32_t model = 1;    // of the model that is sampled
+inline constexpr std::uint32_t light = 2;    // next-event estimation where the event is
+inline constexpr std::uint32_t surface = 3;  // the surfaces that it meets
+
+}  // namespace event_stream
+
+// The forks of the stream of a Markov chain's sample point, for what its vector of numbers does not have.
+namespace chain_stream {
+
+inline constexpr std::uint32_t light_path = 0x51ed270bu;
+inline constexpr std::uint32_t start = 0x2545f491u;
+inline constexpr std::uint32_t decisions = 0x9e37u;  // of a step: its size, and whether it is accepted
+
+}  // namespace chain_stream
 
 namespace light_dimension {
 

@@ -40,7 +40,7 @@ MONTELUX_INLINE void put_phase_value(Mask<F> on, const PhaseFunction<F>& phase, 
                                      BsdfValue<F>& value) {
   const Density<SolidAngle, F> density = phase.evaluate(wo, wi);
   value.f_cos = select(on, gray(density.value), value.f_cos);
-  value.density.value = select(on, density.value, value.density.value);
+  value.density = select(on, density, value.density);
 }
 template <class F>
 MONTELUX_INLINE void put_phase_scattering(Mask<F> on, const PhaseFunction<F>& phase, const ScatterQuery<F>& query,
@@ -49,7 +49,7 @@ MONTELUX_INLINE void put_phase_scattering(Mask<F> on, const PhaseFunction<F>& ph
   const PhaseSample<F> next = phase.sample(query.wo, query.u2);
   s.next.wi = select<F>(on, next.wi, s.next.wi);
   s.next.weight = select(on, gray(F(1.0f)), s.next.weight);
-  s.next.density.value = select(on, next.density.value, s.next.density.value);
+  s.next.density = select(on, next.density, s.next.density);
   s.next.eta_scale = select(on, F(1.0f), s.next.eta_scale);
   s.next.delta = s.next.delta & !on, s.next.valid = s.next.valid | on;
 }

@@ -126,7 +126,7 @@ MONTELUX_INLINE void leave_vertex(PathState<F>& path, const V& v, const Vec3<F>&
                                   Mask<F> scattered, Mask<F> passes) {
   path.media = select_media<F>(scattered | passes, v.media_toward(wi), path.media);
   path.p = select(scattered, v.x.point.p, path.p), path.n = select(scattered, v.bsdf.light_normal, path.n);
-  path.density.value = select(scattered, event.density.value, path.density.value);
+  path.density = select(scattered, event.density, path.density);
   const Uint<F> delta = select(v.bsdf.is_delta, path.by_delta | Uint<F>(1u), Uint<F>(1u));
   path.by_delta = select(scattered, select(event.delta, delta, Uint<F>(0u)), path.by_delta);
   path.o = v.origin_toward(wi), path.d = wi;

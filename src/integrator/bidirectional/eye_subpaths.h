@@ -5,12 +5,10 @@
 #include "integrator/photons/lookup.h"
 #include "mc/roulette.h"
 #include "transport/connection.h"
+#include "transport/dimensions.h"
 #include "transport/path_steps.h"
 
 namespace montelux {
-
-// Of the stream of a vertex of the eye's subpath: for the connections with a light, and with a vertex from the lights.
-inline constexpr std::uint32_t connection_stream = 0x3c6ef372u;
 
 // Subpaths, one a lane, by the same plan of numbers as `path`. The strategies of each: it meets a light; a vertex is
 // connected with a point of a light; a vertex is connected with each vertex of the pixel's own subpath from the lights,
@@ -195,10 +193,10 @@ class EyeSubpaths {
   void connect_light(PathState<F>& path, const Here& here, const LightPointDraw<F>& draw,
                      const Density<SolidAngle, F>& density, const LightPointView<F>& view, const BsdfValue<F>& value) {
     const NextVertex<F>& at = here.at;
-    const Spectrum<F> contribution = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density.value);
+    const Spectrum<F> contribution = path.throughput * value.f_cos * view.radiance * (F(1.0f) / density);
     const M queries = view.valid & (max_component(contribution) > F(0.0f));
     if (!any(queries)) return;
-    const Arriving<F> seen = arriving(at, view.wi, view.distance, queries, path_dimension::shadow_stream);
+    const Arriving<F> seen = arriving(at, view.wi, view.distance, queries, vertex_stream::shadow);
     if (!any(seen.on)) return;
     const BothDensities<F> both = densities(at, at.bsdf.frame.to_local(view.wi), value.density, seen.on);
     const LightEnd<F> end = light_end<F>(frame_.path_lights(), {draw.point.light, draw.point.p, draw.point.n, seen.on},
@@ -228,7 +226,7 @@ class EyeSubpaths {
     const auto [wi, distance, squared] = line_to<F>(at.x.point.p, y.p);
     const Vec3<F> eye_wi = at.bsdf.frame.to_local(wi), light_wi = y.frame.to_local(-wi);
     BsdfContext<F> eye_context = at.context;
-    eye_context.random = at.context.random.fork(U(connection_stream) + y.events);
+    eye_context.random = at.context.random.fork(U(vertex_stream::connection) + y.events);
     const BsdfValue<F> eye = evaluate_at<F, in_media>(scene_, at, at.wo, eye_wi, eye_context, on);
     on = on & !is_black(eye.f_cos);
     if (!any(on)) return;
@@ -244,7 +242,7 @@ class EyeSubpaths {
     const Spectrum<F> value = path.throughput * eye.f_cos * y.flux * light.f_cos * (correction / squared);
     on = on & (max_component(value) > F(0.0f));
     if (!any(on)) return;
-    const Arriving<F> seen = arriving(at, wi, distance, on, connection_stream);
+    const Arriving<F> seen = arriving(at, wi, distance, on, vertex_stream::connection);
     on = seen.on;
     if (!any(on)) return;
     const BothDensities<F> at_eye = densities(at, eye_wi, eye.density, on);

@@ -25,7 +25,7 @@ LightEnd<F> light_end(const PathLights& from, const MetLight<F>& at, const Vec3<
   const Uint<F> number = select(at.on, at.number, Uint<F>(0u));
   // Light from beyond the scene is as wide as where it starts.
   const F emitted = p.position.value * p.direction.value * select(beyond, F(1.0f), spread);
-  return {sampled.value, from.by_power.template mass<F>(number).value * emitted,
+  return {sampled, from.by_power.template mass<F>(number) * Density<LightAndArea, F>{emitted},
           select(beyond | delta, F(1.0f), abs(dot(at.n, d)) * spread), delta};
 }
 

@@ -24,16 +24,16 @@ MONTELUX_INLINE PartialWeights<F> select_weights(Mask<F> m, const PartialWeights
   return {select(m, a.vcm, b.vcm), select(m, a.vc, b.vc), select(m, a.vm, b.vm)};
 }
 
-// The end of a path at a light, as the next vertex sees it. The light's own measure is area on a surface, solid angle
-// for light from beyond the scene, and the choice itself for a delta light.
+// A measure: the light's own, which is area on a surface, solid angle for light from beyond the scene, and the choice
+// itself for a delta light; times area across the segment that starts there.
+struct LightAndArea {};
+// The end of a path at a light, as the next vertex sees it.
 template <class F>
 struct LightEnd {
-  // By light sampling at the next vertex, the choice included: per solid angle there; of a delta light the probability
-  // of its choice.
-  F sampled;
-  // By a path that starts there: per the light's measure and per area across the segment.
-  F emitted;
-  F solid_angle;  // at the next vertex, over the light's own measure: cos / distance^2 on a surface
+  // By light sampling at the next vertex, the choice included; of a delta light the probability of its choice.
+  Density<SolidAngle, F> sampled;
+  Density<LightAndArea, F> emitted;  // by a path that starts there
+  F solid_angle;                     // at the next vertex, over the light's own measure: cos / distance^2 on a surface
   Mask<F> delta;
 };
 
@@ -74,8 +74,8 @@ class StrategyWeights {
   // The first vertex behind a light.
   template <class F>
   PartialWeights<F> first_from_light(const LightEnd<F>& end, F cos, F passing = F(1.0f)) const {
-    const F drawn = F(1.0f) / max(end.emitted * not_zero(cos), F(1e-30f));
-    const F by_light_sampling = end.sampled * select(end.delta, F(1.0f), end.solid_angle);
+    const F drawn = F(1.0f) / max(end.emitted.value * not_zero(cos), F(1e-30f));
+    const F by_light_sampling = end.sampled.value * select(end.delta, F(1.0f), end.solid_angle);
     const F vc = select(end.delta, F(0.0f), mis(end.solid_angle * drawn));
     return limited(PartialWeights<F>{mis(by_light_sampling * drawn) * unless_it_passes(passing), vc, vc * connecting_});
   }
@@ -104,17 +104,17 @@ class StrategyWeights {
   // The eye's subpath meets a light; `w` is what scatter() gave.
   template <class F>
   F met(const PartialWeights<F>& w, const LightEnd<F>& end, F passing = F(1.0f)) const {
-    const F emitted = end.emitted / max(end.solid_angle, F(1e-30f));
-    return share(limited(mis(end.sampled) * w.vcm * unless_it_passes(passing)) + mis(emitted) * w.vc);
+    const F emitted = end.emitted.value / max(end.solid_angle, F(1e-30f));
+    return share(limited(mis(end.sampled.value) * w.vcm * unless_it_passes(passing)) + mis(emitted) * w.vc);
   }
   // A vertex of the eye's subpath is connected with a light drawn there.
   template <class F>
   F light_sample(const PartialWeights<F>& eye, const LightEnd<F>& end, const BothDensities<F>& at_eye, F cos,
                  F passing = F(1.0f)) const {
-    const F drawn = F(1.0f) / max(end.sampled, F(1e-30f));
+    const F drawn = F(1.0f) / max(end.sampled.value, F(1e-30f));
     const F own = drawn / max(select(end.delta, F(1.0f), end.solid_angle), F(1e-30f));
     const F fewer = select(end.delta, F(0.0f), mis(at_eye.forward.value * drawn));
-    return share(mis(passing) * (fewer + mis(end.emitted * cos * own) * behind(eye, at_eye)));
+    return share(mis(passing) * (fewer + mis(end.emitted.value * cos * own) * behind(eye, at_eye)));
   }
   // A vertex of the light's subpath is connected with the lens, which sees so many pixels per area across the segment.
   template <class F>

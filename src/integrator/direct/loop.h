@@ -76,7 +76,7 @@ struct DirectLight {
   Spectrum<F> arriving(const Vec3<F>& wi, F distance, const Spectrum<F>& radiance, M on, bool is_left = false) const {
     const Arriving<F> seen =
         arriving_from<F>(scene, rays, at, wi, distance, M(on & (max_component(radiance) > F(0.0f))),
-                         at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+                         at.context.random.fork(U(vertex_stream::shadow)), counts.shadow);
     return select(seen.on, is_left ? radiance : radiance * seen.left, gray(F(0.0f)));
   }
 
@@ -86,7 +86,7 @@ struct DirectLight {
     const LightSample<F> light = draw_light(u_choice, numbers.get2(ray, path_dimension::light_point), measure, on);
     const M queries = on & light.valid;
     const BsdfValue<F> value = scattered(light.wi, queries);
-    F weight = F(1.0f) / light.density.value;
+    F weight = F(1.0f) / light.density;
     if (shared) weight = weight * select(light.delta, F(1.0f), heuristic(light.density, value.density));
     const Spectrum<F> contribution = arriving(light.wi, light.distance, value.f_cos * light.radiance * weight, queries);
     record_sample(u_choice, contribution, queries);
@@ -158,7 +158,7 @@ struct DirectLight {
 
   Spectrum<F> resampled(std::uint32_t ray, M on) const {
     const ResampledLight<F> chosen = resample_light<F>(
-        settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(resampling_stream)), on,
+        settings.candidates, numbers.stream(ray, path_dimension::own).fork(U(vertex_stream::resampling)), on,
         [&](F u_choice, Vec2<F> u) { return draw_light(u_choice, u, LightMeasure::solid_angle, on); },
         [&](const LightSample<F>& light, M queries) {
           return scattered(light.wi, queries).f_cos * light.radiance * at.left_of_light(light.wi, light.distance);

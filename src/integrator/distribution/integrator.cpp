@@ -68,10 +68,10 @@ struct Tree {
     const BsdfValue<F> value = evaluate<F>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
     const float weight =
         light.delta ? 1.0f : power_weight(float(n.points), light.density, float(n.directions), value.density);
-    Spectrum<float> direct = value.f_cos * light.radiance * (weight / (light.density.value * float(n.points)));
+    Spectrum<float> direct = value.f_cos * light.radiance * (weight / (float(n.points) * light.density));
     if (!(max_component(direct) > 0)) return gray(0.0f);
     const Arriving<F> seen = arriving_from<F>(scene, accel, at, light.wi, light.distance, true,
-                                              at.context.random.fork(path_dimension::shadow_stream), counts.shadow);
+                                              at.context.random.fork(vertex_stream::shadow), counts.shadow);
     if (!seen.on) return gray(0.0f);
     direct *= seen.left;
     if constexpr (Tally::records)

@@ -88,8 +88,8 @@ GuidedDirection<F> guide_scattering(const Scene& scene, const Vertex<F>& v, cons
     next.weight = select(guided, value.f_cos / max(mixture, F(1e-30f)), next.weight);
     next.valid = (next.valid & !guided) | (guided & (max_component(value.f_cos) > F(0.0f)));
     next.delta = next.delta & !guided, next.eta_scale = select(guided, one, next.eta_scale);
-    by_bsdf.value = select(guided, value.density.value, by_bsdf.value);
-    by_guide.value = select(guided, drawn.density.value, by_guide.value);
+    by_bsdf = select(guided, value.density, by_bsdf);
+    by_guide = select(guided, drawn.density, by_guide);
   }
   next.density = mixture_density(share, by_bsdf, by_guide);
   const F change = select(next.delta, one - share, next.density.value / max(by_bsdf.value, F(1e-30f)));

@@ -105,8 +105,7 @@ class LightTracingLoop {
       const LensConnection<F> lens = lens_.toward(e.p, lens_u, time);
       const F cos = dot(e.n, -lens.d);
       const M lit = surfaces & lens.seen & ((cos > F(0.0f)) | e.both_sides);
-      const Spectrum<F> contribution =
-          e.radiance * (abs(cos) * lens.across.value / (choice.mass.value * e.position.value) * scale_);
+      const Spectrum<F> contribution = e.radiance * (abs(cos) * lens.across / (choice.mass * e.position) * scale_);
       Media<F> media = no_media<F>();
       if constexpr (in_media)
         media = shared_.light_media->template around<F>(scene_.media, choice.index, (cos > F(0.0f)) ^ e.behind, lit);

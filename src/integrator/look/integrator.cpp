@@ -46,8 +46,8 @@ struct View {
     const F cos = dot(light.wi, normal());
     const M queries = at.found & light.valid & (cos > F(0.0f));
     const Arriving<F> seen = arriving_from<F>(scene, accel, at, light.wi, light.distance, queries,
-                                              at.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
-    return select(seen.on, light.radiance * seen.left * (cos / light.density.value), gray(F(0.0f)));
+                                              at.context.random.fork(U(vertex_stream::shadow)), counts.shadow);
+    return select(seen.on, light.radiance * seen.left * (cos / light.density), gray(F(0.0f)));
   }
 
   Spectrum<F> albedo(std::uint32_t sample) const {

@@ -12,9 +12,7 @@ namespace montelux {
 
 namespace {
 
-// Of the stream of a vertex; it differs from the streams of materials, whose numbers are small.
-constexpr std::uint32_t manifold_stream = 0x9b1f6d2bu;
-// Streams of that: the choice of the search, the mixtures of the scene, the end of counting, and the walks.
+// The forks of the stream: the choice of the search, the mixtures of the scene, the end of counting, and the walks.
 enum Stream : std::uint32_t { choosing, of_the_scene, ending, walking };
 
 // Walks start toward the ends of chains of other light, and with these probabilities in any direction, so that every
@@ -135,7 +133,7 @@ double ManifoldLight::reciprocal_probability(const StoredVertex<float>& x, const
 ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const ChainLengths<std::uint32_t>& lengths,
                                        std::uint64_t& rays) const {
   const LightSet& lights = tracer_.scene().lights;
-  const RandomStream<float> random = x.random.fork(manifold_stream), of_scene = random.fork(of_the_scene);
+  const RandomStream<float> random = x.random.fork(vertex_stream::manifold), of_scene = random.fork(of_the_scene);
   const DiscreteSample<float> chosen = choice_->sample(random.fork(choosing).next());
   const Search& search = searches_[chosen.index];
   const std::uint32_t number = std::uint32_t(search.light.id), events = search.kind.length + 1;
@@ -154,9 +152,8 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const Chain
   Spectrum<float> arriving = x.scattered(chain.w, true).f_cos * chain.left * light.radiance;
   arriving = arriving * float(1 / (spread * double(chosen.mass.value)));
   if (!(max_component(arriving) > 0)) return none;
-  const Arriving<float> seen =
-      arriving_from<float>(tracer_.scene(), tracer_.accel(), last, light.wi, light.distance, true,
-                           random.fork(Uint<float>(path_dimension::shadow_stream)), rays);
+  const Arriving<float> seen = arriving_from<float>(tracer_.scene(), tracer_.accel(), last, light.wi, light.distance,
+                                                    true, random.fork(Uint<float>(vertex_stream::shadow)), rays);
   if (!seen.on) return none;
   arriving *= seen.left;
   // Surfaces with an alpha mask may be open to this ray by chance, which is in the probability of the chain, but not in

@@ -12,6 +12,7 @@
 #include "math/lanes.h"
 #include "mc/metropolis.h"
 #include "mc/random.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
 
@@ -119,7 +120,7 @@ template <class F, class Function, class Deposit>
 StepsMade<F> step_chains(MarkovChains<F>& chains, SamplePoint<F>& proposal, const MutationSizes& sizes,
                          const RandomStream<F>& numbers, Function& evaluate, RayCounts& counts, Deposit deposit) {
   using U = Uint<F>;
-  const RandomStream<F> decisions = numbers.fork(U(0x9e37u));
+  const RandomStream<F> decisions = numbers.fork(U(chain_stream::decisions));
   const Mask<F> large = decisions.at(U(0u)) < F(sizes.large_step);
   evaluate.propose(proposal, chains.point, StepOfNumbers<F>{numbers, large, sizes});
   proposal.beyond = select_words(large, numbers, chains.point.beyond);

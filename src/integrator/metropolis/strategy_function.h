@@ -5,6 +5,7 @@
 #include "integrator/metropolis/given_paths.h"
 #include "integrator/metropolis/markov_chains.h"
 #include "integrator/metropolis/strategy_paths.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
 
@@ -161,7 +162,7 @@ class StrategyFunction {
         sum += more;
         found = found | (takes & (sum > wanted));
       }
-    const RandomStream<F> within = point.beyond.fork(U(start_stream));
+    const RandomStream<F> within = point.beyond.fork(U(chain_stream::start));
     const auto [u_events, u_strategy] = settings_.choice->template numbers_for<F>(
         chosen.light_vertices, chosen.eye_vertices, within.at(U(0u)), within.at(U(1u)));
     put_numbers(point, strategy_dimension(), u_strategy), put_numbers(point, strategy_dimension() + 1, u_events);
@@ -200,7 +201,6 @@ class StrategyFunction {
   // Numbers that are varied one by one: of the first vertices, which decide most.
   static constexpr int deepest = 10;
   static constexpr int max_start_events = 256;  // reached where rounding errors are large, if ever
-  static constexpr std::uint32_t light_path_stream = 0x51ed270bu, start_stream = 0x2545f491u;
 
   // The pair of subpaths of a sample point.
   struct Pair {
@@ -208,7 +208,7 @@ class StrategyFunction {
         : place(f.take_place(point)),
           eye(std::span(f.values_).first(f.eye_dimensions() * lanes_of<F>), point.beyond),
           light(std::span(f.values_).subspan(f.eye_dimensions() * lanes_of<F>, f.light_dimensions() * lanes_of<F>),
-                point.beyond.fork(U(light_path_stream))),
+                point.beyond.fork(U(chain_stream::light_path))),
           splats{f.plane_},
           frame{{f.scene_,
                  f.rays_,

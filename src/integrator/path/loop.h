@@ -68,7 +68,7 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
                                   Evaluate evaluate_light) {
   F chosen_by(0.0f);
   return resample_light<F>(
-      settings.candidates, at.random.fork(Uint<F>(resampling_stream)), at.on,
+      settings.candidates, at.random.fork(Uint<F>(vertex_stream::resampling)), at.on,
       [&](F u_choice, Vec2<F> u) {
         chosen_by = u_choice;
         return lights.template sample<F>(at.p, at.light_normal, u_choice, u, at.on);
@@ -255,7 +255,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         light_weight =
             light_weight * segment_light->share(v.x.point.p, v.x.distance, light, light_choice, M(lit & v.in_medium));
     Spectrum<F> direct =
-        path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density.value);
+        path.throughput * scattered.toward_light.f_cos * light.radiance * (light_weight / light.density);
     M shadow = lit & (max_component(direct) > F(0.0f));
     if (settings.candidates > 0) {
       const ResampledLight<F> chosen = resampled_light<F>(
@@ -279,7 +279,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     if (any(shadow)) {
       const Arriving<F> seen =
           arriving_from<F, in_media, false>(scene, rays, v, light.wi, light.distance, shadow,
-                                            v.context.random.fork(U(path_dimension::shadow_stream)), counts.shadow);
+                                            v.context.random.fork(U(vertex_stream::shadow)), counts.shadow);
       // What is resampled has been weighed by what bodies of glass leave of it.
       const bool is_left = !in_media && settings.candidates > 0;
       gather_light(path, seen.on, is_left ? direct : direct * seen.left, tally, [&] {
@@ -292,7 +292,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     if constexpr (in_media)
       if (segment_light) {
         const auto also = segment_light->sample(
-            rays, numbers.stream(segment + U(path_dimension::own)).fork(U(segment_light_stream)), counts.shadow);
+            rays, numbers.stream(segment + U(path_dimension::own)).fork(U(vertex_stream::segment_light)),
+            counts.shadow);
         gather_light(path, also.on, also.contribution, tally, [&] {
           return LightOrigin<F>{path.depth + U(1u), also.light, Technique::light_sampling};
         });

@@ -7,13 +7,11 @@
 
 #include "mc/mis.h"
 #include "medium/equiangular.h"
+#include "transport/dimensions.h"
 #include "transport/next_vertex.h"
 #include "transport/transmittance.h"
 
 namespace montelux {
-
-// Of the stream of a segment; it differs from the streams of materials, whose numbers are small.
-inline constexpr std::uint32_t segment_light_stream = 0x5bd1e995u;
 
 template <class F>
 class SegmentLight {
@@ -131,7 +129,8 @@ class RaySegmentLights {
   void begin(const Segment<F>& segment, const Spectrum<F>& throughput, Mask<F> on, const RandomStream<F>& random) {
     if (!scene_.lights.has_points()) return;
     const SegmentLight<F> light(scene_, scene_.lights, segment, throughput, on & on_);
-    if (const auto sample = light.sample(rays_, random.fork(Uint<F>(segment_light_stream)), traced_); any(sample.on))
+    if (const auto sample = light.sample(rays_, random.fork(Uint<F>(vertex_stream::segment_light)), traced_);
+        any(sample.on))
       add_(sample);
     if (last_)
       last_->replace(on, light);

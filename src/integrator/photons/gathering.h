@@ -11,6 +11,7 @@
 #include "integrator/photons/gathering_tallies.h"
 #include "integrator/photons/lookup.h"
 #include "transport/connection.h"
+#include "transport/dimensions.h"
 #include "transport/path_steps.h"
 
 namespace montelux {
@@ -271,12 +272,12 @@ class PhotonGathering {
     const LightSample<F>& light = drawn.sample;
     const F share =
         select(light.delta, drawn.share_of_delta, weight_of_light_sample(mis_, light.density, value.density));
-    const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density.value);
+    const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density);
     const M shadow = drawn.on & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;
     const Arriving<F> seen =
         arriving_from<F, in_media, false>(scene_, rays_, at, light.wi, light.distance, shadow,
-                                          at.context.random.fork(U(path_dimension::shadow_stream)), counts_.shadow);
+                                          at.context.random.fork(U(vertex_stream::shadow)), counts_.shadow);
     const Spectrum<F> arrives = direct * seen.left;
     path.radiance += select(seen.on, arrives, gray(F(0.0f)));
     if (!tallies_) return;
@@ -299,7 +300,7 @@ class PhotonGathering {
     for (int i = 0; i < rules_.gather_rays; ++i) {
       const auto numbers = gather_numbers(pass, path, U(std::uint32_t(i)));
       BsdfContext<F> own = at.context;
-      own.random = at.context.random.fork(U(0x9b05688cu + std::uint32_t(i)));
+      own.random = at.context.random.fork(U(vertex_stream::gather_ray + std::uint32_t(i)));
       const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
       const BsdfSample<F> next = sampled(at, numbers.get1(dimension + U(path_dimension::lobe)), u, own, rough);
       const M sent = rough & next.valid & !follows(next);

@@ -8,6 +8,7 @@
 
 #include "integrator/photons/photon_map.h"
 #include "integrator/photons/settings.h"
+#include "transport/dimensions.h"
 #include "transport/next_vertex.h"
 
 namespace montelux {
@@ -54,7 +55,7 @@ struct GatheringSurface {
   // Of the i-th photon of each lane, from the local wi.
   BsdfValue<F> scattered(const Vec3<F>& wi, std::size_t i, Mask<F> on) const {
     BsdfContext<F> own = context;
-    own.random = context.random.fork(Uint<F>(0x6a09e667u + std::uint32_t(i)));
+    own.random = context.random.fork(Uint<F>(vertex_stream::photon + std::uint32_t(i)));
     return evaluate<F>(at.bsdf.lanes(on), at.wo, wi, own);
   }
   // Of the irradiance for each unit of flux. Flux per area is irradiance on the surface itself, f |cos| scatters it by

@@ -64,7 +64,7 @@ Spectrum<F> irradiance_sample(const Radiosity& r, const Irradiance& known, const
   const M queries = on & light.valid & (cos > F(0.0f));
   const M lit = unblocked<F>(r.accel, shadow_ray(x.p, x.p_error, x.ng, light.wi, light.distance, F(0.0f)), queries,
                              counts.shadow);
-  Spectrum<F> sum = select(lit, light.radiance * (cos / light.density.value), gray(F(0.0f)));
+  Spectrum<F> sum = select(lit, light.radiance * (cos / light.density), gray(F(0.0f)));
 
   const Vec3<F> wi = LocalFrame<F>::from_normal(n).to_world(sample_cosine_hemisphere(numbers.get2(U(plan::direction))));
   const Vec3<F> from = offset_origin(x.p, x.p_error, x.ng, wi);

@@ -4,6 +4,7 @@
 #include "integrator/restir/inputs.h"
 #include "integrator/restir/light_point_shift.h"
 #include "mc/reuse_group.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
 

@@ -129,7 +129,7 @@ class FirstCandidates {
     void add(const LightPoint<F>& point, const LightConnection<F>& to, F product, F w, F u) {
       const Mask<F> taken = chosen.add({point, to.target}, w, u);
       way.wi = select(taken, to.wi, way.wi), way.distance = select(taken, to.distance, way.distance);
-      way.by_bsdf.value = select(taken, to.by_bsdf.value, way.by_bsdf.value);
+      way.by_bsdf = select(taken, to.by_bsdf, way.by_bsdf);
       by_light = select(taken, product, by_light);
     }
   };

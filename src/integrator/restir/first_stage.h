@@ -7,6 +7,7 @@
 #include "integrator/restir/first_candidates.h"
 #include "integrator/restir/history.h"
 #include "integrator/restir/path_candidates.h"
+#include "transport/dimensions.h"
 #include "transport/next_vertex.h"
 
 namespace montelux {
@@ -24,12 +25,6 @@ struct RestirScene {
   }
   PathScene<Rays> paths() const { return {scene, lights.bvh, rays, settings.indirect, max_events()}; }
 };
-
-// The streams of one pixel in one frame.
-namespace restir_stream {
-inline constexpr std::uint32_t bsdf = 1, lights = 2, met = 3, temporal = 4, path = 5, spatial = 16, groups = 32;
-inline constexpr std::uint32_t interfaces = 1u << 31;  // a fork of `met`
-}  // namespace restir_stream
 
 // Results go to `keep`: keep.lights(vertex, origin, reservoir, output, mask) and, where paths are reused,
 // keep.paths(reservoir, output, mask). Pixels that are not reported have no vertex, or no path.

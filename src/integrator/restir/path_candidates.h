@@ -150,7 +150,7 @@ class PathCandidates {
     const M shines = on & !is_black(hit.radiance);
     meet({shared_.lights.point_of_hit(light, x.point.p, x.point.ng, hit.radiance, shines), hit, emitter.left,
           emitter.passes},
-         numbers.surface().fork(emitter.crossings).fork(U(resampling_stream)).at(U(0u)), shines);
+         numbers.surface().fork(emitter.crossings).fork(U(vertex_stream::resampling)).at(U(0u)), shines);
   }
   void meet_sky(const Spectrum<F>& left, M on, const EventNumbers<F>& numbers) {
     const PathWalk<F>& w = walk_;
@@ -288,7 +288,7 @@ class PathCandidates {
     w.leaving = select(continues, w.weight * event.f_cos, w.leaving);
     w.weight = select(continues, w.weight * event.weight, w.weight);
     w.eta_scale = select(continues, w.eta_scale * event.eta_scale, w.eta_scale);
-    w.density.value = select(continues, event.density.value, w.density.value);
+    w.density = select(continues, event.density, w.density);
     w.by_delta = select(continues, select(event.delta, U(1u), U(0u)), w.by_delta);
     w.events = w.events + select(continues, U(1u), U(0u));
     w.from = select_words(continues, vertex, w.from);

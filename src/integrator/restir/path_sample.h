@@ -8,6 +8,7 @@
 #pragma once
 #include "integrator/restir/settings.h"
 #include "integrator/restir/vertex.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
 
@@ -52,9 +53,9 @@ struct EventNumbers {
   Vec3<F> direction() const { return {at(0), at(1), at(2)}; }
   F roulette() const { return at(3); }
   F choice(std::uint32_t candidate) const { return at(4 + candidate); }
-  RandomStream<F> model() const { return stream.fork(Uint<F>(1u)); }    // of the model that is sampled
-  RandomStream<F> light() const { return stream.fork(Uint<F>(2u)); }    // of next-event estimation where it begins
-  RandomStream<F> surface() const { return stream.fork(Uint<F>(3u)); }  // of the surfaces that it meets
+  RandomStream<F> model() const { return stream.fork(Uint<F>(event_stream::model)); }
+  RandomStream<F> light() const { return stream.fork(Uint<F>(event_stream::light)); }
+  RandomStream<F> surface() const { return stream.fork(Uint<F>(event_stream::surface)); }
 
  private:
   F at(std::uint32_t place) const { return stream.at(Uint<F>(place)); }

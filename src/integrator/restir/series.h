@@ -4,6 +4,7 @@
 #include "integrator/restir/combination.h"
 #include "integrator/restir/groups.h"
 #include "integrator/restir/neighbours.h"
+#include "transport/dimensions.h"
 
 namespace montelux {
 

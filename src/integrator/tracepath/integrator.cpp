@@ -78,7 +78,7 @@ struct Recursion {
     BsdfContext<float> context = at.context;
     context.random = own_stream(random);
     const BsdfValue<float> value = evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(wi), context);
-    return next_call(at, wi, value.f_cos * (1 / density.value), random, depth, throughput);
+    return next_call(at, wi, value.f_cos * (1.0f / density), random, depth, throughput);
   }
 
   // A direction by the BSDF; none where it is one of `taken`, which another term serves.
@@ -117,9 +117,8 @@ struct Recursion {
     if (!light.valid || !light.delta) return gray(0.0f);
     const BsdfValue<float> value =
         evaluate<float>(at.bsdf.lanes(true), at.wo, at.bsdf.frame.to_local(light.wi), at.context);
-    const Arriving<float> seen =
-        arriving_from<float>(scene, accel, at, light.wi, light.distance, true,
-                             at.context.random.fork(path_dimension::shadow_stream), counts.shadow);
+    const Arriving<float> seen = arriving_from<float>(scene, accel, at, light.wi, light.distance, true,
+                                                      at.context.random.fork(vertex_stream::shadow), counts.shadow);
     return seen.on ? value.f_cos * light.radiance * seen.left : gray(0.0f);
   }
 
