@@ -74,6 +74,10 @@ class Tree(unittest.TestCase):
         self.write("src/a/bad.h", "int a;  // one\n  // The path Goes on here.\n")
         self.assert_found('src/a/bad.h:2:15: "Goes on"; write: continues')
 
+    def test_a_phrase_in_the_name_of_a_test_is_found(self):
+        self.write("tests/bad_test.cpp", "TEST(Path, ends)\nTEST_F(Path, that_goes_on_ends)\n")
+        self.assert_found('tests/bad_test.cpp:2:19: "goes on"; write: continues')
+
     def test_a_phrase_across_lines_is_found(self):
         self.write("src/a/bad.h", "// The path goes\n  // on here.\n")
         self.assert_found('src/a/bad.h:1:13: "goes on"')

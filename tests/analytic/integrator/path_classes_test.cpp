@@ -203,7 +203,7 @@ std::string test_name(const testing::TestParamInfo<PathClass>& c) {
 INSTANTIATE_TEST_SUITE_P(Scenes, PathClasses, testing::ValuesIn(classes()), test_name);
 
 // What nobody finds is there: a lamp of the same intensity instead of the point is met by chance.
-TEST(PathClassesOfPoints, have_the_light_that_a_small_lamp_in_their_place_brings) {
+TEST(PathClassesOfPoints, have_the_light_that_a_small_lamp_in_their_place_contributes) {
   const std::string text = replaced(
       read_text(folder / "lsde-point.pbrt"), "LightSource \"point\" \"rgb I\" [ 3 3 3 ] \"point3 from\" [ 0.25 1 0 ]\n",
       "AttributeBegin\nTranslate 0.25 1 0\nAreaLightSource \"diffuse\" \"rgb L\" [ 381.9719 381.9719 381.9719 ]\n"

@@ -99,7 +99,7 @@ TEST(Methods, intervals_hold_the_truth_as_often_as_they_say) {
   }
 }
 
-TEST(Methods, passes_that_are_copies_of_each_other_are_found_out) {
+TEST(Methods, passes_that_are_copies_of_each_other_are_detected) {
   // The fault: each pass is counted twice, as if the copy were independent.
   const Genz g = Genz::make(GenzFamily::gaussian, 5, 1);
   const lab::Problem problem = genz_problem(g);
@@ -140,7 +140,7 @@ double p_value_through_map(Spoil spoil) {
   return t_test(means, g.integral()).p_value;
 }
 
-TEST(Methods, a_wrong_jacobian_of_the_map_is_found_out) {
+TEST(Methods, a_wrong_jacobian_of_the_map_is_detected) {
   EXPECT_GT(p_value_through_map([](double own) { return own; }), family_level);
   // The faults: one percent off in the exponent, and none at all.
   EXPECT_LT(p_value_through_map([](double own) { return std::pow(own, 0.99); }), family_level);

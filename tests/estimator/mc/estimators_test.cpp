@@ -114,7 +114,7 @@ TEST(Estimate, running_estimates_end_at_the_estimate) {
   EXPECT_DOUBLE_EQ(means.back(), estimate(f, Power{0}, 500, RandomStream<float>(3, 4)).mean);
 }
 
-TEST(Estimate, efficiency_does_not_hang_on_the_number_of_samples) {
+TEST(Estimate, efficiency_does_not_depend_on_the_number_of_samples) {
   // One over the efficiency is the variance of the primary estimator, 1/3, without bias for any number of samples.
   const auto inverse_efficiencies = [](std::uint64_t n, double cost, std::uint32_t seed) {
     std::vector<double> all;

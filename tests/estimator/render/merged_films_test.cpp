@@ -63,9 +63,7 @@ TEST(MergedFilms, intervals_of_the_mean_hold_the_truth_as_often_as_they_say) {
 }
 
 // Passes that meet by their position in the films instead of by their number: what they have in common does not show.
-TEST(MergedFilms, passes_that_meet_wrongly_are_found_out) {
-  EXPECT_LT(coverage(4), films * confidence - 2 * tolerance);
-}
+TEST(MergedFilms, passes_that_meet_wrongly_are_detected) { EXPECT_LT(coverage(4), films * confidence - 2 * tolerance); }
 
 TEST(MergedFilms, intervals_of_pixels_hold_the_truth_as_often_as_they_say) {
   for (const double factor : {1.0, std::sqrt(0.5)}) {  // the second as if parts were counted twice

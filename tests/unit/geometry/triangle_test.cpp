@@ -72,7 +72,7 @@ TEST(Triangle, rays_that_leave_start_on_their_side_of_the_plane) {
   }
 }
 
-TEST(Triangle, error_bound_holds_against_double_precision) {
+TEST(Triangle, error_bound_holds_in_comparison_with_double_precision) {
   Stream r(3, 3);
   for (int i = 0; i < 100000; ++i) {
     TriangleCorners<float> c = random_triangle(r, 1);

@@ -112,7 +112,7 @@ TEST_F(OutputFile, of_a_device_or_a_descriptor_is_written_to) {
   close(ends[0]), close(ends[1]);
 }
 
-TEST_F(OutputFile, that_cannot_be_written_is_found_out_before) {
+TEST_F(OutputFile, that_cannot_be_written_is_detected_before) {
   EXPECT_FALSE(check_output_file(folder));
   EXPECT_FALSE(check_output_file(folder / "none" / "a"));
   EXPECT_FALSE(check_output_file(folder / std::string(256, 'n')));

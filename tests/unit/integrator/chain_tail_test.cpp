@@ -55,7 +55,7 @@ TEST(ChainTail, lets_one_vertex_of_each_path_find_its_light_and_a_planted_fault_
 }
 
 // A path that begins in a lane does not remember the one before.
-TEST(ChainTail, begins_anew_with_a_path) {
+TEST(ChainTail, starts_again_with_a_path) {
   ChainTail<float> tail(2);
   tail.arrive(false, false, true, true);
   tail.arrive(true, false, false, true);

@@ -49,7 +49,7 @@ Parts appendix_b(const Parameters& p, Vec3f l, Vec3f v) {
           fresnel(v_h) * d * visibility * n_l};
 }
 
-TEST(MetallicRoughness, is_appendix_b_but_for_the_light_that_the_diffuse_part_is_left) {
+TEST(MetallicRoughness, is_appendix_b_except_for_the_light_that_the_diffuse_part_is_left) {
   for (const Parameters& p : {Parameters{0.8, 0, 0.5}, Parameters{0.8, 1, 0.3}, Parameters{0.6, 0.4, 0.9},
                               Parameters{0.5, 0.2, 0.6, 0.5, 3, 0.1}, Parameters{0.7, 0, 1, 0}})
     for (double polar : {0.1, 0.7, 1.3})

@@ -253,7 +253,7 @@ constexpr std::size_t paths_bytes = 616 + 28 * (spectrum_size - rgb_size);
 
 double largest_confidence(const SeriesMemory& memory) { return largest_confidence_of(opened(memory).lights); }
 
-TEST(Series, go_on_from_the_picture_before_each_from_its_own) {
+TEST(Series, continue_from_the_picture_before_each_from_its_own) {
   const char* way = "restir-di:candidates=2,neighbours=0";
   SeriesMemories memories;
   const Film film = second_picture(way, 3, 1, memories);
@@ -267,7 +267,7 @@ TEST(Series, go_on_from_the_picture_before_each_from_its_own) {
   expect_same(film, second_picture(way, 3, 4, by_many));
 }
 
-TEST(Series, go_on_from_the_picture_before_with_their_paths) {
+TEST(Series, continue_from_the_picture_before_with_their_paths) {
   SeriesMemories memories;
   second_picture("restir-pt:temporal=on,neighbours=0", 3, 2, memories);
   ASSERT_EQ(memories.size(), 3u);
@@ -353,7 +353,7 @@ TEST(Series, leave_no_more_than_there_is_room_for) {
   for (const auto& memory : memories) EXPECT_EQ(memory, nullptr);
 }
 
-TEST(Series, without_a_picture_before_begin_afresh) {
+TEST(Series, without_a_picture_before_start_from_nothing) {
   SeriesMemories memories, none;
   second_picture("restir-di:candidates=2,neighbours=0", 1, 2, memories);
   ASSERT_EQ(memories.size(), 3u);
