@@ -22,6 +22,7 @@ if(NOT MONTELUX_SPECTRUM_SIZE MATCHES "^[34]$")
 endif()
 option(MONTELUX_PORTABLE "Build the program for several instruction sets, with a launcher (cmake/MonteluxPortable.cmake)" OFF)
 option(MONTELUX_TESTS "Build the tests" ON)
+option(MONTELUX_FULL_TESTS "Build and run the slow tests, too" OFF)
 option(MONTELUX_BENCH "Build the benchmarks" OFF)
 option(MONTELUX_WERROR "Treat warnings as errors" ON)
 
