@@ -26,9 +26,10 @@ class StopFlag final : public StopQuery {
 
 struct TileState {
   PixelBounds bounds;
-  std::mutex mutex;                // guards the tile's part of the film
+  std::mutex mutex;                // guards the tile's part of the film, and its rays
   std::atomic<bool> begun{false};  // it has a pass, or one in work
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;          // all, with those of the film that is continued
+  RayCounts traced{};              // by this render
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
@@ -49,7 +50,7 @@ class PixelWork final : public StagedWork {
       if (passes > 1) ++tiles_with_two_;
     }
     if (settings.begun) {
-      rays_ = settings.begun->rays;
+      rays_before_ = settings.begun->rays;
       if (const auto& rays = settings.begun->rays_of_tiles; rays.size() == tiles_.size())
         for (std::size_t i = 0; i < rays.size(); ++i) tiles_[i].rays = rays[i];
     }
@@ -60,9 +61,9 @@ class PixelWork final : public StagedWork {
     const bool requested = watch_.run(*this, observer);
     watch_.report_end(*this, observer);
     const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
-    RenderResult result{std::move(film_), rays_, watch_.seconds_before() + watch_.seconds(), is_cut};
+    RenderResult result{std::move(film_), rays_before_, watch_.seconds_before() + watch_.seconds(), is_cut};
     if (paired_) result.bias = paired_->bias();
-    for (const TileState& tile : tiles_) result.rays_of_tiles.push_back(tile.rays);
+    for (const TileState& tile : tiles_) result.rays += tile.traced, result.rays_of_tiles.push_back(tile.rays);
     return result;
   }
 
@@ -129,14 +130,14 @@ class PixelWork final : public StagedWork {
 
   FilmSnapshot snapshot() override {
     FilmSnapshot snapshot;
+    snapshot.rays = rays_before_;
+    // Each tile with the rays of the passes that it has, while other threads add more.
     for (TileState& tile : tiles_) {
       const std::scoped_lock lock(tile.mutex);
       film_.write_tile(tile.bounds, snapshot.tiles);
-      snapshot.rays_of_tiles.push_back(tile.rays);
+      snapshot.rays += tile.traced, snapshot.rays_of_tiles.push_back(tile.rays);
     }
     snapshot.tile_side = std::max(tiles_.front().bounds.width(), tiles_.front().bounds.height());
-    const std::scoped_lock lock(rays_mutex_);
-    snapshot.rays = rays_;
     return snapshot;
   }
 
@@ -169,13 +170,11 @@ class PixelWork final : public StagedWork {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
       film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
-      tile.rays += rays.all();
+      tile.rays += rays.all(), tile.traced += rays;
       const int passes = film_.passes(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }
     if (compares) paired_->add(number, pass, k, space.samples, space.unbiased);
-    const std::scoped_lock lock(rays_mutex_);
-    rays_ += rays;
   }
 
   // While other threads add passes to tiles.
@@ -210,8 +209,7 @@ class PixelWork final : public StagedWork {
   std::uint64_t units_before_round_ = 0;
   std::vector<Workspace> spaces_;  // of the workers
   StopFlag drop_;
-  std::mutex rays_mutex_;
-  RayCounts rays_;
+  RayCounts rays_before_;  // of the film that is continued
   std::optional<PairedBias> paired_;
 };
 

@@ -232,6 +232,21 @@ TEST(FilmKeeping, receives_the_film_at_the_end_with_the_time_of_all_renders) {
   EXPECT_EQ(last.rays.camera, std::uint64_t(80 * 40 * 10));
 }
 
+// While other threads add passes.
+TEST(FilmKeeping, counts_the_rays_of_the_passes_that_a_snapshot_has) {
+  RenderSettings s = settings({300, 60}, 8);
+  int saved = 0, wrong = 0;
+  s.keeping = {0, [&](const FilmSnapshot& snapshot) {
+                 std::uint64_t of_tiles = 0;
+                 for (const std::uint64_t rays : snapshot.rays_of_tiles) of_tiles += rays;
+                 ++saved, wrong += snapshot.rays.camera != of_tiles;
+               }};
+  RenderObserver silent;
+  render(Noise(), s, silent);
+  EXPECT_GT(saved, 1);
+  EXPECT_EQ(wrong, 0) << "of " << saved;
+}
+
 TEST(FilmKeeper, saves_now_and_then_and_only_what_is_new) {
   int saved = 0;
   const FilmKeeping keeping{2, [&](FilmSnapshot) { ++saved; }};
