@@ -28,8 +28,9 @@ struct TileState {
   PixelBounds bounds;
   std::mutex mutex;                // guards the tile's part of the film, and its rays
   std::atomic<bool> begun{false};  // it has a pass, or one in work
-  std::uint64_t rays = 0;          // all, with those of the film that is continued
+  std::uint64_t rays_before = 0;   // of the film that is continued
   RayCounts traced{};              // by this render
+  std::uint64_t rays() const { return rays_before + traced.all(); }
   explicit TileState(const PixelBounds& b) : bounds(b) {}
 };
 
@@ -52,7 +53,7 @@ class PixelWork final : public StagedWork {
     if (settings.begun) {
       rays_before_ = settings.begun->rays;
       if (const auto& rays = settings.begun->rays_of_tiles; rays.size() == tiles_.size())
-        for (std::size_t i = 0; i < rays.size(); ++i) tiles_[i].rays = rays[i];
+        for (std::size_t i = 0; i < rays.size(); ++i) tiles_[i].rays_before = rays[i];
     }
     if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
   }
@@ -63,7 +64,7 @@ class PixelWork final : public StagedWork {
     const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
     RenderResult result{std::move(film_), rays_before_, watch_.seconds_before() + watch_.seconds(), is_cut};
     if (paired_) result.bias = paired_->bias();
-    for (const TileState& tile : tiles_) result.rays += tile.traced, result.rays_of_tiles.push_back(tile.rays);
+    for (const TileState& tile : tiles_) result.rays += tile.traced, result.rays_of_tiles.push_back(tile.rays());
     return result;
   }
 
@@ -135,7 +136,7 @@ class PixelWork final : public StagedWork {
     for (TileState& tile : tiles_) {
       const std::scoped_lock lock(tile.mutex);
       film_.write_tile(tile.bounds, snapshot.tiles);
-      snapshot.rays += tile.traced, snapshot.rays_of_tiles.push_back(tile.rays);
+      snapshot.rays += tile.traced, snapshot.rays_of_tiles.push_back(tile.rays());
     }
     snapshot.tile_side = std::max(tiles_.front().bounds.width(), tiles_.front().bounds.height());
     return snapshot;
@@ -170,7 +171,7 @@ class PixelWork final : public StagedWork {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
       film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
-      tile.rays += rays.all(), tile.traced += rays;
+      tile.traced += rays;
       const int passes = film_.passes(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }

@@ -216,7 +216,6 @@ const std::map<std::string, std::string, std::less<>>& made_with() {
       {"focaldistance", "\"float lensradius\" 0.3"},
       {"apertureblades", "\"float focaldistance\" 1"},
       {"aperturerotation", "\"float focaldistance\" 1"},
-      {"Option:seed", ""},
   };
   return all;
 }
@@ -258,6 +257,8 @@ std::vector<float> picture_as_stated(const TemporaryFolder& folder, Family famil
   const auto stated = [&](Family own, const std::string& before, const std::string& otherwise) {
     return family == own ? before + parameters : otherwise;
   };
+  // Unlike the others, an option without a parameter is none.
+  const bool states_option = family == Family::option && parameters.find('"') != parameters.npos;
   const bool has_width = parameters.find("xresolution") != parameters.npos;
   const bool has_height = parameters.find("yresolution") != parameters.npos;
   std::string text = stated(Family::film, "Film " + name, "Film \"rgb\"");
@@ -265,7 +266,8 @@ std::vector<float> picture_as_stated(const TemporaryFolder& folder, Family famil
   if (!has_height) text += " \"integer yresolution\" 8";
   text += "\n" + stated(Family::camera, "Camera " + name, "Camera \"perspective\" \"float fov\" 42") + "\n" +
           stated(Family::sampler, "Sampler " + name, "Sampler \"zsobol\" \"integer pixelsamples\" 64") + "\n" +
-          stated(Family::integrator, "Integrator " + name, "") + "\n" + stated(Family::option, "Option", "") + "\n";
+          stated(Family::integrator, "Integrator " + name, "") + "\n" + (states_option ? "Option" + parameters : "") +
+          "\n";
   text +=
       "WorldBegin LightSource \"point\" \"point3 from\" [ 2 2 1 ] \"rgb I\" [ 9 8 7 ]\n"
       "LightSource \"point\" \"point3 from\" [ -1 3 2 ] \"rgb I\" [ 0.3 0.8 0.5 ]\n"
@@ -287,7 +289,7 @@ std::vector<float> picture_as_stated(const TemporaryFolder& folder, Family famil
   return shown.values;
 }
 
-// The twin: an entity's word is read, its parameters are not.
+// The planted fault: parameters that nothing uses, which the tables have for their warning, change no picture.
 class ParametersOfPictures : public testing::TestWithParam<Family> {};
 
 TEST_P(ParametersOfPictures, change_the_picture) {
@@ -299,7 +301,6 @@ TEST_P(ParametersOfPictures, change_the_picture) {
   for (const EntitySpec& entity : table_of(family)) {
     if (entity.later) continue;
     for (const ParameterSpec& spec : entity.parameters) {
-      if (spec.later) continue;
       const std::string own(entity.name), name = own + ":" + std::string(spec.name);
       const ParameterType type = spec.types.front();
       const auto picture = [&](const std::string& value) {
@@ -310,9 +311,13 @@ TEST_P(ParametersOfPictures, change_the_picture) {
       std::string other = of(values_of_pictures(), own, spec.name);
       if (other.empty()) other = value_of(own, spec, type, false);
       const std::vector<float> with = picture(other), without = picture("");
-      EXPECT_FALSE(with.empty()) << name;
-      ++count;
+      EXPECT_FALSE(with.empty() || without.empty()) << name;
       const bool changes = with != without;
+      if (spec.later) {
+        EXPECT_FALSE(changes) << name;
+        continue;
+      }
+      ++count;
       if (!changes && !unseen_in_pictures().contains(name)) found += name + "\n";
       EXPECT_FALSE(changes && unseen_in_pictures().contains(name)) << name << " is seen";
     }
