@@ -10,7 +10,11 @@ class SharedCount {
   // Adds one; gives the count before. Every value is given once.
   std::uint32_t next() { return count_.fetch_add(1, std::memory_order_relaxed); }
   // The count so far, which begins at zero again. Only while nobody adds.
-  std::uint32_t take() { return count_.exchange(0, std::memory_order_relaxed); }
+  std::uint32_t take() {
+    const std::uint32_t count = count_.load(std::memory_order_relaxed);
+    count_.store(0, std::memory_order_relaxed);  // not exchange(), which takes as long as an addition among threads
+    return count;
+  }
 
  private:
   std::atomic<std::uint32_t> count_{0};

@@ -36,7 +36,7 @@ class VcmSeries final : public FrameSeries {
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
         light_paths_(light_paths_of(settings, pass)),
-        map_(2 * std::size_t(light_paths_), units_of_light_paths(light_paths_), true),
+        map_(units_of_light_paths(light_paths_), true),
         plane_(pass.grid.value_or(PixelGrid{pass.bounds}), scene.filter, pass.layers),
         light_of_path_(pass.layers ? light_paths_ : 0) {}
 
@@ -136,6 +136,8 @@ VcmIntegrator::VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSe
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
   light_media_ = light_media(scene, accel);
 }
+
+int VcmIntegrator::stages() const { return PhotonMap::stages + 1; }
 
 std::unique_ptr<FrameSeries> VcmIntegrator::begin(const SeriesPass& pass) const {
   const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {

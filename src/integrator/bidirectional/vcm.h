@@ -20,7 +20,7 @@ class VcmIntegrator final : public CoupledIntegrator {
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
-  int stages() const override { return 5; }
+  int stages() const override;
   bool has_layers() const override { return true; }
   std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 

@@ -46,10 +46,9 @@ class PhotonFilling {
         lights_(lights),
         pass_(pass),
         paths_(paths),
-        map_(2 * std::size_t(paths.count), units_of_light_paths(paths.count), pass.layers != nullptr),
+        map_(units_of_light_paths(paths.count), pass.layers != nullptr),
         light_of_path_(pass.layers ? paths.count : 0) {
-    if constexpr (in_media)
-      of_media_.emplace(2 * std::size_t(paths.count), units_of_light_paths(paths.count), pass.layers != nullptr);
+    if constexpr (in_media) of_media_.emplace(units_of_light_paths(paths.count), pass.layers != nullptr);
   }
 
   // The units of a stage, and one of them.

@@ -28,12 +28,38 @@ double cells_per_length(float radius) { return 0.5 / (double(radius) * (1 + 1e-6
 
 }  // namespace
 
-PhotonMap::PhotonMap(std::size_t expected, std::size_t boxes, bool keeps_paths)
-    : mask_(std::uint32_t(std::bit_ceil(std::clamp<std::size_t>(expected, 1024, std::size_t{1} << 26))) - 1),
-      counts_(std::size_t(mask_) + 1),
-      starts_(std::size_t(mask_) + 2),
-      boxes_(boxes),
-      keeps_paths_(keeps_paths) {}
+void PhotonMap::arrange(int stage, std::size_t unit, float radius) {
+  switch (stage) {
+    case choose_table:
+      return choose_table_for(radius);
+    case count_cells:
+      return count_cells_of(unit);
+    case lay_out:
+      return lay_out_cells();
+    case deal:
+      return deal_from(unit);
+    default:
+      return put_in_order_part(unit);
+  }
+}
+
+void PhotonMap::arrange(float radius) {
+  for (int stage = fill_boxes + 1; stage < stages; ++stage)
+    for (std::size_t unit = 0; unit < units(stage); ++unit) arrange(stage, unit, radius);
+}
+
+// About two cells for each photon, so that few photons share a cell by chance. The time of a frame follows the photons
+// that were found, which may be few.
+void PhotonMap::choose_table_for(float radius) {
+  radius_ = radius, per_cell_ = cells_per_length(radius);
+  std::size_t photons = 0;
+  for (const std::vector<Photon>& box : boxes_) photons += box.size();
+  const std::size_t cells = std::bit_ceil(std::clamp<std::size_t>(2 * photons, 16, std::size_t{1} << 26));
+  mask_ = std::uint32_t(cells - 1);
+  if (counts_.size() == cells) return;
+  counts_ = std::vector<SharedCount>(cells);
+  starts_.resize(cells + 1);
+}
 
 std::uint32_t PhotonMap::hash(std::int64_t x, std::int64_t y, std::int64_t z) const {
   return mix_bits(std::uint32_t(x) * 0x9e3779b9u ^
@@ -41,18 +67,16 @@ std::uint32_t PhotonMap::hash(std::int64_t x, std::int64_t y, std::int64_t z) co
          mask_;
 }
 
-std::uint32_t PhotonMap::cell_of(const Vec3f& p, double per_cell) const {
-  const auto along = [&](float x) { return std::int64_t(std::floor(double(x) * per_cell)); };
+std::uint32_t PhotonMap::cell_of(const Vec3f& p) const {
+  const auto along = [&](float x) { return std::int64_t(std::floor(double(x) * per_cell_)); };
   return hash(along(p.x), along(p.y), along(p.z));
 }
 
-void PhotonMap::count(std::span<const Photon> photons, float radius) {
-  const double per_cell = cells_per_length(radius);
-  for (const Photon& photon : photons) counts_[cell_of(photon.p, per_cell)].next();
+void PhotonMap::count_cells_of(std::size_t box) {
+  for (const Photon& photon : boxes_[box]) counts_[cell_of(photon.p)].next();
 }
 
-void PhotonMap::lay_out(float radius) {
-  radius_ = radius, per_cell_ = cells_per_length(radius);
+void PhotonMap::lay_out_cells() {
   std::uint32_t sum = 0;
   for (std::size_t i = 0; i < counts_.size(); ++i) starts_[i] = sum, sum += counts_[i].take();
   starts_.back() = sum;
@@ -62,16 +86,16 @@ void PhotonMap::lay_out(float radius) {
   if (keeps_paths_) weights_.resize(sum + 1), paths_.resize(sum + 1);
 }
 
-void PhotonMap::deal(std::size_t number) {
-  for (const Photon& photon : box(number)) {
-    const std::uint32_t cell = cell_of(photon.p, per_cell_);
+void PhotonMap::deal_from(std::size_t box) {
+  for (const Photon& photon : boxes_[box]) {
+    const std::uint32_t cell = cell_of(photon.p);
     const std::uint32_t place = starts_[cell] + counts_[cell].next();
     dealt_[place] = {std::uint64_t(photon.path) << 32 | photon.events, &photon};
   }
 }
 
-void PhotonMap::put_in_order(std::size_t part, std::size_t parts) {
-  const std::size_t cells = counts_.size();
+void PhotonMap::put_in_order_part(std::size_t part) {
+  const std::size_t cells = counts_.size(), parts = boxes();
   const std::size_t first = part * cells / parts, last = (part + 1) * cells / parts;
   for (std::size_t cell = first; cell < last; ++cell) {
     counts_[cell].take();

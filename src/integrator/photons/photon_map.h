@@ -54,48 +54,33 @@ struct NearPhotons {
   void reserve_more(std::size_t more);
 };
 
-// Filled in steps, each by many threads, with a barrier between two: photons are traced into boxes (box, count); one
-// thread lays out the cells (lay_out); the boxes are dealt into cells (deal); parts of the cells are put in order
-// (put_in_order); then photons can be looked up. The order of photons within a cell is that of their numbers,
-// whatever the threads did, so that sums over them have the same bits.
+// Filled in stages, each by many threads, with a barrier between two; then photons can be looked up. The order of
+// photons within a cell is that of their numbers, whatever the threads did, so that sums over them have the same bits.
 class PhotonMap {
  public:
-  // For about so many photons, in so many boxes; `keeps_paths`: with their weights and paths.
-  PhotonMap(std::size_t expected, std::size_t boxes, bool keeps_paths = false);
+  // Filled by so many boxes; `keeps_paths`: with their weights and paths.
+  explicit PhotonMap(std::size_t boxes, bool keeps_paths = false) : boxes_(boxes), keeps_paths_(keeps_paths) {}
 
-  // By its number, below that of boxes. One thread at a time has it.
+  // The photons that one unit of the first stage has found.
   std::vector<Photon>& box(std::size_t number) { return boxes_[number]; }
   std::size_t boxes() const { return boxes_.size(); }
-  void count(std::span<const Photon> photons, float radius);
-  void lay_out(float radius);
-  void deal(std::size_t number);
-  // One of `parts` parts of the cells.
-  void put_in_order(std::size_t part, std::size_t parts);
 
-  // ---- these steps as the stages of a frame: trace(box) adds photons to that box
-
-  static constexpr int stages = 4;
-  std::size_t units(int stage) const { return stage == 1 ? 1 : boxes(); }
+  static constexpr int stages = 6;
+  std::size_t units(int stage) const { return stage == choose_table || stage == lay_out ? 1 : boxes(); }
+  // trace(box) adds the photons of that box, in the first stage.
   template <class Trace>
   RayCounts run_unit(int stage, std::size_t unit, float radius, Trace trace) {
-    RayCounts rays;
-    switch (stage) {
-      case 0:
-        box(unit).clear();
-        rays = trace(box(unit));
-        count(box(unit), radius);
-        break;
-      case 1:
-        lay_out(radius);
-        break;
-      case 2:
-        deal(unit);
-        break;
-      default:
-        put_in_order(unit, boxes());
+    if (stage == fill_boxes) {
+      box(unit).clear();
+      return trace(box(unit));
     }
-    return rays;
+    arrange(stage, unit, radius);
+    return {};
   }
+  // A unit of a later stage, which sorts the photons of the boxes into the map.
+  void arrange(int stage, std::size_t unit, float radius);
+  // All later stages, on this thread.
+  void arrange(float radius);
 
   std::size_t size() const { return dealt_.size(); }
   float radius() const { return radius_; }
@@ -116,14 +101,20 @@ class PhotonMap {
     std::uint64_t key;
     const Photon* photon;
   };
-  std::uint32_t cell_of(const Vec3f& p, double per_cell) const;
+  enum Stage { fill_boxes, choose_table, count_cells, lay_out, deal, put_in_order };
+  void choose_table_for(float radius);
+  void count_cells_of(std::size_t box);
+  void lay_out_cells();
+  void deal_from(std::size_t box);
+  void put_in_order_part(std::size_t part);
+  std::uint32_t cell_of(const Vec3f& p) const;
   std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t z) const;
 
   float radius_ = 0;
-  double per_cell_ = 0;  // one over the side of a cell
-  std::uint32_t mask_;
-  std::vector<SharedCount> counts_;    // by cell; zero between frames
-  std::vector<std::uint32_t> starts_;  // by cell, and the end
+  double per_cell_ = 0;                                            // one over the side of a cell
+  std::uint32_t mask_ = 0;                                         // the cells of the table, less one
+  std::vector<SharedCount> counts_ = std::vector<SharedCount>(1);  // by cell; zero between frames
+  std::vector<std::uint32_t> starts_ = {0, 0};                     // by cell, and the end
   std::vector<std::vector<Photon>> boxes_;
   std::vector<Dealt> dealt_;
   std::vector<float> x_, y_, z_, nx_, ny_, nz_;  // places and normals, for lanes

@@ -74,6 +74,8 @@ double sppm_radius(double radius, double alpha, int frame, int dimensions) {
 SppmIntegrator::SppmIntegrator(const Scene& scene, const Accel& accel, const SppmSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings), lights_(photon_lights(scene, accel)) {}
 
+int SppmIntegrator::stages() const { return PhotonMap::stages + 1; }
+
 std::unique_ptr<FrameSeries> SppmIntegrator::begin(const SeriesPass& pass) const {
   const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
     return std::make_unique<SppmSeries<F, in_media>>(scene_, accel_, settings_, lights_, pass);

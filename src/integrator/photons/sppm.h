@@ -26,7 +26,7 @@ class SppmIntegrator final : public CoupledIntegrator {
 
   int frames() const override { return settings_.frames; }
   int warm_up() const override { return 0; }
-  int stages() const override { return 5; }
+  int stages() const override;
   bool has_layers() const override { return true; }
   std::unique_ptr<FrameSeries> begin(const SeriesPass& pass) const override;
 

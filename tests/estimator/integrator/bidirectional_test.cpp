@@ -327,7 +327,7 @@ PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed)
   const AliasTable by_power = scene.scene().lights.by_power();
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
   const PixelBounds& bounds = s.image.bounds;
-  PhotonMap map(paths, 1, true);
+  PhotonMap map(1, true);
   for (int number = 0; number < passes; ++number) {
     const SeriesPass pass{bounds, s.image.points(number, 1), {}, {}};
     SplatPlane plane(bounds, scene.scene().filter);
@@ -362,10 +362,7 @@ PassMeans merged_by_hand(const TestScene& scene, int passes, std::uint32_t seed)
                                {lane(view.weights.vcm, k), lane(view.weights.vm, k)}});
           });
         });
-    map.count(photons, radius);
-    map.lay_out(radius);
-    map.deal(0);
-    map.put_in_order(0, 1);
+    map.arrange(radius);
     const LightVertices light = light_vertices<F>(frame, bounds, Splatting::off, counts);
     std::vector<PixelSample> samples(std::size_t(bounds.area()));
     EyeSubpaths<F, Frame>(frame, light).run(bounds, samples);

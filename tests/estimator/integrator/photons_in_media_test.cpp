@@ -73,7 +73,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
   const PhotonLights lights = photon_lights(s, scene.accel());
   const RenderSettings render = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
   PassMeans means;
-  PhotonMap surfaces(paths, 1), events(paths, 1);
+  PhotonMap surfaces(1), events(1);
   RandomStream<float> random(seed, 5);
   const Spectrum<float> scattering = s.media.scattering<float>(1u);
   for (int number = 0; number < passes; ++number) {
@@ -101,8 +101,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
       const float z = 2 * random.next() - 1, angle = 2 * pi * random.next(), r = std::sqrt(1 - z * z);
       photon.wi = {r * std::cos(angle), r * std::sin(angle), z};
     }
-    for (const auto& [map, radius] : {std::pair(&surfaces, 0.03f), std::pair(&events, 0.06f)})
-      map->count(map->box(0), radius), map->lay_out(radius), map->deal(0), map->put_in_order(0, 1);
+    for (const auto& [map, radius] : {std::pair(&surfaces, 0.03f), std::pair(&events, 0.06f)}) map->arrange(radius);
     Film film(render.image.bounds);
     std::vector<PixelSample> samples(std::size_t(render.image.bounds.area()));
     PhotonGathering<F, Accel, true, Segments>(

@@ -40,7 +40,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
   const AliasTable by_power = scene.scene().lights.by_power();
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {1, 1}, seed);
   PassMeans means;
-  PhotonMap map(paths, 1);
+  PhotonMap map(1);
   for (int number = 0; number < passes; ++number) {
     const PointSet points = s.image.points(number, 1);
     std::vector<Photon>& box = map.box(0);
@@ -54,10 +54,7 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
     });
     const std::size_t stored = box.size();
     for (std::size_t i = 0; fault.twice && i < stored; i += 2) box.push_back(Photon(box[i]));
-    map.count(box, radius);
-    map.lay_out(radius);
-    map.deal(0);
-    map.put_in_order(0, 1);
+    map.arrange(radius);
     Film film(s.image.bounds);
     std::vector<PixelSample> samples(std::size_t(s.image.bounds.area()));
     PhotonGathering<F, Accel>(scene.scene(), scene.accel(), settings.gathering(),

@@ -29,22 +29,18 @@ std::vector<Photon> some_photons(std::uint32_t count) {
 
 // The map of photons that `tiles` tiles have stored, whose steps so many threads run.
 void fill(PhotonMap& map, const std::vector<Photon>& photons, float radius, std::size_t tiles, std::size_t threads) {
-  const auto each_tile = [&](auto step) {
+  for (int stage = 0; stage < PhotonMap::stages; ++stage) {
     std::vector<std::jthread> running;
     for (std::size_t t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
-        for (std::size_t tile = t; tile < tiles; tile += threads) step(tile);
+        for (std::size_t unit = t; unit < map.units(stage); unit += threads)
+          map.run_unit(stage, unit, radius, [&](std::vector<Photon>& box) {
+            if (unit < tiles)
+              for (std::size_t i = unit; i < photons.size(); i += tiles) box.push_back(photons[i]);
+            return RayCounts{};
+          });
       });
-  };
-  each_tile([&](std::size_t tile) {
-    std::vector<Photon>& box = map.box(tile);
-    box.clear();
-    for (std::size_t i = tile; i < photons.size(); i += tiles) box.push_back(photons[i]);
-    map.count(box, radius);
-  });
-  map.lay_out(radius);
-  each_tile([&](std::size_t tile) { map.deal(tile); });
-  each_tile([&](std::size_t tile) { map.put_in_order(tile, tiles); });
+  }
 }
 std::vector<float> found_near(const PhotonMap& map, const Vec3f& p, const Vec3f& n) {
   NearPhotons near;
@@ -54,15 +50,15 @@ std::vector<float> found_near(const PhotonMap& map, const Vec3f& p, const Vec3f&
   return names;
 }
 
-// Small tables make cells share their entries, and each photon is found once for all that.
+// Cells share entries of the table, and each photon is found once for all that.
 TEST(PhotonMap, finds_every_photon_within_the_radius_once) {
   const std::vector<Photon> photons = some_photons(6000);
   const Vec3f up{0, 1, 0};
-  for (const std::size_t expected : {1u, 20000u})
+  for (const std::uint32_t before : {1u, 100u, 20000u})
     for (const float radius : {0.003f, 0.04f, 0.3f, 2.0f}) {
-      PhotonMap map(expected, 8);
+      PhotonMap map(8);
       // A second frame finds nothing of the first.
-      fill(map, some_photons(100), 2 * radius, 3, 1);
+      fill(map, some_photons(before), 2 * radius, 3, 1);
       fill(map, photons, radius, 7, 2);
       EXPECT_EQ(map.size(), photons.size());
       std::size_t all = 0;
@@ -85,13 +81,13 @@ TEST(PhotonMap, finds_every_photon_within_the_radius_once) {
 TEST(PhotonMap, has_its_photons_in_the_same_order_whoever_stored_them) {
   const std::vector<Photon> photons = some_photons(5000);
   const Vec3f p{0.5f, 0.25f, 0.5f}, up{0, 1, 0};
-  PhotonMap one(4096, 1);
+  PhotonMap one(1);
   fill(one, photons, 0.2f, 1, 1);
   const std::vector<float> order = found_near(one, p, up);
   EXPECT_GT(order.size(), 100u);
   EXPECT_FALSE(std::ranges::is_sorted(order)) << "photons of several cells";
   for (const std::size_t tiles : {2u, 16u, 61u}) {
-    PhotonMap other(4096, tiles);
+    PhotonMap other(tiles);
     fill(other, photons, 0.2f, tiles, 4);
     EXPECT_EQ(found_near(other, p, up), order) << tiles;
   }
@@ -102,7 +98,7 @@ TEST(PhotonMap, finds_every_photon_of_a_ball_once) {
   std::vector<Photon> photons = some_photons(6000);
   for (Photon& photon : photons) photon.ng = {0, 0, 0}, photon.p.y = photon.p.z;
   for (const float radius : {0.04f, 0.3f}) {
-    PhotonMap map(20000, 8);
+    PhotonMap map(8);
     fill(map, photons, radius, 7, 2);
     std::size_t all = 0;
     for (const float along : {0.2f, 0.5f, 0.8f}) {
@@ -124,7 +120,7 @@ TEST(PhotonMap, finds_every_photon_of_a_ball_once) {
 // On two sides of zero, far from it, and exactly on a radius's multiple.
 TEST(PhotonMap, finds_photons_wherever_the_scene_lies) {
   for (const float at : {0.0f, -1000.0f, 1e6f, 0.5f}) {
-    PhotonMap map(64, 2);
+    PhotonMap map(2);
     const float radius = at == 1e6f ? 1.0f : 0.25f;
     std::vector<Photon> photons;
     for (const float along : {-0.4f, 0.0f, 0.4f})
