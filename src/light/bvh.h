@@ -51,6 +51,13 @@ class LightBvh {
   template <class F>
   Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
+  // A rough estimate of the irradiance from all its lights at p on that side, averaged over the components; 0 only if
+  // none of them reaches p. Only if there is a light.
+  template <class F>
+  F irradiance(Vec3<F> p, Vec3<F> n) const {
+    return importance<F>(row_in_all_lanes<F>(nodes_.data()->v, 0), p, n);
+  }
+
  private:
   struct alignas(64) Node {
     float v[words_of_row] = {};

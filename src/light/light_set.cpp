@@ -19,7 +19,11 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
   if (settings_.selection == LightSelection::power && count() > 0) power_table_ = by_power();
   if (settings_.selection == LightSelection::bvh) bvh_ = LightBvh(tables_.bounds);
   std::size_t shares = unbounded_.size() + (bvh_.empty() ? 0 : 1);
-  unbounded_mass_ = shares > 0 ? 1.0f / float(shares) : 0.0f;
+  equal_mass_ = shares > 0 ? 1.0f / float(shares) : 0.0f;
+  // Powers are those through the disk of the scene; of a light from all directions a plane receives a quarter.
+  const float disk = pi * tables_.scene_radius * tables_.scene_radius;
+  for (const std::uint32_t i : unbounded_)
+    unbounded_irradiance_ += tables_.powers[i] / disk * (is_infinite(kind(LightId(i))) ? 0.25f : 1.0f);
 }
 
 AliasTable LightSet::by_power() const {

@@ -139,6 +139,9 @@ class LightSet {
   MONTELUX_INLINE LightRows<F> rows(Uint<F> light, Mask<F> on) const {
     return {tables_.rows.data(), tables_.transforms.data(), select(on, light, Uint<F>(0u))};
   }
+  // The probability of each unbounded light, in the hierarchy's choice at p.
+  template <class F>
+  F unbounded_mass(Vec3<F> p, Vec3<F> n) const;
   // Calls f(kind, lanes) once for each kind of light among the lanes.
   template <class F, class Function>
   void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;
@@ -176,7 +179,8 @@ class LightSet {
   std::vector<std::uint32_t> unbounded_;   // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   bool has_delta_ = false, has_points_ = false, has_masked_ = false;
-  float unbounded_mass_ = 0;  // of each unbounded light, in the hierarchy's choice
+  float equal_mass_ = 0;            // of each unbounded light if the hierarchy has no larger share than one of them
+  float unbounded_irradiance_ = 0;  // from all unbounded lights, with nothing in the way, averaged over the components
 };
 
 }  // namespace montelux

@@ -11,6 +11,19 @@ Mask<F> LightSet::is_beyond(Uint<F> light, Mask<F> on) const {
 }
 
 template <class F>
+F LightSet::unbounded_mass(Vec3<F> p, Vec3<F> n) const {
+  // Equal for all lights without a place and for the hierarchy as a whole, as in pbrt; less where the hierarchy's
+  // lights are brighter, but not less than a third, since they may be hidden. All of it where none of those emits to p.
+  constexpr float min_of_equal = 1.0f / 3.0f;
+  const F equal(equal_mass_);
+  if (unbounded_.empty() || bvh_.empty()) return equal;
+  const F placed = bvh_.irradiance<F>(p, n), sum = max(placed + unbounded_irradiance_, F(1e-37f));
+  const F number(float(unbounded_.size()));
+  const F mass = clamp(F(unbounded_irradiance_) / (sum * number), equal * min_of_equal, equal);
+  return select(placed > F(0.0f), mass, F(1.0f) / number);
+}
+
+template <class F>
 LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   if (count() == 0) return {Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
   if (settings_.selection == LightSelection::uniform) {
@@ -23,7 +36,7 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   }
   // Unbounded lights have equal shares at the start of [0, 1); the hierarchy has the rest.
   auto unbounded = std::uint32_t(unbounded_.size());
-  F front = F(unbounded_mass_ * float(unbounded));
+  const F each = unbounded_mass(p, n), front = each * float(unbounded);
   Mask<F> among_unbounded = Mask<F>(unbounded > 0) & ((u < front) | Mask<F>(bvh_.empty()));
   LightChoice<F> r{Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
   if (!bvh_.empty()) {
@@ -33,10 +46,10 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     r.mass.value = r.mass.value * share;
   }
   if (any(on & among_unbounded)) {
-    Uint<F> place = min(to_uint(u / unbounded_mass_), Uint<F>(unbounded - 1));
+    Uint<F> place = min(to_uint(u / each), Uint<F>(unbounded - 1));
     Uint<F> light = gather(unbounded_.data(), select(among_unbounded, place, Uint<F>(0u)));
     r.light = select(among_unbounded, light, r.light);
-    r.mass.value = select(among_unbounded, F(unbounded_mass_), r.mass.value);
+    r.mass.value = select(among_unbounded, each, r.mass.value);
     r.valid = r.valid | (on & among_unbounded);
   }
   return r;
@@ -49,9 +62,9 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
   if (power_table_) return power_table_->mass<F>(light);
   Mask<F> unbounded = is_beyond<F>(light, on);
-  F share = F(1.0f) - F(unbounded_mass_ * float(unbounded_.size()));
+  const F each = unbounded_mass(p, n), share = F(1.0f) - each * float(unbounded_.size());
   Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));
-  return {select(unbounded, F(unbounded_mass_), bounded.value * share)};
+  return {select(unbounded, each, bounded.value * share)};
 }
 
 }  // namespace montelux

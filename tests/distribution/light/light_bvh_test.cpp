@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "light/builder.h"
 #include "light/bvh.h"
@@ -141,6 +142,58 @@ TEST(LightChoice, lanes_choose_as_one_float_does) {
       });
     }
   }
+}
+
+// One point light of intensity 1 at distance d, so that the hierarchy's estimate 1 / d^2 is exact, beside lights
+// without a place. The share of these, of irradiance E, is E / (E + 1 / d^2) between a third of their equal share and
+// all of it.
+TEST(LightChoice, lights_without_a_place_have_the_share_of_their_irradiance) {
+  const float radiance = 0.25f, sun = 0.5f;  // a sky has the irradiance pi L
+  for (const bool has_sun : {false, true}) {
+    LightSetBuilder builder;
+    builder.add_point({0, 0, 0}, gray_rgb(1.0f));
+    builder.add_uniform_infinite(gray_rgb(radiance));
+    if (has_sun) builder.add_distant({0, 0, 1}, gray_rgb(sun));
+    const LightSet lights = std::move(builder).build({LightSelection::bvh}, {0, 0, 0}, 7);
+    const double number = has_sun ? 2 : 1, equal = number / (number + 1);
+    const double irradiance = pi * double(radiance) + (has_sun ? double(sun) : 0.0);
+    int lowest = 0, equals = 0, between = 0;
+    for (float d = 0.125f; d < 8; d *= 1.25f) {
+      double share = 0;
+      for (std::uint32_t k = 1; k < lights.count(); ++k)
+        share += double(lights.choice_mass<float>(k, {0, d, 0}, {0, 0, 0}, true).value);
+      const auto truth = [&](double e) {
+        const double by_irradiance = e / (e + 1 / (double(d) * double(d)));
+        return std::clamp(by_irradiance, equal / 3, equal);
+      };
+      EXPECT_NEAR(share, truth(irradiance), 1e-5) << d;
+      const double by_irradiance = irradiance / (irradiance + 1 / (double(d) * double(d)));
+      if (by_irradiance < equal / 3) ++lowest;
+      if (by_irradiance > equal) ++equals;
+      if (by_irradiance > equal / 3 && by_irradiance < equal) {
+        ++between;
+        // A planted fault: the power of a sky counts as that of parallel light.
+        EXPECT_GT(std::abs(share - truth(4 * pi * double(radiance) + (has_sun ? double(sun) : 0.0))), 1e-3) << d;
+      }
+    }
+    EXPECT_GT(lowest, 1);
+    EXPECT_GT(equals, 1);
+    EXPECT_GT(between, 1);
+  }
+}
+
+// Behind a lamp of one side nothing is left to the lamp.
+TEST(LightChoice, is_among_lights_without_a_place_where_no_other_emits_to) {
+  LightSetBuilder builder;
+  Emission lamp;
+  lamp.radiance = gray_rgb(1.0f);
+  builder.add(TriangleShape{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, lamp);
+  builder.add_uniform_infinite(gray_rgb(1e-3f));
+  const LightSet lights = std::move(builder).build({LightSelection::bvh}, {0, 0, 0}, 7);
+  const auto of_sky = [&](Vec3f p) { return lights.choice_mass<float>(1u, p, {0, 0, 0}, true).value; };
+  const float front = of_sky({0.3f, 0.3f, 2}), back = of_sky({0.3f, 0.3f, -2});
+  EXPECT_EQ(std::max(front, back), 1.0f);
+  EXPECT_LT(std::min(front, back), 0.5f);
 }
 
 }  // namespace
