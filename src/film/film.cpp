@@ -23,7 +23,7 @@ bool is_kept(const Rgb& c) {
 bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
 
 // The numbers of all passes that any tile has.
-std::vector<int> all_numbers(const std::map<std::size_t, FilmTile>& tiles) {
+std::vector<int> all_numbers(const FilmTiles& tiles) {
   std::vector<int> all;
   for (const auto& [index, tile] : tiles) {
     const auto same = [](int pass, const FilmPass& own) { return pass == own.pass; };
@@ -258,22 +258,22 @@ std::uint64_t Film::non_finite() const {
 // Passes are independent of each other, while in a pass the tiles y_tp may depend on each other; so the variance is
 // estimated by the sum over passes of the square of the sum over tiles of w_t (y_tp - m_t) / sqrt(n_t (n_t - 1)): for
 // tiles of the same passes that is the variance of the image means of these over their number.
-ImageEstimate Film::image() const {
+ImageEstimate image_of(const FilmTiles& tiles, int cells) {
   ImageEstimate image;
-  int cells = 0, fewest = std::numeric_limits<int>::max();
+  int covered = 0, fewest = std::numeric_limits<int>::max();
   double pixels = 0;
   std::vector<TileMean> means;
-  for (const auto& [index, tile] : tiles_) {
-    cells += tile.passes.empty() ? 0 : tile.cells.area();
+  for (const auto& [index, tile] : tiles) {
+    covered += tile.passes.empty() ? 0 : tile.cells.area();
     const TileMean& own = means.emplace_back(tile);
     if (own.passes > 0) pixels += own.pixels, fewest = std::min(fewest, own.passes);
   }
-  if (cells < cells_.area() || pixels == 0) return image;
+  if (covered < cells || pixels == 0) return image;
   image.passes = fewest;
-  const std::vector<int> numbers = all_numbers(tiles_);
+  const std::vector<int> numbers = all_numbers(tiles);
   std::vector<std::array<double, rgb_size>> deviations(numbers.size());
   auto own = means.begin();
-  for (auto tile = tiles_.begin(); tile != tiles_.end(); ++tile, ++own) {
+  for (auto tile = tiles.begin(); tile != tiles.end(); ++tile, ++own) {
     if (own->passes == 0) continue;
     const double n = own->passes, share = own->pixels / pixels, weight = share / std::sqrt(n * std::max(n - 1, 1.0));
     for (int c = 0; c < rgb_size; ++c) image.mean[c] += share * own->mean[c];

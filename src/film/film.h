@@ -123,6 +123,13 @@ struct FilmTile {
   bool has(int pass) const;
 };
 
+// The tiles of a film by the index of their first cell: from top to bottom and from left to right.
+using FilmTiles = std::map<std::size_t, FilmTile>;
+
+// From the estimates of the tiles, each over its own passes. A pixel without a finite sample in a pass is excluded
+// from that pass. There is no mean until each of the `cells` of the film has a pass.
+ImageEstimate image_of(const FilmTiles& tiles, int cells);
+
 // A pass is identified by its number: the film of a set of passes has the same bits for any order, any number of
 // threads and any division into parts. Tiles may have different passes.
 class Film {
@@ -139,8 +146,8 @@ class Film {
   // Names a tile, which counts cells of the grid. Tiles may not overlap. add_pass() names a tile that has no name
   // yet, but tiles must be named before threads add passes to them.
   FilmTile& name_tile(const PixelBounds& cells);
-  // All named tiles, from top to bottom and from left to right.
-  const std::map<std::size_t, FilmTile>& tiles() const { return tiles_; }
+  // All named tiles.
+  const FilmTiles& tiles() const { return tiles_; }
   // The number of passes of a tile, their numbers in ascending order, and whether it has this one.
   int passes(const PixelBounds& tile) const;
   std::vector<int> pass_numbers(const PixelBounds& tile) const;
@@ -177,9 +184,7 @@ class Film {
   // The number of samples of a pixel.
   double samples(int x, int y) const { return is_sampled(x, y) ? pixels_[index(x, y)].samples : 0; }
   std::uint64_t non_finite() const;
-  // From the estimates of the tiles, each over its own passes. A pixel without a finite sample in a pass is excluded
-  // from that pass. There is no mean until every pixel has a pass.
-  ImageEstimate image() const;
+  ImageEstimate image() const { return image_of(tiles_, cells_.area()); }
   // Whether this pixel is sampled: all are, unless the film has a stride.
   bool is_sampled(int x, int y) const {
     return grid_.pixel_x(grid_.cell_x(x)) == x && grid_.pixel_y(grid_.cell_y(y)) == y;
@@ -202,8 +207,8 @@ class Film {
   PixelGrid grid_;
   PixelBounds cells_;
   std::vector<PixelSums> pixels_;
-  std::vector<HalfSums> halves_;           // empty, or by pixel
-  std::map<std::size_t, FilmTile> tiles_;  // by the index of the first cell
+  std::vector<HalfSums> halves_;  // empty, or by pixel
+  FilmTiles tiles_;
   std::optional<LayerFilm> layers_;
 };
 

@@ -122,11 +122,14 @@ class PixelWork final : public StagedWork {
     const bool has_two_passes = tiles_with_two_ == tiles_.size();
     if (!has_two_passes || settings_.plan.stride > 1) return std::nullopt;
     FilmPlanes planes(settings_.image.bounds);
+    FilmTiles tiles;
+    auto of_film = film_.tiles().begin();  // in the order of tiles_
     for (TileState& tile : tiles_) {
       const std::scoped_lock lock(tile.mutex);
       planes.copy(film_, tile.bounds);
+      if (settings_.target) tiles.insert(tiles.end(), *of_film++);
     }
-    return error_of(planes, settings_, [this] { return image_now(); });
+    return error_of(planes, settings_, [&] { return image_of(tiles, film_.grid().cells().area()); });
   }
 
   FilmSnapshot snapshot() override {
@@ -176,13 +179,6 @@ class PixelWork final : public StagedWork {
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }
     if (compares) paired_->add(number, pass, k, space.samples, space.unbiased);
-  }
-
-  // While other threads add passes to tiles.
-  ImageEstimate image_now() {
-    std::deque<std::scoped_lock<std::mutex>> locks;
-    for (TileState& tile : tiles_) locks.emplace_back(tile.mutex);
-    return film_.image();
   }
 
   bool has(TileState& tile, int pass) {

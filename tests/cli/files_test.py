@@ -14,7 +14,7 @@ import zlib
 from pathlib import Path
 
 import program
-from program import SCENE, ProgramTest, write_pfm
+from program import SANITIZED, SCENE, SLOWNESS, ProgramTest, write_pfm
 
 FAILED = 3  # what the program returns where a file cannot be written
 SMALL = ["--resolution", "64x48", "--quiet"]
@@ -27,7 +27,7 @@ def limit_of_size(size):
 
 def limit_of_memory(size):
     """Options of subprocess.run() that end a process which takes more than that many bytes."""
-    if not os.environ.get("MONTELUX_SANITIZE"):
+    if not SANITIZED:
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size))}
     # Sanitizers reserve terabytes of address space, but limit memory themselves.
     limits = f"hard_rss_limit_mb={size >> 20}:max_allocation_size_mb={size >> 20}"
@@ -270,8 +270,7 @@ class Names(FilesTest):
 
 class Bounds(FilesTest):
     def assert_quick(self, *arguments, word, status=2, seconds=4):
-        if os.environ.get("MONTELUX_SANITIZE"):
-            seconds *= 10
+        seconds *= SLOWNESS
         def processor_time():
             usage = resource.getrusage(resource.RUSAGE_CHILDREN)
             return usage.ru_utime + usage.ru_stime
@@ -451,7 +450,7 @@ class Disk(FilesTest):
         process = self.begin("render", SCENE, *SMALL, "--time", "60s", "-o", "a.png",
                              env=watched_disk(DISK_WATCH_DELAY="60000"))
         self.wait_for_handler(process)
-        time.sleep(10 if os.environ.get("MONTELUX_SANITIZE") else 0.5)  # until there is a picture to write
+        time.sleep(10 if SANITIZED else 0.5)  # until there is a picture to write
         process.send_signal(signal.SIGINT)
         self.wait_for_write(process)
         process.send_signal(signal.SIGINT)

@@ -15,6 +15,11 @@ SCENE = ROOT / "scenes" / "first-light" / "first-light.pbrt"
 ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "0", "NO_COLOR": "1", "TERM": "xterm"}
 
 
+# Sanitizers make the program slow: how many times the usual seconds it may take.
+SANITIZED = bool(os.environ.get("MONTELUX_SANITIZE"))
+SLOWNESS = 10 if SANITIZED else 1
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own, in which the program runs."""
 

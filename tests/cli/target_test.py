@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from program import ProgramTest, read_pfm
+from program import SLOWNESS, ProgramTest, read_pfm
 
 
 class Target(ProgramTest):
@@ -39,10 +39,10 @@ class Target(ProgramTest):
         self.assertTrue(low / 1.6 < samples < high * 1.6, f"{samples} {low} {high}")
 
     def test_a_time_may_be_the_most(self):
-        stated = self.stated("--target-error", "0.1%", "--time", "700ms", "-o", "a.pfm")
+        stated = self.stated("--target-error", "0.1%", "--time", f"{0.7 * SLOWNESS}s", "-o", "a.pfm")
         self.assertFalse(stated["target"]["reached"])
         self.assertGreater(stated["target"]["seconds_needed"], 0)
-        self.assertLess(stated["seconds"], 5)
+        self.assertLess(stated["seconds"], 5 * SLOWNESS)
 
     def test_a_film_is_continued_to_its_error(self):
         whole = ["--target-error", "12%", "--spp", 4096]
