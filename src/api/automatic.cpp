@@ -136,6 +136,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
   made.reserve(among.size());  // candidates refer to its elements
   for (const std::string& text : among) {
     const AutomaticCandidate costs = automatic_candidate(text);
+    if (costs.for_sky && parts.scene.lights.infinite_count() == 0) continue;
     Made one{with_common_settings(text, automatic.choice), {}};
     const bool is_path = one.choice.name == "path";
     if (!is_path) {

@@ -119,6 +119,8 @@ struct ImageInfinite {
     const Vec3<F> wi = normalize(rows.transform().direction_to_world(sphere_from_square(uv)));
     return {wi, read(texels, on), {density * inv_four_pi}};
   }
+  // The factor of a sample at that point of the square.
+  MONTELUX_INLINE Spectrum<F> factor_at(Vec2<F> uv, Mask<F> on) const { return read(texels_at(uv, on), on); }
   MONTELUX_INLINE UnboundedSample<F> toward(Vec3<F>, Vec3<F> wi, Mask<F> on) const {
     const Vec2<F> uv = place_of(wi);
     const Texels texels = texels_at(uv, on);

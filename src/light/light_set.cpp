@@ -1,6 +1,10 @@
 #include "light/light_set.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
+
+#include "light/sky_field.h"
 
 namespace montelux {
 
@@ -25,6 +29,49 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
   for (const std::uint32_t i : unbounded_)
     unbounded_irradiance_ += tables_.powers[i] / disk * (is_infinite(kind(LightId(i))) ? 0.25f : 1.0f);
 }
+
+LightSet LightSet::with(std::shared_ptr<const SkyField> sky) const {
+  LightSet lights = *this;
+  if (sky) lights.light_of_sky_ = sky->light();
+  lights.sky_ = std::move(sky);
+  return lights;
+}
+
+std::optional<SkyLight> LightSet::sky_light() const {
+  const auto infinite = std::span(unbounded_).first(std::size_t(infinite_count_));
+  if (infinite.empty()) return std::nullopt;
+  const auto light = LightId(*std::ranges::max_element(infinite, {}, [&](auto i) { return tables_.powers[i]; }));
+  if (kind(light) != LightKind::image_infinite)
+    return SkyLight{light, light_transform({}), std::make_shared<PiecewiseConstant2>(std::array{1.0f}, 1u, 1u)};
+  const LightRows<float> row = rows<float>(std::uint32_t(light), true);
+  return SkyLight{light, tables_.transforms[row.bits(light_slot::transform)],
+                  tables_.distributions[row.bits(light_slot::image) - 1]};
+}
+
+template <class F>
+LightSample<F> LightSet::sample_sky(Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const {
+  const SkySample<F> s = sky_->sample(p, n, u, on);
+  const LightRows<F> row = rows<F>(Uint<F>(std::uint32_t(light_of_sky_)), on);
+  LightSample<F> r{};
+  r.wi = s.wi, r.distance = F(2.0f * tables_.scene_radius);
+  r.radiance = row.emission(), r.density = s.density;
+  if (kind(light_of_sky_) == LightKind::image_infinite)
+    r.radiance = r.radiance * ImageInfinite<F>(row, images()).factor_at(s.place, on);
+  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f)), r.delta = Mask<F>(false);
+  return r;
+}
+
+template <class F>
+Density<SolidAngle, F> LightSet::sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, Mask<F> on) const {
+  return sky_->density(p, n, wi, on);
+}
+
+#define MONTELUX_SKY(F)                                                                   \
+  template LightSample<F> LightSet::sample_sky(Vec3<F>, Vec3<F>, Vec2<F>, Mask<F>) const; \
+  template Density<SolidAngle, F> LightSet::sky_density(Vec3<F>, Vec3<F>, Vec3<F>, Mask<F>) const;
+MONTELUX_SKY(float)
+MONTELUX_SKY(NativeFloats)
+#undef MONTELUX_SKY
 
 AliasTable LightSet::by_power() const {
   return AliasTable(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));

@@ -29,6 +29,15 @@ struct LightTables {
   float scene_radius = 1;
 };
 
+class SkyField;
+
+// A light from infinity, as SkyField divides it: its density on the square map of the sphere.
+struct SkyLight {
+  LightId light{};
+  LightTransform transform{};
+  std::shared_ptr<const PiecewiseConstant2> table;
+};
+
 struct LightPolygon {
   std::array<Vec3f, 4> corners;
   int count = 0;  // 3 or 4
@@ -44,6 +53,11 @@ class LightSet {
 
   // The same lights with other settings of the choice.
   LightSet with(LightSettings settings) const { return LightSet(tables_, settings); }
+  // The same lights, one of which is sampled by the field.
+  LightSet with(std::shared_ptr<const SkyField> sky) const;
+  // The light that `sky` is for, as SkyField takes it: the brightest that a ray hits when it leaves the scene; none:
+  // there is no such light.
+  std::optional<SkyLight> sky_light() const;
 
   std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
@@ -97,7 +111,7 @@ class LightSet {
   template <class F>
   LightHit<F> hit(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p, Vec3<F> ng, Vec2<F> uv,
                   Vec3<F> wi, Mask<F> on) const;
-  // Only the density of hit() or escaped(), for a light of any kind: for one without bounds wi alone matters. Of a
+  // Only the density of hit() or escaped(), for a light of any kind: for one without bounds p does not matter. Of a
   // delta light the probability of its choice, as sample() has it.
   template <class F>
   Density<SolidAngle, F> sampling_density(Uint<F> light, Vec3<F> reference_p, Vec3<F> reference_n, Vec3<F> p,
@@ -168,12 +182,19 @@ class LightSet {
   Density<Area, F> beyond_position_density() const;
   template <class F>
   Vec2<F> beyond_place_numbers(Vec3<F> p, Vec3<F> d) const;
-  // Radiance, and density without the choice.
+  // Radiance, and the light's own density, without field and choice.
   template <class F>
   LightHit<F> escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
+  // sample_light() of the light that has a field, and its density.
+  template <class F>
+  LightSample<F> sample_sky(Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
+  template <class F>
+  Density<SolidAngle, F> sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
 
   LightTables tables_;
   LightSettings settings_;
+  std::shared_ptr<const SkyField> sky_;    // null: every light is sampled on its own
+  LightId light_of_sky_{};                 // the light that is sampled by the field
   LightBvh bvh_;                           // if lights are chosen by the hierarchy
   std::optional<AliasTable> power_table_;  // if they are chosen by power
   std::vector<std::uint32_t> unbounded_;   // first the infinite ones, then the distant ones

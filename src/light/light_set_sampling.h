@@ -88,13 +88,20 @@ LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<
   r.wi = {F(0.0f), F(0.0f), F(1.0f)};
   r.distance = F(1.0f), r.radiance = gray(F(0.0f)), r.density = {F(0.0f)};
   r.valid = Mask<F>(false), r.delta = Mask<F>(false);
-  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
-    LightSample<F> s = sample_kind(kind, rows<F>(light, m), p, n, u, m, measure);
+  const auto take = [&](const LightSample<F>& s, Mask<F> m) {
     Mask<F> good = m & s.valid;
     r.wi = select(good, s.wi, r.wi), r.distance = select(good, s.distance, r.distance);
     r.radiance = select(good, s.radiance, r.radiance);
     r.density = select(good, s.density, r.density);
     r.valid = r.valid | good, r.delta = r.delta | (good & s.delta);
+  };
+  if (sky_) {
+    const Mask<F> from_sky = on & (light == Uint<F>(std::uint32_t(light_of_sky_)));
+    if (any(from_sky)) take(sample_sky(p, n, u, from_sky), from_sky);
+    on = on & !from_sky;
+  }
+  for_each_kind<F>(light, on, [&](LightKind kind, Mask<F> m) {
+    take(sample_kind(kind, rows<F>(light, m), p, n, u, m, measure), m);
   });
   return r;
 }
@@ -145,6 +152,10 @@ Density<SolidAngle, F> LightSet::sampling_density(Uint<F> light, Vec3<F> referen
       });
     }
   });
+  if (sky_) {
+    const Mask<F> of_sky = on & (light == Uint<F>(std::uint32_t(light_of_sky_)));
+    r = select(of_sky, sky_density(reference_p, reference_n, wi, of_sky), r);
+  }
   return choice_mass(light, reference_p, reference_n, on) * r;
 }
 
@@ -164,6 +175,7 @@ LightHit<F> LightSet::escaped(int infinite_index, Vec3<F> reference_p, Vec3<F> r
                               Mask<F> on) const {
   LightId light = infinite_light(infinite_index);
   LightHit<F> r = escaped_light<F>(light, reference_n, wi, on);
+  if (sky_ && light == light_of_sky_) r.density = sky_density(reference_p, reference_n, wi, on);
   r.density = choice_mass(Uint<F>(std::uint32_t(light)), reference_p, reference_n, on) * r.density;
   return r;
 }

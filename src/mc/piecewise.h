@@ -1,5 +1,7 @@
 // Tabulated densities, constant on equal cells of [0, 1) or [0, 1)^2.
 #pragma once
+#include <memory>
+
 #include "mc/discrete.h"
 
 namespace montelux {
@@ -92,6 +94,7 @@ class PiecewiseConstant2 {
   }
 
  private:
+  friend class PiecewiseTiles;
   struct Sums {
     std::vector<float> rows, columns;
     double mean;
@@ -131,5 +134,64 @@ class PiecewiseConstant2 {
   std::vector<float> columns_;  // sums over the columns of each row, (width + 1) * height
   IntervalIndex row_index_, column_index_;
 };
+
+// The parts of a table on side x side equal tiles of the square, whose borders may divide its cells.
+class PiecewiseTiles {
+ public:
+  PiecewiseTiles(std::shared_ptr<const PiecewiseConstant2> table, std::uint32_t side);
+
+  const PiecewiseConstant2& table() const { return *table_; }
+  // The probability that the table's own sample lies in each tile, row by row.
+  const std::vector<double>& masses() const { return masses_; }
+  // A point of that tile, drawn with the table's density over the tile's mass, and the table's density there. Of a tile
+  // without mass any point.
+  template <class F>
+  PointSample2<F> sample(const Uint<F>& column, const Uint<F>& row, Vec2<F> u) const;
+
+ private:
+  // Of row number `row` the sum over what is left of x, in columns.
+  template <class F>
+  F sum_before(const Uint<F>& row, F x) const;
+
+  std::shared_ptr<const PiecewiseConstant2> table_;
+  std::uint32_t side_, rows_;   // of a tile at most, parts included
+  std::vector<double> masses_;  // by tile
+  std::vector<float> sums_;     // of each tile over its rows, rows_ + 1; those beyond the last are 1
+};
+
+template <class F>
+F PiecewiseTiles::sum_before(const Uint<F>& row, F x) const {
+  const std::uint32_t width = table_->width_;
+  const Uint<F> column = min(to_uint(x), Uint<F>(width - 1u));
+  const auto cell = table_->interval(table_->columns_.data(), Uint<F>(row * Uint<F>(width + 1u) + column));
+  return cell.low + (x - to_float(column)) * cell.width;
+}
+
+template <class F>
+PointSample2<F> PiecewiseTiles::sample(const Uint<F>& column, const Uint<F>& row, Vec2<F> u) const {
+  using U = Uint<F>;
+  const PiecewiseConstant2& t = *table_;
+  // The size of a tile in cells.
+  const float across = float(t.width_) / float(side_), down = float(t.height_) / float(side_);
+  // Off the upper edge, which belongs to the next cell.
+  const auto inside = [](F x, F low, F high) { return max(low, min(x, high * (1.0f - 0x1p-23f))); };
+
+  const U base = (row * U(side_) + column) * U(rows_ + 1u);
+  const U place = find_interval<F>(sums_.data(), base, rows_, u.y);
+  const auto part = t.interval(sums_.data(), U(base + place));
+  const F top = to_float(row) * down, bottom = to_float(row + U(1u)) * down;
+  const U y_cell = min(to_uint(top) + place, U(t.height_ - 1u));
+  const F from = max(top, to_float(y_cell)), to = min(bottom, to_float(y_cell) + 1.0f);
+  const F y = inside(from + (u.y - part.low) / max(part.width, F(1e-37f)) * (to - from), from, to);
+
+  const F left = to_float(column) * across, right = to_float(column + U(1u)) * across;
+  const F before = sum_before<F>(y_cell, left), after = sum_before<F>(y_cell, right);
+  const F v = min(before + u.x * (after - before), F(one_minus_epsilon));
+  const U x_cell = t.column_index_.find(t.columns_.data(), y_cell, v);
+  const auto cell = t.interval(t.columns_.data(), U(y_cell * U(t.width_ + 1u) + x_cell));
+  const F x = inside(to_float(x_cell) + (v - cell.low) / max(cell.width, F(1e-37f)), left, right);
+  const F density = cell.width * t.interval(t.rows_.data(), y_cell).width * (float(t.width_) * float(t.height_));
+  return {{x / float(t.width_), y / float(t.height_)}, {density}};
+}
 
 }  // namespace montelux

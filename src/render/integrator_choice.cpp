@@ -246,8 +246,9 @@ class Pilots {
   // the first candidate's pilot lacks is better than what does not, whose error lacks that light, too.
   void decide() {
     // Pilots favour a candidate that shares samples by up to 2.5 (in a Cornell box): they have seen few of its rare
-    // bright pixels, and passes of an image are longer, from which the first candidate gains most.
-    constexpr double min_ratio = 2;
+    // bright pixels, and passes of an image are longer, from which the first candidate gains most. One whose pixels are
+    // independent of each other has the same kind of errors as the first.
+    const auto min_ratio = [&](std::size_t candidate) { return made_[candidate]->coupled() ? 2.0 : 1.0; };
     if (pairs_.empty()) return;
     choice_.reason = ChoiceReason::none_better;
     std::optional<CandidateRatio> best;
@@ -257,7 +258,7 @@ class Pilots {
       // Few bright samples may determine its error; where they are more numerous than those of the first candidate,
       // which lacks them, it is better all the same.
       const bool is_unsure = r.is_unsure && !(candidates_[candidate].splats && r.finds_more_light);
-      if (r.low <= min_ratio || is_unsure) continue;
+      if (r.low <= min_ratio(candidate) || is_unsure) continue;
       if (best && std::pair(r.finds_more_light, r.ratio) < std::pair(best->finds_more_light, best->ratio)) continue;
       best = r, choice_.chosen = candidate;
       choice_.reason = r.finds_more_light ? ChoiceReason::more_light : ChoiceReason::better;

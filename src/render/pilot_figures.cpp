@@ -109,14 +109,15 @@ double significance(const std::vector<MissingLightOfPilot>& missing, double Miss
 }
 
 // Limits the light of the two in a hundred windows where it is largest, so that single bright samples of the other
-// pilot neither show light nor hide it.
+// pilot show no light. Those of the pilot itself count in full: without them it would seem to lack what it rarely
+// finds.
 void limit_light(std::vector<MissingLightOfPilot>& missing) {
   constexpr double kept = 0.98;
   std::vector<double> sizes;
   for (const MissingLightOfPilot& m : missing) sizes.push_back(std::abs(m.light));
   const auto limit = sizes.begin() + std::ptrdiff_t(kept * double(sizes.size() - 1));
   std::ranges::nth_element(sizes, limit);
-  for (MissingLightOfPilot& m : missing) m.light = std::clamp(m.light, -*limit, *limit);
+  for (MissingLightOfPilot& m : missing) m.light = std::min(m.light, *limit);
 }
 
 // Light that is missing from a pilot of so many samples of each pixel, with significance, and does not show in the

@@ -1,6 +1,8 @@
 // Means of the image and of its blocks in every pass: whatever correlation there is between the pixels of a pass, the
 // passes are independent, and tests over them are honest.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -134,6 +136,14 @@ inline MeansVerdict compare_means(const PassMeans& a, const PassMeans& b, double
     v.differ = v.differ || p < sidak_level(0.25 * level, double(a.colours.size()));
   }
   return v;
+}
+
+// Passes of two integrators have the same means, which the test would not say of wrong colours.
+inline void expect_same_means(const PassMeans& a, const PassMeans& b, double level) {
+  const MeansVerdict verdict = compare_means(a, b, level);
+  EXPECT_FALSE(verdict.differ) << verdict.smallest_p << " at " << verdict.where << ": " << verdict.difference;
+  EXPECT_TRUE(compare_means(with_components_turned(a), b, level).differ);
+  EXPECT_EQ(a.non_finite, 0u);
 }
 
 }  // namespace montelux::test

@@ -15,8 +15,12 @@ constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
 // The paths that teach a guide (guiding-paths; its default), each of which takes longer than one of path.
 constexpr double guide_training_samples = 1.5 * (1 << 20);
 
+// The paths that teach where the sky is visible (sky-paths; its default), with their shadow rays.
+constexpr double sky_training_samples = 3.5 * (1 << 16);
+
 constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
                                              {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
+                                             {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, true},
                                              {"restir-di", 0.9, 3, 0},
                                              {"bdpt", 1.5, 4, 0}};
 
@@ -60,11 +64,16 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
     if (candidate.text == text) return candidate;
   AutomaticCandidate found{text, 1.7, 6, 0};
   for (const AutomaticCandidate& candidate : automatic_candidates())
-    if (name(candidate.text) == name(text)) found = {text, candidate.ray_cost, candidate.sample_cost, 0};
+    if (name(candidate.text) == name(text) && !candidate.for_sky)
+      found = {text, candidate.ray_cost, candidate.sample_cost, 0};
   if (text.find("roulette=efficiency") != std::string_view::npos) found.making = survival_pilot_samples;
   if (text.find("guiding=on") != std::string_view::npos) {
     found.ray_cost = std::max(found.ray_cost, 1.4), found.sample_cost = std::max(found.sample_cost, 1.4);
     found.making += guide_training_samples;
+  }
+  if (text.find("sky-learning=on") != std::string_view::npos) {
+    found.ray_cost = std::max(found.ray_cost, 1.1), found.sample_cost = std::max(found.sample_cost, 1.3);
+    found.making += sky_training_samples, found.for_sky = true;
   }
   return found;
 }

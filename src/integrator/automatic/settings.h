@@ -22,7 +22,8 @@ struct AutomaticCandidate {
   // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
   // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette.
   double ray_cost, sample_cost;
-  double making;  // samples of path that take as long as making it
+  double making;         // samples of path that take as long as making it
+  bool for_sky = false;  // like path in scenes whose rays meet no light at infinity
 };
 
 // Those by default, and the costs of others by their name.

@@ -1,6 +1,6 @@
 // A vertex whose direction is drawn by what path guiding has learned, or by the BSDF.
 #pragma once
-#include "integrator/guiding/field.h"
+#include "light/direction_field.h"
 #include "transport/vertex.h"
 
 namespace montelux {
@@ -36,7 +36,7 @@ MONTELUX_INLINE Density<SolidAngle, F> mixture_density(const F& share, const Den
 template <class F>
 struct GuideChoice {
   const GuideField& field;
-  GuideSite<F> site;
+  FieldSite<F> site;
   Mask<F> guided;
   F rest;  // in [0, 1)
 
@@ -80,7 +80,7 @@ GuidedDirection<F> guide_scattering(const Scene& scene, const Vertex<F>& v, cons
   const F ratio = one / ((one - share) + share * by_guide.value / max(by_bsdf.value, F(1e-30f)));
   next.weight = next.weight * select(next.delta, one / (one - share), ratio);
   if (any(guided)) {
-    const GuideDirection<F> drawn = field.sample(choice.site, u2);
+    const FieldDirection<F> drawn = field.sample(choice.site, u2);
     const Vec3<F> local = v.bsdf.frame.to_local(drawn.wi);
     const BsdfValue<F> value = evaluate_at<F, in_media>(scene, v, local, guided);
     const F mixture = mixture_density(share, value.density, drawn.density).value;

@@ -14,13 +14,15 @@ constexpr double min_gain = 0.1;
 
 }  // namespace
 
-void GuideLearner::Sums::add(const Sums& other, double scale) {
+template <class Field>
+void DirectionLearner<Field>::Sums::add(const Sums& other, double scale) {
   for (std::size_t c = 0; c < squares.size(); ++c) squares[c] += float(scale) * other.squares[c];
   for (std::size_t k = 0; k < by_share.size(); ++k) by_share[k] += scale * other.by_share[k];
   records += scale * other.records, guided += scale * other.guided;
 }
 
-GuideLearner::GuideLearner(std::span<const Vec3f> places) {
+template <class Field>
+DirectionLearner<Field>::DirectionLearner(std::span<const Vec3f> places) {
   std::array<float Vec3f::*, 3> axes{&Vec3f::x, &Vec3f::y, &Vec3f::z};
   Vec3f high{1, 1, 1};
   std::vector<float> along(places.size());
@@ -37,35 +39,39 @@ GuideLearner::GuideLearner(std::span<const Vec3f> places) {
   // A little more, so that the faces of the cube are no surfaces.
   tree_.size = std::max(tree_.size * 1.0371f, 1e-6f);
   for (float Vec3f::*axis : axes) tree_.low.*axis -= 0.0173f * tree_.size;
-  for (std::uint32_t c = 0; c < GuideTree::classes; ++c) tree_.nodes[c] = GuideTree::leaf | c;
-  sums_.resize(GuideTree::classes);
+  for (std::uint32_t c = 0; c < PlaceTree::classes; ++c) tree_.nodes[c] = PlaceTree::leaf | c;
+  sums_.resize(PlaceTree::classes);
 }
 
-void GuideLearner::add(const GuideRecord& r) {
+template <class Field>
+void DirectionLearner<Field>::add(const GuideRecord& r) {
   Sums& sums = sums_[tree_.leaf_at<float>(r.p, r.n, true)];
   sums.records += 1;
   if (r.share > 0) sums.guided += 1;
   const float drawn = r.mixture(), square = r.light * r.light * drawn;
   if (!(square > 0) || !is_finite(square)) return;
-  sums.squares[GuideField::cell_of(r.wi)] += square;
+  sums.squares[Field::cell_of(r.wi)] += square;
   for (std::size_t k = 0; k < shares.size(); ++k)
     sums.by_share[k] += double(square) / double((1 - shares[k]) * r.bsdf + shares[k] * r.guide);
 }
 
-GuideLearner::Sums GuideLearner::total(std::uint32_t node, std::vector<Sums>& of_nodes) const {
+template <class Field>
+typename DirectionLearner<Field>::Sums DirectionLearner<Field>::total(std::uint32_t node,
+                                                                      std::vector<Sums>& of_nodes) const {
   const std::uint32_t word = tree_.nodes[node];
   Sums sums;
-  if (word >= GuideTree::leaf) {
-    sums = sums_[word & ~GuideTree::leaf];
+  if (word >= PlaceTree::leaf) {
+    sums = sums_[word & ~PlaceTree::leaf];
   } else {
     sums.add(total(word, of_nodes)), sums.add(total(word + 1, of_nodes));
   }
   return of_nodes[node] = sums;
 }
 
-GuideField::Table GuideLearner::table_of(const Sums& sums) {
-  constexpr auto side = int(GuideField::side);
-  GuideField::Table table;
+template <class Field>
+typename Field::Table DirectionLearner<Field>::table_of(const Sums& sums) {
+  constexpr auto side = int(Field::side);
+  typename Field::Table table;
   // Cells pass some of their squares to their neighbours: light that comes through the border of a cell comes through
   // the next one elsewhere in the leaf.
   const auto from = [&](int x, int y) {
@@ -90,35 +96,38 @@ GuideField::Table GuideLearner::table_of(const Sums& sums) {
   return table;
 }
 
-void GuideLearner::make_tables(std::uint32_t node, const Sums& above, const std::vector<Sums>& of_nodes,
-                               std::vector<GuideField::Table>& tables) const {
+template <class Field>
+void DirectionLearner<Field>::make_tables(std::uint32_t node, const Sums& above, const std::vector<Sums>& of_nodes,
+                                          std::vector<typename Field::Table>& tables) const {
   Sums sums = of_nodes[node];
   if (above.records > 0) sums.add(above, prior_records / above.records);
   const std::uint32_t word = tree_.nodes[node];
-  if (word >= GuideTree::leaf) {
-    tables[word & ~GuideTree::leaf] = table_of(sums);
+  if (word >= PlaceTree::leaf) {
+    tables[word & ~PlaceTree::leaf] = table_of(sums);
     return;
   }
   make_tables(word, sums, of_nodes, tables), make_tables(word + 1, sums, of_nodes, tables);
 }
 
-GuideField GuideLearner::field() const {
+template <class Field>
+std::vector<typename Field::Table> DirectionLearner<Field>::tables() const {
   std::vector<Sums> of_nodes(tree_.nodes.size());
-  std::vector<GuideField::Table> tables(sums_.size());
-  for (std::uint32_t root = 0; root < GuideTree::classes; ++root) {
+  std::vector<typename Field::Table> tables(sums_.size());
+  for (std::uint32_t root = 0; root < PlaceTree::classes; ++root) {
     total(root, of_nodes);
     make_tables(root, {}, of_nodes, tables);
   }
-  return GuideField(tree_, tables);
+  return tables;
 }
 
-void GuideLearner::split(std::uint32_t node, int depth, double having, double records) {
-  if (having <= records || depth == GuideTree::max_depth) return;
+template <class Field>
+void DirectionLearner<Field>::split(std::uint32_t node, int depth, double having, double records) {
+  if (having <= records || depth == PlaceTree::max_depth) return;
   const auto first = std::uint32_t(tree_.nodes.size());
   tree_.nodes.push_back(tree_.nodes[node]);
-  tree_.nodes.push_back(GuideTree::leaf | std::uint32_t(sums_.size()));
+  tree_.nodes.push_back(PlaceTree::leaf | std::uint32_t(sums_.size()));
   sums_.emplace_back();
-  Sums& inherited = sums_[tree_.nodes[first] & ~GuideTree::leaf];
+  Sums& inherited = sums_[tree_.nodes[first] & ~PlaceTree::leaf];
   Sums half;
   half.add(inherited, 0.5);
   inherited = sums_.back() = half;
@@ -126,22 +135,26 @@ void GuideLearner::split(std::uint32_t node, int depth, double having, double re
   for (std::uint32_t k : {0u, 1u}) split(first + k, depth + 1, having / 2, records);
 }
 
-void GuideLearner::refine(double records) {
+template <class Field>
+void DirectionLearner<Field>::refine(double records) {
   struct Open {
     std::uint32_t node;
     int depth;
   };
   std::vector<Open> open;
-  for (std::uint32_t root = 0; root < GuideTree::classes; ++root) open.push_back({root, 0});
+  for (std::uint32_t root = 0; root < PlaceTree::classes; ++root) open.push_back({root, 0});
   while (!open.empty()) {
     const auto [node, depth] = open.back();
     open.pop_back();
     const std::uint32_t word = tree_.nodes[node];
-    if (word >= GuideTree::leaf)
-      split(node, depth, sums_[word & ~GuideTree::leaf].records, records);
+    if (word >= PlaceTree::leaf)
+      split(node, depth, sums_[word & ~PlaceTree::leaf].records, records);
     else
       for (std::uint32_t k : {0u, 1u}) open.push_back({word + k, depth + 1});
   }
 }
+
+template class DirectionLearner<GuideField>;
+template class DirectionLearner<SkyDirections>;
 
 }  // namespace montelux

@@ -11,7 +11,7 @@ namespace montelux {
 
 // A direction in which a path was scattered at a surface, and what it found along it.
 struct GuideRecord {
-  Vec3f p, n, wi;              // as GuideTree::leaf_at takes them; unit, world space
+  Vec3f p, n, wi;              // as PlaceTree::leaf_at takes them; unit, world space
   float bsdf, guide, share;    // as GuidedDirection
   float throughput;            // with which the path had come
   float light;                 // gathered up to here; once the path has ended: what came along wi, over the throughput

@@ -1,9 +1,10 @@
-// Path guiding: the passes before the render that teach it, and the path loop that uses what they teach.
+// What is learned before a render, for path guiding and the choice of directions toward the sky, and the path loop that
+// path guiding takes.
 #pragma once
 #include "accel/accel.h"
-#include "integrator/guiding/field.h"
 #include "integrator/integrator.h"
 #include "integrator/path/settings.h"
+#include "light/direction_field.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -11,6 +12,12 @@ namespace montelux {
 // Traces settings.guiding_paths paths in rounds, each of twice as many as the one before, with the field that the
 // rounds before have taught. A pure function of scene, lights and settings. None of these paths is shown.
 GuideField train_guide(const Scene& scene, const LightSet& lights, const Accel& rays, const PathSettings& settings);
+
+// A field of the directions from which the brightest light from infinity reaches the vertices of paths, by shadow rays
+// from the vertices of settings.sky_paths paths, in rounds as above. Null if there is no such light. A pure function
+// likewise.
+std::shared_ptr<const SkyField> learn_sky(const Scene& scene, const LightSet& lights, const Accel& rays,
+                                          const PathSettings& settings);
 
 // As trace_paths(), with settings.guide, on the lanes that the settings choose, with or without participating media.
 // For the tallies of the path tracer.

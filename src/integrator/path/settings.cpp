@@ -101,7 +101,11 @@ Fields<PathSettings> light_fields() {
               "largest GGX alpha of surfaces that manifold treats like smooth ones; 0: smooth surfaces only", 0, 1)
       .boolean("guiding", &PathSettings::guiding,
                "path guiding: also sample directions from a distribution that is learned before the render")
-      .integer("guiding-paths", &PathSettings::guiding_paths, "paths from which guiding learns", 1024, 1 << 30);
+      .integer("guiding-paths", &PathSettings::guiding_paths, "paths from which guiding learns", 1024, 1 << 30)
+      .boolean("sky-learning", &PathSettings::sky_learning,
+               "learn before the render from which directions the brightest light from infinity is visible, and "
+               "sample it there")
+      .integer("sky-paths", &PathSettings::sky_paths, "paths from which sky-learning learns", 1024, 1 << 30);
   return fields;
 }
 
@@ -131,6 +135,8 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
   for (const Fields<PathSettings>& fields : {light_fields(), common_fields()})
     if (Status read = fields.read(list, s); !read) return read.failure();
   if (!s.guiding && list.find("guiding-paths")) return Failure{"guiding-paths is for path guiding: guiding must be on"};
+  if (!s.sky_learning && list.find("sky-paths")) return Failure{"sky-paths is for sky-learning, which must be on"};
+  if (s.sky_learning && !s.nee) return Failure{"sky-learning is for next-event estimation: nee must be on"};
   if (s.manifold == 0 && list.find("manifold-roughness"))
     return Failure{"manifold-roughness is for manifold next-event estimation: manifold must be on"};
   if (s.roulette == PathRoulette::off && !s.max_depth)

@@ -1,5 +1,6 @@
 // Settings of the path integrator.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -9,9 +10,12 @@
 
 namespace montelux {
 
-class GuideField;
+template <std::uint32_t side>
+class DirectionField;
+using GuideField = DirectionField<16>;
 class ManifoldLight;
 class SurvivalMap;
+class SkyField;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
 enum class Lanes { one, native };
@@ -58,6 +62,11 @@ struct PathSettings {
   bool guiding = false;
   int guiding_paths = 1 << 20;
   std::shared_ptr<const GuideField> guide;
+  // Next-event estimation toward the brightest light from infinity from where so many paths before the render have
+  // found that it is visible; the field, made where there is none.
+  bool sky_learning = false;
+  int sky_paths = 1 << 17;
+  std::shared_ptr<const SkyField> sky;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;

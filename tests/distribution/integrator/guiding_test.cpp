@@ -1,7 +1,7 @@
 // The field of path guiding draws directions with the density that it states, for one lane and for a pack.
 #include <gtest/gtest.h>
 
-#include "integrator/guiding/field.h"
+#include "light/direction_field.h"
 #include "statistics.h"
 
 namespace montelux::test {
@@ -17,10 +17,10 @@ GuideField field_of_three() {
     tables[1].weights[c] = c == 77 ? 40.0f : c == 78 ? 15.0f : 0.02f;
   }
   for (std::size_t i = 0; i < 3; ++i) tables[i].share = 0.25f * float(i + 1);
-  return GuideField(GuideTree{}, tables);
+  return GuideField(PlaceTree{}, tables);
 }
 
-GuideSite<float> site(const GuideField& field, std::uint32_t table) { return {table, field.share(table)}; }
+FieldSite<float> site(const GuideField& field, std::uint32_t table) { return {table, field.share(table)}; }
 
 // Chi-square of what a table draws, on cells half as wide as its own, against a density.
 template <class DensityFunction>
@@ -97,8 +97,8 @@ TEST(GuideField, states_the_density_of_what_it_draws) {
   RandomStream<float> r(9, 2);
   int at_borders = 0;
   for (int i = 0; i < 100000; ++i) {
-    const GuideSite<float> at = site(field, std::uint32_t(i % 3));
-    const GuideDirection<float> drawn = field.sample(at, r.next2());
+    const FieldSite<float> at = site(field, std::uint32_t(i % 3));
+    const FieldDirection<float> drawn = field.sample(at, r.next2());
     EXPECT_GT(drawn.density.value, 0);
     // Rounding may move a direction into the next cell.
     at_borders += field.density(at, drawn.wi).value != drawn.density.value;
@@ -111,17 +111,17 @@ TEST(GuideField, draws_the_same_in_every_lane_as_alone) {
   const GuideField field = field_of_three();
   RandomStream<float> r(2, 7);
   for (int i = 0; i < 2000; ++i) {
-    GuideSite<F> at{Uint<F>(0u), F(0.0f)};
+    FieldSite<F> at{Uint<F>(0u), F(0.0f)};
     Vec2<F> u{F(0.0f), F(0.0f)};
     for (int k = 0; k < lanes_of<F>; ++k) {
       set_lane(at.table, k, std::uint32_t(r.next() * 3)), set_lane(at.share, k, 0.5f);
       set_lane(u.x, k, r.next()), set_lane(u.y, k, r.next());
     }
-    const GuideDirection<F> drawn = field.sample(at, u);
+    const FieldDirection<F> drawn = field.sample(at, u);
     const Density<SolidAngle, F> density = field.density(at, drawn.wi);
     for (int k = 0; k < lanes_of<F>; ++k) {
-      const GuideSite<float> alone{lane(at.table, k), 0.5f};
-      const GuideDirection<float> one = field.sample(alone, {lane(u.x, k), lane(u.y, k)});
+      const FieldSite<float> alone{lane(at.table, k), 0.5f};
+      const FieldDirection<float> one = field.sample(alone, {lane(u.x, k), lane(u.y, k)});
       EXPECT_EQ(one.wi.x, lane(drawn.wi.x, k));
       EXPECT_EQ(one.wi.y, lane(drawn.wi.y, k));
       EXPECT_EQ(one.wi.z, lane(drawn.wi.z, k));

@@ -321,5 +321,67 @@ TEST(PiecewiseConstant2, samples_match_density) {
   }
 }
 
+// A tile by its mass, then a point of it, is a point of the table. Borders of the tiles divide its cells, or cells
+// divide the tiles.
+TEST(PiecewiseTiles, points_of_tiles_are_points_of_the_table_and_a_wrong_choice_of_tiles_is_found) {
+  struct Size {
+    std::uint32_t width, height;
+  };
+  constexpr std::uint32_t side = 4;
+  for (const Size size : {Size{1, 1}, Size{3, 2}, Size{5, 10}, Size{16, 8}}) {
+    SCOPED_TRACE(testing::Message() << size.width << " x " << size.height);
+    std::vector<float> cells;
+    for (std::uint32_t i = 0; i < size.width * size.height; ++i)
+      cells.push_back(std::max(0.0f, unit_float<float>(mix_bits(i + 7)) * 5 - 1) + (i == 0 ? 30.0f : 0.0f));
+    const auto table = std::make_shared<PiecewiseConstant2>(cells, size.width, size.height);
+    const PiecewiseTiles tiles(table, side);
+    ASSERT_EQ(tiles.masses().size(), side * side);
+    double sum = 0;
+    for (double mass : tiles.masses()) sum += mass;
+    EXPECT_NEAR(sum, 1, 1e-5);
+
+    const auto sample_by = [&](const AliasTable& choice) {
+      return [&](auto& s) {
+        const std::uint32_t tile = choice.sample(s.next()).index;
+        const auto [p, density] = tiles.sample<float>(tile % side, tile / side, s.next2());
+        EXPECT_EQ(density.value, table->density(p).value);
+        EXPECT_EQ(std::uint32_t(p.x * side), tile % side);
+        EXPECT_EQ(std::uint32_t(p.y * side), tile / side);
+        return p;
+      };
+    };
+    const auto truth = [&](double x, double y) {
+      const auto at = std::size_t(y * size.height) * size.width + std::size_t(x * size.width);
+      return double(cells[at]) / table->mean();
+    };
+    // Its cells are parts of those of the table.
+    const Grid grid{int(size.width * side), int(size.height * side)};
+    const TestResult r = chi_square_square(sample_by(AliasTable(tiles.masses())), truth, grid, samples, 1);
+    EXPECT_GT(r.p_value, level) << r.note;
+    std::vector<double> wrong = tiles.masses();
+    wrong.front() *= 0.9;
+    EXPECT_LT(chi_square_square(sample_by(AliasTable(wrong)), truth, grid, samples, 1).p_value, level);
+  }
+}
+
+TEST(PiecewiseTiles, draw_the_same_in_every_lane_as_alone) {
+  using F = NativeFloats;
+  std::vector<float> cells;
+  for (std::uint32_t i = 0; i < 21 * 13; ++i) cells.push_back(std::max(0.0f, unit_float<float>(mix_bits(i)) - 0.3f));
+  const PiecewiseTiles tiles(std::make_shared<PiecewiseConstant2>(cells, 21u, 13u), 8);
+  RandomStream<F> stream(lane_index<F>(), Uint<F>(9u));
+  for (int i = 0; i < 500; ++i) {
+    const Uint<F> column = to_uint(stream.next() * 8.0f), row = to_uint(stream.next() * 8.0f);
+    const Vec2<F> u = stream.next2();
+    const auto many = tiles.sample<F>(column, row, u);
+    for (int k = 0; k < native_lanes; ++k) {
+      const auto one = tiles.sample<float>(lane(column, k), lane(row, k), lane(u, k));
+      EXPECT_EQ(lane(many.p, k).x, one.p.x);
+      EXPECT_EQ(lane(many.p, k).y, one.p.y);
+      EXPECT_EQ(lane(many.density.value, k), one.density.value);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace montelux

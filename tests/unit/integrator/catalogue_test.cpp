@@ -61,6 +61,7 @@ std::string value_of(const ParameterSpec& row) {
 std::string companions(const EntitySpec& integrator, const ParameterSpec& row) {
   const std::string name(row.name);
   if (name == "guiding-paths") return ",guiding=on";
+  if (name == "sky-paths") return ",sky-learning=on";
   if (name == "manifold-roughness") return ",manifold=1";
   if (!integrator.name.starts_with("restir")) return "";
   if (name == "m-cap" || name == "warm-up" || name == "carry") return ",temporal=on";

@@ -44,7 +44,7 @@ TEST(GuideLearner, sends_directions_to_where_light_comes_from) {
   int right = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vec3f p{i % 2 == 0 ? -0.4f : 0.6f, 0, 2 * r.next() - 1};
-    const GuideSite<float> at = field.at<float>(p, {0, 1, 0}, true);
+    const FieldSite<float> at = field.at<float>(p, {0, 1, 0}, true);
     EXPECT_GT(at.share, 0);
     right += field.sample(at, r.next2()).wi.x * (p.x < 0 ? 1.0f : -1.0f) > 0.6f;
   }
@@ -68,7 +68,7 @@ TEST(GuideLearner, leaves_directions_to_the_bsdf_where_a_guide_gains_nothing) {
   EXPECT_GT(low.field().at<float>({0, 0, 0}, {0, 1, 0}, true).share, 0.1f);
 }
 
-TEST(GuideTree, finds_the_same_leaf_in_every_lane_as_alone) {
+TEST(PlaceTree, finds_the_same_leaf_in_every_lane_as_alone) {
   using F = NativeFloats;
   const std::vector<GuideRecord> records = records_of(5000, false);
   std::vector<Vec3f> places;
@@ -83,9 +83,9 @@ TEST(GuideTree, finds_the_same_leaf_in_every_lane_as_alone) {
     for (int k = 0; k < lanes_of<F>; ++k)
       set_lane(p.x, k, 3 * r.next() - 1.5f), set_lane(p.y, k, 0.1f * r.next()), set_lane(p.z, k, 3 * r.next() - 1.5f);
     const Mask<F> on = mask_of_bits<F>(0xaaaau | std::uint32_t(i));
-    const GuideSite<F> at = field.at<F>(p, n, on);
+    const FieldSite<F> at = field.at<F>(p, n, on);
     for_each_lane(on, [&](int k) {
-      const GuideSite<float> alone = field.at<float>(lane(p, k), {0, 1, 0}, true);
+      const FieldSite<float> alone = field.at<float>(lane(p, k), {0, 1, 0}, true);
       EXPECT_EQ(alone.table, lane(at.table, k));
       EXPECT_EQ(alone.share, lane(at.share, k));
     });
@@ -94,9 +94,13 @@ TEST(GuideTree, finds_the_same_leaf_in_every_lane_as_alone) {
 }
 
 TEST(PathGuiding, gives_the_same_bits_for_any_number_of_threads_and_in_every_run) {
-  const std::filesystem::path room = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/first-light";
-  const TestScene scene(read_text(room / "first-light.pbrt"), room.string(), std::pair(37, 21));
-  const auto pixels = [&](const std::string& way, int threads) {
+  const std::filesystem::path scenes = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes";
+  const auto scene_of = [&](const std::string& name) {
+    const std::filesystem::path folder = scenes / name;
+    return TestScene(read_text(folder / (name + ".pbrt")), folder.string(), std::pair(37, 21));
+  };
+  const TestScene inside = scene_of("first-light"), outside = scene_of("ring-caustic");
+  const auto pixels = [&](const TestScene& scene, const std::string& way, int threads) {
     const ChosenIntegrator chosen = scene.integrator(way);
     RenderObserver silent;
     const Film film =
@@ -107,21 +111,26 @@ TEST(PathGuiding, gives_the_same_bits_for_any_number_of_threads_and_in_every_run
         for (double c : film.pixel(x, y).mean) all.push_back(c);
     return all;
   };
-  const std::string way = "path:guiding=on,guiding-paths=20000";
-  const auto one = pixels(way, 1);
-  EXPECT_EQ(one, pixels(way, 2));
-  EXPECT_EQ(one, pixels(way, 3));
-  EXPECT_NE(one, pixels("path", 1));
-  EXPECT_NE(one, pixels("path:guiding=on,guiding-paths=10000", 1));
+  for (const std::string name : {"guiding", "sky"}) {
+    const TestScene& scene = name == "sky" ? outside : inside;
+    const std::string on = name == "sky" ? "path:sky-learning=on," : "path:guiding=on,",
+                      way = on + name + "-paths=20000";
+    const auto one = pixels(scene, way, 1);
+    EXPECT_EQ(one, pixels(scene, way, 2)) << way;
+    EXPECT_EQ(one, pixels(scene, way, 3)) << way;
+    EXPECT_NE(one, pixels(scene, "path", 1)) << way;
+    EXPECT_NE(one, pixels(scene, on + name + "-paths=10000", 1)) << way;
+  }
 }
 
 // Training and render, path by path in single lanes and in packs.
 TEST(PathGuiding, does_not_depend_on_the_lanes) {
-  const std::filesystem::path room = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/first-light";
-  const TestScene scene(read_text(room / "first-light.pbrt"), room.string(), std::pair(24, 16));
+  const std::filesystem::path room = std::filesystem::path(MONTELUX_SOURCE_DIR) / "scenes/ring-caustic";
+  const TestScene scene(read_text(room / "ring-caustic.pbrt"), room.string(), std::pair(24, 16));
   RenderObserver silent;
   const auto image = [&](const std::string& lanes) {
-    const ChosenIntegrator chosen = scene.integrator("path:guiding=on,guiding-paths=8000,lanes=" + lanes);
+    const ChosenIntegrator chosen =
+        scene.integrator("path:guiding=on,guiding-paths=8000,sky-learning=on,sky-paths=4000,lanes=" + lanes);
     return render(chosen.any(), scene.settings(PointSetKind::independent, {4, 2}, 3), silent).film.image();
   };
   const ImageEstimate one = image("one"), native = image("native");
@@ -136,6 +145,9 @@ TEST(PathGuiding, is_a_setting_of_path_and_its_misspelling_is_none) {
   EXPECT_THROW(scene.integrator("path:guiding-paths=4096"), std::runtime_error);
   EXPECT_THROW(scene.integrator("path:guiding=on,guiding-paths=0"), std::runtime_error);
   EXPECT_THROW(scene.integrator("naive:guiding=on"), std::runtime_error);
+  EXPECT_NO_THROW(scene.integrator("path:sky-learning=on,sky-paths=1024"));
+  EXPECT_THROW(scene.integrator("path:sky-paths=4096"), std::runtime_error);
+  EXPECT_THROW(scene.integrator("path:sky-learning=on,nee=off"), std::runtime_error);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::vector<std::string> values_of(const ParameterSpec& row) {
   if (name == "light-selection") return {"uniform", "ris:4"};
   if (name == "manifold") return {"1"};
   if (name == "roulette") return {"proportional"};
-  if (name == "guiding-paths") return {"4096"};
+  if (name == "guiding-paths" || name == "sky-paths") return {"4096"};
   std::vector<std::string> all;
   for (std::string_view choice : row.choices)
     if (choice != "none") all.emplace_back(choice);
@@ -93,6 +93,7 @@ std::string companions(std::string_view integrator, std::string_view setting) {
   if (setting == "alpha") return "frames=8";
   if (setting == "medium-radius") return "photons=20000";  // of the foggy room
   if (setting == "guiding-paths") return "guiding=on";
+  if (setting == "sky-paths") return "sky-learning=on";
   if (setting == "manifold-roughness") return "manifold=1";
   return "";
 }

@@ -1,5 +1,4 @@
-// What path guiding has learned: for every place and orientation of a surface a distribution of directions, and how
-// often to use it instead of the BSDF.
+// Distributions of directions that a render has learned, one for every place and orientation of a surface.
 #pragma once
 #include <array>
 #include <vector>
@@ -10,24 +9,30 @@
 
 namespace montelux {
 
-// Where the field is looked up, in every lane: the number of a distribution, and the probability with which it draws
-// the direction instead of the BSDF; 0 where training found no gain.
+// Where the field is looked up, in every lane: the number of a distribution, and for path guiding the probability with
+// which it draws the direction instead of the BSDF; 0 where training found no gain.
 template <class F>
-struct GuideSite {
+struct FieldSite {
   Uint<F> table;
   F share;
 };
 template <class F>
-struct GuideDirection {
-  Vec3<F> wi;  // unit, in world space
+struct FieldDirection {
+  Vec3<F> wi;  // unit
   Density<SolidAngle, F> density;
+};
+// A cell of the square map of directions, and a point of [0, 1)^2 that says where in it.
+template <class F>
+struct FieldCell {
+  Uint<F> column, row;
+  Vec2<F> rest;
 };
 
 // Divides the surfaces of a scene into leaves. Surfaces are distinguished by the axis that their normal is closest to,
 // with its sign, or as surfaces that scatter to both sides; each of these seven classes has a binary tree of its own
 // over a cube, which halves x, y and z in turn (Mueller, Gross and Novak 2017, "Practical Path Guiding for Efficient
 // Light-Transport Simulation", sec. 3.1).
-struct GuideTree {
+struct PlaceTree {
   static constexpr std::uint32_t classes = 7, leaf = 0x80000000u;
   static constexpr int bits_per_axis = 10, max_depth = 3 * bits_per_axis;
 
@@ -45,42 +50,53 @@ struct GuideTree {
   static Uint<F> class_of(const Vec3<F>& n);
 };
 
-// For every leaf a table of directions: constant on cells of equal solid angle. Immutable.
-class GuideField {
+// For every leaf a table of directions: constant on side x side cells of equal solid angle. Immutable.
+template <std::uint32_t side_of_table>
+class DirectionField {
  public:
-  static constexpr std::uint32_t side = 16, cells = side * side;
+  static constexpr std::uint32_t side = side_of_table, cells = side * side;
 
-  // The relative weights of the cells, and the probability to use them.
+  // The relative weights of the cells, and the probability that FieldSite has.
   struct Table {
     std::array<float, cells> weights{};
     float share = 0;
   };
   // `tables`: at least as many as the tree has leaves. Weights must be finite and not negative; where all are zero they
   // count as equal.
-  GuideField(GuideTree tree, const std::vector<Table>& tables);
+  DirectionField(PlaceTree tree, const std::vector<Table>& tables);
 
-  // As GuideTree::leaf_at. Where a lane is off the share is 0.
+  // As PlaceTree::leaf_at. Where a lane is off the share is 0.
   template <class F>
-  GuideSite<F> at(const Vec3<F>& p, const Vec3<F>& n, Mask<F> on) const {
+  FieldSite<F> at(const Vec3<F>& p, const Vec3<F>& n, Mask<F> on) const {
     const Uint<F> table = tree_.leaf_at<F>(p, n, on);
     return {table, select(on, gather(shares_.data(), table), F(0.0f))};
   }
   template <class F>
-  GuideDirection<F> sample(const GuideSite<F>& site, Vec2<F> u) const;
+  FieldDirection<F> sample(const FieldSite<F>& site, Vec2<F> u) const;
   // With which sample() draws the unit direction.
   template <class F>
-  Density<SolidAngle, F> density(const GuideSite<F>& site, const Vec3<F>& wi) const {
-    return {gather(densities_.data(), Uint<F>(site.table * Uint<F>(cells) + cell_of(wi)))};
+  Density<SolidAngle, F> density(const FieldSite<F>& site, const Vec3<F>& wi) const {
+    return {density_of(site.table, cell_of(wi))};
   }
-  // The cell of a unit direction.
+  // The cell alone, with a probability of density_of() times 4 pi / cells.
+  template <class F>
+  FieldCell<F> sample_cell(const Uint<F>& table, Vec2<F> u) const;
+  template <class U>
+  auto density_of(const U& table, const U& cell) const {
+    return gather(densities_.data(), U(table * U(cells) + cell));
+  }
+  // The cell of a unit direction, or of its point of the square.
   template <class F>
   static Uint<F> cell_of(const Vec3<F>& w) {
-    const Vec2<F> at = square_from_sphere(w);
+    return cell_at(square_from_sphere(w));
+  }
+  template <class F>
+  static Uint<F> cell_at(const Vec2<F>& at) {
     const auto part = [](F x) { return to_uint(clamp(x * float(side), 0.0f, float(side) - 1.0f)); };
     return part(at.y) * Uint<F>(side) + part(at.x);
   }
 
-  const GuideTree& tree() const { return tree_; }
+  const PlaceTree& tree() const { return tree_; }
   std::size_t tables() const { return shares_.size(); }
   float share(std::uint32_t table) const { return shares_[table]; }
   std::size_t bytes() const { return 4 * (tree_.nodes.size() + sums_.size() + densities_.size() + shares_.size()); }
@@ -89,14 +105,14 @@ class GuideField {
   static constexpr std::uint32_t sums_of_table = (side + 1) * (side + 1);
   void add(const Table& table);
 
-  GuideTree tree_;
+  PlaceTree tree_;
   std::vector<float> sums_;       // for each table: running sums over rows, then over the columns of each row
   std::vector<float> densities_;  // of its cells, per steradian
   std::vector<float> shares_;
 };
 
 template <class F>
-Uint<F> GuideTree::class_of(const Vec3<F>& n) {
+Uint<F> PlaceTree::class_of(const Vec3<F>& n) {
   using U = Uint<F>;
   const F x = abs(n.x), y = abs(n.y), z = abs(n.z);
   const Mask<F> by_x = (x >= y) & (x >= z), by_y = (!by_x) & (y >= z);
@@ -107,7 +123,7 @@ Uint<F> GuideTree::class_of(const Vec3<F>& n) {
 }
 
 template <class F>
-Uint<F> GuideTree::leaf_at(const Vec3<F>& p, const Vec3<F>& n, Mask<F> on) const {
+Uint<F> PlaceTree::leaf_at(const Vec3<F>& p, const Vec3<F>& n, Mask<F> on) const {
   using U = Uint<F>;
   constexpr float steps = 1 << bits_per_axis;
   const float scale = steps / size;
@@ -124,23 +140,37 @@ Uint<F> GuideTree::leaf_at(const Vec3<F>& p, const Vec3<F>& n, Mask<F> on) const
   return select(on, U(word & U(~leaf)), U(0u));
 }
 
+template <std::uint32_t side_of_table>
 template <class F>
-GuideDirection<F> GuideField::sample(const GuideSite<F>& site, Vec2<F> u) const {
+FieldCell<F> DirectionField<side_of_table>::sample_cell(const Uint<F>& table, Vec2<F> u) const {
   using U = Uint<F>;
-  const U base = site.table * U(sums_of_table);
+  const U base = table * U(sums_of_table);
   const auto draw = [&](const U& first, F x, U& index) {
     index = find_interval<F>(sums_.data(), first, side, x);
     const F low = gather(sums_.data(), U(first + index));
     const F width = gather(sums_.data(), U(first + index + U(1u))) - low;
     // Away from the next cell by more than the rounding of the place.
-    return (to_float(index) + clamp((x - low) / max(width, F(1e-30f)), 0.0f, 1.0f - float(side) * 0x1p-23f)) /
-           float(side);
+    return clamp((x - low) / max(width, F(1e-30f)), 0.0f, 1.0f - float(side) * 0x1p-23f);
   };
-  U row, column;
-  const F y = draw(base, u.y, row);
-  const F x = draw(base + (row + U(1u)) * U(side + 1), u.x, column);
-  return {sphere_from_square(Vec2<F>{x, y}),
-          {gather(densities_.data(), U(site.table * U(cells) + row * U(side) + column))}};
+  FieldCell<F> cell;
+  cell.rest.y = draw(base, u.y, cell.row);
+  cell.rest.x = draw(base + (cell.row + U(1u)) * U(side + 1), u.x, cell.column);
+  return cell;
 }
+
+template <std::uint32_t side_of_table>
+template <class F>
+FieldDirection<F> DirectionField<side_of_table>::sample(const FieldSite<F>& site, Vec2<F> u) const {
+  const FieldCell<F> cell = sample_cell<F>(site.table, u);
+  const Vec2<F> at{(to_float(cell.column) + cell.rest.x) / float(side),
+                   (to_float(cell.row) + cell.rest.y) / float(side)};
+  return {sphere_from_square(at), {density_of(site.table, Uint<F>(cell.row * Uint<F>(side) + cell.column))}};
+}
+
+// For path guiding, and for the sky.
+using GuideField = DirectionField<16>;
+using SkyDirections = DirectionField<32>;
+extern template class DirectionField<16>;
+extern template class DirectionField<32>;
 
 }  // namespace montelux

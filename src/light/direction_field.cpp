@@ -1,13 +1,15 @@
-#include "integrator/guiding/field.h"
+#include "light/direction_field.h"
 
 namespace montelux {
 
-GuideField::GuideField(GuideTree tree, const std::vector<Table>& tables) : tree_(std::move(tree)) {
+template <std::uint32_t side>
+DirectionField<side>::DirectionField(PlaceTree tree, const std::vector<Table>& tables) : tree_(std::move(tree)) {
   sums_.reserve(tables.size() * sums_of_table), densities_.reserve(tables.size() * cells);
   for (const Table& table : tables) add(table);
 }
 
-void GuideField::add(const Table& table) {
+template <std::uint32_t side>
+void DirectionField<side>::add(const Table& table) {
   std::array<double, side> of_rows{}, row{};
   for (std::uint32_t c = 0; c < cells; ++c) of_rows[c / side] += double(table.weights[c]);
   const std::vector<float> rows = cumulative_sums(of_rows);
@@ -22,5 +24,8 @@ void GuideField::add(const Table& table) {
   }
   shares_.push_back(table.share);
 }
+
+template class DirectionField<16>;
+template class DirectionField<32>;
 
 }  // namespace montelux
