@@ -247,8 +247,8 @@ class Pilots {
   void decide() {
     // Pilots favour a candidate that shares samples by up to 2.5 (in a Cornell box): they have seen few of its rare
     // bright pixels, and passes of an image are longer, from which the first candidate gains most. One whose pixels are
-    // independent of each other has the same kind of errors as the first.
-    const auto min_ratio = [&](std::size_t candidate) { return made_[candidate]->coupled() ? 2.0 : 1.0; };
+    // independent of each other has the same kind of errors as the first, but more to gain by longer passes, too.
+    const auto min_ratio = [&](std::size_t candidate) { return made_[candidate]->coupled() ? 2.0 : 1.1; };
     if (pairs_.empty()) return;
     choice_.reason = ChoiceReason::none_better;
     std::optional<CandidateRatio> best;

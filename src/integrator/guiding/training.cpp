@@ -134,7 +134,8 @@ class SkyRays {
       const F off = 1e-5f * scene_.lights.scene_radius();
       const Mask<F> one_sided = length_squared(n_) > F(0.5f);
       const F cosine = select(one_sided, max(dot(n_, light.wi), F(0.0f)), F(1.0f));
-      const Ray<F> ray{p_ + select(one_sided, n_, light.wi) * off, light.wi, light.distance, F(scene_.shutter.open)};
+      const Ray<F> ray{p_ + select(one_sided, n_, light.wi) * off, light.wi, light.distance,
+                       scene_.shutter.time(random.next())};
       const Mask<F> arrives = unblocked<F>(rays_, ray, Mask<F>(on & light.valid & (cosine > F(0.0f))), traced_);
       const F found = select(arrives, cosine * average(light.radiance) / light.density.value, F(0.0f));
       for_each_lane(on, [&](int k) {

@@ -132,7 +132,7 @@ TEST(IntegratorChoice, keeps_the_first_candidate_where_the_other_one_costs_more_
 TEST(IntegratorChoice, counts_the_cost_of_a_ray) {
   const Noise first(uniform(0.5)), other(uniform(0.25));
   EXPECT_EQ(choose(first, other, settings_for(), 1).chosen, 1u);
-  EXPECT_EQ(choose(first, other, settings_for(), 2.5).chosen, 0u);
+  EXPECT_EQ(choose(first, other, settings_for(), 5).chosen, 0u);
 }
 
 TEST(IntegratorChoice, rarely_leaves_the_first_candidate_for_an_equal_one) {
@@ -331,7 +331,7 @@ double deviation(bool reuses) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     const Noise first(rare, seed, reuses ? first_pilot_pass : 0),
         other(rare, seed + 100000, reuses ? first_pilot_pass : 0);
-    const IntegratorChoice choice = choose(first, other, settings_for(300, seed), 0.3);
+    const IntegratorChoice choice = choose(first, other, settings_for(300, seed), 0.55);
     const Noise& chosen = choice.chosen == 1 ? other : first;
     double sum = 0;
     std::vector<PixelSample> samples(std::size_t(bounds.area()));

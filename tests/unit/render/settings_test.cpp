@@ -44,6 +44,9 @@ std::string diffuse_room() {
   return text;
 }
 
+// The same under a sky.
+std::string sky_room() { return room + std::string("LightSource \"infinite\" \"rgb L\" [ 0.2 0.3 0.5 ]\n"); }
+
 // With fog within the room, which the camera looks into.
 std::string foggy_room() {
   std::string text = room;
@@ -114,21 +117,26 @@ std::vector<double> picture(const TestScene& scene, const std::string& way) {
 
 TEST(IntegratorSettings, change_the_picture) {
   const TestScene glossy{std::string_view(room)}, diffuse{std::string_view(diffuse_room())},
-      foggy{std::string_view(foggy_room())};
+      foggy{std::string_view(foggy_room())}, under_sky{std::string_view(sky_room())};
   int tested = 0;
   for (const EntitySpec& spec : integrator_catalogue()) {
-    std::map<std::string, std::vector<double>> before;  // by what is stated beside the setting
+    std::map<std::string, std::vector<double>> before;  // by the scene and what is stated beside the setting
     for (const ParameterSpec& row : spec.parameters) {
       if (without_effect.contains(row.name)) continue;
-      const TestScene& scene = spec.name == "radiosity" ? diffuse : row.name == "medium-radius" ? foggy : glossy;
+      const bool is_of_sky = row.name.starts_with("sky-");
+      const TestScene& scene = spec.name == "radiosity"      ? diffuse
+                               : row.name == "medium-radius" ? foggy
+                               : is_of_sky                   ? under_sky
+                                                             : glossy;
       const std::string beside = companions(spec.name, row.name);
       const std::string way = std::string(spec.name) + (beside.empty() ? "" : ":" + beside);
-      if (!before.contains(beside)) before[beside] = picture(scene, way);
+      const std::string of_scene = is_of_sky ? "sky " + beside : beside;
+      if (!before.contains(of_scene)) before[of_scene] = picture(scene, way);
       const std::vector<std::string> values = values_of(row);
       EXPECT_FALSE(values.empty()) << spec.name << " " << row.name;
       const bool changes = std::ranges::any_of(values, [&](const std::string& value) {
         return picture(scene, fmt::format("{}{}{}={}", way, beside.empty() ? ":" : ",", row.name, value)) !=
-               before[beside];
+               before[of_scene];
       });
       EXPECT_TRUE(changes) << spec.name << ": " << row.name << " was set to "
                            << fmt::format("{}", fmt::join(values, ", "));
