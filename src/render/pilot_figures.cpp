@@ -130,7 +130,7 @@ void limit_light(std::vector<MissingLightOfPilot>& missing) {
 bool add_rare_light(std::vector<MissingLightOfPilot> missing, double samples, std::vector<WindowError>& errors) {
   constexpr double significant = 3, unseen_hits = 3;
   // Where hits have been seen, but fewer than expected, the spread shows more than a small part of the error.
-  constexpr double max_part_seen = 1.0 / 30;
+  constexpr double max_part_seen = 1.0 / 40;
   limit_light(missing);
   const double deviations = significance(missing, &MissingLightOfPilot::light);
   if (deviations < significant) return false;

@@ -19,8 +19,8 @@ constexpr double guide_training_samples = 1.5 * (1 << 20);
 constexpr double sky_training_samples = 3.5 * (1 << 16);
 
 constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
-                                             {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
                                              {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, true},
+                                             {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
                                              {"restir-di", 0.9, 3, 0},
                                              {"bdpt", 1.5, 4, 0}};
 
