@@ -16,7 +16,7 @@ constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
 constexpr double guide_training_samples = 1.5 * (1 << 20);
 
 // The paths that teach where the sky is visible (sky-paths; its default), with their shadow rays.
-constexpr double sky_training_samples = 3.5 * (1 << 16);
+constexpr double sky_training_samples = 3.5 * (1 << 17);
 
 constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
                                              {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, true},
