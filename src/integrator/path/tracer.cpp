@@ -16,7 +16,7 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
   if (settings.sky_learning) {
     if (!settings.sky) settings_.sky = learn_sky(scene, lights(), accel, settings_);
-    own_lights_ = lights().with(settings_.sky);
+    if (settings_.sky) own_lights_ = lights().with(settings_.sky);
   }
   if (settings.manifold > 0 && !settings.manifold_light)
     settings_.manifold_light = ManifoldLight::make(scene, accel, {settings.manifold, settings.manifold_roughness});
