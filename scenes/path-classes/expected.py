@@ -88,7 +88,7 @@ WIDE_FORMULAS = {
 HIGH_MIRROR = [["LookAt 0 0.05 -0.05   0 0.05 0", "LookAt 0 0.6 -0.05   0 0.6 0"],
                ["-0.003 0.047 0.003   0.003 0.047 0.003   0.003 0.053 -0.003   -0.003 0.053 -0.003",
                 "-0.04 0.56 0.04   0.04 0.56 0.04   0.04 0.64 -0.04   -0.04 0.64 -0.04"]]
-PHOTONS = {"ldde": (WIDE, 0.02, 50000, []), "lsde": (0.1, 0.02, 50000, []), "lsde-point": (0.1, 0.02, 50000, []),
+PHOTONS = {"ldde": (WIDE, 0.02, 25000, []), "lsde": (0.1, 0.02, 50000, []), "lsde-point": (0.1, 0.02, 50000, []),
            "lsdse": (0.03, 0.05, 100000, HIGH_MIRROR), "lsdse-point": (0.03, 0.06, 300000, HIGH_MIRROR)}
 WIDE_FORMULAS_IN_MIRROR = {"lsdse": "lsde", "lsdse-point": "lsde-point"}
 

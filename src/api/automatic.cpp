@@ -55,6 +55,19 @@ bool serves(const ChosenIntegrator& candidate, const ChosenIntegrator& path, con
          candidate.content == path.content;
 }
 
+// Without it the candidate does what path does.
+bool has_what_it_needs(const AutomaticCandidate& candidate, const LightSet& lights) {
+  switch (candidate.need) {
+    case CandidateNeed::nothing:
+      return true;
+    case CandidateNeed::sky:
+      return lights.infinite_count() > 0;
+    case CandidateNeed::several_lights:
+      return lights.placed_count() >= several_lights;
+  }
+  return true;
+}
+
 // A candidate, made when its first pilot begins.
 struct Made {
   ChoiceText choice;
@@ -136,7 +149,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
   made.reserve(among.size());  // candidates refer to its elements
   for (const std::string& text : among) {
     const AutomaticCandidate costs = automatic_candidate(text);
-    if (costs.for_sky && parts.scene.lights.infinite_count() == 0) continue;
+    if (!has_what_it_needs(costs, parts.scene.lights)) continue;
     Made one{with_common_settings(text, automatic.choice), {}};
     const bool is_path = one.choice.name == "path";
     if (!is_path) {

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <queue>
 
 namespace montelux {
 
 namespace {
+
+// What is learned of clusters needs memory for each place, and rays for each cluster.
+constexpr std::size_t max_clusters = 512;
 
 struct Cone {
   Vec3f axis;
@@ -196,6 +200,32 @@ LightBvh::LightBvh(std::span<const std::optional<LightBounds>> bounds) {
   nodes_.reserve(2 * builder.items.size());
   nodes_.resize(1);
   builder.build(0, 0, builder.items.size(), 0, 0);
+  number_clusters();
+}
+
+// From the root down, always the brightest one that has not been divided.
+void LightBvh::number_clusters() {
+  struct Open {
+    float intensity;
+    std::uint32_t node;
+    bool operator<(const Open& other) const {
+      return intensity != other.intensity ? intensity < other.intensity : node > other.node;
+    }
+  };
+  std::priority_queue<Open> open;
+  open.push({0, 0});
+  cluster_links_ = {0};
+  while (!open.empty() && cluster_links_.size() < 2 * max_clusters) {
+    const std::uint32_t node = open.top().node, below = float_bits(nodes_[node].v[link]);
+    open.pop();
+    if ((below & leaf_bit) != 0) continue;
+    cluster_links_[float_bits(nodes_[node].v[number])] = std::uint32_t(cluster_links_.size());
+    for (std::uint32_t child : {below, below + 1}) {
+      nodes_[child].v[number] = std::bit_cast<float>(std::uint32_t(cluster_links_.size()));
+      cluster_links_.push_back(0);
+      open.push({std::abs(nodes_[child].v[intensity]), child});
+    }
+  }
 }
 
 }  // namespace montelux

@@ -2,6 +2,8 @@
 // of lights can send there (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
 // Splitting"; importance as in Pharr, Jakob and Humphreys 2023, sec. 12.6.3).
 #pragma once
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +33,15 @@ struct LightBounds {
   bool two_sided = false;  // emits the same in opposite directions
 };
 
+// Factors of the importances of clusters, by number: those of one place in every lane.
+template <class F>
+struct ClusterFactors {
+  const float* values;
+  Uint<F> first;  // of the place
+};
+// Every factor is 1.
+struct NoFactors {};
+
 // The bounds of both.
 LightBounds unite(const LightBounds& a, const LightBounds& b);
 
@@ -44,12 +55,13 @@ class LightBvh {
 
   // Selects one light for the point p, by u in [0, 1). n is unit if only directions on its side matter, else zero.
   // Every light that reaches p on that side has a positive probability.
-  template <class F>
-  LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
+  // `factors`: NoFactors, or ClusterFactors<F> of p.
+  template <class F, class Factors = NoFactors>
+  LightChoice<F> choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors = {}) const;
 
   // The probability with which choose() selects the light at p, bit for bit. Only for lights with bounds.
-  template <class F>
-  Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
+  template <class F, class Factors = NoFactors>
+  Mass<F> mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors = {}) const;
 
   // A rough estimate of the irradiance from all its lights at p on that side, averaged over the components; 0 only if
   // none of them reaches p. Only if there is a light.
@@ -57,6 +69,22 @@ class LightBvh {
   F irradiance(Vec3<F> p, Vec3<F> n) const {
     return importance<F>(row_in_all_lanes<F>(nodes_.data()->v, 0), p, n);
   }
+
+  // The upper nodes of the tree have numbers, by which ClusterFactors knows them; the root and nodes further down have
+  // the number 0. By number, that of the first of two children, whose numbers are consecutive and greater; 0: there
+  // are none, and the node is a cluster, which is not divided.
+  std::span<const std::uint32_t> cluster_links() const { return cluster_links_; }
+
+  // What learning needs to know of the choice of a light at p.
+  struct Descent {
+    std::uint32_t cluster;  // the number of the one that has the light
+    float importance;       // of that cluster
+    float mass;             // with which the light is selected where the cluster is given
+  };
+  // Calls visit(number, first, second) for each numbered node on the way down to the cluster, the root included, with
+  // the importances of its children over its own.
+  template <class Visit>
+  Descent descend(LightId light, Vec3f p, Vec3f n, Visit visit) const;
 
  private:
   struct alignas(64) Node {
@@ -72,7 +100,8 @@ class LightBvh {
     spread,  // the sine of the largest angle between the axis and a normal; 2 if that exceeds a right angle
     cos_emission,
     link,
-    inverse_radius_squared
+    inverse_radius_squared,
+    number  // (bits) among clusters
   };
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
 
@@ -95,6 +124,14 @@ class LightBvh {
   }
   template <class F>
   static F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n);
+  template <class F>
+  static MONTELUX_INLINE F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n, const NoFactors&) {
+    return importance<F>(node, p, n);
+  }
+  template <class F>
+  static MONTELUX_INLINE F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n, const ClusterFactors<F>& factors) {
+    return importance<F>(node, p, n) * gather(factors.values, Uint<F>(factors.first + float_bits(node[number])));
+  }
   // Sets of few lights are scanned instead of descended: the choice is then exactly proportional to each light's
   // importance.
   static constexpr std::size_t max_scanned = 16;
@@ -105,18 +142,19 @@ class LightBvh {
     F importance[max_scanned];
     F sum;
   };
-  template <class F>
-  MONTELUX_INLINE Scan<F> scan(Vec3<F> p, Vec3<F> n) const {
+  template <class F, class Factors>
+  MONTELUX_INLINE Scan<F> scan(Vec3<F> p, Vec3<F> n, const Factors& factors) const {
     Scan<F> s;
     s.sum = F(0.0f);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
-      s.importance[i] = importance<F>(row_in_all_lanes<F>(nodes_.data()->v, leaves_[i]), p, n);
+      s.importance[i] = importance<F>(row_in_all_lanes<F>(nodes_.data()->v, leaves_[i]), p, n, factors);
       s.sum = s.sum + s.importance[i];
     }
     return s;
   }
-  template <class F>
-  LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
+  template <class F, class Factors>
+  LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const;
+  void number_clusters();
   // The probability of the first of two children, whether either can emit light to p, and the links of both.
   template <class F>
   struct Fork {
@@ -124,11 +162,11 @@ class LightBvh {
     Mask<F> any_light;
     Uint<F> link_of_first, link_of_second;
   };
-  template <class F>
-  MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n) const {
+  template <class F, class Factors>
+  MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n, const Factors& factors) const {
     const NodeOf<F> one = node_of<F>(first_child), other = node_of<F>(Uint<F>(first_child + Uint<F>(1u)));
-    F a = importance<F>(one, p, n);
-    F b = importance<F>(other, p, n);
+    F a = importance<F>(one, p, n, factors);
+    F b = importance<F>(other, p, n, factors);
     F sum = a + b, first = a / max(sum, F(1e-37f));
     // A child that can send light keeps a share that u can hit, however large the other's importance is.
     first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::min_share)), first);
@@ -140,6 +178,7 @@ class LightBvh {
   std::vector<std::uint32_t> turns_;   // by light: bit k is the turn at depth k
   std::vector<std::uint32_t> leaves_;  // nodes that are leaves, in the order of the tree
   std::vector<std::uint32_t> places_;  // by light: its index among the leaves
+  std::vector<std::uint32_t> cluster_links_;
 };
 
 template <class F>
@@ -169,9 +208,9 @@ F LightBvh::importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n) {
   return result * select(length_squared(n) > F(0.5f), facing, one);
 }
 
-template <class F>
-LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
-  const Scan<F> s = scan<F>(p, n);
+template <class F, class Factors>
+LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
+  const Scan<F> s = scan<F>(p, n, factors);
   const F target = u * s.sum;
   // The first light at which the running sum exceeds the target; if rounding prevents that, the last valid one.
   F running(0.0f), chosen(0.0f);
@@ -188,9 +227,9 @@ LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) c
   return {light, {select(valid, chosen / max(s.sum, F(1e-37f)), F(0.0f))}, valid};
 }
 
-template <class F>
-LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
-  if (is_scanned()) return choose_by_scan<F>(p, n, u, on);
+template <class F, class Factors>
+LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
+  if (is_scanned()) return choose_by_scan<F>(p, n, u, on, factors);
   F mass(1.0f);
   Mask<F> valid = on & Mask<F>(!nodes_.empty());
   if (!any(valid)) return {Uint<F>(0u), {F(0.0f)}, valid};
@@ -198,7 +237,7 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   Mask<F> inner = valid & is_inner<F>(below);
   while (any(inner)) {
     Uint<F> child = select(inner, below, Uint<F>(0u));
-    Fork<F> f = fork<F>(child, p, n);
+    Fork<F> f = fork<F>(child, p, n, factors);
     // The rescaled remainder of u decides further down.
     Mask<F> first = u < f.first;
     F share = select(first, f.first, F(1.0f) - f.first);
@@ -213,11 +252,11 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   return {light, {select(valid, mass, F(0.0f))}, valid};
 }
 
-template <class F>
-Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
+template <class F, class Factors>
+Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors) const {
   if (!any(on) || nodes_.empty()) return {F(0.0f)};
   if (is_scanned()) {
-    const Scan<F> all = scan<F>(p, n);
+    const Scan<F> all = scan<F>(p, n, factors);
     const Uint<F> place = gather(places_.data(), select(on, light, Uint<F>(0u)));
     F own(0.0f);
     for (std::size_t i = 0; i < leaves_.size(); ++i)
@@ -229,7 +268,7 @@ Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
   Mask<F> inner = on & is_inner<F>(below);
   while (any(inner)) {
     Uint<F> child = select(inner, below, Uint<F>(0u));
-    Fork<F> f = fork<F>(child, p, n);
+    Fork<F> f = fork<F>(child, p, n, factors);
     const Mask<F> first = (turns & Uint<F>(1u)) == Uint<F>(0u);
     F share = select(first, f.first, F(1.0f) - f.first);
     share = select(f.any_light, share, F(0.0f));
@@ -239,6 +278,33 @@ Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
     inner = inner & is_inner<F>(below);
   }
   return {select(on, mass, F(0.0f))};
+}
+
+template <class Visit>
+LightBvh::Descent LightBvh::descend(LightId light, Vec3f p, Vec3f n, Visit visit) const {
+  const auto node_at = [&](std::uint32_t node) { return node_of<float>(node); };
+  const auto is_leaf = [](const NodeOf<float>& node) { return !is_inner<float>(float_bits(node[link])); };
+  NodeOf<float> node = node_at(is_scanned() ? leaves_[places_[std::uint32_t(light)]] : 0u);
+  std::uint32_t turns = turns_[std::uint32_t(light)];
+  float of_node = importance<float>(node, p, n);
+  while (!is_leaf(node) && cluster_links_[float_bits(node[number])] != 0) {
+    const std::uint32_t first = float_bits(node[link]);
+    const std::array<NodeOf<float>, 2> children{node_at(first), node_at(first + 1)};
+    const std::array<float, 2> parts{importance<float>(children[0], p, n), importance<float>(children[1], p, n)};
+    const float over = 1 / std::max(of_node, 1e-37f);
+    visit(float_bits(node[number]), parts[0] * over, parts[1] * over);
+    node = children[turns & 1u], of_node = parts[turns & 1u];
+    turns >>= 1;
+  }
+  Descent down{float_bits(node[number]), of_node, 1};
+  while (!is_leaf(node)) {
+    const std::uint32_t first = float_bits(node[link]);
+    const Fork<float> f = fork<float>(first, p, n, NoFactors{});
+    down.mass *= (turns & 1u) == 0 ? f.first : 1 - f.first;
+    node = node_at(first + (turns & 1u));
+    turns >>= 1;
+  }
+  return down;
 }
 
 }  // namespace montelux

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "light/cluster_field.h"
 #include "light/sky_field.h"
 
 namespace montelux {
@@ -37,6 +38,12 @@ LightSet LightSet::with(std::shared_ptr<const SkyField> sky) const {
   return lights;
 }
 
+LightSet LightSet::with(std::shared_ptr<const ClusterField> clusters) const {
+  LightSet lights = *this;
+  lights.clusters_ = std::move(clusters);
+  return lights;
+}
+
 std::optional<SkyLight> LightSet::sky_light() const {
   const auto infinite = std::span(unbounded_).first(std::size_t(infinite_count_));
   if (infinite.empty()) return std::nullopt;
@@ -66,12 +73,24 @@ Density<SolidAngle, F> LightSet::sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, M
   return sky_->density(p, n, wi, on);
 }
 
-#define MONTELUX_SKY(F)                                                                   \
-  template LightSample<F> LightSet::sample_sky(Vec3<F>, Vec3<F>, Vec2<F>, Mask<F>) const; \
-  template Density<SolidAngle, F> LightSet::sky_density(Vec3<F>, Vec3<F>, Vec3<F>, Mask<F>) const;
-MONTELUX_SKY(float)
-MONTELUX_SKY(NativeFloats)
-#undef MONTELUX_SKY
+template <class F>
+LightChoice<F> LightSet::choose_by_clusters(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
+  return bvh_.choose(p, n, u, on, clusters_->at(p, n, on));
+}
+
+template <class F>
+Mass<F> LightSet::mass_by_clusters(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
+  return bvh_.mass(light, p, n, on, clusters_->at(p, n, on));
+}
+
+#define MONTELUX_LEARNED(F)                                                                        \
+  template LightSample<F> LightSet::sample_sky(Vec3<F>, Vec3<F>, Vec2<F>, Mask<F>) const;          \
+  template Density<SolidAngle, F> LightSet::sky_density(Vec3<F>, Vec3<F>, Vec3<F>, Mask<F>) const; \
+  template LightChoice<F> LightSet::choose_by_clusters(Vec3<F>, Vec3<F>, F, Mask<F>) const;        \
+  template Mass<F> LightSet::mass_by_clusters(Uint<F>, Vec3<F>, Vec3<F>, Mask<F>) const;
+MONTELUX_LEARNED(float)
+MONTELUX_LEARNED(NativeFloats)
+#undef MONTELUX_LEARNED
 
 AliasTable LightSet::by_power() const {
   return AliasTable(std::vector<double>(tables_.powers.begin(), tables_.powers.end()));

@@ -29,6 +29,7 @@ struct LightTables {
   float scene_radius = 1;
 };
 
+class ClusterField;
 class SkyField;
 
 // A light from infinity, as SkyField divides it: its density on the square map of the sphere.
@@ -55,6 +56,10 @@ class LightSet {
   LightSet with(LightSettings settings) const { return LightSet(tables_, settings); }
   // The same lights, one of which is sampled by the field.
   LightSet with(std::shared_ptr<const SkyField> sky) const;
+  // The same lights, of which the hierarchy chooses by what the field knows of its clusters.
+  LightSet with(std::shared_ptr<const ClusterField> clusters) const;
+  // The lights with a place, if they are chosen by a hierarchy; else it is empty.
+  const LightBvh& hierarchy() const { return bvh_; }
   // The light that `sky` is for, as SkyField takes it: the brightest that a ray hits when it leaves the scene; none:
   // there is no such light.
   std::optional<SkyLight> sky_light() const;
@@ -73,6 +78,7 @@ class LightSet {
   // Whether there are lights with holes, which only rays find.
   bool has_masked() const { return has_masked_; }
 
+  std::uint32_t placed_count() const { return count() - std::uint32_t(unbounded_.size()); }
   // Lights without a position: they emit from infinity, or everywhere.
   bool has_beyond() const { return !unbounded_.empty(); }
   template <class F>
@@ -190,14 +196,20 @@ class LightSet {
   LightSample<F> sample_sky(Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
   template <class F>
   Density<SolidAngle, F> sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
+  // What the hierarchy chooses with the field of its clusters, and the probability.
+  template <class F>
+  LightChoice<F> choose_by_clusters(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
+  template <class F>
+  Mass<F> mass_by_clusters(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const;
 
   LightTables tables_;
   LightSettings settings_;
-  std::shared_ptr<const SkyField> sky_;    // null: every light is sampled on its own
-  LightId light_of_sky_{};                 // the light that is sampled by the field
-  LightBvh bvh_;                           // if lights are chosen by the hierarchy
-  std::optional<AliasTable> power_table_;  // if they are chosen by power
-  std::vector<std::uint32_t> unbounded_;   // first the infinite ones, then the distant ones
+  std::shared_ptr<const SkyField> sky_;           // null: every light is sampled on its own
+  LightId light_of_sky_{};                        // the light that is sampled by the field
+  std::shared_ptr<const ClusterField> clusters_;  // null: the hierarchy knows nothing of what is hidden
+  LightBvh bvh_;                                  // if lights are chosen by the hierarchy
+  std::optional<AliasTable> power_table_;         // if they are chosen by power
+  std::vector<std::uint32_t> unbounded_;          // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   bool has_delta_ = false, has_points_ = false, has_masked_ = false;
   float equal_mass_ = 0;            // of each unbounded light if the hierarchy has no larger share than one of them

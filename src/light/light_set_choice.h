@@ -42,7 +42,8 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
   if (!bvh_.empty()) {
     F share = F(1.0f) - front;
     F rest = clamp((u - front) / share, F(0.0f), F(one_minus_epsilon));
-    r = bvh_.choose(p, n, rest, Mask<F>(on & !among_unbounded));
+    const Mask<F> among_placed = on & !among_unbounded;
+    r = clusters_ ? choose_by_clusters(p, n, rest, among_placed) : bvh_.choose(p, n, rest, among_placed);
     r.mass.value = r.mass.value * share;
   }
   if (any(on & among_unbounded)) {
@@ -63,7 +64,8 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   if (power_table_) return power_table_->mass<F>(light);
   Mask<F> unbounded = is_beyond<F>(light, on);
   const F each = unbounded_mass(p, n), share = F(1.0f) - each * float(unbounded_.size());
-  Mass<F> bounded = bvh_.mass(light, p, n, Mask<F>(on & !unbounded));
+  const Mask<F> placed = on & !unbounded;
+  const Mass<F> bounded = clusters_ ? mass_by_clusters(light, p, n, placed) : bvh_.mass(light, p, n, placed);
   return {select(unbounded, each, bounded.value * share)};
 }
 

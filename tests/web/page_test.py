@@ -28,6 +28,11 @@ def main():
         script = build / f"{kind}_test.mjs"
         script.write_text((root / "web" / "test" / f"{kind}.mjs").read_text())
         (build / "browser.mjs").write_text((root / "web" / "test" / "browser.mjs").read_text())
+        # Before the report is made, which takes long.
+        look = "import('./browser.mjs').then((browser) => process.exit(browser.findBrowser() ? 0 : 1))"
+        if subprocess.run([node, "-e", look], cwd=build, check=False).returncode != 0:
+            print("skipped: no Chromium on this machine")
+            return SKIPPED
         report = Path(folder) / "report.html"
         if kind == "page":
             make = [program, "lab", "run", "all", "-q", "-o", folder]

@@ -7,11 +7,14 @@ import { chromium } from "playwright-core";
 
 const browsers = [process.env.MONTELUX_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
+// The path of the browser; undefined: there is none.
+export const findBrowser = () => browsers.find((path) => path && existsSync(path));
+
 // Opens a report and calls examine({ page, expect, shot, ground }); then it is held to a silent console and to no request to
 // a network. `expect(good, claim)` states a claim; `shot(name)` keeps a picture where a folder for them is given. The
 // program ends with 0 where all claims hold, else with 1.
 export async function examineReport(report, shots, examine) {
-  const executablePath = browsers.find((path) => path && existsSync(path));
+  const executablePath = findBrowser();
   if (!executablePath) {
     console.log("skipped: no Chromium on this machine");
     process.exit(77);

@@ -18,11 +18,16 @@ constexpr double guide_training_samples = 1.5 * (1 << 20);
 // The paths that teach where the sky is visible (sky-paths; its default), with their shadow rays.
 constexpr double sky_training_samples = 3.5 * (1 << 17);
 
-constexpr AutomaticCandidate candidates[] = {{"restir-pt", 1.1, 8, 0},
-                                             {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, true},
-                                             {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
-                                             {"restir-di", 0.9, 3, 0},
-                                             {"bdpt", 1.5, 4, 0}};
+// The same for what is hidden of the lights (light-paths).
+constexpr double light_training_samples = 5.0 * (1 << 17);
+
+constexpr AutomaticCandidate candidates[] = {
+    {"restir-pt", 1.1, 8, 0},
+    {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, CandidateNeed::sky},
+    {"path:light-selection=learned", 1.05, 1.1, light_training_samples, CandidateNeed::several_lights},
+    {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
+    {"restir-di", 0.9, 3, 0},
+    {"bdpt", 1.5, 4, 0}};
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts{""};
@@ -64,7 +69,7 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
     if (candidate.text == text) return candidate;
   AutomaticCandidate found{text, 1.7, 6, 0};
   for (const AutomaticCandidate& candidate : automatic_candidates())
-    if (name(candidate.text) == name(text) && !candidate.for_sky)
+    if (name(candidate.text) == name(text) && candidate.need == CandidateNeed::nothing)
       found = {text, candidate.ray_cost, candidate.sample_cost, 0};
   if (text.find("roulette=efficiency") != std::string_view::npos) found.making = survival_pilot_samples;
   if (text.find("guiding=on") != std::string_view::npos) {
@@ -73,7 +78,12 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
   }
   if (text.find("sky-learning=on") != std::string_view::npos) {
     found.ray_cost = std::max(found.ray_cost, 1.1), found.sample_cost = std::max(found.sample_cost, 1.3);
-    found.making += sky_training_samples, found.for_sky = true;
+    found.making += sky_training_samples, found.need = CandidateNeed::sky;
+  }
+  if (text.find("light-selection=learned") != std::string_view::npos) {
+    found.ray_cost = std::max(found.ray_cost, 1.05), found.sample_cost = std::max(found.sample_cost, 1.1);
+    found.making += light_training_samples;
+    found.need = found.need == CandidateNeed::sky ? CandidateNeed::nothing : CandidateNeed::several_lights;
   }
   return found;
 }

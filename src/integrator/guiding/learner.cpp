@@ -22,30 +22,13 @@ void DirectionLearner<Field>::Sums::add(const Sums& other, double scale) {
 }
 
 template <class Field>
-DirectionLearner<Field>::DirectionLearner(std::span<const Vec3f> places) {
-  std::array<float Vec3f::*, 3> axes{&Vec3f::x, &Vec3f::y, &Vec3f::z};
-  Vec3f high{1, 1, 1};
-  std::vector<float> along(places.size());
-  tree_.size = 0;
-  for (float Vec3f::*axis : axes) {
-    if (places.empty()) break;
-    for (std::size_t i = 0; i < places.size(); ++i) along[i] = places[i].*axis;
-    std::ranges::sort(along);
-    // Without the two ends, where a few places may be far away.
-    const std::size_t cut = along.size() / 200;
-    tree_.low.*axis = along[cut], high.*axis = along[along.size() - 1 - cut];
-    tree_.size = std::max(tree_.size, high.*axis - tree_.low.*axis);
-  }
-  // A little more, so that the faces of the cube are no surfaces.
-  tree_.size = std::max(tree_.size * 1.0371f, 1e-6f);
-  for (float Vec3f::*axis : axes) tree_.low.*axis -= 0.0173f * tree_.size;
-  for (std::uint32_t c = 0; c < PlaceTree::classes; ++c) tree_.nodes[c] = PlaceTree::leaf | c;
-  sums_.resize(PlaceTree::classes);
+void DirectionLearner<Field>::Sums::shrink_toward(const Sums& above) {
+  if (above.records > 0) add(above, prior_records / above.records);
 }
 
 template <class Field>
 void DirectionLearner<Field>::add(const GuideRecord& r) {
-  Sums& sums = sums_[tree_.leaf_at<float>(r.p, r.n, true)];
+  Sums& sums = sums_.at(r.p, r.n);
   sums.records += 1;
   if (r.share > 0) sums.guided += 1;
   const float drawn = r.mixture(), square = r.light * r.light * drawn;
@@ -53,19 +36,6 @@ void DirectionLearner<Field>::add(const GuideRecord& r) {
   sums.squares[Field::cell_of(r.wi)] += square;
   for (std::size_t k = 0; k < shares.size(); ++k)
     sums.by_share[k] += double(square) / double((1 - shares[k]) * r.bsdf + shares[k] * r.guide);
-}
-
-template <class Field>
-typename DirectionLearner<Field>::Sums DirectionLearner<Field>::total(std::uint32_t node,
-                                                                      std::vector<Sums>& of_nodes) const {
-  const std::uint32_t word = tree_.nodes[node];
-  Sums sums;
-  if (word >= PlaceTree::leaf) {
-    sums = sums_[word & ~PlaceTree::leaf];
-  } else {
-    sums.add(total(word, of_nodes)), sums.add(total(word + 1, of_nodes));
-  }
-  return of_nodes[node] = sums;
 }
 
 template <class Field>
@@ -97,61 +67,10 @@ typename Field::Table DirectionLearner<Field>::table_of(const Sums& sums) {
 }
 
 template <class Field>
-void DirectionLearner<Field>::make_tables(std::uint32_t node, const Sums& above, const std::vector<Sums>& of_nodes,
-                                          std::vector<typename Field::Table>& tables) const {
-  Sums sums = of_nodes[node];
-  if (above.records > 0) sums.add(above, prior_records / above.records);
-  const std::uint32_t word = tree_.nodes[node];
-  if (word >= PlaceTree::leaf) {
-    tables[word & ~PlaceTree::leaf] = table_of(sums);
-    return;
-  }
-  make_tables(word, sums, of_nodes, tables), make_tables(word + 1, sums, of_nodes, tables);
-}
-
-template <class Field>
 std::vector<typename Field::Table> DirectionLearner<Field>::tables() const {
-  std::vector<Sums> of_nodes(tree_.nodes.size());
-  std::vector<typename Field::Table> tables(sums_.size());
-  for (std::uint32_t root = 0; root < PlaceTree::classes; ++root) {
-    total(root, of_nodes);
-    make_tables(root, {}, of_nodes, tables);
-  }
+  std::vector<typename Field::Table> tables(sums_.leaves());
+  sums_.for_each_leaf({}, [&](std::uint32_t leaf, const Sums& sums) { tables[leaf] = table_of(sums); });
   return tables;
-}
-
-template <class Field>
-void DirectionLearner<Field>::split(std::uint32_t node, int depth, double having, double records) {
-  if (having <= records || depth == PlaceTree::max_depth) return;
-  const auto first = std::uint32_t(tree_.nodes.size());
-  tree_.nodes.push_back(tree_.nodes[node]);
-  tree_.nodes.push_back(PlaceTree::leaf | std::uint32_t(sums_.size()));
-  sums_.emplace_back();
-  Sums& inherited = sums_[tree_.nodes[first] & ~PlaceTree::leaf];
-  Sums half;
-  half.add(inherited, 0.5);
-  inherited = sums_.back() = half;
-  tree_.nodes[node] = first;
-  for (std::uint32_t k : {0u, 1u}) split(first + k, depth + 1, having / 2, records);
-}
-
-template <class Field>
-void DirectionLearner<Field>::refine(double records) {
-  struct Open {
-    std::uint32_t node;
-    int depth;
-  };
-  std::vector<Open> open;
-  for (std::uint32_t root = 0; root < PlaceTree::classes; ++root) open.push_back({root, 0});
-  while (!open.empty()) {
-    const auto [node, depth] = open.back();
-    open.pop_back();
-    const std::uint32_t word = tree_.nodes[node];
-    if (word >= PlaceTree::leaf)
-      split(node, depth, sums_[word & ~PlaceTree::leaf].records, records);
-    else
-      for (std::uint32_t k : {0u, 1u}) open.push_back({word + k, depth + 1});
-  }
 }
 
 template class DirectionLearner<GuideField>;

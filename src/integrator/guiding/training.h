@@ -1,5 +1,5 @@
-// What is learned before a render, for path guiding and the choice of directions toward the sky, and the path loop that
-// path guiding takes.
+// What is learned before a render, for path guiding and next-event estimation, and the path loop that path guiding
+// takes.
 #pragma once
 #include "accel/accel.h"
 #include "integrator/integrator.h"
@@ -18,6 +18,12 @@ GuideField train_guide(const Scene& scene, const LightSet& lights, const Accel& 
 // likewise.
 std::shared_ptr<const SkyField> learn_sky(const Scene& scene, const LightSet& lights, const Accel& rays,
                                           const PathSettings& settings);
+
+// A field of how much of what clusters of lights can send arrives at the vertices of paths, by shadow rays from those
+// of settings.light_paths paths, in rounds as above. Null if the hierarchy of `lights` has fewer than two. A pure
+// function likewise.
+std::shared_ptr<const ClusterField> learn_clusters(const Scene& scene, const LightSet& lights, const Accel& rays,
+                                                   const PathSettings& settings);
 
 // As trace_paths(), with settings.guide, on the lanes that the settings choose, with or without participating media.
 // For the tallies of the path tracer.

@@ -37,11 +37,15 @@ Status read_roulette(const std::string& text, PathSettings& settings) {
   return Done{};
 }
 
-// "uniform", "power", "bvh", or "ris:32".
+// "uniform", "power", "bvh", "learned", or "ris:32".
 Status read_light_selection(const std::string& text, PathSettings& settings) {
   constexpr std::string_view resampled = "ris:";
   if (const auto at = std::ranges::find(light_selection_names, text); at != light_selection_names.end()) {
     settings.light_selection = LightSelection(at - light_selection_names.begin());
+    return Done{};
+  }
+  if (text == "learned") {
+    settings.light_selection = LightSelection::bvh, settings.learned_selection = true;
     return Done{};
   }
   if (text.starts_with(resampled)) {
@@ -54,8 +58,8 @@ Status read_light_selection(const std::string& text, PathSettings& settings) {
     settings.light_selection = LightSelection::bvh;
     return Done{};
   }
-  return Failure{fmt::format("light-selection takes uniform, power, bvh or ris:CANDIDATES; found \"{}\"{}", text,
-                             did_you_mean(text, {"uniform", "power", "bvh", "ris:8"}))};
+  return Failure{fmt::format("light-selection takes uniform, power, bvh, learned or ris:CANDIDATES; found \"{}\"{}",
+                             text, did_you_mean(text, {"uniform", "power", "bvh", "learned", "ris:8"}))};
 }
 
 std::string roulette_text(const PathSettings& s) {
@@ -90,9 +94,12 @@ Fields<PathSettings> light_fields() {
       .choice<PathMis>("mis", &PathSettings::mis, "how the two techniques are combined",
                        {{"balance", PathMis::balance}, {"power", PathMis::power}, {"off", PathMis::off}})
       .text("light-selection",
-            "how lights are chosen: uniform, power, bvh, or ris:CANDIDATES (one of that many by bvh, by what each "
-            "would contribute); default: as stated by the scene",
+            "how lights are chosen: uniform, power, bvh, learned (bvh with what is learned before the render of which "
+            "lights are hidden), or ris:CANDIDATES (one of that many by bvh, by what each would contribute); default: "
+            "as stated by the scene",
             read_light_selection)
+      .integer("light-paths", &PathSettings::light_paths, "paths from which light-selection=learned learns", 1024,
+               1 << 30)
       .choice<int>("manifold", &PathSettings::manifold,
                    "manifold next-event estimation: maximum number of specular events between a rough surface and a "
                    "point, spot, goniometric, projection or distant light",
@@ -136,6 +143,7 @@ Result<PathSettings> path_settings(const ParameterList& list, std::optional<int>
     if (Status read = fields.read(list, s); !read) return read.failure();
   if (!s.guiding && list.find("guiding-paths")) return Failure{"guiding-paths is for path guiding: guiding must be on"};
   if (!s.sky_learning && list.find("sky-paths")) return Failure{"sky-paths is for sky-learning, which must be on"};
+  if (!s.learned_selection && list.find("light-paths")) return Failure{"light-paths is for light-selection=learned"};
   if (s.sky_learning && !s.nee) return Failure{"sky-learning is for next-event estimation: nee must be on"};
   if (s.manifold == 0 && list.find("manifold-roughness"))
     return Failure{"manifold-roughness is for manifold next-event estimation: manifold must be on"};

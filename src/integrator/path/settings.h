@@ -15,6 +15,7 @@ class DirectionField;
 using GuideField = DirectionField<16>;
 class ManifoldLight;
 class SurvivalMap;
+class ClusterField;
 class SkyField;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
@@ -50,6 +51,11 @@ struct PathSettings {
   std::shared_ptr<const SurvivalMap> survival;
   // How lights are chosen; none: as the scene says.
   std::optional<LightSelection> light_selection;
+  // By the hierarchy, with what so many paths before the render have found of which lights are hidden; the field, made
+  // where there is none.
+  bool learned_selection = false;
+  int light_paths = 1 << 17;
+  std::shared_ptr<const ClusterField> clusters;
   // Next-event estimation by one out of so many candidates, chosen by their contributions; 0: by a single one.
   int candidates = 0;
   // Specular events at most between a rough surface and a delta light whose light is looked for by walks on manifolds;

@@ -14,6 +14,10 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
+  if (settings.learned_selection) {
+    if (!settings.clusters) settings_.clusters = learn_clusters(scene, lights(), accel, settings_);
+    if (settings_.clusters) own_lights_ = lights().with(settings_.clusters);
+  }
   if (settings.sky_learning) {
     if (!settings.sky) settings_.sky = learn_sky(scene, lights(), accel, settings_);
     if (settings_.sky) own_lights_ = lights().with(settings_.sky);

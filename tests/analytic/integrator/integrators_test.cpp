@@ -67,6 +67,9 @@ const std::vector<std::string> full_ways{"distribution:branching=2/1,shadow-rays
                                          "path:guiding=on,guiding-paths=4096,mis=balance,light-selection=ris:3",
                                          "path:sky-learning=on,sky-paths=4096",
                                          "path:sky-learning=on,sky-paths=4096,mis=balance,light-selection=ris:3",
+                                         "path:light-selection=learned,light-paths=4096",
+                                         "path:light-selection=learned,light-paths=4096,mis=balance,sky-learning=on,"
+                                         "sky-paths=4096",
                                          "path:light-selection=ris:3,mis=off",
                                          "tracepath:p-emit=0.5,roulette-depth=0",
                                          "bdpt",

@@ -5,6 +5,7 @@
 
 #include "light/builder.h"
 #include "light/bvh.h"
+#include "light/cluster_field.h"
 #include "statistics.h"
 
 namespace montelux {
@@ -44,18 +45,48 @@ LightSet mixed_lights(int triangles, std::uint32_t seed, LightSelection selectio
 
 constexpr LightSelection selections[] = {LightSelection::uniform, LightSelection::power, LightSelection::bvh};
 
+// Those of the hierarchy, whose clusters have any factors: other ones at each of eight places.
+LightSet with_factors(const LightSet& lights, std::uint32_t seed) {
+  PlaceTree tree;
+  tree.size = 12;
+  for (std::uint32_t c = 0; c < PlaceTree::classes; ++c) tree.nodes[c] = PlaceTree::leaf | c;
+  tree.nodes.back() = PlaceTree::classes;  // halved along x
+  for (std::uint32_t k : {6u, 7u}) tree.nodes.push_back(PlaceTree::leaf | k);
+  RandomStream<float> r(seed, 13);
+  const std::size_t clusters = lights.hierarchy().cluster_links().size();
+  std::vector<float> factors(8 * clusters);
+  for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = i % clusters == 0 ? 1.0f : exp(-4 * r.next());
+  return lights.with(std::make_shared<ClusterField>(std::move(tree), std::uint32_t(clusters), std::move(factors)));
+}
+
+// A set of lights, chosen in each way: with few lights the hierarchy is scanned; of many it has clusters of several.
+struct Way {
+  std::string name;
+  LightSet lights;
+};
+std::vector<Way> ways(int triangles, std::uint32_t seed) {
+  std::vector<Way> all;
+  for (LightSelection selection : selections)
+    all.push_back(
+        {std::string(light_selection_names[std::size_t(selection)]), mixed_lights(triangles, seed, selection)});
+  for (int count : {12, triangles, 300}) {
+    const std::string name = "clusters, of " + std::to_string(count);
+    all.push_back({name, with_factors(mixed_lights(count, seed, LightSelection::bvh), seed)});
+  }
+  return all;
+}
+
 TEST(LightChoice, masses_over_all_lights_sum_to_one) {
-  for (LightSelection selection : selections) {
-    LightSet lights = mixed_lights(60, 1, selection);
+  for (const auto& [name, lights] : ways(60, 1)) {
     RandomStream<float> r(3, 4);
     for (int i = 0; i < 200; ++i) {
       Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
       double sum = 0;
       for (std::uint32_t k = 0; k < lights.count(); ++k) sum += lights.choice_mass<float>(k, p, n, true).value;
       // A branch of which neither half can send light keeps its share, so that a little may be lost, never won.
-      EXPECT_LE(sum, 1 + 1e-5) << light_selection_names[std::size_t(selection)];
-      EXPECT_GT(sum, 0.6) << light_selection_names[std::size_t(selection)];
-      if (selection != LightSelection::bvh) {
+      EXPECT_LE(sum, 1 + 1e-5) << name;
+      EXPECT_GT(sum, 0.6) << name;
+      if (name == "uniform" || name == "power") {
         EXPECT_NEAR(sum, 1, 1e-5);
       }
     }
@@ -64,8 +95,8 @@ TEST(LightChoice, masses_over_all_lights_sum_to_one) {
 
 TEST(LightChoice, frequencies_match_masses_and_a_planted_fault_is_found) {
   const int points = 8, draws = 20000;
-  for (LightSelection selection : selections) {
-    LightSet lights = mixed_lights(40, 2, selection);
+  const std::vector<Way> all = ways(40, 2);
+  for (const auto& [name, lights] : all) {
     RandomStream<float> r(5, 6);
     for (int i = 0; i < points; ++i) {
       Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
@@ -84,14 +115,13 @@ TEST(LightChoice, frequencies_match_masses_and_a_planted_fault_is_found) {
       }
       // Nothing chosen: a branch whose halves both cannot reach the point. Rounding of the sum is no such branch.
       expected.back() = rest > 1e-5 * draws ? rest : 0;
-      double level = sidak_level(family_level, points * std::size(selections));
+      double level = sidak_level(family_level, double(points * all.size()));
       test::TestResult fit = chi_square_test(seen, expected);
-      EXPECT_GT(fit.p_value, level) << light_selection_names[std::size_t(selection)] << ": " << fit.note << " "
-                                    << fit.statistic << " at " << fit.degrees;
+      EXPECT_GT(fit.p_value, level) << name << ": " << fit.note << " " << fit.statistic << " at " << fit.degrees;
       // A choice that confuses two neighbours in the order.
       std::rotate(seen.begin(), seen.begin() + 1, seen.end());
-      if (selection != LightSelection::uniform) {
-        EXPECT_LT(chi_square_test(seen, expected).p_value, level);
+      if (name != "uniform") {
+        EXPECT_LT(chi_square_test(seen, expected).p_value, level) << name;
       }
     }
   }
@@ -118,8 +148,8 @@ TEST(LightChoice, no_light_that_reaches_a_point_has_probability_zero) {
 }
 
 TEST(LightChoice, lanes_choose_as_one_float_does) {
-  for (LightSelection selection : selections) {
-    LightSet lights = mixed_lights(50, 3, selection);
+  for (const auto& [name, lights] : ways(50, 3)) {
+    SCOPED_TRACE(name);
     RandomStream<float> r(10, 11);
     for (int i = 0; i < 200; ++i) {
       Vec3<P> p, n;

@@ -10,7 +10,7 @@
 namespace montelux::test {
 namespace {
 
-constexpr int size = 16, passes = 96;
+constexpr int size = 16, passes = 64;
 constexpr double level = 0.01;
 const char* const unbiased[] = {
     "restir-gi:radius=4,candidates=4,neighbours=3",

@@ -124,7 +124,7 @@ TEST(PhotonsInFog, agree_with_path_in_a_coloured_room_and_planted_faults_are_fou
       const Comparison c = compared(measured(scene, way + more, 8, 40, 2), path);
       EXPECT_FALSE(c.differ()) << way << more << ": " << c.smallest << " of " << c.tests;
     }
-  const auto caught = [&](const Fault& fault) { return compared(by_hand(scene, 300, 3, fault), path).differ(); };
+  const auto caught = [&](const Fault& fault) { return compared(by_hand(scene, 200, 3, fault), path).differ(); };
   EXPECT_FALSE(caught({}));
   EXPECT_TRUE(caught({.no_directions = true}));
   EXPECT_TRUE(caught({.undivided = true}));
@@ -144,9 +144,9 @@ TEST(PhotonsInFog, have_the_light_of_lamps_at_one_point_and_planted_faults_are_f
       EXPECT_FALSE(c.differ()) << way << limit << ": " << c.smallest << " of " << c.tests;
     }
   }
-  EXPECT_FALSE(compared(by_hand(scene, 400, 4), path).differ());
-  EXPECT_TRUE(compared(by_hand<UnsharedSegmentLights>(scene, 400, 4), path).differ());
-  EXPECT_TRUE(compared(by_hand<UnseenSegmentLights>(scene, 400, 4), path).differ());
+  EXPECT_FALSE(compared(by_hand(scene, 200, 4), path).differ());
+  EXPECT_TRUE(compared(by_hand<UnsharedSegmentLights>(scene, 200, 4), path).differ());
+  EXPECT_TRUE(compared(by_hand<UnseenSegmentLights>(scene, 200, 4), path).differ());
 }
 
 TEST(PhotonsInFog, end_where_maxdepth_says) {

@@ -62,6 +62,7 @@ std::string companions(const EntitySpec& integrator, const ParameterSpec& row) {
   const std::string name(row.name);
   if (name == "guiding-paths") return ",guiding=on";
   if (name == "sky-paths") return ",sky-learning=on";
+  if (name == "light-paths") return ",light-selection=learned";
   if (name == "manifold-roughness") return ",manifold=1";
   if (!integrator.name.starts_with("restir")) return "";
   if (name == "m-cap" || name == "warm-up" || name == "carry") return ",temporal=on";
@@ -123,10 +124,14 @@ TEST(IntegratorCatalogue, names_the_nearest_of_what_it_does_not_know) {
 TEST(IntegratorCatalogue, says_how_lights_can_be_chosen) {
   const TestScene scene(room);
   EXPECT_EQ(failure_of(scene, "path:light-selection=ris:16"), "");
-  EXPECT_NE(failure_of(scene, "path:light-selection=nearest").find("uniform, power, bvh or ris:"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "path:light-selection=nearest").find("uniform, power, bvh, learned or ris:"),
+            std::string::npos);
   for (const char* bad : {"ris:", "ris:0", "ris:x", "ris:1e9", "ris:-3"})
     EXPECT_NE(failure_of(scene, std::string("path:light-selection=") + bad).find("from 1 to 4096"), std::string::npos);
   EXPECT_NE(failure_of(scene, "path:light-selection=ris:8,nee=off").find("nee must be on"), std::string::npos);
+  EXPECT_EQ(failure_of(scene, "path:light-selection=learned,light-paths=1024"), "");
+  EXPECT_NE(failure_of(scene, "path:light-paths=4096").find("light-selection=learned"), std::string::npos);
+  EXPECT_NE(failure_of(scene, "path:light-selection=learned,light-paths=10").find("1024"), std::string::npos);
 }
 
 TEST(IntegratorCatalogue, says_what_reuse_takes) {

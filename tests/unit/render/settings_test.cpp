@@ -65,7 +65,7 @@ std::vector<std::string> values_of(const ParameterSpec& row) {
   if (name == "light-selection") return {"uniform", "ris:4"};
   if (name == "manifold") return {"1"};
   if (name == "roulette") return {"proportional"};
-  if (name == "guiding-paths" || name == "sky-paths") return {"4096"};
+  if (name == "guiding-paths" || name == "sky-paths" || name == "light-paths") return {"4096"};
   std::vector<std::string> all;
   for (std::string_view choice : row.choices)
     if (choice != "none") all.emplace_back(choice);
@@ -97,6 +97,7 @@ std::string companions(std::string_view integrator, std::string_view setting) {
   if (setting == "medium-radius") return "photons=20000";  // of the foggy room
   if (setting == "guiding-paths") return "guiding=on";
   if (setting == "sky-paths") return "sky-learning=on";
+  if (setting == "light-paths") return "light-selection=learned";
   if (setting == "manifold-roughness") return "manifold=1";
   return "";
 }
