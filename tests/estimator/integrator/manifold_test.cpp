@@ -124,7 +124,7 @@ TEST(ManifoldLight, finds_the_light_that_light_tracing_finds) {
     SCOPED_TRACE(c.name);
     const TestScene scene(head + floor_patch + c.world);
     const std::string depth = "maxdepth=" + std::to_string(c.length + 1);
-    const Mean light = measure(scene, "light:" + depth, 4096, 11);
+    const Mean light = measure(scene, "light:" + depth, 2048, 11);
     const Mean m = measure(scene, "path:manifold=" + std::to_string(c.length) + "," + depth, c.samples, 12);
     const Mean without = measure(scene, "path:" + depth, c.samples, 13);
     expect_same(m, light, c.fault, own, c.name);

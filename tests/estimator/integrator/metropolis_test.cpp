@@ -175,14 +175,14 @@ Shape "sphere" "float radius" 0.35
 )";
 
 // Welch tests of the pixels and of the colours of the picture, which also reject chains that are brighter by a factor.
-void expect_agreement_with_path(const std::string& text, double fault) {
+void expect_agreement_with_path(const std::string& text, int passes, double fault) {
   const TestScene scene(text);
   const auto measured = [&](const std::string& way, int per_pass, int count, std::uint32_t seed) {
     return measure_passes(scene, scene.integrator(way), per_pass, count, seed);
   };
   const PassMeans path = measured("path", 64, 60, 1);
   for (const char* way : {"metropolis", "metropolis:strategies=bdpt"}) {
-    PassMeans chains = measured(way, 32, 500, 2);
+    PassMeans chains = measured(way, 32, passes, 2);
     EXPECT_EQ(path.non_finite + chains.non_finite, 0u);
     const auto smallest_p = [&] {
       double smallest = 1;
@@ -203,7 +203,7 @@ void expect_agreement_with_path(const std::string& text, double fault) {
   }
 }
 
-TEST(Metropolis, agrees_with_path_in_a_room_and_would_show_a_fault) { expect_agreement_with_path(room, 1.03); }
+TEST(Metropolis, agrees_with_path_in_a_room_and_would_show_a_fault) { expect_agreement_with_path(room, 400, 1.03); }
 
 // The same room with a floor, a wall and a ball whose coats are evaluated by random walks.
 std::string coated_room() {
@@ -216,7 +216,7 @@ std::string coated_room() {
   return text;
 }
 TEST(Metropolis, agrees_with_path_among_coats_and_would_show_a_fault) {
-  expect_agreement_with_path(coated_room(), 1.05);
+  expect_agreement_with_path(coated_room(), 250, 1.05);
 }
 
 TEST(Metropolis, is_the_same_bits_for_any_number_of_threads) {
