@@ -38,6 +38,7 @@ class ClusterLearner {
     double records = 0;
     std::vector<NodeSums> nodes;
 
+    std::size_t bytes() const { return sizeof(Sums) + nodes.size() * sizeof(NodeSums); }
     void add(const Sums& other, double scale);
     void shrink_toward(const Sums& above);
   };

@@ -30,6 +30,7 @@ class DirectionLearner {
     std::array<double, shares.size()> by_share{};  // mean squares under each of these shares, times the records
     double records = 0, guided = 0;                // guided: of those drawn where there was a guide
 
+    std::size_t bytes() const { return sizeof(Sums); }
     void add(const Sums& other, double scale);
     void shrink_toward(const Sums& above);
   };

@@ -9,8 +9,9 @@
 
 namespace montelux {
 
-// Sums has `double records`, how many it is of; `void add(const Sums&, double scale)`; and
-// `void shrink_toward(const Sums& above)`, which adds what counts in it of the sums of what surrounds it.
+// Sums has `double records`, how many it is of; `std::size_t bytes()`, the memory it takes;
+// `void add(const Sums&, double scale)`; and `void shrink_toward(const Sums& above)`, which adds what counts in it of
+// the sums of what surrounds it.
 template <class Sums>
 class PlaceSums {
  public:
@@ -22,7 +23,8 @@ class PlaceSums {
   const PlaceTree& tree() const { return tree_; }
   std::size_t leaves() const { return sums_.size(); }
   // Leaves are halved until each has `records` records or fewer. The halves inherit half of the sums each: what
-  // was learned of a leaf still counts, the less the more records follow.
+  // was learned of a leaf still counts, the less the more records follow. Where the leaves would need too much memory
+  // they are halved at more records.
   void refine(double records);
   // Calls take(leaf, sums) for each leaf, whose sums are shrunk toward those that contain it, and these toward `above`.
   template <class Take>
@@ -34,6 +36,7 @@ class PlaceSums {
   template <class Take>
   void shrink(std::uint32_t node, const Sums& above, const std::vector<Sums>& of_nodes, Take& take) const;
   void split(std::uint32_t node, int depth, double having, double records);
+  std::size_t max_leaves() const { return (std::size_t(1) << 28) / none_.bytes(); }
 
   PlaceTree tree_;
   Sums none_;
@@ -98,7 +101,7 @@ void PlaceSums<Sums>::for_each_leaf(const Sums& above, Take take) const {
 
 template <class Sums>
 void PlaceSums<Sums>::split(std::uint32_t node, int depth, double having, double records) {
-  if (having <= records || depth == PlaceTree::max_depth) return;
+  if (having <= records || depth == PlaceTree::max_depth || sums_.size() >= max_leaves()) return;
   const auto first = std::uint32_t(tree_.nodes.size());
   tree_.nodes.push_back(tree_.nodes[node]);
   tree_.nodes.push_back(PlaceTree::leaf | std::uint32_t(sums_.size()));
@@ -113,6 +116,10 @@ void PlaceSums<Sums>::split(std::uint32_t node, int depth, double having, double
 
 template <class Sums>
 void PlaceSums<Sums>::refine(double records) {
+  double all = 0;
+  for (const Sums& sums : sums_) all += sums.records;
+  // Most leaves have more than a quarter of these.
+  records = std::max(records, 4 * all / double(max_leaves()));
   struct Open {
     std::uint32_t node;
     int depth;

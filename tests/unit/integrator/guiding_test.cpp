@@ -68,6 +68,26 @@ TEST(GuideLearner, leaves_directions_to_the_bsdf_where_a_guide_gains_nothing) {
   EXPECT_GT(low.field().at<float>({0, 0, 0}, {0, 1, 0}, true).share, 0.1f);
 }
 
+// However many records there are, and however large the sums.
+TEST(PlaceSums, have_no_more_leaves_than_fit_into_their_memory) {
+  struct Counted {
+    double records = 0;
+    std::size_t size = 0;
+    std::size_t bytes() const { return size; }
+    void add(const Counted& other, double scale) { records += scale * other.records; }
+  };
+  for (const auto& [size, most] : {std::pair(1u << 22, 64u), std::pair(1u << 14, 16384u)}) {
+    PlaceSums<Counted> sums(std::vector<Vec3f>{{-1, 0, -1}, {1, 0, 1}}, {0, size});
+    RandomStream<float> r(4, 9);
+    for (int round = 0; round < 4; ++round) {
+      for (int i = 0; i < 100000; ++i) sums.at({2 * r.next() - 1, 0, 2 * r.next() - 1}, {0, 1, 0}).records += 1;
+      sums.refine(1);
+    }
+    EXPECT_LE(sums.leaves(), most) << size;
+    EXPECT_GT(sums.leaves(), most / 8) << size;
+  }
+}
+
 TEST(PlaceTree, finds_the_same_leaf_in_every_lane_as_alone) {
   using F = NativeFloats;
   const std::vector<GuideRecord> records = records_of(5000, false);
