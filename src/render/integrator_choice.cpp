@@ -35,8 +35,9 @@ class Pilots {
     if (candidates_.size() < 2) return choice_;
     choice_.reason = ChoiceReason::too_short;
     if (settings_.target && !predict_samples()) return choice_;
-    compare_coarse_images();
-    if (const std::vector<std::size_t> others = survivors(); !others.empty()) compare_longer(others);
+    const std::vector<std::size_t> others = survivors();
+    compare_coarse_images(others);
+    if (!others.empty()) compare_longer(others);
     decide();
     if (observer_.stop_requested()) choice_ = {0, ChoiceReason::interrupted, {}, 0, 0};
     choice_.samples = spent_ / pixels();
@@ -153,13 +154,14 @@ class Pilots {
   }
 
   // Compares those whose paths splat light with the first candidate, as far as there is time for it: on coarser images,
-  // since they are as costly in a window as in the whole image.
-  void compare_coarse_images() {
-    constexpr double share = 0.4;  // of the budget, for each
+  // since they are as costly in a window as in the whole image. Work for the others' longer pilots is left.
+  void compare_coarse_images(const std::vector<std::size_t>& others) {
+    constexpr double share = 0.25;  // of the budget, for each; their cost may be twice what is expected
+    const double reserved = others.empty() ? 0 : work_of(long_plan(others)) * double(min_windows);
     for (std::size_t k = 1; k < candidates_.size(); ++k) {
       if (!candidates_[k].splats) continue;
       const double cell_work = work_of(long_plan({k})) / window_pixels();
-      const double cells = (share * budget() - candidates_[k].making) / cell_work;
+      const double cells = (share * (budget() - reserved) - candidates_[k].making) / cell_work;
       if (cells < std::min(double(min_cells), pixels())) continue;
       const PixelGrid grid = coarse_image(settings_.image.bounds, std::min(cells, double(max_cells)));
       const PixelBounds whole = grid.cells();

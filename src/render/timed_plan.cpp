@@ -20,19 +20,21 @@ class StopAlone final : public RenderObserver {
 };
 
 // Seconds that one sample of every pixel takes: measured on a part of the pixels first, and on four times as many while
-// this takes a small part of the time.
+// this takes a small part of the time; of a small image on more samples of each, since a pass of one takes longer.
 double measure_sample(const PixelIntegrator& integrator, RenderSettings settings, double seconds,
                       RenderObserver& observer) {
-  constexpr double share = 0.01;  // of the time, for one measurement
-  constexpr int first_cells = 128;
+  constexpr double share = 0.01, share_of_more = 0.0025;  // of the time, for one measurement; on more samples
+  constexpr int first_cells = 128, max_samples = 64;
   const PixelBounds& bounds = settings.image.bounds;
-  int& stride = settings.plan.stride;
+  int &stride = settings.plan.stride, &samples = settings.plan.samples_per_pass;
   while (PixelGrid{bounds, 2 * stride}.cells().area() >= first_cells) stride *= 2;
-  for (;; stride /= 2) {
+  for (;;) {
     const RenderResult result = render(integrator, settings, observer);
     const double cells = PixelGrid{bounds, stride}.cells().area();
-    if (stride == 1 || result.seconds > share * seconds || observer.stop_requested())
-      return result.seconds * (bounds.area() / cells);
+    const double enough = (stride > 1 ? share : share_of_more) * seconds;
+    if (samples >= max_samples || result.seconds > enough || observer.stop_requested())
+      return result.seconds / samples * (bounds.area() / cells);
+    stride > 1 ? stride /= 2 : samples *= 4;
   }
 }
 

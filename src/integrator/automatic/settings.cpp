@@ -19,12 +19,12 @@ constexpr double guide_training_samples = 1.5 * (1 << 20);
 constexpr double sky_training_samples = 3.5 * (1 << 17);
 
 // The same for what is hidden of the lights (light-paths).
-constexpr double light_training_samples = 5.0 * (1 << 17);
+constexpr double light_training_samples = 10.0 * (1 << 15);
 
 constexpr AutomaticCandidate candidates[] = {
     {"restir-pt", 1.1, 8, 0},
-    {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, CandidateNeed::sky},
     {"path:light-selection=learned", 1.05, 1.1, light_training_samples, CandidateNeed::several_lights},
+    {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, CandidateNeed::sky},
     {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
     {"restir-di", 0.9, 3, 0},
     {"bdpt", 1.5, 4, 0}};

@@ -54,7 +54,7 @@ struct PathSettings {
   // By the hierarchy, with what so many paths before the render have found of which lights are hidden; the field, made
   // where there is none.
   bool learned_selection = false;
-  int light_paths = 1 << 17;
+  int light_paths = 1 << 15;
   std::shared_ptr<const ClusterField> clusters;
   // Next-event estimation by one out of so many candidates, chosen by their contributions; 0: by a single one.
   int candidates = 0;

@@ -56,7 +56,7 @@ class Alone final : public PixelIntegrator {
  public:
   explicit Alone(WorkClock& clock) : clock_(&clock) {}
   RayCounts trace(const TilePass& pass, std::span<PixelSample>) const override {
-    clock_->pass(pass.tile.area() / 1024.0);
+    clock_->pass(pass.tile.area() * double(pass.points.samples_per_pass) / 1024.0);
     return {};
   }
 
@@ -175,8 +175,8 @@ TEST(Plans, of_points_that_are_fixed_have_one_pass) {
     EXPECT_EQ(plan.passes, 1) << samples;
     s.image.sampler = PointSetKind::uniform_grid;
     const PassPlan by_time = plan_for_time(alone, s, samples * sample_seconds, silent).plan;
-    // The measurement of the speed takes the time of one or two of them.
-    EXPECT_GE(by_time.samples_per_pass, std::clamp(samples - 2, 1, max_fixed_samples));
+    // The measurement of the speed takes the time of one or two of them, or of 2 %.
+    EXPECT_GE(by_time.samples_per_pass, std::clamp(samples - 2 - samples / 50, 1, max_fixed_samples));
     EXPECT_LE(by_time.samples_per_pass, std::min(samples, max_fixed_samples));
     EXPECT_EQ(by_time.passes, 1) << samples;
     // As many as time allows of others.
