@@ -91,6 +91,8 @@ TEST(ClusterLearner, changes_little_where_there_are_no_records) {
   teach(learner, lights, 4, 20000);
   const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
   const Vec3f p{0.5f, 0, 0.1f};
+  // How well importances estimate contributions was learned of the other orientation, and differs by some percent from
+  // light to light.
   for (std::uint32_t k = 0; k < lights.count(); ++k) {
     const auto mass = [&](const LightSet& set, Vec3f n) { return double(set.choice_mass<float>(k, p, n, true).value); };
     EXPECT_NEAR(mass(learned, {0, 0, 0}), mass(lights, {0, 0, 0}), 0.15 * mass(lights, {0, 0, 0})) << k;
