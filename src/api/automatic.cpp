@@ -55,17 +55,16 @@ bool serves(const ChosenIntegrator& candidate, const ChosenIntegrator& path, con
          candidate.content == path.content;
 }
 
-// Without it the candidate does what path does.
-bool has_what_it_needs(const AutomaticCandidate& candidate, const LightSet& lights) {
-  switch (candidate.need) {
-    case CandidateNeed::nothing:
-      return true;
-    case CandidateNeed::sky:
-      return lights.infinite_count() > 0;
-    case CandidateNeed::several_lights:
-      return lights.placed_count() >= several_lights;
-  }
-  return true;
+// Samples of path that take as long as making the candidate; none where it has nothing to learn, and so does what path
+// does.
+std::optional<double> making_of(const AutomaticCandidate& candidate, const LightSet& lights) {
+  double learning = 0;
+  if (lights.infinite_count() > 0) learning += candidate.sky_making;
+  if (lights.placed_count() >= several_lights || (lights.count() > 1 && lights.has_beyond()))
+    learning += candidate.lights_making;
+  const bool learns_lights = candidate.sky_making + candidate.lights_making > 0;
+  if (learns_lights && learning + candidate.making == 0) return std::nullopt;
+  return learning + candidate.making;
 }
 
 // A candidate, made when its first pilot begins.
@@ -149,7 +148,8 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
   made.reserve(among.size());  // candidates refer to its elements
   for (const std::string& text : among) {
     const AutomaticCandidate costs = automatic_candidate(text);
-    if (!has_what_it_needs(costs, parts.scene.lights)) continue;
+    const std::optional<double> making = making_of(costs, parts.scene.lights);
+    if (!making) continue;
     Made one{with_common_settings(text, automatic.choice), {}};
     const bool is_path = one.choice.name == "path";
     if (!is_path) {
@@ -166,7 +166,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
                               kept.chosen = choose_integrator(kept.choice, defaults, parts.scene, *parts.accel).value();
                             return kept.chosen->any();
                           },
-                          costs.ray_cost, costs.sample_cost, costs.making, kept.chosen && kept.chosen->any().splats()});
+                          costs.ray_cost, costs.sample_cost, *making, kept.chosen && kept.chosen->any().splats()});
   }
 
   ChoiceSettings by{

@@ -37,7 +37,8 @@ struct LightBounds {
 template <class F>
 struct ClusterFactors {
   const float* values;
-  Uint<F> first;  // of the place
+  Uint<F> first;     // of the place
+  Uint<F> of_whole;  // that of the whole hierarchy; the next ones are those of lights without a place
 };
 // Every factor is 1.
 struct NoFactors {};

@@ -27,8 +27,10 @@ LightSet::LightSet(LightTables tables, LightSettings settings) : tables_(std::mo
   equal_mass_ = shares > 0 ? 1.0f / float(shares) : 0.0f;
   // Powers are those through the disk of the scene; of a light from all directions a plane receives a quarter.
   const float disk = pi * tables_.scene_radius * tables_.scene_radius;
-  for (const std::uint32_t i : unbounded_)
-    unbounded_irradiance_ += tables_.powers[i] / disk * (is_infinite(kind(LightId(i))) ? 0.25f : 1.0f);
+  for (const std::uint32_t i : unbounded_) {
+    unbounded_irradiances_.push_back(tables_.powers[i] / disk * (is_infinite(kind(LightId(i))) ? 0.25f : 1.0f));
+    unbounded_irradiance_ += unbounded_irradiances_.back();
+  }
 }
 
 LightSet LightSet::with(std::shared_ptr<const SkyField> sky) const {
@@ -75,12 +77,12 @@ Density<SolidAngle, F> LightSet::sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, M
 
 template <class F>
 LightChoice<F> LightSet::choose_by_clusters(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
-  return bvh_.choose(p, n, u, on, clusters_->at(p, n, on));
+  return choose_by_hierarchy(p, n, u, on, clusters_->at(p, n, on));
 }
 
 template <class F>
 Mass<F> LightSet::mass_by_clusters(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
-  return bvh_.mass(light, p, n, on, clusters_->at(p, n, on));
+  return mass_by_hierarchy(light, p, n, on, clusters_->at(p, n, on));
 }
 
 #define MONTELUX_LEARNED(F)                                                                        \

@@ -81,6 +81,9 @@ class LightSet {
   std::uint32_t placed_count() const { return count() - std::uint32_t(unbounded_.size()); }
   // Lights without a position: they emit from infinity, or everywhere.
   bool has_beyond() const { return !unbounded_.empty(); }
+  std::span<const std::uint32_t> beyond() const { return unbounded_; }
+  // From each of them, with nothing in the way, averaged over the components.
+  std::span<const float> beyond_irradiances() const { return unbounded_irradiances_; }
   template <class F>
   Mask<F> is_beyond(Uint<F> light, Mask<F> on) const;
 
@@ -159,9 +162,41 @@ class LightSet {
   MONTELUX_INLINE LightRows<F> rows(Uint<F> light, Mask<F> on) const {
     return {tables_.rows.data(), tables_.transforms.data(), select(on, light, Uint<F>(0u))};
   }
-  // The probability of each unbounded light, in the hierarchy's choice at p.
+  // The choice between the unbounded lights, at the start of [0, 1), and the hierarchy, which has the rest.
+  template <class F>
+  struct BeyondChoice {
+    Uint<F> light;    // the unbounded one, where one is chosen
+    F mass;           // its probability
+    Mask<F> chosen;   // elsewhere it is the hierarchy
+    F share, u_rest;  // the probability of that, and the number for its choice
+  };
+  template <class F>
+  MONTELUX_INLINE BeyondChoice<F> choose_beyond(Vec3<F> p, Vec3<F> n, F u, const NoFactors&) const;
+  template <class F>
+  MONTELUX_INLINE BeyondChoice<F> choose_beyond(Vec3<F> p, Vec3<F> n, F u, const ClusterFactors<F>& factors) const;
+  template <class F>
+  struct BeyondMass {
+    F of_light, share;  // of a given unbounded light; of the hierarchy
+  };
+  template <class F>
+  MONTELUX_INLINE BeyondMass<F> beyond_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, const NoFactors&) const;
+  template <class F>
+  MONTELUX_INLINE BeyondMass<F> beyond_mass(Uint<F> light, Vec3<F> p, Vec3<F> n,
+                                            const ClusterFactors<F>& factors) const;
+  // The probability of each unbounded light, where nothing is known.
   template <class F>
   F unbounded_mass(Vec3<F> p, Vec3<F> n) const;
+  // Calls take(j, mass) for each unbounded light, in their order; and returns in which lanes the hierarchy has the
+  // rest.
+  template <class F, class Take>
+  MONTELUX_INLINE Mask<F> for_each_known_mass(Vec3<F> p, Vec3<F> n, const ClusterFactors<F>& factors, Take take) const;
+  // choose() and choice_mass() by the hierarchy and the unbounded lights.
+  template <class F, class Factors>
+  MONTELUX_INLINE LightChoice<F> choose_by_hierarchy(Vec3<F> p, Vec3<F> n, F u, Mask<F> on,
+                                                     const Factors& factors) const;
+  template <class F, class Factors>
+  MONTELUX_INLINE Mass<F> mass_by_hierarchy(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on,
+                                            const Factors& factors) const;
   // Calls f(kind, lanes) once for each kind of light among the lanes.
   template <class F, class Function>
   void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;
@@ -196,7 +231,7 @@ class LightSet {
   LightSample<F> sample_sky(Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on) const;
   template <class F>
   Density<SolidAngle, F> sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, Mask<F> on) const;
-  // What the hierarchy chooses with the field of its clusters, and the probability.
+  // The same with the field of clusters.
   template <class F>
   LightChoice<F> choose_by_clusters(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const;
   template <class F>
@@ -212,8 +247,9 @@ class LightSet {
   std::vector<std::uint32_t> unbounded_;          // first the infinite ones, then the distant ones
   int infinite_count_ = 0;
   bool has_delta_ = false, has_points_ = false, has_masked_ = false;
-  float equal_mass_ = 0;            // of each unbounded light if the hierarchy has no larger share than one of them
-  float unbounded_irradiance_ = 0;  // from all unbounded lights, with nothing in the way, averaged over the components
+  float equal_mass_ = 0;  // of each unbounded light if the hierarchy has no larger share than one of them
+  std::vector<float> unbounded_irradiances_;  // with nothing in the way, averaged over the components
+  float unbounded_irradiance_ = 0;            // their sum
 };
 
 }  // namespace montelux

@@ -34,9 +34,9 @@ SkyField::SkyField(const SkyLight& of, PlaceTree tree, const std::vector<SkyDire
   for (double mass : tiles_.masses()) inverse_masses_.push_back(mass > 0 ? float(of_square / mass) : 0.0f);
 }
 
-float SkyField::cell_mass(const Vec3f& p, const Vec3f& n, const Vec3f& wi) const {
+float SkyField::cell_mass(const Vec3f& p, const Vec3f& n, const Vec3f& in_light) const {
   const std::uint32_t table = field_.tree().leaf_at<float>(p, n, true);
-  return field_.density_of(table, SkyDirections::cell_of<float>(in_light(wi))) * (4 * pi / float(cells));
+  return field_.density_of(table, SkyDirections::cell_of<float>(in_light)) * (4 * pi / float(cells));
 }
 
 template <class F>

@@ -33,9 +33,10 @@ class SkyField {
   // With which sample() draws the unit direction wi.
   template <class F>
   Density<SolidAngle, F> density(const Vec3<F>& p, const Vec3<F>& n, const Vec3<F>& wi, Mask<F> on) const;
-  // For what learns: the direction wi of the world in the light's space, and the probability of its cell at p.
+  // For what learns: the direction wi of the world in the light's space, and the probability of such a direction's cell
+  // at p.
   Vec3f in_light(const Vec3f& wi) const { return normalize(transform<float>().direction_to_light(wi)); }
-  float cell_mass(const Vec3f& p, const Vec3f& n, const Vec3f& wi) const;
+  float cell_mass(const Vec3f& p, const Vec3f& n, const Vec3f& in_light) const;
 
  private:
   template <class F>

@@ -61,12 +61,14 @@ class Pilots {
   // The average one.
   double window_pixels() const { return pixels() / double(windows_.size()); }
 
-  const AnyIntegrator& integrator(std::size_t candidate) {
-    if (!made_[candidate]) {
-      made_[candidate] = candidates_[candidate].make();
-      spent_ += candidates_[candidate].making;
-    }
-    return *made_[candidate];
+  // Makes those of the plan that no pilot has needed before, side by side: most of the work is on one thread each.
+  void make(const Plan& plan) {
+    std::vector<std::size_t> missing;
+    for (const auto& [candidate, samples] : plan)
+      if (!made_[candidate]) missing.push_back(candidate), spent_ += candidates_[candidate].making;
+    Scheduler(settings_.threads).run(missing.size(), [&](std::size_t i, int) {
+      made_[missing[i]] = candidates_[missing[i]].make();
+    });
   }
 
   // The windows [first, first + count), starting again after the last one.
@@ -80,10 +82,9 @@ class Pilots {
   std::vector<CandidatePilot> measure(const Plan& plan, std::span<const PixelBounds> windows,
                                       const std::optional<PixelGrid>& grid = {}) {
     std::vector<CandidatePilot> pilots;
-    for (const auto& [candidate, samples] : plan) {
-      (void)integrator(candidate);
+    make(plan);
+    for (const auto& [candidate, samples] : plan)
       pilots.push_back({candidate, samples, std::vector<WindowPilot>(windows.size())});
-    }
     const auto run_unit = [&](std::size_t unit, int) {
       CandidatePilot& pilot = pilots[unit % pilots.size()];
       WindowPilot& window = pilot.windows[unit / pilots.size()];

@@ -16,8 +16,10 @@ namespace montelux {
 // An integrator that may render an image. All candidates estimate the same image.
 struct Candidate {
   std::string name;
-  std::function<AnyIntegrator()> make;  // called once, before its first pilot; the integrator must outlive the choice
-  double ray_cost = 1;                  // the time of a ray, relative to that of the first candidate
+  // Called once, before its first pilot, at the same time as that of other candidates; the integrator must outlive the
+  // choice.
+  std::function<AnyIntegrator()> make;
+  double ray_cost = 1;     // the time of a ray, relative to that of the first candidate
   double sample_cost = 1;  // about the time of a sample, likewise: whether there is time for a pilot; measured after
   double making = 0;       // samples of the first candidate that take as long as making it
   bool splats = false;     // CoupledIntegrator::splats()

@@ -16,40 +16,43 @@ constexpr double survival_pilot_samples = 2 * 32 * 256 * 8;
 constexpr double guide_training_samples = 1.5 * (1 << 20);
 
 // The paths that teach where the sky is visible (sky-paths; its default), with their shadow rays.
-constexpr double sky_training_samples = 3.5 * (1 << 17);
+constexpr double sky_training_samples = 3.0 * (1 << 16);
 
 // The same for what is hidden of the lights (light-paths).
-constexpr double light_training_samples = 10.0 * (1 << 15);
+constexpr double light_training_samples = 7.0 * (1 << 15);
 
 constexpr AutomaticCandidate candidates[] = {
     {"restir-pt", 1.1, 8, 0},
-    {"path:light-selection=learned", 1.05, 1.1, light_training_samples, CandidateNeed::several_lights},
-    {"path:sky-learning=on", 1.1, 1.3, sky_training_samples, CandidateNeed::sky},
+    {"path:light-selection=learned,sky-learning=on", 1.1, 1.2, 0, sky_training_samples, light_training_samples},
     {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
     {"restir-di", 0.9, 3, 0},
     {"bdpt", 1.5, 4, 0}};
 
+// Candidates are written with + for the commas between their settings.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts{""};
   for (char c : text)
     if (c == '/')
       parts.emplace_back();
     else
-      parts.back() += c;
+      parts.back() += c == '+' ? ',' : c;
   return parts;
+}
+std::string joined() {
+  std::string text;
+  for (const AutomaticCandidate& candidate : candidates) text.append(text.empty() ? "" : "/").append(candidate.text);
+  std::ranges::replace(text, ',', '+');
+  return text;
 }
 
 Fields<AutomaticSettings> automatic_fields() {
   using S = AutomaticSettings;
   Fields<S> fields;
-  std::string defaults;
-  for (const AutomaticCandidate& candidate : automatic_candidates())
-    defaults.append(defaults.empty() ? "" : "/").append(candidate.text);
   fields
       .text("among",
-            "the candidates beside path, separated by /, each perhaps with a setting: restir-pt:rounds=2/restir-di; "
-            "default " +
-                defaults,
+            "the candidates beside path, separated by /, each perhaps with settings, separated by +: "
+            "restir-pt:rounds=2+radius=4/restir-di; default " +
+                joined(),
             [](const std::string& text, S& s) -> Status {
               s.among = split(text);
               return Done{};
@@ -69,7 +72,7 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
     if (candidate.text == text) return candidate;
   AutomaticCandidate found{text, 1.7, 6, 0};
   for (const AutomaticCandidate& candidate : automatic_candidates())
-    if (name(candidate.text) == name(text) && candidate.need == CandidateNeed::nothing)
+    if (name(candidate.text) == name(text) && candidate.sky_making == 0)
       found = {text, candidate.ray_cost, candidate.sample_cost, 0};
   if (text.find("roulette=efficiency") != std::string_view::npos) found.making = survival_pilot_samples;
   if (text.find("guiding=on") != std::string_view::npos) {
@@ -78,12 +81,11 @@ AutomaticCandidate automatic_candidate(std::string_view text) {
   }
   if (text.find("sky-learning=on") != std::string_view::npos) {
     found.ray_cost = std::max(found.ray_cost, 1.1), found.sample_cost = std::max(found.sample_cost, 1.3);
-    found.making += sky_training_samples, found.need = CandidateNeed::sky;
+    found.sky_making = sky_training_samples;
   }
   if (text.find("light-selection=learned") != std::string_view::npos) {
     found.ray_cost = std::max(found.ray_cost, 1.05), found.sample_cost = std::max(found.sample_cost, 1.1);
-    found.making += light_training_samples;
-    found.need = found.need == CandidateNeed::sky ? CandidateNeed::nothing : CandidateNeed::several_lights;
+    found.lights_making = light_training_samples;
   }
   return found;
 }

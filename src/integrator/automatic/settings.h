@@ -16,9 +16,7 @@ struct AutomaticSettings {
   float share = 0.04f;               // of the work, that pilots take
 };
 
-// What a scene must have for a candidate to differ from path: a light at infinity that rays meet, or several lights
-// with a place.
-enum class CandidateNeed { nothing, sky, several_lights };
+// Fewer lights with a place are not worth learning which of them are hidden, where there is no other light.
 inline constexpr std::uint32_t several_lights = 3;
 
 // An integrator that may be chosen.
@@ -28,8 +26,9 @@ struct AutomaticCandidate {
   // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
   // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette.
   double ray_cost, sample_cost;
-  double making;  // samples of path that take as long as making it
-  CandidateNeed need = CandidateNeed::nothing;
+  // Samples of path that take as long as making it: always; and more where the scene has a light at infinity that rays
+  // meet, or several lights with a place, which it learns.
+  double making, sky_making = 0, lights_making = 0;
 };
 
 // Those by default, and the costs of others by their name.

@@ -1,5 +1,6 @@
 #include "integrator/guiding/cluster_learner.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace montelux {
@@ -11,6 +12,10 @@ constexpr float prior_records = 4;
 // The factor of a cluster that no ray has reached is not smaller than this, as a part of what is expected of it where
 // nothing is in the way.
 constexpr float min_factor = 0.4f;
+
+std::size_t columns_of(const LightSet& lights) {
+  return lights.hierarchy().cluster_links().size() + 1 + lights.beyond().size();
+}
 
 }  // namespace
 
@@ -32,31 +37,42 @@ void ClusterLearner::Sums::shrink_toward(const Sums& above) {
   }
 }
 
-ClusterLearner::ClusterLearner(std::span<const Vec3f> places, const LightBvh& lights)
-    : lights_(lights),
-      sums_(places, {0, std::vector<NodeSums>(lights.cluster_links().size())}),
-      all_(lights.cluster_links().size()) {}
+ClusterLearner::ClusterLearner(std::span<const Vec3f> places, const LightSet& lights)
+    : lights_(lights), sums_(places, {0, std::vector<NodeSums>(columns_of(lights))}), all_(columns_of(lights)) {}
+
+void ClusterLearner::add_square(Sums& sums, std::size_t node, float ratio, bool arrives) {
+  const float square = ratio * ratio;
+  if (!is_finite(square)) return;
+  sums.nodes[node].count += 1, sums.nodes[node].first += arrives ? square : 0.0f;
+  all_[node].count += 1, all_[node].first += square;
+}
 
 void ClusterLearner::add(const ClusterRecord& r) {
+  const LightBvh& bvh = lights_.hierarchy();
+  const std::size_t of_whole = bvh.cluster_links().size();
   Sums& sums = sums_.at(r.p, r.n);
   sums.records += 1;
-  const LightBvh::Descent down = lights_.descend(r.light, r.p, r.n, [&](std::uint32_t node, float first, float second) {
+  if (lights_.is_beyond<float>(std::uint32_t(r.light), true)) {
+    const auto j = std::size_t(std::ranges::find(lights_.beyond(), std::uint32_t(r.light)) - lights_.beyond().begin());
+    add_square(sums, of_whole + 1 + j, r.contribution / (r.mass * lights_.beyond_irradiances()[j]), r.arrives);
+    return;
+  }
+  add_square(sums, of_whole, r.contribution / (r.mass * bvh.irradiance<float>(r.p, r.n)), r.arrives);
+  const LightBvh::Descent down = bvh.descend(r.light, r.p, r.n, [&](std::uint32_t node, float first, float second) {
     for (NodeSums* s : {&sums.nodes[node], &all_[node]}) s->count += 1, s->first += first, s->second += second;
   });
-  const float ratio = r.contribution / (down.mass * down.importance), square = ratio * ratio;
-  if (!is_finite(square)) return;
-  NodeSums& own = sums.nodes[down.cluster];
-  own.count += 1, own.first += r.arrives ? square : 0.0f;
-  all_[down.cluster].count += 1, all_[down.cluster].first += square;
+  add_square(sums, down.cluster, r.contribution / (down.mass * down.importance), r.arrives);
 }
 
 ClusterLearner::Sums ClusterLearner::unoccluded() const {
-  const std::span<const std::uint32_t> links = lights_.cluster_links();
+  const std::span<const std::uint32_t> links = lights_.hierarchy().cluster_links();
   NodeSums clusters;
   for (std::size_t i = 0; i < links.size(); ++i)
     if (links[i] == 0) clusters.count += all_[i].count, clusters.first += all_[i].first;
   const float usual = clusters.first > 0 ? clusters.first / clusters.count : 1.0f;
-  Sums expected{1, std::vector<NodeSums>(links.size())};
+  Sums expected{1, std::vector<NodeSums>(all_.size())};
+  for (std::size_t i = links.size(); i < all_.size(); ++i)
+    expected.nodes[i] = {1, (all_[i].first + 1) / (all_[i].count + 1), 0};
   for (std::size_t i = 0; i < links.size(); ++i) {
     const NodeSums& a = all_[i];
     const float count = a.count + 1;
@@ -67,20 +83,22 @@ ClusterLearner::Sums ClusterLearner::unoccluded() const {
 }
 
 ClusterField ClusterLearner::field() const {
-  const std::span<const std::uint32_t> links = lights_.cluster_links();
+  const std::span<const std::uint32_t> links = lights_.hierarchy().cluster_links();
   const Sums expected = unoccluded();
-  std::vector<float> factors(sums_.leaves() * links.size());
+  std::vector<float> factors(sums_.leaves() * all_.size());
   sums_.for_each_leaf(expected, [&](std::uint32_t leaf, const Sums& sums) {
-    float* of_leaf = factors.data() + leaf * links.size();
+    float* of_leaf = factors.data() + leaf * all_.size();
     for (std::size_t i = links.size(); i-- > 1;) {
       const NodeSums& s = sums.nodes[i];
       of_leaf[i] = links[i] == 0
                        ? std::max(std::sqrt(s.first / s.count), min_factor * std::sqrt(expected.nodes[i].first))
                        : (s.first * of_leaf[links[i]] + s.second * of_leaf[links[i] + 1]) / s.count;
     }
-    of_leaf[0] = 1;
+    if (!links.empty()) of_leaf[0] = 1;
+    for (std::size_t i = links.size(); i < all_.size(); ++i)
+      of_leaf[i] = std::sqrt(sums.nodes[i].first / sums.nodes[i].count);
   });
-  return {sums_.tree(), std::uint32_t(links.size()), std::move(factors)};
+  return {sums_.tree(), std::uint32_t(links.size()), std::uint32_t(lights_.beyond().size()), std::move(factors)};
 }
 
 }  // namespace montelux

@@ -2,35 +2,37 @@
 #pragma once
 #include "integrator/guiding/place_sums.h"
 #include "light/cluster_field.h"
-#include "light/light.h"
+#include "light/light_set.h"
 
 namespace montelux {
 
-// A light that the hierarchy has chosen at a place, and a direction toward it.
+// A light that was chosen at a place by the hierarchy, or among the lights without a place, and a direction toward it.
 struct ClusterRecord {
   Vec3f p, n;  // as PlaceTree::leaf_at takes them
   LightId light{};
+  float mass;          // of its choice there: by the hierarchy; 1 for a light without a place
   float contribution;  // if nothing is in the way: irradiance over the density of the direction, the light being given
   bool arrives;        // nothing is
 };
 
 // What a cluster contributes at places of a leaf varies with visibility, and with how well its importance estimates it.
 // Its factor is the root of the mean square of contribution over importance, with which probabilities give the least
-// variance. Where few rays were traced to it, leaves are shrunk toward those that contain them, and these toward what
-// is expected where nothing is in the way. A node with children has the factor with which its importance is the sum of
-// theirs.
+// variance; so are the factors of the whole hierarchy and of each light without a place. Where few rays were traced to
+// it, leaves are shrunk toward those that contain them, and these toward what is expected where nothing is in the way.
+// A node with children has the factor with which its importance is the sum of theirs.
 class ClusterLearner {
  public:
-  // `places`: as PlaceSums takes them. The hierarchy must outlive this.
-  ClusterLearner(std::span<const Vec3f> places, const LightBvh& lights);
+  // `places`: as PlaceSums takes them. The lights are chosen by a hierarchy, and must outlive this.
+  ClusterLearner(std::span<const Vec3f> places, const LightSet& lights);
 
   void add(const ClusterRecord& record);
   void refine(double records) { sums_.refine(records); }
   ClusterField field() const;
 
  private:
-  // Of one node, by its number. Of a cluster: its records, and the sum of the squares of contribution over importance.
-  // Of a node with children: how often it was passed, and the sums of the importances of its two children over its own.
+  // Of one node, by its number; and, after all numbers, of the whole hierarchy and of each light without a place. Of a
+  // cluster and of these: records, and the sum of the squares of contribution over importance. Of a node with children:
+  // how often it was passed, and the sums of the importances of its two children over its own.
   struct NodeSums {
     float count = 0, first = 0, second = 0;
   };
@@ -44,8 +46,9 @@ class ClusterLearner {
   };
   // What is expected of one record of each node where nothing is in the way.
   Sums unoccluded() const;
+  void add_square(Sums& sums, std::size_t node, float ratio, bool arrives);
 
-  const LightBvh& lights_;
+  const LightSet& lights_;
   PlaceSums<Sums> sums_;
   std::vector<NodeSums> all_;  // of all places, as if nothing were in the way
 };

@@ -15,6 +15,18 @@ constexpr double min_gain = 0.1;
 }  // namespace
 
 template <class Field>
+DirectionLearner<Field>::DirectionLearner(std::span<const Vec3f> places) : sums_(places, {}) {
+  constexpr auto side = std::uint32_t(Field::side);
+  const auto inside = [](std::size_t padded) { return (float(padded) - 0.5f) / float(side); };
+  const auto part = [](float t) { return std::min(std::uint32_t(t * float(side)), side - 1); };
+  for (std::size_t y = 0; y < padded_side; ++y)
+    for (std::size_t x = 0; x < padded_side; ++x) {
+      const Vec2f at = wrap_sphere_square(Vec2f{inside(x), inside(y)});
+      padded_cells_[y * padded_side + x] = part(at.y) * side + part(at.x);
+    }
+}
+
+template <class Field>
 void DirectionLearner<Field>::Sums::add(const Sums& other, double scale) {
   for (std::size_t c = 0; c < squares.size(); ++c) squares[c] += float(scale) * other.squares[c];
   for (std::size_t k = 0; k < by_share.size(); ++k) by_share[k] += scale * other.by_share[k];
@@ -39,23 +51,20 @@ void DirectionLearner<Field>::add(const GuideRecord& r) {
 }
 
 template <class Field>
-typename Field::Table DirectionLearner<Field>::table_of(const Sums& sums) {
-  constexpr auto side = int(Field::side);
+typename Field::Table DirectionLearner<Field>::table_of(const Sums& sums) const {
+  constexpr std::size_t side = Field::side;
   typename Field::Table table;
+  std::array<float, padded_side * padded_side> squares;
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = sums.squares[padded_cells_[i]];
   // Cells pass some of their squares to their neighbours: light that comes through the border of a cell comes through
   // the next one elsewhere in the leaf.
-  const auto from = [&](int x, int y) {
-    const Vec2f at = wrap_sphere_square(Vec2f{(float(x) + 0.5f) / float(side), (float(y) + 0.5f) / float(side)});
-    const auto part = [&](float t) { return std::min(int(t * float(side)), side - 1); };
-    return sums.squares[std::size_t(part(at.y) * side + part(at.x))];
-  };
   constexpr float weights[] = {0.125f, 0.75f, 0.125f};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (std::size_t y = 0; y < side; ++y)
+    for (std::size_t x = 0; x < side; ++x) {
       float square = 0;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) square += weights[i + 1] * weights[j + 1] * from(x + i, y + j);
-      table.weights[std::size_t(y * side + x)] = std::sqrt(square);
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i) square += weights[i] * weights[j] * squares[(y + j) * padded_side + x + i];
+      table.weights[y * side + x] = std::sqrt(square);
     }
   const double best = *std::ranges::min_element(sums.by_share);
   if (sums.guided == 0) {

@@ -9,7 +9,7 @@ template <class Field>
 class DirectionLearner {
  public:
   // `places`: as PlaceSums takes them.
-  explicit DirectionLearner(std::span<const Vec3f> places) : sums_(places, {}) {}
+  explicit DirectionLearner(std::span<const Vec3f> places);
 
   void add(const GuideRecord& record);
   // What the records so far teach. The density of a cell is in proportion to the root of the mean square of what
@@ -34,8 +34,11 @@ class DirectionLearner {
     void add(const Sums& other, double scale);
     void shrink_toward(const Sums& above);
   };
-  static typename Field::Table table_of(const Sums& sums);
+  typename Field::Table table_of(const Sums& sums) const;
 
+  // A cell more on every side of the square, which is the one that lies there on the sphere.
+  static constexpr std::size_t padded_side = Field::side + 2;
+  std::array<std::uint32_t, padded_side * padded_side> padded_cells_;
   PlaceSums<Sums> sums_;
 };
 

@@ -48,11 +48,16 @@ std::vector<Vec3f> places_of_paths(const Scene& scene, const LightSet& lights, c
   return places;
 }
 
-void for_each_round(double paths, const std::function<void(const TrainingRound&, bool)>& learn) {
-  std::uint32_t number = 1;
-  for (double of_round = first_paths, left = paths; left > 0; left -= of_round, of_round *= 2) {
-    learn({number, std::min(of_round, left)}, number == 1);
-    ++number;
+void for_each_round(std::span<const double> totals, const std::function<void(const TrainingRound&)>& learn) {
+  double before = 0, usual = first_paths;
+  for (std::uint32_t number = 1;; ++number, usual *= 2) {
+    double paths = usual;
+    bool is_over = true;
+    for (double total : totals)
+      if (total > before) paths = std::min(paths, total - before), is_over = false;
+    if (is_over) return;
+    learn({number, paths, before});
+    before += paths;
   }
 }
 

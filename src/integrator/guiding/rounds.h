@@ -1,6 +1,7 @@
 // The paths from whose vertices something is learned before a render.
 #pragma once
 #include <functional>
+#include <span>
 
 #include "accel/accel.h"
 #include "integrator/guiding/records.h"
@@ -10,8 +11,9 @@ namespace montelux {
 
 // Some of them, spread over the picture.
 struct TrainingRound {
-  std::uint32_t number;
+  std::uint32_t number;  // 1, 2, ...
   double paths;
+  double before = 0;  // paths of the rounds before
 };
 
 using TakeRecord = std::function<void(const GuideRecord&)>;
@@ -27,7 +29,8 @@ void trace_round(const Scene& scene, const LightSet& lights, const Accel& rays, 
 std::vector<Vec3f> places_of_paths(const Scene& scene, const LightSet& lights, const Accel& rays,
                                    const PathSettings& settings);
 
-// Calls learn(round, is_first) for rounds of so many paths in all, each of twice as many as the one before.
-void for_each_round(double paths, const std::function<void(const TrainingRound&, bool)>& learn);
+// Calls learn(round) for rounds that each have twice as many paths as the one before. One round ends at each of the
+// totals, and the last one at the greatest of them.
+void for_each_round(std::span<const double> totals, const std::function<void(const TrainingRound&)>& learn);
 
 }  // namespace montelux

@@ -32,8 +32,9 @@ GuideField train_guide(const Scene& scene, const LightSet& lights, const Accel& 
   constexpr double records_of_leaf = 2000;
   PathSettings own = for_training(settings);
   GuideLearner learner(places_of_paths(scene, lights, rays, own));
-  for_each_round(double(settings.guiding_paths), [&](const TrainingRound& round, bool is_first) {
-    if (!is_first) learner.refine(records_of_leaf);
+  const double paths = settings.guiding_paths;
+  for_each_round(std::span(&paths, 1), [&](const TrainingRound& round) {
+    if (round.before > 0) learner.refine(records_of_leaf);
     trace_round(scene, lights, rays, own, round, [&](const GuideRecord& r) { learner.add(r); });
     own.guide = std::make_shared<GuideField>(learner.field());
   });

@@ -13,17 +13,15 @@ namespace montelux {
 // rounds before have taught. A pure function of scene, lights and settings. None of these paths is shown.
 GuideField train_guide(const Scene& scene, const LightSet& lights, const Accel& rays, const PathSettings& settings);
 
-// A field of the directions from which the brightest light from infinity reaches the vertices of paths, by shadow rays
-// from the vertices of settings.sky_paths paths, in rounds as above. Null if there is no such light. A pure function
-// likewise.
-std::shared_ptr<const SkyField> learn_sky(const Scene& scene, const LightSet& lights, const Accel& rays,
-                                          const PathSettings& settings);
+struct LearnedLights {
+  std::shared_ptr<const ClusterField> clusters;  // how much of what lights can send arrives
+  std::shared_ptr<const SkyField> sky;           // the directions from which the brightest light from infinity arrives
+};
 
-// A field of how much of what clusters of lights can send arrives at the vertices of paths, by shadow rays from those
-// of settings.light_paths paths, in rounds as above. Null if the hierarchy of `lights` has fewer than two. A pure
-// function likewise.
-std::shared_ptr<const ClusterField> learn_clusters(const Scene& scene, const LightSet& lights, const Accel& rays,
-                                                   const PathSettings& settings);
+// What shadow rays find from the vertices of settings.light_paths paths where settings.learned_selection is on, and of
+// settings.sky_paths paths where settings.sky_learning is, in rounds as above. `clusters` is null if there are not
+// two lights, or more than 16 without a place; `sky`, if there is no such light. A pure function likewise.
+LearnedLights learn_lights(const Scene& scene, const LightSet& lights, const Accel& rays, const PathSettings& settings);
 
 // As trace_paths(), with settings.guide, on the lanes that the settings choose, with or without participating media.
 // For the tallies of the path tracer.

@@ -15,8 +15,7 @@ class DirectionField;
 using GuideField = DirectionField<16>;
 class ManifoldLight;
 class SurvivalMap;
-class ClusterField;
-class SkyField;
+struct LearnedLights;
 
 // How many paths run side by side: `one` is the same loop over single floats, for tests and comparisons.
 enum class Lanes { one, native };
@@ -51,11 +50,9 @@ struct PathSettings {
   std::shared_ptr<const SurvivalMap> survival;
   // How lights are chosen; none: as the scene says.
   std::optional<LightSelection> light_selection;
-  // By the hierarchy, with what so many paths before the render have found of which lights are hidden; the field, made
-  // where there is none.
+  // By the hierarchy, with what so many paths before the render have found of which lights are hidden.
   bool learned_selection = false;
   int light_paths = 1 << 15;
-  std::shared_ptr<const ClusterField> clusters;
   // Next-event estimation by one out of so many candidates, chosen by their contributions; 0: by a single one.
   int candidates = 0;
   // Specular events at most between a rough surface and a delta light whose light is looked for by walks on manifolds;
@@ -69,10 +66,11 @@ struct PathSettings {
   int guiding_paths = 1 << 20;
   std::shared_ptr<const GuideField> guide;
   // Next-event estimation toward the brightest light from infinity from where so many paths before the render have
-  // found that it is visible; the field, made where there is none.
+  // found that it is visible.
   bool sky_learning = false;
-  int sky_paths = 1 << 17;
-  std::shared_ptr<const SkyField> sky;
+  int sky_paths = 1 << 16;
+  // What learned_selection and sky_learning have learned, made where there is none.
+  std::shared_ptr<const LearnedLights> learned;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;

@@ -14,13 +14,11 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
-  if (settings.learned_selection) {
-    if (!settings.clusters) settings_.clusters = learn_clusters(scene, lights(), accel, settings_);
-    if (settings_.clusters) own_lights_ = lights().with(settings_.clusters);
-  }
-  if (settings.sky_learning) {
-    if (!settings.sky) settings_.sky = learn_sky(scene, lights(), accel, settings_);
-    if (settings_.sky) own_lights_ = lights().with(settings_.sky);
+  if (settings.learned_selection || settings.sky_learning) {
+    if (!settings.learned)
+      settings_.learned = std::make_shared<LearnedLights>(learn_lights(scene, lights(), accel, settings_));
+    if (settings_.learned->clusters) own_lights_ = lights().with(settings_.learned->clusters);
+    if (settings_.learned->sky) own_lights_ = lights().with(settings_.learned->sky);
   }
   if (settings.manifold > 0 && !settings.manifold_light)
     settings_.manifold_light = ManifoldLight::make(scene, accel, {settings.manifold, settings.manifold_roughness});

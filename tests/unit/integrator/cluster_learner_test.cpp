@@ -29,7 +29,8 @@ void teach(ClusterLearner& learner, const LightSet& lights, int rounds, int reco
       const LightChoice<float> choice = lights.hierarchy().choose<float>(p, up, r.next(), true);
       const LightSample<float> light = lights.sample_light<float>(choice.light, p, up, r.next2(), true);
       const bool right = choice.light >= lights.count() / 2;
-      learner.add({p, up, LightId(choice.light), dot(up, light.wi) * average(light.radiance), right == (p.x > 0)});
+      learner.add({p, up, LightId(choice.light), choice.mass.value, dot(up, light.wi) * average(light.radiance),
+                   right == (p.x > 0)});
     }
   }
 }
@@ -42,13 +43,53 @@ double hidden_share(const LightSet& lights, Vec3f p) {
   return hidden;
 }
 
+// A sun, which a wall at x = 0 hides where x < 0, and a sky, which it does not hide; with a row of lights, and without.
+TEST(ClusterLearner, leaves_a_light_without_a_place_where_it_is_hidden) {
+  for (int placed : {0, 10}) {
+    LightSetBuilder builder;
+    for (int i = 0; i < placed; ++i) builder.add_point({-0.9f + 0.2f * float(i), 1, 0}, gray_rgb(1.0f));
+    builder.add_uniform_infinite(gray_rgb(0.5f));
+    builder.add_distant({0, 1, 0}, gray_rgb(2.0f));
+    const LightSet lights = std::move(builder).build({LightSelection::bvh}, {0, 0, 0}, 3);
+    ASSERT_EQ(lights.beyond().size(), 2u);
+    const std::uint32_t sky = lights.beyond()[0], sun = lights.beyond()[1];
+    ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights);
+    RandomStream<float> r(3, 5);
+    for (int round = 0; round < 4; ++round) {
+      if (round > 0) learner.refine(300);
+      for (int i = 0; i < 20000; ++i) {
+        const Vec3f p{2 * r.next() - 1, 0, 0.2f * r.next()};
+        LightChoice<float> choice{i % 3 == 0 ? sun : sky, {1}, true};
+        if (i % 3 == 2 && placed > 0) choice = lights.hierarchy().choose<float>(p, up, r.next(), true);
+        const LightSample<float> light = lights.sample_light<float>(choice.light, p, up, r.next2(), true);
+        const float contribution = std::max(dot(up, light.wi), 0.0f) * average(light.radiance) / light.density.value;
+        learner.add({p, up, LightId(choice.light), choice.mass.value, contribution, choice.light != sun || p.x > 0});
+      }
+    }
+    const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
+    const auto mass = [&](std::uint32_t light, float x) {
+      return double(learned.choice_mass<float>(light, Vec3f{x, 0, 0.1f}, up, true).value);
+    };
+    for (float x : {0.2f, 0.5f, 0.9f}) {
+      // A tenth of the choices are equal.
+      EXPECT_LT(mass(sun, -x), placed > 0 ? 0.06 : 0.1) << x;
+      EXPECT_GT(mass(sun, -x), 0.03) << x;
+      // The sun sends 2, and the sky pi / 2, of which each sample contributes as much: its density is that of the
+      // cosine.
+      const double of_sky = double(pi) / 2, sum = 2 + of_sky;
+      EXPECT_NEAR(mass(sun, x) / mass(sky, x), (0.9 * 2 / sum + 0.05) / (0.9 * of_sky / sum + 0.05), 0.05) << x;
+      EXPECT_GT(mass(sky, -x), mass(sky, x)) << x;
+    }
+  }
+}
+
 // Few lights, which are scanned; many, each a cluster; more than there are clusters.
 class ClusterLearnerOf : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Lights, ClusterLearnerOf, testing::Values(2, 10, 100, 1000));
 
 TEST_P(ClusterLearnerOf, leaves_lights_behind_a_wall_for_those_that_arrive) {
   const LightSet lights = row_of_lights(GetParam());
-  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights.hierarchy());
+  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights);
   teach(learner, lights, 4, 20000);
   const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
   for (float x : {-0.8f, -0.3f, -0.1f, 0.1f, 0.4f, 0.9f}) {
@@ -65,13 +106,13 @@ TEST_P(ClusterLearnerOf, leaves_lights_behind_a_wall_for_those_that_arrive) {
 // records.
 TEST_P(ClusterLearnerOf, changes_little_where_nothing_is_hidden) {
   const LightSet lights = row_of_lights(GetParam());
-  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights.hierarchy());
+  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights);
   RandomStream<float> r(3, 5);
   for (int i = 0; i < 40000; ++i) {
     const Vec3f p{2 * r.next() - 1, 0, 0.2f * r.next()};
     const LightChoice<float> choice = lights.hierarchy().choose<float>(p, up, r.next(), true);
     const LightSample<float> light = lights.sample_light<float>(choice.light, p, up, r.next2(), true);
-    learner.add({p, up, LightId(choice.light), dot(up, light.wi) * average(light.radiance), true});
+    learner.add({p, up, LightId(choice.light), choice.mass.value, dot(up, light.wi) * average(light.radiance), true});
   }
   const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
   for (float x : {-0.7f, 0.2f, 0.6f}) {
@@ -87,7 +128,7 @@ TEST_P(ClusterLearnerOf, changes_little_where_nothing_is_hidden) {
 // Of another orientation nothing was learned: there, what is expected is that everything arrives.
 TEST(ClusterLearner, changes_little_where_there_are_no_records) {
   const LightSet lights = row_of_lights(10);
-  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights.hierarchy());
+  ClusterLearner learner(std::vector<Vec3f>{{-1, 0, 0}, {1, 0, 0}}, lights);
   teach(learner, lights, 4, 20000);
   const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
   const Vec3f p{0.5f, 0, 0.1f};
