@@ -77,12 +77,12 @@ Density<SolidAngle, F> LightSet::sky_density(Vec3<F> p, Vec3<F> n, Vec3<F> wi, M
 
 template <class F>
 LightChoice<F> LightSet::choose_by_clusters(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
-  return choose_by_hierarchy(p, n, u, on, clusters_->at(p, n, on));
+  return choose_by_bvh(p, n, u, on, clusters_->at(p, n, on));
 }
 
 template <class F>
 Mass<F> LightSet::mass_by_clusters(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) const {
-  return mass_by_hierarchy(light, p, n, on, clusters_->at(p, n, on));
+  return mass_by_bvh(light, p, n, on, clusters_->at(p, n, on));
 }
 
 #define MONTELUX_LEARNED(F)                                                                        \

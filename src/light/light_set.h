@@ -192,11 +192,9 @@ class LightSet {
   MONTELUX_INLINE Mask<F> for_each_known_mass(Vec3<F> p, Vec3<F> n, const ClusterFactors<F>& factors, Take take) const;
   // choose() and choice_mass() by the hierarchy and the unbounded lights.
   template <class F, class Factors>
-  MONTELUX_INLINE LightChoice<F> choose_by_hierarchy(Vec3<F> p, Vec3<F> n, F u, Mask<F> on,
-                                                     const Factors& factors) const;
+  MONTELUX_INLINE LightChoice<F> choose_by_bvh(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const;
   template <class F, class Factors>
-  MONTELUX_INLINE Mass<F> mass_by_hierarchy(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on,
-                                            const Factors& factors) const;
+  MONTELUX_INLINE Mass<F> mass_by_bvh(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors) const;
   // Calls f(kind, lanes) once for each kind of light among the lanes.
   template <class F, class Function>
   void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;

@@ -101,11 +101,11 @@ LightChoice<F> LightSet::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on) const {
     DiscreteSample<F> s = power_table_->sample(u);
     return {s.index, s.mass, on};
   }
-  return clusters_ ? choose_by_clusters(p, n, u, on) : choose_by_hierarchy(p, n, u, on, NoFactors{});
+  return clusters_ ? choose_by_clusters(p, n, u, on) : choose_by_bvh(p, n, u, on, NoFactors{});
 }
 
 template <class F, class Factors>
-LightChoice<F> LightSet::choose_by_hierarchy(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
+LightChoice<F> LightSet::choose_by_bvh(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
   const BeyondChoice<F> beyond = choose_beyond(p, n, u, factors);
   LightChoice<F> r{Uint<F>(0u), {F(0.0f)}, Mask<F>(false)};
   if (!bvh_.empty()) {
@@ -124,11 +124,11 @@ Mass<F> LightSet::choice_mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on) c
   light = select(on, light, Uint<F>(0u));
   if (settings_.selection == LightSelection::uniform) return {F(1.0f / float(count()))};
   if (power_table_) return power_table_->mass<F>(light);
-  return clusters_ ? mass_by_clusters(light, p, n, on) : mass_by_hierarchy(light, p, n, on, NoFactors{});
+  return clusters_ ? mass_by_clusters(light, p, n, on) : mass_by_bvh(light, p, n, on, NoFactors{});
 }
 
 template <class F, class Factors>
-Mass<F> LightSet::mass_by_hierarchy(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors) const {
+Mass<F> LightSet::mass_by_bvh(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors) const {
   const Mask<F> unbounded = is_beyond<F>(light, on);
   const BeyondMass<F> beyond = beyond_mass(light, p, n, factors);
   const Mass<F> placed = bvh_.mass(light, p, n, on & !unbounded, factors);

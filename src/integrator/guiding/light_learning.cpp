@@ -30,8 +30,8 @@ struct RayFinding {
   bool arrives;
 };
 
-// A pupil learns from shadow rays of the vertices of so many paths, many rays at a time. What they teach does not
-// depend on how many. The pupil has `void begin_round(bool is_first)`, `DrawnRay draw(p, n, random, on)`, `void
+// Shadow rays from the vertices of so many paths, many rays at a time, teach a pupil. What they teach does not depend
+// on how many. The pupil has `void begin_round(bool is_first)`, `DrawnRay draw(p, n, random, on)`, `void
 // learn(const RayFinding&)` and `void end_round()`.
 template <class Pupil>
 class Lessons {
@@ -100,7 +100,7 @@ class Lessons {
   std::uint64_t traced_ = 0;
 };
 
-// All of them learn from the vertices of the same paths, in rounds.
+// The vertices of the same paths teach all of them, in rounds.
 template <class... Pupils>
 void teach(const Scene& scene, const LightSet& lights, const Accel& rays, const PathSettings& own,
            Lessons<Pupils>&... lessons) {

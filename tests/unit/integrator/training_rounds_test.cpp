@@ -25,7 +25,7 @@ TEST(TrainingRounds, double_their_paths_up_to_the_total) {
   EXPECT_GT(rounds.size(), 3u);
 }
 
-// What one learner learns from its paths does not depend on whether another one learns from more of them.
+// What paths teach one learner does not depend on whether more of them teach another one.
 TEST(TrainingRounds, end_at_each_total) {
   const std::vector<TrainingRound> few = rounds_of({30000}), both = rounds_of({100000, 0, 30000});
   ASSERT_GT(both.size(), few.size());
