@@ -74,6 +74,7 @@ class Auto(ProgramTest):
                 (["--measure-bias"], "state one to measure it"),
                 (["--sampler", "uniform-grid"], "cannot choose"),
                 (["--set", "among=pth"], "did you mean"),
+                (["--set", "among=path:nee=on+sky-lerning=on"], "did you mean \"sky-learning\""),
                 (["--set", "among=auto"], "its own candidates"),
                 (["--set", "share=0.5"], "0.05")):
             with self.subTest(options=options):
