@@ -44,8 +44,8 @@ double hidden_share(const LightSet& lights, Vec3f p) {
 }
 
 // A sun, which a wall at x = 0 hides where x < 0, and a sky, which it does not hide; with a row of lights, and without.
-TEST(ClusterLearner, leaves_a_light_without_a_place_where_it_is_hidden) {
-  for (int placed : {0, 10}) {
+TEST(ClusterLearner, leaves_a_light_without_a_place_where_it_is_hidden_and_a_planted_fault_is_found) {
+  for (const auto& [placed, has_wall] : {std::pair(0, true), std::pair(10, true), std::pair(10, false)}) {
     LightSetBuilder builder;
     for (int i = 0; i < placed; ++i) builder.add_point({-0.9f + 0.2f * float(i), 1, 0}, gray_rgb(1.0f));
     builder.add_uniform_infinite(gray_rgb(0.5f));
@@ -63,21 +63,29 @@ TEST(ClusterLearner, leaves_a_light_without_a_place_where_it_is_hidden) {
         if (i % 3 == 2 && placed > 0) choice = lights.hierarchy().choose<float>(p, up, r.next(), true);
         const LightSample<float> light = lights.sample_light<float>(choice.light, p, up, r.next2(), true);
         const float contribution = std::max(dot(up, light.wi), 0.0f) * average(light.radiance) / light.density.value;
-        learner.add({p, up, LightId(choice.light), choice.mass.value, contribution, choice.light != sun || p.x > 0});
+        learner.add({p, up, LightId(choice.light), choice.mass.value, contribution,
+                     choice.light != sun || p.x > 0 || !has_wall});
       }
     }
     const LightSet learned = lights.with(std::make_shared<ClusterField>(learner.field()));
     const auto mass = [&](std::uint32_t light, float x) {
       return double(learned.choice_mass<float>(light, Vec3f{x, 0, 0.1f}, up, true).value);
     };
+    const double equal = 0.1 / (placed > 0 ? 3 : 2);  // a tenth of the choices are equal
     for (float x : {0.2f, 0.5f, 0.9f}) {
-      // A tenth of the choices are equal.
-      EXPECT_LT(mass(sun, -x), placed > 0 ? 0.06 : 0.1) << x;
-      EXPECT_GT(mass(sun, -x), 0.03) << x;
+      const double of_hidden_sun = mass(sun, -x) - equal, of_sun = mass(sun, x) - equal;
+      // The fault: rays that do not say what is in the way.
+      if (!has_wall) {
+        EXPECT_GT(of_hidden_sun, 0.5 * of_sun) << x;
+        continue;
+      }
+      EXPECT_GE(of_hidden_sun, 0) << x;
+      EXPECT_LT(of_hidden_sun, 0.1 * of_sun) << x;
       // The sun sends 2, and the sky pi / 2, of which each sample contributes as much: its density is that of the
-      // cosine.
-      const double of_sky = double(pi) / 2, sum = 2 + of_sky;
-      EXPECT_NEAR(mass(sun, x) / mass(sky, x), (0.9 * 2 / sum + 0.05) / (0.9 * of_sky / sum + 0.05), 0.05) << x;
+      // cosine. A few records of the places around count, too, which see less of the sun.
+      const double ratio = of_sun / (mass(sky, x) - equal), expected = 2 / (double(pi) / 2);
+      EXPECT_LT(ratio, 1.001 * expected) << x;
+      EXPECT_GT(ratio, 0.99 * expected) << x;
       EXPECT_GT(mass(sky, -x), mass(sky, x)) << x;
     }
   }
