@@ -100,23 +100,47 @@ LightBounds unite(const LightBounds& a, const LightBounds& b) {
   return r;
 }
 
-// Builds the nodes from the top down, and their bounds from the bottom up.
+namespace {
+
+// The upper half of a float, whose magnitude is that of x or slightly more.
+std::uint32_t half_not_below(float x) {
+  return std::min((float_bits(x) & 0x7fffffffu) + 0xffffu, 0x7f7fffffu) >> 16 | (std::signbit(x) ? 0x8000u : 0u);
+}
+// The nearest one.
+std::uint32_t nearest_half(float x) { return (float_bits(x) + 0x8000u) >> 16; }
+// The length of what rounding its components to the nearest half adds to a unit vector, at most.
+constexpr float axis_error = 0x1p-9f;
+
+float both_halves(std::uint32_t upper, std::uint32_t lower) { return std::bit_cast<float>(upper << 16 | lower); }
+
+}  // namespace
+
+// Builds a binary tree from the top down, and its bounds from the bottom up; then joins levels of it.
 struct LightBvh::Builder {
   std::span<const std::optional<LightBounds>> bounds;
   std::vector<Item> items;
   LightBvh& bvh;
+  std::vector<Node> nodes{};            // the root, then the two children of a node side by side
+  std::vector<std::uint32_t> leaves{};  // in the order of the tree
 
-  void write(std::uint32_t node, const LightBounds& b, std::uint32_t link_bits, bool is_leaf) {
-    float* v = bvh.nodes_[node].v;
+  // The children of a node of the joined tree, which are nodes of the binary one.
+  struct Children {
+    std::array<std::uint32_t, fan> nodes;
+    std::uint32_t count = 0;
+    std::uint32_t first_number = 0;
+  };
+  std::vector<Children> joined{};  // as wide_nodes_
+
+  void write(std::uint32_t node, const LightBounds& b, std::uint32_t link_bits) {
+    float* v = nodes[node].v;
     Vec3f middle = (b.low + b.high) * 0.5f, half = max(b.high - middle, middle - b.low);
     v[centre] = middle.x, v[centre + 1] = middle.y, v[centre + 2] = middle.z;
     v[radius] = length(half) * 1.00001f;
     v[axis] = b.axis.x, v[axis + 1] = b.axis.y, v[axis + 2] = b.axis.z;
     v[intensity] = b.two_sided ? -b.intensity : b.intensity;
     v[spread] = b.cos_spread < 0 ? 2.0f : std::sqrt(std::max(0.0f, 1 - b.cos_spread * b.cos_spread));
-    v[cos_emission] = b.cos_emission;
-    v[inverse_radius_squared] = std::min(1 / std::max(v[radius] * v[radius], 1e-37f), 1e18f);
-    v[link] = std::bit_cast<float>(is_leaf ? link_bits | leaf_bit : link_bits);
+    v[narrowness] = 1 - b.cos_emission;
+    v[link] = std::bit_cast<float>(link_bits);
   }
 
   // Where to split items [begin, end): by the cheapest of up to twelve slices along each axis, or in the middle.
@@ -137,7 +161,8 @@ struct LightBvh::Builder {
     float best = INFINITY;
     int best_dim = -1, best_slice = 0;
     // The turns of a path have 32 bits: deep in the tree, splitting in the middle limits the depth.
-    bool room = depth + int(std::bit_width(end - begin)) < 31;
+    constexpr int max_depth = 32 / levels_joined * levels_joined;
+    bool room = depth + int(std::bit_width(end - begin)) < max_depth;
     for (int dim = 0; dim < 3 && room; ++dim) {
       if (!(component(extent, dim) > 0)) continue;
       Cluster slice[max_slices], above[max_slices];
@@ -166,23 +191,117 @@ struct LightBvh::Builder {
     return begin + half;
   }
 
-  LightBounds build(std::uint32_t node, std::size_t begin, std::size_t end, int depth, std::uint32_t turns) {
+  // The link of an inner node is the first of its children, until join() replaces it.
+  LightBounds build(std::uint32_t node, std::size_t begin, std::size_t end, int depth) {
     if (end - begin == 1) {
       std::uint32_t light = items[begin].light;
-      write(node, *bounds[light], light, true);
-      bvh.turns_[light] = turns;
-      bvh.places_[light] = std::uint32_t(bvh.leaves_.size());
-      bvh.leaves_.push_back(node);
+      write(node, *bounds[light], light | leaf_bit);
+      leaves.push_back(node);
+      bvh.places_[light] = std::uint32_t(leaves.size());
       return *bounds[light];
     }
     std::size_t middle = split(begin, end, depth);
-    auto child = std::uint32_t(bvh.nodes_.size());
-    bvh.nodes_.resize(bvh.nodes_.size() + 2);
-    LightBounds a = build(child, begin, middle, depth + 1, turns);
-    LightBounds b = build(child + 1, middle, end, depth + 1, turns | (1u << depth));
+    auto child = std::uint32_t(nodes.size());
+    nodes.resize(nodes.size() + 2);
+    LightBounds a = build(child, begin, middle, depth + 1);
+    LightBounds b = build(child + 1, middle, end, depth + 1);
     LightBounds both = unite(a, b);
-    write(node, both, child, false);
+    write(node, both, child);
     return both;
+  }
+
+  std::uint32_t link_of(std::uint32_t node) const { return float_bits(nodes[node].v[link]); }
+  bool is_leaf(std::uint32_t node) const { return (link_of(node) & leaf_bit) != 0; }
+  float brightness(std::uint32_t node) const { return std::abs(nodes[node].v[intensity]); }
+
+  // Replaces an inner node by its two children, of which the first takes its place.
+  void divide(Children& c, std::size_t i) const {
+    const std::uint32_t first = link_of(c.nodes[i]);
+    c.nodes[i] = first, c.nodes[c.count++] = first + 1;
+  }
+  // Its descendants some levels down, and leaves above them; where there is room, the brightest are divided again.
+  void join(std::uint32_t node, int depth, std::uint32_t turns) {
+    if (is_leaf(node)) {
+      bvh.turns_[link_of(node) & ~leaf_bit] = turns;
+      return;
+    }
+    Children c{{node}, 1};
+    for (int level = 0; level < levels_joined; ++level)
+      for (std::size_t i = 0, count = c.count; i < count; ++i)
+        if (!is_leaf(c.nodes[i])) divide(c, i);
+    while (c.count < fan) {
+      std::size_t brightest = fan;
+      for (std::size_t i = 0; i < c.count; ++i)
+        if (!is_leaf(c.nodes[i]) && (brightest == fan || brightness(c.nodes[i]) > brightness(c.nodes[brightest])))
+          brightest = i;
+      if (brightest == fan) break;
+      divide(c, brightest);
+    }
+    nodes[node].v[link] = std::bit_cast<float>(std::uint32_t(joined.size()));
+    joined.push_back(c);
+    for (std::uint32_t k = 0; k < c.count; ++k) join(c.nodes[k], depth + 1, turns | k << (levels_joined * depth));
+  }
+
+  // From the root down, always the brightest one that has not been divided.
+  void number_clusters() {
+    struct Open {
+      float intensity;
+      std::uint32_t node;
+      bool operator<(const Open& other) const {
+        return intensity != other.intensity ? intensity < other.intensity : node > other.node;
+      }
+    };
+    std::vector<NumberedNode>& numbered = bvh.numbered_nodes_;
+    std::priority_queue<Open> open;
+    open.push({0, 0});
+    numbered = {{}};
+    for (std::size_t clusters = 1; !open.empty() && clusters < max_clusters;) {
+      const std::uint32_t node = open.top().node, own = float_bits(nodes[node].v[number]);
+      open.pop();
+      if (is_leaf(node)) continue;
+      Children& c = joined[link_of(node)];
+      c.first_number = std::uint32_t(numbered.size());
+      numbered[own].first_child = c.first_number, numbered[own].child_count = c.count;
+      for (std::uint32_t k = 0; k < c.count; ++k) {
+        nodes[c.nodes[k]].v[number] = std::bit_cast<float>(c.first_number + k);
+        numbered.push_back({.parent = own});
+        open.push({brightness(c.nodes[k]), c.nodes[k]});
+      }
+      clusters += c.count - 1;
+    }
+  }
+
+  // `number`: of the first of the two, which need not exist.
+  static Pair pack(const Node& first, const Node& second, std::uint32_t number) {
+    const float *a = first.v, *b = second.v;
+    Pair p;
+    const auto bound = [&](int slot, float of_first, float of_second) {
+      p.v[slot] = both_halves(half_not_below(of_first), half_not_below(of_second));
+    };
+    std::copy_n(a + centre, 3, p.v + first_centre);
+    std::copy_n(b + centre, 3, p.v + second_centre);
+    bound(radii, a[radius], b[radius]);
+    for (int i = 0; i < 3; ++i) p.v[axes + i] = both_halves(nearest_half(a[axis + i]), nearest_half(b[axis + i]));
+    bound(intensities, a[intensity], b[intensity]);
+    bound(spreads, a[spread] + axis_error, b[spread] + axis_error);
+    bound(narrownesses, a[narrowness], b[narrowness]);
+    p.v[first_link] = a[link], p.v[second_link] = b[link];
+    p.v[first_number] = std::bit_cast<float>(number);
+    return p;
+  }
+
+  void finish() {
+    bvh.singles_ = {nodes.front()};
+    if (leaves.size() <= max_scanned) {
+      for (const std::uint32_t leaf : leaves) bvh.singles_.push_back(nodes[leaf]);
+      return;
+    }
+    for (const Children& c : joined) {
+      const auto child = [&](std::uint32_t k) { return k < c.count ? nodes[c.nodes[k]] : Node{}; };
+      WideNode& wide = bvh.wide_nodes_.emplace_back();
+      for (std::uint32_t k = 0; k < fan; k += 2)
+        wide.pairs[k / 2] = pack(child(k), child(k + 1), c.first_number == 0 ? 0 : c.first_number + k);
+    }
   }
 };
 
@@ -197,35 +316,12 @@ LightBvh::LightBvh(std::span<const std::optional<LightBounds>> bounds) {
   if (builder.items.empty()) return;
   turns_.resize(bounds.size());
   places_.resize(bounds.size());
-  nodes_.reserve(2 * builder.items.size());
-  nodes_.resize(1);
-  builder.build(0, 0, builder.items.size(), 0, 0);
-  number_clusters();
-}
-
-// From the root down, always the brightest one that has not been divided.
-void LightBvh::number_clusters() {
-  struct Open {
-    float intensity;
-    std::uint32_t node;
-    bool operator<(const Open& other) const {
-      return intensity != other.intensity ? intensity < other.intensity : node > other.node;
-    }
-  };
-  std::priority_queue<Open> open;
-  open.push({0, 0});
-  cluster_links_ = {0};
-  while (!open.empty() && cluster_links_.size() < 2 * max_clusters) {
-    const std::uint32_t node = open.top().node, below = float_bits(nodes_[node].v[link]);
-    open.pop();
-    if ((below & leaf_bit) != 0) continue;
-    cluster_links_[float_bits(nodes_[node].v[number])] = std::uint32_t(cluster_links_.size());
-    for (std::uint32_t child : {below, below + 1}) {
-      nodes_[child].v[number] = std::bit_cast<float>(std::uint32_t(cluster_links_.size()));
-      cluster_links_.push_back(0);
-      open.push({std::abs(nodes_[child].v[intensity]), child});
-    }
-  }
+  builder.nodes.reserve(2 * builder.items.size());
+  builder.nodes.resize(1);
+  builder.build(0, 0, builder.items.size(), 0);
+  builder.join(0, 0, 0);
+  builder.number_clusters();
+  builder.finish();
 }
 
 }  // namespace montelux

@@ -52,7 +52,7 @@ class LightBvh {
   explicit LightBvh(std::span<const std::optional<LightBounds>> bounds);
   LightBvh() = default;
 
-  bool empty() const { return nodes_.empty(); }
+  bool empty() const { return singles_.empty(); }
 
   // Selects one light for the point p, by u in [0, 1). n is unit if only directions on its side matter, else zero.
   // Every light that reaches p on that side has a positive probability.
@@ -68,13 +68,17 @@ class LightBvh {
   // none of them reaches p. Only if there is a light.
   template <class F>
   F irradiance(Vec3<F> p, Vec3<F> n) const {
-    return importance<F>(row_in_all_lanes<F>(nodes_.data()->v, 0), p, n);
+    return importance<F>(single<F>(0), Receiver<F>(p, n));
   }
 
   // The upper nodes of the tree have numbers, by which ClusterFactors knows them; the root and nodes further down have
-  // the number 0. By number, that of the first of two children, whose numbers are consecutive and greater; 0: there
-  // are none, and the node is a cluster, which is not divided.
-  std::span<const std::uint32_t> cluster_links() const { return cluster_links_; }
+  // the number 0.
+  struct NumberedNode {
+    std::uint32_t parent = 0;
+    // The numbers of its children are consecutive and greater. No children: it is a cluster, which is not divided.
+    std::uint32_t first_child = 0, child_count = 0;
+  };
+  std::span<const NumberedNode> numbered_nodes() const { return numbered_nodes_; }
 
   // What learning needs to know of the choice of a light at p.
   struct Descent {
@@ -82,29 +86,64 @@ class LightBvh {
     float importance;       // of that cluster
     float mass;             // with which the light is selected where the cluster is given
   };
-  // Calls visit(number, first, second) for each numbered node on the way down to the cluster, the root included, with
-  // the importances of its children over its own.
+  // Calls visit(number, parts) for each numbered node on the way down to the cluster, the root included; `parts`, an
+  // array: the importances of its children over its own.
   template <class Visit>
   Descent descend(LightId light, Vec3f p, Vec3f n, Visit visit) const;
 
  private:
+  // A point that receives light, and the side of it that matters.
+  template <class F>
+  struct Receiver {
+    Vec3<F> p, n;
+    Mask<F> one_sided;
+    MONTELUX_INLINE Receiver(Vec3<F> point, Vec3<F> normal)
+        : p(point), n(normal), one_sided(length_squared(normal) > F(0.5f)) {}
+  };
+  // A light or a cluster of them, in every lane.
+  template <class F>
+  struct Bounds {
+    Vec3<F> centre;
+    F radius;
+    Vec3<F> axis;
+    F intensity;     // negative if the lights emit both ways
+    F spread;        // the sine of the largest angle between the axis and a normal; 2 if that exceeds a right angle
+    F narrowness;    // 1 minus the cosine of the largest angle between a normal and a direction of emission
+    Uint<F> link;    // of a leaf, which the top bit marks, its light; else the WideNode of its children
+    Uint<F> number;  // among clusters
+  };
+  static constexpr std::uint32_t leaf_bit = 0x80000000u;
+
+  // As the builder has it: exact.
   struct alignas(64) Node {
     float v[words_of_row] = {};
   };
-  // Slots of a node. The intensity is negative if the lights emit both ways. The link (bits) is the first of two
-  // consecutive children, or the light of a leaf, which the top bit marks.
-  enum Slot {
-    centre = 0,
-    radius = 3,
-    axis = 4,
-    intensity = 7,
-    spread,  // the sine of the largest angle between the axis and a normal; 2 if that exceeds a right angle
-    cos_emission,
-    link,
-    inverse_radius_squared,
-    number  // (bits) among clusters
+  enum Slot { centre = 0, radius = 3, axis = 4, intensity = 7, spread, narrowness, link, number };
+  // Two of the children of a node, in one line of the cache. Except for the centres each number has 16 bits, the
+  // upper half of a float: in the upper half of a word that of the first child, in the lower that of the second.
+  // Rounding never makes a bound tighter.
+  struct alignas(64) Pair {
+    float v[words_of_row] = {};
   };
-  static constexpr std::uint32_t leaf_bit = 0x80000000u;
+  enum PairSlot {
+    first_centre = 0,
+    second_centre = 3,
+    radii = 6,
+    axes = 7,
+    intensities = 10,
+    spreads,
+    narrownesses,
+    first_link,
+    second_link,
+    first_number  // the second's is the next one; 0: both have the number 0
+  };
+  // All of them. Those that do not exist have no intensity. A node has the lights of so many levels of a binary tree:
+  // more children are more work, and a choice that knows the lights better.
+  static constexpr int levels_joined = 3;
+  static constexpr std::size_t fan = std::size_t(1) << levels_joined;
+  struct WideNode {
+    Pair pairs[fan / 2];
+  };
 
   struct Item {
     std::uint32_t light;
@@ -112,117 +151,158 @@ class LightBvh {
   };
   struct Builder;
 
-  // A node in every lane, by its slots.
+  // The same in all lanes, exact: 0 is the root; 1 and the following are the leaves, in the order of the tree, if they
+  // are scanned.
   template <class F>
-  using NodeOf = std::array<F, words_of_row>;
+  MONTELUX_INLINE Bounds<F> single(std::size_t i) const {
+    const auto v = row_in_all_lanes<F>(singles_.data()->v, std::uint32_t(i));
+    return {{v[centre], v[centre + 1], v[centre + 2]},
+            v[radius],
+            {v[axis], v[axis + 1], v[axis + 2]},
+            v[intensity],
+            v[spread],
+            v[narrowness],
+            float_bits(v[link]),
+            float_bits(v[number])};
+  }
   template <class F>
-  MONTELUX_INLINE NodeOf<F> node_of(Uint<F> node) const {
-    return gather_rows<F>(nodes_.data()->v, node);
+  struct BoundsOfPair {
+    Bounds<F> first, second;
+  };
+  template <class F>
+  MONTELUX_INLINE BoundsOfPair<F> bounds_of_pair(Uint<F> node, std::uint32_t pair) const {
+    const auto v = gather_rows<F>(wide_nodes_.data()->pairs->v, Uint<F>(node * std::uint32_t(fan / 2)) + Uint<F>(pair));
+    const auto upper = [&](int slot) { return float_from_bits(float_bits(v[std::size_t(slot)]) & 0xffff0000u); };
+    const auto lower = [&](int slot) { return float_from_bits(float_bits(v[std::size_t(slot)]) << 16); };
+    const Uint<F> of_first = float_bits(v[first_number]);
+    const Uint<F> of_second = select(of_first == Uint<F>(0u), of_first, Uint<F>(of_first + 1u));
+    return {{{v[first_centre], v[first_centre + 1], v[first_centre + 2]},
+             upper(radii),
+             {upper(axes), upper(axes + 1), upper(axes + 2)},
+             upper(intensities),
+             upper(spreads),
+             upper(narrownesses),
+             float_bits(v[first_link]),
+             of_first},
+            {{v[second_centre], v[second_centre + 1], v[second_centre + 2]},
+             lower(radii),
+             {lower(axes), lower(axes + 1), lower(axes + 2)},
+             lower(intensities),
+             lower(spreads),
+             lower(narrownesses),
+             float_bits(v[second_link]),
+             of_second}};
   }
   template <class F>
   static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
     return (link_bits & Uint<F>(leaf_bit)) == Uint<F>(0u);
   }
   template <class F>
-  static F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n);
+  static MONTELUX_INLINE F importance(const Bounds<F>& lights, const Receiver<F>& at);
   template <class F>
-  static MONTELUX_INLINE F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n, const NoFactors&) {
-    return importance<F>(node, p, n);
+  static MONTELUX_INLINE F importance(const Bounds<F>& lights, const Receiver<F>& at, const NoFactors&) {
+    return importance<F>(lights, at);
   }
   template <class F>
-  static MONTELUX_INLINE F importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n, const ClusterFactors<F>& factors) {
-    return importance<F>(node, p, n) * gather(factors.values, Uint<F>(factors.first + float_bits(node[number])));
+  static MONTELUX_INLINE F importance(const Bounds<F>& lights, const Receiver<F>& at,
+                                      const ClusterFactors<F>& factors) {
+    return importance<F>(lights, at) * gather(factors.values, Uint<F>(factors.first + lights.number));
   }
   // Sets of few lights are scanned instead of descended: the choice is then exactly proportional to each light's
   // importance.
   static constexpr std::size_t max_scanned = 16;
-  bool is_scanned() const { return leaves_.size() <= max_scanned; }
-  // The importances of all leaves, summed in their order.
+  bool is_scanned() const { return wide_nodes_.empty(); }
+  // The importances of all leaves, by their index in singles_, summed in this order.
   template <class F>
   struct Scan {
-    F importance[max_scanned];
+    F importance[1 + max_scanned];
     F sum;
   };
   template <class F, class Factors>
-  MONTELUX_INLINE Scan<F> scan(Vec3<F> p, Vec3<F> n, const Factors& factors) const {
+  MONTELUX_INLINE Scan<F> scan(const Receiver<F>& at, const Factors& factors) const {
     Scan<F> s;
     s.sum = F(0.0f);
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-      s.importance[i] = importance<F>(row_in_all_lanes<F>(nodes_.data()->v, leaves_[i]), p, n, factors);
+    for (std::size_t i = 1; i < singles_.size(); ++i) {
+      s.importance[i] = importance<F>(single<F>(i), at, factors);
       s.sum = s.sum + s.importance[i];
     }
     return s;
   }
   template <class F, class Factors>
-  LightChoice<F> choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const;
-  void number_clusters();
-  // The probability of the first of two children, whether either can emit light to p, and the links of both.
+  LightChoice<F> choose_by_scan(const Receiver<F>& at, F u, Mask<F> on, const Factors& factors) const;
+  // The children of a node: their importances, and in proportion to what they are chosen.
   template <class F>
   struct Fork {
-    F first;
-    Mask<F> any_light;
-    Uint<F> link_of_first, link_of_second;
+    F importances[fan];
+    F weights[fan];
+    F sum;  // of the weights; 0: none of them sends light to p
+    Uint<F> links[fan];
   };
   template <class F, class Factors>
-  MONTELUX_INLINE Fork<F> fork(Uint<F> first_child, Vec3<F> p, Vec3<F> n, const Factors& factors) const {
-    const NodeOf<F> one = node_of<F>(first_child), other = node_of<F>(Uint<F>(first_child + Uint<F>(1u)));
-    F a = importance<F>(one, p, n, factors);
-    F b = importance<F>(other, p, n, factors);
-    F sum = a + b, first = a / max(sum, F(1e-37f));
-    // A child that can send light keeps a share that u can hit, however large the other's importance is.
-    first = select(b > F(0.0f), min(first, F(1.0f - light_bvh::min_share)), first);
-    first = select(a > F(0.0f), max(first, F(light_bvh::min_share)), first);
-    return {first, sum > F(0.0f), float_bits(one[link]), float_bits(other[link])};
+  MONTELUX_INLINE Fork<F> fork(Uint<F> node, const Receiver<F>& at, const Factors& factors) const {
+    Fork<F> f;
+    for (std::size_t k = 0; k < fan; k += 2) {
+      const BoundsOfPair<F> both = bounds_of_pair<F>(node, std::uint32_t(k / 2));
+      f.importances[k] = importance<F>(both.first, at, factors), f.links[k] = both.first.link;
+      f.importances[k + 1] = importance<F>(both.second, at, factors), f.links[k + 1] = both.second.link;
+    }
+    // A child that can send light keeps a share that u can hit, however large the others' importances are.
+    F total = f.importances[0];
+    for (std::size_t k = 1; k < fan; ++k) total = total + f.importances[k];
+    const F least = total * light_bvh::min_share;
+    for (std::size_t k = 0; k < fan; ++k)
+      f.weights[k] = select(f.importances[k] > F(0.0f), max(f.importances[k], least), F(0.0f));
+    f.sum = f.weights[0];
+    for (std::size_t k = 1; k < fan; ++k) f.sum = f.sum + f.weights[k];
+    return f;
   }
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> turns_;   // by light: bit k is the turn at depth k
-  std::vector<std::uint32_t> leaves_;  // nodes that are leaves, in the order of the tree
-  std::vector<std::uint32_t> places_;  // by light: its index among the leaves
-  std::vector<std::uint32_t> cluster_links_;
+  std::vector<WideNode> wide_nodes_;  // none if the leaves are scanned; the first is that of the root
+  std::vector<Node> singles_;         // the root, and the leaves if they are scanned
+  // By light: its path from the root, levels_joined bits for each child that is taken, from the lowest bits up.
+  std::vector<std::uint32_t> turns_;
+  std::vector<std::uint32_t> places_;  // by light: its index in singles_, if the leaves are scanned
+  std::vector<NumberedNode> numbered_nodes_;
 };
 
 template <class F>
-F LightBvh::importance(const NodeOf<F>& node, Vec3<F> p, Vec3<F> n) {
+MONTELUX_INLINE F LightBvh::importance(const Bounds<F>& lights, const Receiver<F>& at) {
   using namespace light_bvh;
   const F one(1.0f);
-  const Vec3<F> from = p - Vec3<F>{node[centre], node[centre + 1], node[centre + 2]};
-  const F inverse_d = one / sqrt(max(length_squared(from), F(1e-30f)));
-  const Vec3<F> w = from * inverse_d;
+  const Vec3<F> from = at.p - lights.centre;
+  const F d2 = length_squared(from), r2 = lights.radius * lights.radius;
+  const Mask<F> inside = d2 <= r2;
+  // Over the distance, but at least the radius.
+  const F over_d = approximate_inverse_sqrt(clamp(max(d2, r2), F(1e-18f), F(1e36f)));
+  const F sin_b = lights.radius * over_d;  // of the angular radius of the bounding ball
 
-  // The angular radius of the bounding ball; from inside, all directions.
-  const F sin_b = node[radius] * inverse_d;
-  const Mask<F> inside = sin_b >= one;
-
-  // The smallest angle between a normal of the cluster and a direction to p.
-  const Vec3<F> a{node[axis], node[axis + 1], node[axis + 2]};
-  const F strength = node[intensity], along = dot(a, w);
+  // The smallest angle between a normal of the cluster and a direction to p; from inside, any.
+  const F strength = lights.intensity, along = dot(lights.axis, from) * over_d;
   const F cos_w = select(strength < F(0.0f), abs(along), along);
-  const F cos_p = select(inside, one, min(cos_w + node[spread] + sin_b, one));
-  const F near = min(inverse_d * inverse_d, node[inverse_radius_squared]);
-  F result = abs(strength) * max(cos_p, F(slack)) * near;
-  result = select(cos_p > node[cos_emission] - slack, result, F(0.0f));
+  const F cos_p = select(inside, one, min(cos_w + lights.spread + sin_b, one));
+  F result = abs(strength) * max(cos_p, F(slack)) * (over_d * over_d);
+  result = select(cos_p > F(1.0f - slack) - lights.narrowness, result, F(0.0f));
 
   // The smallest angle between n and a direction to the cluster.
-  const F cos_q = select(inside, one, min(sin_b - dot(n, w), one));
+  const F cos_q = select(inside, one, min(sin_b - dot(at.n, from) * over_d, one));
   const F facing = select(cos_q > F(-slack), max(cos_q, F(slack)), F(0.0f));
-  return result * select(length_squared(n) > F(0.5f), facing, one);
+  return result * select(at.one_sided, facing, one);
 }
 
 template <class F, class Factors>
-LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
-  const Scan<F> s = scan<F>(p, n, factors);
+LightChoice<F> LightBvh::choose_by_scan(const Receiver<F>& at, F u, Mask<F> on, const Factors& factors) const {
+  const Scan<F> s = scan<F>(at, factors);
   const F target = u * s.sum;
   // The first light at which the running sum exceeds the target; if rounding prevents that, the last valid one.
   F running(0.0f), chosen(0.0f);
   Uint<F> light(0u);
   Mask<F> open = on & (s.sum > F(0.0f));
   const Mask<F> valid = open;
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+  for (std::size_t i = 1; i < singles_.size(); ++i) {
     running = running + s.importance[i];
     const Mask<F> takes = open & (s.importance[i] > F(0.0f));
     chosen = select(takes, s.importance[i], chosen);
-    light = select(takes, Uint<F>(float_bits(nodes_[leaves_[i]].v[link]) & ~leaf_bit), light);
+    light = select(takes, Uint<F>(float_bits(singles_[i].v[link]) & ~leaf_bit), light);
     open = open & !Mask<F>(running > target);
   }
   return {light, {select(valid, chosen / max(s.sum, F(1e-37f)), F(0.0f))}, valid};
@@ -230,24 +310,32 @@ LightChoice<F> LightBvh::choose_by_scan(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, c
 
 template <class F, class Factors>
 LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Factors& factors) const {
-  if (is_scanned()) return choose_by_scan<F>(p, n, u, on, factors);
+  const Receiver<F> at(p, n);
+  if (is_scanned()) return choose_by_scan<F>(at, u, on, factors);
   F mass(1.0f);
-  Mask<F> valid = on & Mask<F>(!nodes_.empty());
-  if (!any(valid)) return {Uint<F>(0u), {F(0.0f)}, valid};
-  Uint<F> below(float_bits(nodes_.front().v[link]));
-  Mask<F> inner = valid & is_inner<F>(below);
+  Mask<F> valid = on, inner = on;
+  Uint<F> below(0u);
   while (any(inner)) {
-    Uint<F> child = select(inner, below, Uint<F>(0u));
-    Fork<F> f = fork<F>(child, p, n, factors);
+    const Fork<F> f = fork<F>(select(inner, below, Uint<F>(0u)), at, factors);
+    const F target = u * f.sum;
+    F chosen = f.weights[0], before(0.0f), running = f.weights[0];
+    Uint<F> next = f.links[0];
+    for (std::size_t k = 1; k < fan; ++k) {
+      const Mask<F> later = target >= running;
+      chosen = select(later, f.weights[k], chosen);
+      before = select(later, running, before);
+      next = select(later, f.links[k], next);
+      running = running + f.weights[k];
+    }
+    const F share = chosen / max(f.sum, F(1e-37f));
     // The rescaled remainder of u decides further down.
-    Mask<F> first = u < f.first;
-    F share = select(first, f.first, F(1.0f) - f.first);
-    F rest = min(select(first, u, u - f.first) / max(share, F(1e-37f)), F(one_minus_epsilon));
+    const F rest = min((target - before) / max(chosen, F(1e-37f)), F(one_minus_epsilon));
     u = select(inner, rest, u);
     mass = select(inner, mass * share, mass);
-    below = select(inner, select(first, f.link_of_first, f.link_of_second), below);
-    valid = valid & (f.any_light | !inner);
-    inner = inner & f.any_light & is_inner<F>(below);
+    below = select(inner, next, below);
+    const Mask<F> any_light = f.sum > F(0.0f);
+    valid = valid & (any_light | !inner);
+    inner = inner & any_light & is_inner<F>(below);
   }
   const Uint<F> light = select(valid, Uint<F>(below & Uint<F>(~leaf_bit)), Uint<F>(0u));
   return {light, {select(valid, mass, F(0.0f))}, valid};
@@ -255,27 +343,32 @@ LightChoice<F> LightBvh::choose(Vec3<F> p, Vec3<F> n, F u, Mask<F> on, const Fac
 
 template <class F, class Factors>
 Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Factors& factors) const {
-  if (!any(on) || nodes_.empty()) return {F(0.0f)};
+  if (!any(on) || empty()) return {F(0.0f)};
+  const Receiver<F> at(p, n);
   if (is_scanned()) {
-    const Scan<F> all = scan<F>(p, n, factors);
+    const Scan<F> all = scan<F>(at, factors);
     const Uint<F> place = gather(places_.data(), select(on, light, Uint<F>(0u)));
     F own(0.0f);
-    for (std::size_t i = 0; i < leaves_.size(); ++i)
+    for (std::size_t i = 1; i < singles_.size(); ++i)
       own = select(place == Uint<F>(std::uint32_t(i)), all.importance[i], own);
     return {select(on & (all.sum > F(0.0f)), own / max(all.sum, F(1e-37f)), F(0.0f))};
   }
-  Uint<F> below(float_bits(nodes_.front().v[link])), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
+  Uint<F> below(0u), turns = gather(turns_.data(), select(on, light, Uint<F>(0u)));
   F mass(1.0f);
-  Mask<F> inner = on & is_inner<F>(below);
+  Mask<F> inner = on;
   while (any(inner)) {
-    Uint<F> child = select(inner, below, Uint<F>(0u));
-    Fork<F> f = fork<F>(child, p, n, factors);
-    const Mask<F> first = (turns & Uint<F>(1u)) == Uint<F>(0u);
-    F share = select(first, f.first, F(1.0f) - f.first);
-    share = select(f.any_light, share, F(0.0f));
-    mass = select(inner, mass * share, mass);
-    below = select(inner, select(first, f.link_of_first, f.link_of_second), below);
-    turns = select(inner, Uint<F>(turns >> 1), turns);
+    const Fork<F> f = fork<F>(select(inner, below, Uint<F>(0u)), at, factors);
+    const Uint<F> turn = turns & Uint<F>(std::uint32_t(fan - 1));
+    F chosen = f.weights[0];
+    Uint<F> next = f.links[0];
+    for (std::size_t k = 1; k < fan; ++k) {
+      const Mask<F> is_this = turn == Uint<F>(std::uint32_t(k));
+      chosen = select(is_this, f.weights[k], chosen);
+      next = select(is_this, f.links[k], next);
+    }
+    mass = select(inner, mass * (chosen / max(f.sum, F(1e-37f))), mass);
+    below = select(inner, next, below);
+    turns = select(inner, Uint<F>(turns >> levels_joined), turns);
     inner = inner & is_inner<F>(below);
   }
   return {select(on, mass, F(0.0f))};
@@ -283,27 +376,23 @@ Mass<F> LightBvh::mass(Uint<F> light, Vec3<F> p, Vec3<F> n, Mask<F> on, const Fa
 
 template <class Visit>
 LightBvh::Descent LightBvh::descend(LightId light, Vec3f p, Vec3f n, Visit visit) const {
-  const auto node_at = [&](std::uint32_t node) { return node_of<float>(node); };
-  const auto is_leaf = [](const NodeOf<float>& node) { return !is_inner<float>(float_bits(node[link])); };
-  NodeOf<float> node = node_at(is_scanned() ? leaves_[places_[std::uint32_t(light)]] : 0u);
+  const Receiver<float> at(p, n);
+  const Bounds<float> start = single<float>(is_scanned() ? places_[std::uint32_t(light)] : 0u);
+  Descent down{start.number, importance<float>(start, at), 1};
   std::uint32_t turns = turns_[std::uint32_t(light)];
-  float of_node = importance<float>(node, p, n);
-  while (!is_leaf(node) && cluster_links_[float_bits(node[number])] != 0) {
-    const std::uint32_t first = float_bits(node[link]);
-    const std::array<NodeOf<float>, 2> children{node_at(first), node_at(first + 1)};
-    const std::array<float, 2> parts{importance<float>(children[0], p, n), importance<float>(children[1], p, n)};
-    const float over = 1 / std::max(of_node, 1e-37f);
-    visit(float_bits(node[number]), parts[0] * over, parts[1] * over);
-    node = children[turns & 1u], of_node = parts[turns & 1u];
-    turns >>= 1;
-  }
-  Descent down{float_bits(node[number]), of_node, 1};
-  while (!is_leaf(node)) {
-    const std::uint32_t first = float_bits(node[link]);
-    const Fork<float> f = fork<float>(first, p, n, NoFactors{});
-    down.mass *= (turns & 1u) == 0 ? f.first : 1 - f.first;
-    node = node_at(first + (turns & 1u));
-    turns >>= 1;
+  for (std::uint32_t below = start.link; is_inner<float>(below); turns >>= levels_joined) {
+    const Fork<float> f = fork<float>(below, at, NoFactors{});
+    const std::uint32_t turn = turns & std::uint32_t(fan - 1);
+    below = f.links[turn];
+    const NumberedNode& node = numbered_nodes_[down.cluster];
+    if (node.child_count == 0) {
+      down.mass *= f.weights[turn] / std::max(f.sum, 1e-37f);
+      continue;
+    }
+    std::array<float, fan> parts{};
+    for (std::size_t k = 0; k < fan; ++k) parts[k] = f.importances[k] / std::max(down.importance, 1e-37f);
+    visit(down.cluster, parts);
+    down.cluster = node.first_child + turn, down.importance = f.importances[turn];
   }
   return down;
 }

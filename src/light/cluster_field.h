@@ -12,7 +12,7 @@ namespace montelux {
 // without a place. Immutable.
 class ClusterField {
  public:
-  // `factors`: positive; for each leaf of the tree as many as LightBvh::cluster_links has entries, of which the first
+  // `factors`: positive; for each leaf of the tree as many as LightBvh::numbered_nodes has entries, of which the first
   // must be 1; then one for LightBvh::irradiance, and one for each light of LightSet::beyond, of which there are so
   // many.
   ClusterField(PlaceTree tree, std::uint32_t clusters, std::uint32_t beyond, std::vector<float> factors)

@@ -297,10 +297,22 @@ MONTELUX_INLINE float round(float a) { return std::nearbyint(a); }
 // min(a, b) is b where either is not a number, like the machine instruction; the same for one lane and for many.
 template <int N>
 MONTELUX_INLINE Floats<N> min(Floats<N> a, Floats<N> b) {
+#if defined(__AVX512F__)
+  if constexpr (N == 16) return (typename Floats<N>::Vector)_mm512_maskz_min_ps(0xffff, (__m512)a.v, (__m512)b.v);
+#endif
+#if defined(__AVX2__)
+  if constexpr (N == 8) return (typename Floats<N>::Vector)_mm256_min_ps((__m256)a.v, (__m256)b.v);
+#endif
   return a.v < b.v ? a.v : b.v;
 }
 template <int N>
 MONTELUX_INLINE Floats<N> max(Floats<N> a, Floats<N> b) {
+#if defined(__AVX512F__)
+  if constexpr (N == 16) return (typename Floats<N>::Vector)_mm512_maskz_max_ps(0xffff, (__m512)a.v, (__m512)b.v);
+#endif
+#if defined(__AVX2__)
+  if constexpr (N == 8) return (typename Floats<N>::Vector)_mm256_max_ps((__m256)a.v, (__m256)b.v);
+#endif
   return a.v > b.v ? a.v : b.v;
 }
 template <int N>
@@ -370,6 +382,16 @@ MONTELUX_INLINE Bools<N> is_finite(Floats<N> a) {
   return Bools<N>((float_bits(a) & 0x7f800000u) != Uints<N>(0x7f800000u));
 }
 MONTELUX_INLINE bool is_finite(float a) { return (float_bits(a) & 0x7f800000u) != 0x7f800000u; }
+
+// 1 / sqrt(a) for 1e-37 < a < 1e37, with a relative error below 5e-6: from the bits of a by two steps of Newton's
+// method, which take less time than a root and a division of many lanes.
+template <class F>
+MONTELUX_INLINE F approximate_inverse_sqrt(F a) {
+  const F half = a * 0.5f;
+  F y = float_from_bits(Uint<F>(Uint<F>(0x5f3759dfu) - Uint<F>(float_bits(a) >> 1)));
+  y = y * (F(1.5f) - half * y * y);
+  return y * (F(1.5f) - half * y * y);
+}
 
 // ---- lanes and memory -----------------------------------------------------------------------------------------------
 

@@ -14,7 +14,7 @@ constexpr float prior_records = 4;
 constexpr float min_factor = 0.4f;
 
 std::size_t columns_of(const LightSet& lights) {
-  return lights.hierarchy().cluster_links().size() + 1 + lights.beyond().size();
+  return lights.hierarchy().numbered_nodes().size() + 1 + lights.beyond().size();
 }
 
 }  // namespace
@@ -23,17 +23,15 @@ void ClusterLearner::Sums::add(const Sums& other, double scale) {
   const auto by = float(scale);
   records += scale * other.records;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes[i].count += by * other.nodes[i].count;
-    nodes[i].first += by * other.nodes[i].first, nodes[i].second += by * other.nodes[i].second;
+    nodes[i].square.add(other.nodes[i].square, by);
+    nodes[i].part.add(other.nodes[i].part, by);
   }
 }
 
 void ClusterLearner::Sums::shrink_toward(const Sums& above) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const NodeSums& from = above.nodes[i];
-    const float scale = prior_records / from.count;
-    nodes[i].count += prior_records;
-    nodes[i].first += scale * from.first, nodes[i].second += scale * from.second;
+    nodes[i].square.shrink_toward(above.nodes[i].square.mean(), prior_records);
+    nodes[i].part.shrink_toward(above.nodes[i].part.mean(), prior_records);
   }
 }
 
@@ -43,13 +41,14 @@ ClusterLearner::ClusterLearner(std::span<const Vec3f> places, const LightSet& li
 void ClusterLearner::add_square(Sums& sums, std::size_t node, float ratio, bool arrives) {
   const float square = ratio * ratio;
   if (!is_finite(square)) return;
-  sums.nodes[node].count += 1, sums.nodes[node].first += arrives ? square : 0.0f;
-  all_[node].count += 1, all_[node].first += square;
+  sums.nodes[node].square.add(arrives ? square : 0.0f);
+  all_[node].square.add(square);
 }
 
 void ClusterLearner::add(const ClusterRecord& r) {
   const LightBvh& bvh = lights_.hierarchy();
-  const std::size_t of_whole = bvh.cluster_links().size();
+  const std::span<const LightBvh::NumberedNode> tree = bvh.numbered_nodes();
+  const std::size_t of_whole = tree.size();
   Sums& sums = sums_.at(r.p, r.n);
   sums.records += 1;
   if (lights_.is_beyond<float>(std::uint32_t(r.light), true)) {
@@ -58,47 +57,48 @@ void ClusterLearner::add(const ClusterRecord& r) {
     return;
   }
   add_square(sums, of_whole, r.contribution / (r.mass * bvh.irradiance<float>(r.p, r.n)), r.arrives);
-  const LightBvh::Descent down = bvh.descend(r.light, r.p, r.n, [&](std::uint32_t node, float first, float second) {
-    for (NodeSums* s : {&sums.nodes[node], &all_[node]}) s->count += 1, s->first += first, s->second += second;
-  });
+  const auto visit = [&](std::uint32_t node, const auto& parts) {
+    for (std::uint32_t k = 0; k < tree[node].child_count; ++k)
+      for (std::vector<NodeSums>* s : {&sums.nodes, &all_}) (*s)[tree[node].first_child + k].part.add(parts[k]);
+  };
+  const LightBvh::Descent down = bvh.descend(r.light, r.p, r.n, visit);
   add_square(sums, down.cluster, r.contribution / (down.mass * down.importance), r.arrives);
 }
 
 ClusterLearner::Sums ClusterLearner::unoccluded() const {
-  const std::span<const std::uint32_t> links = lights_.hierarchy().cluster_links();
-  NodeSums clusters;
-  for (std::size_t i = 0; i < links.size(); ++i)
-    if (links[i] == 0) clusters.count += all_[i].count, clusters.first += all_[i].first;
-  const float usual = clusters.first > 0 ? clusters.first / clusters.count : 1.0f;
-  Sums expected{1, std::vector<NodeSums>(all_.size())};
-  for (std::size_t i = links.size(); i < all_.size(); ++i)
-    expected.nodes[i] = {1, (all_[i].first + 1) / (all_[i].count + 1), 0};
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const NodeSums& a = all_[i];
-    const float count = a.count + 1;
-    expected.nodes[i] = links[i] == 0 ? NodeSums{1, (a.first + usual) / count, 0}
-                                      : NodeSums{1, (a.first + 0.5f) / count, (a.second + 0.5f) / count};
+  const std::span<const LightBvh::NumberedNode> tree = lights_.hierarchy().numbered_nodes();
+  Sum clusters;
+  for (const NodeSums& a : std::span(all_).first(tree.size())) clusters.add(a.square, 1);
+  const float usual = clusters.sum > 0 ? clusters.mean() : 1.0f;
+  Sums expected{1, all_};
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    NodeSums& e = expected.nodes[i];
+    const bool is_node = i < tree.size(), is_child = is_node && i > 0;
+    e.square.shrink_toward(is_node ? usual : 1.0f, 1);
+    e.part.shrink_toward(is_child ? 1 / float(tree[tree[i].parent].child_count) : 1.0f, 1);
+    e = {{1, e.square.mean()}, {1, e.part.mean()}};
   }
   return expected;
 }
 
 ClusterField ClusterLearner::field() const {
-  const std::span<const std::uint32_t> links = lights_.hierarchy().cluster_links();
+  const std::span<const LightBvh::NumberedNode> tree = lights_.hierarchy().numbered_nodes();
   const Sums expected = unoccluded();
   std::vector<float> factors(sums_.leaves() * all_.size());
   sums_.for_each_leaf(expected, [&](std::uint32_t leaf, const Sums& sums) {
     float* of_leaf = factors.data() + leaf * all_.size();
-    for (std::size_t i = links.size(); i-- > 1;) {
-      const NodeSums& s = sums.nodes[i];
-      of_leaf[i] = links[i] == 0
-                       ? std::max(std::sqrt(s.first / s.count), min_factor * std::sqrt(expected.nodes[i].first))
-                       : (s.first * of_leaf[links[i]] + s.second * of_leaf[links[i] + 1]) / s.count;
+    for (std::size_t i = tree.size(); i-- > 1;) {
+      const LightBvh::NumberedNode& node = tree[i];
+      if (node.child_count == 0)
+        of_leaf[i] =
+            std::max(std::sqrt(sums.nodes[i].square.mean()), min_factor * std::sqrt(expected.nodes[i].square.mean()));
+      for (std::size_t child = node.first_child; child < node.first_child + node.child_count; ++child)
+        of_leaf[i] += sums.nodes[child].part.mean() * of_leaf[child];
     }
-    if (!links.empty()) of_leaf[0] = 1;
-    for (std::size_t i = links.size(); i < all_.size(); ++i)
-      of_leaf[i] = std::sqrt(sums.nodes[i].first / sums.nodes[i].count);
+    if (!tree.empty()) of_leaf[0] = 1;
+    for (std::size_t i = tree.size(); i < all_.size(); ++i) of_leaf[i] = std::sqrt(sums.nodes[i].square.mean());
   });
-  return {sums_.tree(), std::uint32_t(links.size()), std::uint32_t(lights_.beyond().size()), std::move(factors)};
+  return {sums_.tree(), std::uint32_t(tree.size()), std::uint32_t(lights_.beyond().size()), std::move(factors)};
 }
 
 }  // namespace montelux

@@ -30,11 +30,17 @@ class ClusterLearner {
   ClusterField field() const;
 
  private:
-  // Of one node, by its number; and, after all numbers, of the whole hierarchy and of each light without a place. Of a
-  // cluster and of these: records, and the sum of the squares of contribution over importance. Of a node with children:
-  // how often it was passed, and the sums of the importances of its two children over its own.
+  struct Sum {
+    float count = 0, sum = 0;
+    float mean() const { return sum / count; }
+    void add(float x) { count += 1, sum += x; }
+    void add(const Sum& other, float scale) { count += scale * other.count, sum += scale * other.sum; }
+    void shrink_toward(float value, float records) { count += records, sum += records * value; }
+  };
+  // Of one node, by its number; and, after all numbers, of the whole hierarchy and of each light without a place.
   struct NodeSums {
-    float count = 0, first = 0, second = 0;
+    Sum square;  // of contribution over importance, of what is not divided
+    Sum part;    // of a child: its importance over that of its parent, whenever that was passed
   };
   struct Sums {
     double records = 0;

@@ -53,7 +53,7 @@ LightSet with_factors(const LightSet& lights, std::uint32_t seed) {
   tree.nodes.back() = PlaceTree::classes;  // halved along x
   for (std::uint32_t k : {6u, 7u}) tree.nodes.push_back(PlaceTree::leaf | k);
   RandomStream<float> r(seed, 13);
-  const std::size_t clusters = lights.hierarchy().cluster_links().size();
+  const std::size_t clusters = lights.hierarchy().numbered_nodes().size();
   const std::size_t beyond = lights.beyond().size(), columns = clusters + 1 + beyond;
   std::vector<float> factors(8 * columns);
   for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = i % columns == 0 ? 1.0f : exp(-4 * r.next());
@@ -164,7 +164,7 @@ TEST(LightChoice, no_light_that_reaches_a_point_has_probability_zero) {
   RandomStream<float> r(8, 9);
   int contributing = 0;
   for (std::uint32_t scene = 0; scene < 30; ++scene) {
-    LightSet lights = mixed_lights(scene < 15 ? 3 : 60, 100 + scene, LightSelection::bvh);
+    LightSet lights = mixed_lights(scene < 10 ? 3 : scene < 25 ? 60 : 300, 100 + scene, LightSelection::bvh);
     for (int i = 0; i < 60; ++i) {
       Vec3f p = in_box(r, 12), n = i % 2 ? on_sphere(r) : Vec3f{0, 0, 0};
       for (std::uint32_t k = 0; k < lights.count(); ++k)
