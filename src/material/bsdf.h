@@ -15,7 +15,7 @@
 namespace montelux {
 
 // The parameters of a BSDF at one point, already looked up; each model defines the meaning of its slots.
-inline constexpr int bsdf_row_size = 24;
+inline constexpr int bsdf_row_size = spectrum_size == 3 ? 24 : 28;
 template <class F>
 struct BsdfSlots {
   F v[bsdf_row_size];

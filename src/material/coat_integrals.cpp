@@ -1,4 +1,7 @@
-#include "material/internal_reflectance.h"
+#include "material/coat_integrals.h"
+
+#include <cmath>
+#include <numbers>
 
 #include "material/dielectric.h"
 #include "mc/point_set.h"
@@ -23,5 +26,51 @@ float internal_reflectance(const CoatParameters& coat) {
   }
   return float(sum / points);
 }
+
+namespace coat_transmittance {
+
+namespace {
+
+// At the cosine c, by sampled facets.
+double by_facets(float c, const CoatParameters& coat) {
+  using F = NativeFloats;
+  using U = Uint<F>;
+  constexpr std::uint32_t points = 1u << 13;
+  const PointSet set{PointSetKind::sobol, 0, 0, points};
+  const Dielectric<F> face({F(coat.alpha.x), F(coat.alpha.y)}, F(coat.eta));
+  const Vec3<F> w{F(std::sqrt(std::max(0.0f, 1 - c * c))), F(0.0f), F(c)};
+  double sum = 0;
+  for (std::uint32_t i = 0; i < points; i += native_lanes) {
+    const Sampler<F> sampler(set, U(0u), U(0u), lane_index<F>() + U(i));
+    const auto in = face.sample_lobes<Lobes::transmission>(w, F(0.0f), sampler.get2(U(0u)), TransportMode::importance);
+    const F part = in.weight * exp(F(-coat.thickness) / max(abs(in.wi.z), F(1e-10f)));
+    for_each_lane(in.valid, [&](int k) { sum += double(lane(part, k)); });
+  }
+  return sum / points;
+}
+
+}  // namespace
+
+// Interpolates at the zeros of the polynomial that follows the last one.
+std::array<float, terms> series(const CoatParameters& coat) {
+  constexpr float max_alpha = 0.6f;
+  const float alpha = coat.alpha.x;
+  if (coat.alpha.y != alpha || !(alpha <= max_alpha)) return {none};
+  const auto angle = [](int j) { return std::numbers::pi * (j + 0.5) / terms; };
+  std::array<double, terms> rest;
+  for (int j = 0; j < terms; ++j) {
+    const float c = unstretched(float(0.5 + 0.5 * std::cos(angle(j))), alpha);
+    rest[std::size_t(j)] = by_facets(c, coat) - double(of_smooth(c, coat.eta, coat.thickness));
+  }
+  std::array<float, terms> result;
+  for (int k = 0; k < terms; ++k) {
+    double sum = 0;
+    for (int j = 0; j < terms; ++j) sum += rest[std::size_t(j)] * std::cos(k * angle(j));
+    result[std::size_t(k)] = float(sum * (k == 0 ? 1 : 2) / terms);
+  }
+  return result;
+}
+
+}  // namespace coat_transmittance
 
 }  // namespace montelux

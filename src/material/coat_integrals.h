@@ -1,5 +1,8 @@
-// The internal reflectance of a coat.
+// What is known of a coat before the render: integrals over its facets.
 #pragma once
+#include <array>
+
+#include "material/fresnel.h"
 #include "mc/microfacet.h"
 
 namespace montelux {
@@ -13,5 +16,56 @@ struct CoatParameters {
 // The fraction of light leaving the base by Lambert's law that returns to the base after one reflection at the
 // coat. By quadrature with 2^16 points, relative error below 1e-4.
 float internal_reflectance(const CoatParameters& coat);
+
+// The transmittance of a coat, as a function of the cosine of the direction with the normal: that of a smooth coat plus
+// a series of Chebyshev polynomials in a variable that stretches the directions near the horizon, where roughness
+// matters most. Without factor of the indices: that of importance.
+namespace coat_transmittance {
+
+inline constexpr int terms = 10;
+// The first term where there is no series. (Transmittances differ by less than 1.)
+inline constexpr float none = 2;
+
+// None if the facets have a direction, or alpha exceeds 0.6. Else the absolute error is below 5e-4, and on average over
+// the cosines below 1.5e-4; where alpha is below 0.35, below 2e-4 and 5e-5. By quadrature with 2^13 points for each
+// term.
+std::array<float, terms> series(const CoatParameters& coat);
+
+// Of light from a direction of cosine c > 0 the part that passes a smooth coat and, once, the layer.
+template <class F>
+MONTELUX_INLINE F of_smooth(F c, F eta, F thickness) {
+  const F sin2_t = (F(1.0f) - c * c) / (eta * eta);
+  const F entering = F(1.0f) - fresnel_dielectric(c, eta);
+  return entering * exp(-thickness / max(safe_sqrt(F(1.0f) - sin2_t), F(1e-10f)));
+}
+
+// The variable of the series, which grows from 0 at the horizon to 1, and its inverse.
+template <class F>
+MONTELUX_INLINE F stretch(F alpha) {
+  return min(alpha * 2.0f + 0.01f, F(0.2f));
+}
+template <class F>
+MONTELUX_INLINE F stretched(F c, F alpha) {
+  return c * (F(1.0f) + stretch(alpha)) / (c + stretch(alpha));
+}
+template <class F>
+MONTELUX_INLINE F unstretched(F x, F alpha) {
+  return x * stretch(alpha) / (F(1.0f) + stretch(alpha) - x);
+}
+
+// At the cosine c > 0, of a coat whose facets have the roughness alpha in both directions.
+template <class F>
+MONTELUX_INLINE F at(F c, F alpha, F eta, F thickness, const std::array<F, terms>& series) {
+  // Clenshaw's recurrence.
+  const F y = stretched(c, alpha) * 2.0f - F(1.0f), y2 = y + y;
+  F next(0.0f), after_next(0.0f);
+  for (std::size_t k = terms - 1; k > 0; --k) {
+    const F sum = series[k] + (y2 * next - after_next);
+    after_next = next, next = sum;
+  }
+  return of_smooth(c, eta, thickness) + (series[0] + (y * next - after_next));
+}
+
+}  // namespace coat_transmittance
 
 }  // namespace montelux

@@ -1,6 +1,7 @@
 #include "material/coated_diffuse.h"
 
-#include "material/internal_reflectance.h"
+#include <algorithm>
+
 #include "material/row_builder.h"
 #include "material/rows.h"
 
@@ -26,8 +27,9 @@ void sum_reflections(Material& material) {
   for (const RowBinding& binding : material.bindings)
     if (binding.slot < Slots::max_depth) return;
   if (!is_black(BsdfRows<float>{&material.row}.spectrum(Slots::albedo))) return;
-  v[Slots::internal] =
-      internal_reflectance({{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]});
+  const CoatParameters coat{{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]};
+  v[Slots::internal] = internal_reflectance(coat);
+  std::ranges::copy(coat_transmittance::series(coat), v + Slots::series);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Lambert's law under a clear coat: plastic, varnished wood.
 #pragma once
+#include "material/coat_integrals.h"
 #include "material/diffuse.h"
 #include "material/layered.h"
 
@@ -8,8 +9,11 @@ namespace montelux {
 struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int reflectance = base + DiffuseSlots::reflectance;
   // The result of internal_reflectance() for the coat; 0: unknown, or there are scatterers under the coat.
-  static constexpr int internal = base + DiffuseSlots::end, end = internal + 1;
-  static_assert(fill_bsdf_row(end, {{0, base}, {base, DiffuseSlots::end}, {internal, 1}}));
+  static constexpr int internal = base + DiffuseSlots::end;
+  // That of coat_transmittance, where the internal reflectance is known.
+  static constexpr int series = internal + 1, end = series + coat_transmittance::terms;
+  static_assert(
+      fill_bsdf_row(end, {{0, base}, {base, DiffuseSlots::end}, {internal, 1}, {series, coat_transmittance::terms}}));
 };
 
 // Lambert's law does not depend on where light came from.
@@ -36,9 +40,10 @@ struct CoatedDiffuseDesc {
 
 // If the coat's internal reflectance is known, the walks of Layered are summed in closed form: Lambert's law does not
 // depend on where light came from, so after n reflections at the base, between which the coat returns the fraction K,
-// r (r K)^(n - 1) of the entering light remains, distributed by the cosine. Only one facet for the way in and one for
-// the way out are sampled, each an unbiased estimate of a transmittance. Directions come from the coat's facets or from
-// a cosine lobe, so that the density is exact. Otherwise the model is a random walk.
+// r (r K)^(n - 1) of the entering light remains, distributed by the cosine. The transmittances of the way in and the
+// way out are known, too, if the coat's facets are the same in all directions and not very rough; else one facet is
+// sampled for each, an unbiased estimate. Directions come from the coat's facets or from a cosine lobe, so that the
+// density is exact. Otherwise the model is a random walk.
 template <class F>
 class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
@@ -51,7 +56,11 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
       : Layered<F, Diffuse<F>, CosineLobe<F>>(rows),
         reflectance_(rows.spectrum(CoatedDiffuseSlots::reflectance)),
         internal_(rows.number(CoatedDiffuseSlots::internal)),
-        reflections_(reflections()) {}
+        reflections_(reflections()),
+        alpha_(rows.number(CoatedDiffuseSlots::alpha_x)) {
+    for (int k = 0; k < coat_transmittance::terms; ++k)
+      series_[std::size_t(k)] = rows.number(CoatedDiffuseSlots::series + k);
+  }
 
   BsdfValue<F> evaluate(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
@@ -66,8 +75,11 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
   BsdfValue<F> value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>& context, LayerPurpose purpose) const;
   BsdfValue<F> summed_value(Vec3<F> wo, Vec3<F> wi, const BsdfContext<F>& context) const;
   BsdfSample<F> summed_sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
-  // The part of light from w that reaches the base, or vice versa, through one sampled facet.
-  F passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const;
+  // The part of light from w that reaches the base, or vice versa. `purpose` and `pair`: the random numbers of a facet.
+  F passes(Vec3<F> w, TransportMode mode, const BsdfContext<F>& context, LayerPurpose purpose,
+           std::uint32_t pair) const;
+  // The same through one facet, which u samples.
+  F passes_facet(Vec3<F> w, TransportMode mode, Vec2<F> u) const;
   // Summed over all numbers of reflections at the base: sum of r^n K^(n - 1), without entry and exit.
   Spectrum<F> reflections() const;
   // The probability with which sample() uses a facet of the coat.
@@ -76,6 +88,8 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
   Spectrum<F> reflectance_;
   F internal_;
   Spectrum<F> reflections_;
+  F alpha_;  // of the coat
+  std::array<F, coat_transmittance::terms> series_;
 };
 
 template <class F>
@@ -106,7 +120,18 @@ BsdfSample<F> CoatedDiffuse<F>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfCo
 }
 
 template <class F>
-F CoatedDiffuse<F>::passes(Vec3<F> w, Vec2<F> u, TransportMode mode) const {
+MONTELUX_INLINE F CoatedDiffuse<F>::passes(Vec3<F> w, TransportMode mode, const BsdfContext<F>& context,
+                                           LayerPurpose purpose, std::uint32_t pair) const {
+  const Mask<F> known = series_[0] < F(coat_transmittance::none);
+  const F scale = mode == TransportMode::radiance ? F(1.0f) / (coat_.eta() * coat_.eta()) : F(1.0f);
+  const F part = coat_transmittance::at(max(w.z, F(0.0f)), alpha_, coat_.eta(), medium_.thickness, series_) * scale;
+  if (!any(context.on & !known)) return part;
+  return select(known, part,
+                passes_facet(w, mode, WalkDraws<F>{context.random.fork(Uint<F>(std::uint32_t(purpose)))}.pair(pair)));
+}
+
+template <class F>
+F CoatedDiffuse<F>::passes_facet(Vec3<F> w, TransportMode mode, Vec2<F> u) const {
   const auto s = coat_.template sample_lobes<Lobes::transmission>(w, F(0.0f), u, mode);
   return select(s.valid, s.weight * medium_.transmittance(medium_.thickness, s.wi), F(0.0f));
 }
@@ -133,8 +158,8 @@ F CoatedDiffuse<F>::coat_share(Vec3<F> o) const {
 template <class F>
 BsdfValue<F> CoatedDiffuse<F>::value(Vec3<F> o, Vec3<F> i, const BsdfContext<F>& context, LayerPurpose purpose) const {
   const auto coat = coat_.template evaluate_lobes<Lobes::reflection>(o, i, context.mode);
-  const WalkDraws<F> draws{context.random.fork(Uint<F>(std::uint32_t(purpose)))};
-  const F in = passes(o, draws.pair(0), context.mode), out = passes(i, draws.pair(2), adjoint(context.mode));
+  const F in = passes(o, context.mode, context, purpose, 0),
+          out = passes(i, adjoint(context.mode), context, purpose, 2);
   const F cosine = cosine_density(i), share = coat_share(o);
   return {gray(coat.f_cos) + reflections_ * (in * out * cosine), {lerp(share, cosine, coat.density)}};
 }
@@ -167,9 +192,8 @@ Spectrum<F> CoatedDiffuse<F>::albedo(Vec3<F> wo, const BsdfSample<F>& drawn, Vec
                                      const BsdfContext<F>& context) const {
   const Vec3<F> o = wo * copysign(F(1.0f), wo.z);
   const auto facet = coat_.template sample_lobes<Lobes::reflection>(o, F(0.0f), u2, context.mode);
-  const WalkDraws<F> draws{context.random.fork(Uint<F>(albedo_walk))};
-  const F in = passes(o, draws.pair(0), context.mode);
-  const F out = passes(sample_cosine_hemisphere(u2), draws.pair(2), adjoint(context.mode));
+  const F in = passes(o, context.mode, context, albedo_walk, 0);
+  const F out = passes(sample_cosine_hemisphere(u2), adjoint(context.mode), context, albedo_walk, 2);
   const F mirrored = select(facet.valid & (facet.wi.z > F(0.0f)), facet.weight, F(0.0f));
   const Spectrum<F> walked = select(drawn.valid, drawn.weight, gray(F(0.0f)));
   return select(internal_ > F(0.0f), gray(mirrored) + reflections_ * (in * out), walked);

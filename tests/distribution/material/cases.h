@@ -1,9 +1,10 @@
 // Parameter rows for every model of the closed list: a model without cases does not compile.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "material/internal_reflectance.h"
+#include "material/coat_integrals.h"
 #include "material/material.h"
 #include "material/measured_file.h"
 #include "measured_files.h"
@@ -193,8 +194,9 @@ inline BsdfCase coated_diffuse_case(std::string label, const CoatCase& coat, flo
 // The same with its walks summed in closed form.
 inline BsdfCase summed_coat_case(std::string label, const CoatCase& coat, float reflectance) {
   BsdfCase c = coated_diffuse_case(std::move(label), coat, reflectance);
-  put(c.row, CoatedDiffuseSlots::internal,
-      {internal_reflectance({{coat.alpha_x, coat.alpha_y}, coat.eta, coat.thickness})});
+  const CoatParameters parameters{{coat.alpha_x, coat.alpha_y}, coat.eta, coat.thickness};
+  put(c.row, CoatedDiffuseSlots::internal, {internal_reflectance(parameters)});
+  std::ranges::copy(coat_transmittance::series(parameters), c.row.v + CoatedDiffuseSlots::series);
   return c;
 }
 inline BsdfCase coated_conductor_case(std::string label, const CoatCase& coat, float alpha_x, float alpha_y) {
