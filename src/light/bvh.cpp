@@ -219,7 +219,8 @@ struct LightBvh::Builder {
     const std::uint32_t first = link_of(c.nodes[i]);
     c.nodes[i] = first, c.nodes[c.count++] = first + 1;
   }
-  // Its descendants some levels down, and leaves above them; where there is room, the brightest are divided again.
+  // The children of a node become its descendants some levels down, and the leaves above them; where there is room, the
+  // brightest are divided again.
   void join(std::uint32_t node, int depth, std::uint32_t turns) {
     if (is_leaf(node)) {
       bvh.turns_[link_of(node) & ~leaf_bit] = turns;
@@ -298,9 +299,13 @@ struct LightBvh::Builder {
     }
     for (const Children& c : joined) {
       const auto child = [&](std::uint32_t k) { return k < c.count ? nodes[c.nodes[k]] : Node{}; };
+      // A second child that does not exist takes the factor after the first one's, which may be that of the whole
+      // hierarchy, times an importance of 0.
+      const auto number_of = [&](std::uint32_t k) {
+        return c.first_number == 0 || k >= c.count ? 0u : c.first_number + k;
+      };
       WideNode& wide = bvh.wide_nodes_.emplace_back();
-      for (std::uint32_t k = 0; k < fan; k += 2)
-        wide.pairs[k / 2] = pack(child(k), child(k + 1), c.first_number == 0 ? 0 : c.first_number + k);
+      for (std::uint32_t k = 0; k < fan; k += 2) wide.pairs[k / 2] = pack(child(k), child(k + 1), number_of(k));
     }
   }
 };

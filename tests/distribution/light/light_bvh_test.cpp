@@ -181,8 +181,9 @@ TEST(LightChoice, no_light_that_reaches_a_point_has_probability_zero) {
 }
 
 TEST(LightChoice, lanes_choose_as_one_float_does) {
-  for (const auto& [name, lights] : ways(50, 3)) {
-    SCOPED_TRACE(name);
+  for (const Way& way : ways(50, 3)) {
+    const LightSet& lights = way.lights;
+    SCOPED_TRACE(way.name);
     RandomStream<float> r(10, 11);
     for (int i = 0; i < 200; ++i) {
       Vec3<P> p, n;
