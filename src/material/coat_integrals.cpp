@@ -54,8 +54,12 @@ double by_facets(float c, const CoatParameters& coat) {
 // Interpolates at the zeros of the polynomial that follows the last one.
 std::array<float, terms> series(const CoatParameters& coat) {
   constexpr float max_alpha = 0.6f;
+  // Near 1 the light of the horizon determines the function, and below there is a critical angle.
+  constexpr float min_eta = 1.3f, max_eta = 4;
   const float alpha = coat.alpha.x;
   if (coat.alpha.y != alpha || !(alpha <= max_alpha)) return {none};
+  if (!(coat.eta >= min_eta && coat.eta <= max_eta)) return {none};
+  if (GgxFacets<float>(alpha, alpha).is_smooth()) return {};
   const auto angle = [](int j) { return std::numbers::pi * (j + 0.5) / terms; };
   std::array<double, terms> rest;
   for (int j = 0; j < terms; ++j) {
