@@ -26,9 +26,9 @@ inline constexpr int terms = 10;
 // The first term where there is no series. (Transmittances differ by less than 1.)
 inline constexpr float none = 2;
 
-// None if the facets have a direction, if alpha exceeds 0.6, or if the index is not in [1.3, 4]. Else the absolute error
-// is below 5e-4 where the cosine is above 0.02, elsewhere below 2e-3, and on average over the cosines below 1.5e-4. By
-// quadrature with 2^13 points for each term.
+// None if the facets have a direction, if alpha exceeds 0.6, or if the index is not in [1.3, 4]. Else the absolute
+// error is below 5e-4 where the cosine is above 0.02, elsewhere below 2e-3, and on average over the cosines
+// below 1.5e-4. By quadrature with 2^13 points for each term.
 std::array<float, terms> series(const CoatParameters& coat);
 
 // Of light from a direction of cosine c > 0 the part that passes a smooth coat and, once, the layer.
