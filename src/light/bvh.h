@@ -174,24 +174,19 @@ class LightBvh {
     const auto v = gather_rows<F>(wide_nodes_.data()->pairs->v, Uint<F>(node * std::uint32_t(fan / 2)) + Uint<F>(pair));
     const auto upper = [&](int slot) { return float_from_bits(float_bits(v[std::size_t(slot)]) & 0xffff0000u); };
     const auto lower = [&](int slot) { return float_from_bits(float_bits(v[std::size_t(slot)]) << 16); };
+    const auto child = [&](std::size_t at, auto half, int link_slot, Uint<F> its_number) {
+      return Bounds<F>{{v[at], v[at + 1], v[at + 2]},
+                       half(radii),
+                       {half(axes), half(axes + 1), half(axes + 2)},
+                       half(intensities),
+                       half(spreads),
+                       half(narrownesses),
+                       float_bits(v[std::size_t(link_slot)]),
+                       its_number};
+    };
     const Uint<F> of_first = float_bits(v[first_number]);
     const Uint<F> of_second = select(of_first == Uint<F>(0u), of_first, Uint<F>(of_first + 1u));
-    return {{{v[first_centre], v[first_centre + 1], v[first_centre + 2]},
-             upper(radii),
-             {upper(axes), upper(axes + 1), upper(axes + 2)},
-             upper(intensities),
-             upper(spreads),
-             upper(narrownesses),
-             float_bits(v[first_link]),
-             of_first},
-            {{v[second_centre], v[second_centre + 1], v[second_centre + 2]},
-             lower(radii),
-             {lower(axes), lower(axes + 1), lower(axes + 2)},
-             lower(intensities),
-             lower(spreads),
-             lower(narrownesses),
-             float_bits(v[second_link]),
-             of_second}};
+    return {child(first_centre, upper, first_link, of_first), child(second_centre, lower, second_link, of_second)};
   }
   template <class F>
   static MONTELUX_INLINE Mask<F> is_inner(Uint<F> link_bits) {
@@ -273,7 +268,7 @@ MONTELUX_INLINE F LightBvh::importance(const Bounds<F>& lights, const Receiver<F
   const F d2 = length_squared(from), r2 = lights.radius * lights.radius;
   const Mask<F> inside = d2 <= r2;
   // Over the distance, but at least the radius.
-  const F over_d = approximate_inverse_sqrt(clamp(max(d2, r2), F(1e-18f), F(1e36f)));
+  const F over_d = one / sqrt(clamp(max(d2, r2), F(1e-18f), F(1e36f)));
   const F sin_b = lights.radius * over_d;  // of the angular radius of the bounding ball
 
   // The smallest angle between a normal of the cluster and a direction to p; from inside, any.

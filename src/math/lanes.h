@@ -383,16 +383,6 @@ MONTELUX_INLINE Bools<N> is_finite(Floats<N> a) {
 }
 MONTELUX_INLINE bool is_finite(float a) { return (float_bits(a) & 0x7f800000u) != 0x7f800000u; }
 
-// 1 / sqrt(a) for 1e-37 < a < 1e37, with a relative error below 5e-6: from the bits of a by two steps of Newton's
-// method, which take less time than a root and a division of many lanes.
-template <class F>
-MONTELUX_INLINE F approximate_inverse_sqrt(F a) {
-  const F half = a * 0.5f;
-  F y = float_from_bits(Uint<F>(Uint<F>(0x5f3759dfu) - Uint<F>(float_bits(a) >> 1)));
-  y = y * (F(1.5f) - half * y * y);
-  return y * (F(1.5f) - half * y * y);
-}
-
 // ---- lanes and memory -----------------------------------------------------------------------------------------------
 
 template <int N>
