@@ -1,8 +1,9 @@
-// Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it.
+// Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it, or all of them.
 #pragma once
 #include <cstring>
+#include <span>
 
-#include "math/lanes.h"
+#include "math/row_gather.h"
 
 namespace montelux {
 
@@ -19,6 +20,33 @@ MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to
   auto* to = reinterpret_cast<char*>(&to_struct);
   const auto* from = reinterpret_cast<const char*>(&from_struct) + 4 * std::size_t(k);
   for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
+}
+
+// Copies structs into all lanes of a pack of them, as set_lane_words() does one: rows are transposed, which takes a
+// fraction of the time.
+template <class Pack, class One>
+MONTELUX_INLINE void set_all_lane_words(Pack& to_pack, std::span<const One* const> from) {
+  constexpr std::size_t words = sizeof(One) / 4, lanes = sizeof(Pack) / sizeof(One);
+  static_assert(sizeof(Pack) == sizeof(One) * lanes);
+  auto* to = reinterpret_cast<char*>(&to_pack);
+#if defined(__AVX512F__)
+  if constexpr (lanes == 16) {
+    constexpr std::size_t width = std::min(words, std::size_t(words_of_row));
+    const auto copy_words = [&](std::size_t first) {
+      row_gather::Row rows[16]{};
+      for (std::size_t k = 0; k < 16; ++k)
+        std::memcpy(&rows[k], reinterpret_cast<const char*>(from[k]) + 4 * first, 4 * width);
+      row_gather::transpose(rows);
+      for (std::size_t w = 0; w < width; ++w) std::memcpy(to + 64 * (first + w), &rows[w], 64);
+    };
+    for (std::size_t w = 0; w + width <= words; w += width) copy_words(w);
+    if constexpr (words % width != 0) copy_words(words - width);  // overlaps the part before
+    return;
+  }
+#endif
+  for (std::size_t k = 0; k < lanes; ++k)
+    for (std::size_t w = 0; w < words; ++w)
+      std::memcpy(to + 4 * (w * lanes + k), reinterpret_cast<const char*>(from[k]) + 4 * w, 4);
 }
 
 // Lane by lane a or b, word by word, for such a struct in a pack.

@@ -55,6 +55,12 @@ struct Shifted {
   F target;    // of the first domain at the image; 0 if there is no image
 };
 
+template <class T, class F>
+MONTELUX_INLINE Shifted<T, F> select(Mask<F> m, const Shifted<T, F>& a,
+                                     const Shifted<T, F>& b) requires(lanes_of<F> > 1) {
+  return {select(m, a.value, b.value), select(m, a.jacobian, b.jacobian), select(m, a.target, b.target)};
+}
+
 // What a combination requires of the domains; the result is for domain number 0:
 //   Shifted<T, F> shift(int from, const T& value, Mask<F> on)   the image of a sample of domain `from`; may be derived
 //   F target_at(int to, const T& value, Mask<F> on)             the target of domain `to` at the preimage there of a

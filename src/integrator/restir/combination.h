@@ -19,9 +19,26 @@ Spectrum<F> light_of(const ShiftedLight<F>& image) {
   return image.scattered;
 }
 template <class F>
+Spectrum<F> light_of(const LightPointImage<F>& image) {
+  return image.scattered;
+}
+template <class F>
 Spectrum<F> light_of(const Shifted<PathSample<F>, F>& image) {
   return image.value.contribution;
 }
+template <class F>
+Spectrum<F> light_of(const PathImage<F>& image) {
+  return image.contribution;
+}
+
+// What the pixels of a group have chosen, input by input, and their light of those kinds of samples that are shown as
+// sums.
+template <class F>
+struct GroupResult {
+  std::vector<GroupChoice<LightPointImage<F>, F>> lights;  // none where they are not reused
+  std::vector<GroupChoice<PathImage<F>, F>> paths;
+  std::vector<Spectrum<F>> light;
+};
 
 template <class F, class Rays>
 class ReuseCombination {
@@ -44,12 +61,20 @@ class ReuseCombination {
     return radiance;
   }
 
-  // Every input becomes the combination of all in its own place. Gives the light of each, likewise.
-  std::vector<Spectrum<F>> into_each(const RandomStream<F>& numbers, M on, const ImageSums& sums) {
-    std::vector<Spectrum<F>> light(inputs_.vertices.size(), gray(F(0.0f)));
-    if (settings_.direct) into_each(inputs_.lights, lights_, numbers, on, sums.lights, light);
-    if (settings_.indirect.on) into_each(inputs_.paths, paths_, of_paths(numbers), on, sums.paths, light);
-    return light;
+  // For every input the combination of all in its own place, and its light, likewise.
+  GroupResult<F> for_each_input(const RandomStream<F>& numbers, M on, const ImageSums& sums) const {
+    GroupResult<F> result;
+    result.light.assign(inputs_.vertices.size(), gray(F(0.0f)));
+    const auto combined = [&](const auto& inputs, const auto& domains, const RandomStream<F>& own, bool adds_all) {
+      return combine_group(std::span(inputs), domains, own, on,
+                           [&](std::size_t k, const auto& image, const F& weight, M adds) {
+                             if (!adds_all) return;
+                             result.light[k] += select(adds, light_of(image) * weight, gray(F(0.0f)));
+                           });
+    };
+    if (settings_.direct) result.lights = combined(inputs_.lights, lights_, numbers, sums.lights);
+    if (settings_.indirect.on) result.paths = combined(inputs_.paths, paths_, of_paths(numbers), sums.paths);
+    return result;
   }
 
  private:
@@ -82,14 +107,6 @@ class ReuseCombination {
     LightOfAll all{light_of(domains.own(0, inputs[0].value, on))};
     inputs[0] = combine<T, F>(settings_.weights, all_inputs, domains, numbers, on, all);
     return all.sum;
-  }
-  template <class T, class Domains>
-  void into_each(std::vector<Reservoir<T, F>>& inputs, const Domains& domains, const RandomStream<F>& numbers, M on,
-                 bool sums, std::vector<Spectrum<F>>& light) const {
-    const auto add = [&](std::size_t k, const auto& image, const F& weight, M adds) {
-      if (sums) light[k] += select(adds, light_of(image) * weight, gray(F(0.0f)));
-    };
-    combine_group<T, F>(inputs, domains, numbers, on, add);
   }
 
   const RestirSettings& settings_;

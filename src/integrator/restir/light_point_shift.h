@@ -9,7 +9,19 @@
 
 namespace montelux {
 
-// The image of a light point, with the light that the first vertex sends on.
+// What differs from domain to domain: the light that the vertex sends on.
+template <class F>
+struct LightPointImage {
+  F jacobian, target;
+  Spectrum<F> scattered;
+};
+template <class F>
+MONTELUX_INLINE LightPointImage<F> select(Mask<F> m, const LightPointImage<F>& a,
+                                          const LightPointImage<F>& b) requires(lanes_of<F> > 1) {
+  return {select(m, a.jacobian, b.jacobian), select(m, a.target, b.target), select(m, a.scattered, b.scattered)};
+}
+
+// The image of a light point, with that light.
 template <class F>
 struct ShiftedLight : Shifted<LightPoint<F>, F> {
   Spectrum<F> scattered;
@@ -30,17 +42,17 @@ struct LightPointDomains {
   }
   F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
   // A surface sees what it has.
-  ShiftedLight<F> own(int of, const LightPoint<F>& value, Mask<F> on) const {
+  LightPointImage<F> own(int of, const LightPoint<F>& value, Mask<F> on) const {
     const LightConnection<F> way = connect(lights, vertices[std::size_t(of)], value, on);
-    return {{value, F(1.0f), way.target}, way.value};
+    return {F(1.0f), way.target, way.value};
   }
   void images(int from, const LightPoint<F>& value, std::span<const Mask<F>> on,
-              std::span<ShiftedLight<F>> images) const {
+              std::span<LightPointImage<F>> images) const {
     std::vector<Ray<F>> ways(images.size());
     const auto open = std::make_unique<Mask<F>[]>(images.size());
     for (std::size_t k = 0; k < images.size(); ++k) {
       const LightConnection<F> way = connect(lights, vertices[k], value, on[k]);
-      images[k] = {{value, F(1.0f), way.target}, way.value};
+      images[k] = {F(1.0f), way.target, way.value};
       open[k] = on[k] & (way.target > F(0.0f)) & Mask<F>(int(k) != from);
       ways[k] = vertices[k].shadow_ray_to(way.wi, way.distance);
     }

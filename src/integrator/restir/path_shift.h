@@ -33,7 +33,7 @@ class PathReplay {
       : shared_(shared),
         sample_(sample),
         counts_(counts),
-        vertex_(first),
+        at_(&first),
         pixels_(squared_distance_of_pixels(shared.reuse, first)),
         alive_(on) {}
 
@@ -59,16 +59,16 @@ class PathReplay {
   // Scatters once more, to the next surface; in the lanes `last`, to the light that is met there, which is the result.
   Spectrum<F> scatter(std::uint32_t event, M on, M last) {
     const EventNumbers<F> numbers(sample_.numbers, U(event));
-    const BsdfSample<F> next = vertex_.sampled(numbers.direction(), numbers.model(), on);
-    const PathEvent<F> taken = event_at(vertex_, next, on);
+    const BsdfSample<F> next = at_->sampled(numbers.direction(), numbers.model(), on);
+    const PathEvent<F> taken = event_at(*at_, next, on);
     // The same samples come back only if the path could not have been joined before.
     const M spread = taken.valid & !taken.delta;
     const M stays = taken.valid & !(spread & (may_join(taken.density) | last));
     weight_ = select(stays, weight_ * taken.weight, weight_);
 
     const NextVertex<F> at =
-        next_vertex<F>(shared_.scene, shared_.rays, vertex_.reference_toward(taken.wi), vertex_.ray_toward(taken.wi),
-                       stays, numbers.surface(), counts_.scattered, NoWeight{});
+        next_vertex<F>(shared_.scene, shared_.rays, at_->reference_toward(taken.wi), at_->ray_toward(taken.wi), stays,
+                       numbers.surface(), counts_.scattered, NoWeight{});
     Spectrum<F> radiance = gray(F(0.0f));
     if (const M ends = stays & last; any(ends)) {
       const M emits = ends & at.found & (at.x.light != U(0u)), left = ends & !at.found;
@@ -77,15 +77,15 @@ class PathReplay {
                                                                 at.x.point.uv, taken.wi, emits),
                         gray(F(0.0f)));
       radiance = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), radiance);
-      const Spectrum<F> far = vertex_.media_toward(taken.wi).left(F(ray_infinity));
+      const Spectrum<F> far = at_->media_toward(taken.wi).left(F(ray_infinity));
       radiance = select(ends, weight_ * select(left, far, at.left) * radiance, gray(F(0.0f)));
     }
     const M moved = stays & !last & at.found;
     weight_ = select(moved, weight_ * at.left, weight_);
     const F pixels = pixels_;
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.x, taken.wi, taken.density, taken.valid & !taken.delta, pixels);
+    const Leg<F> leg = leg_between<F>(at_->p, at.x, taken.wi, taken.density, taken.valid & !taken.delta, pixels);
     leg_ = {select(moved, leg.squared_length, leg_.squared_length), select(moved, leg.spread, leg_.spread), pixels};
-    vertex_ = select_words(moved, vertex_behind<F>(vertex_, at), vertex_);
+    if (any(moved)) moved_ = select_words(moved, vertex_behind<F>(*at_, at), *at_), at_ = &moved_;
     has_leg_ = has_leg_ | moved;
     alive_ = alive_ & (moved | !on);
     return radiance;
@@ -98,36 +98,48 @@ class PathReplay {
 
   Spectrum<F> through_surface(M on) {
     const StoredSurface<F>& at = sample_.at;
-    const auto [wi, distance, squared] = line_to<F>(vertex_.p, at.p);
+    const auto [wi, distance, squared] = line_to<F>(at_->p, at.p);
     M good = on & (squared > F(1e-30f));
-    const BsdfValue<F> here = vertex_.scattered(wi, good);
+    const BsdfValue<F> here = at_->scattered(wi, good);
     good = good & (here.density.value > F(0.0f)) & !may_join(here.density);
     const BsdfValue<F> there = at.scattered(-wi, sample_.wi, good);
-    const Leg<F> leg = leg_between<F>(vertex_.p, at.p, at.ng, wi, here.density, good, pixels_);
+    const Leg<F> leg = leg_between<F>(at_->p, at.p, at.ng, wi, here.density, good, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
     const F geometry = abs(dot(at.ng, wi)) / squared;
-    const Spectrum<F> left = at.boundary().before(vertex_.media_toward(wi), wi).left(distance);
+    const Spectrum<F> left = at.boundary().before(at_->media_toward(wi), wi).left(distance);
     const Spectrum<F> radiance = weight_ * here.f_cos * there.f_cos * left * sample_.arriving * geometry;
     good = good & (average(radiance) > F(0.0f));
-    return select(unblocked<F>(shared_.rays, vertex_.shadow_ray_to(wi, distance), good, counts_.shadow), radiance,
+    return select(unblocked<F>(shared_.rays, at_->shadow_ray_to(wi, distance), good, counts_.shadow), radiance,
                   gray(F(0.0f)));
   }
 
   Spectrum<F> through_light(M on) {
-    const LightConnection<F> to = connect(shared_.lights, vertex_, sample_.point, on);
+    const LightConnection<F> to = connect(shared_.lights, *at_, sample_.point, on);
     const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density);
-    return select(is_open<F>(shared_.rays, vertex_, to, good, counts_.shadow), weight_ * to.value, gray(F(0.0f)));
+    return select(is_open<F>(shared_.rays, *at_, to, good, counts_.shadow), weight_ * to.value, gray(F(0.0f)));
   }
 
   const PathScene<Rays>& shared_;
   const PathSample<F>& sample_;
   RayCounts& counts_;
-  ReuseVertex<F> vertex_;  // at hand
+  const ReuseVertex<F>* at_;  // at hand: the first one, or
+  ReuseVertex<F> moved_;      // one to which the path has moved
   const F pixels_;
   Leg<F> leg_{F(0.0f), F(0.0f), F(0.0f)};  // that led there
   M has_leg_ = M(false), alive_;
   Spectrum<F> weight_ = gray(F(1.0f));  // of the events so far
 };
+
+// What differs from domain to domain: what the path contributes.
+template <class F>
+struct PathImage {
+  F jacobian, target;
+  Spectrum<F> contribution;
+};
+template <class F>
+MONTELUX_INLINE PathImage<F> select(Mask<F> m, const PathImage<F>& a, const PathImage<F>& b) requires(lanes_of<F> > 1) {
+  return {select(m, a.jacobian, b.jacobian), select(m, a.target, b.target), select(m, a.contribution, b.contribution)};
+}
 
 // The domains of a combination of path reservoirs: the paths behind each of `vertices`. Targets know what is in the
 // way.
@@ -137,22 +149,23 @@ struct PathDomains {
   std::span<const ReuseVertex<F>> vertices;
   RayCounts& counts;
 
-  Shifted<PathSample<F>, F> shift(int from, const PathSample<F>& value, Mask<F> on) const {
-    return image(from, 0, value, on);
-  }
-  Shifted<PathSample<F>, F> own(int, const PathSample<F>& value, Mask<F>) const {
-    return {value, F(1.0f), usable_weight(average(value.contribution))};
-  }
-  Shifted<PathSample<F>, F> image(int, int to, const PathSample<F>& value, Mask<F> on) const {
+  Shifted<PathSample<F>, F> shift(int, const PathSample<F>& value, Mask<F> on) const {
     PathSample<F> there = value;
-    there.contribution = contribution_at(to, value, on);
+    there.contribution = contribution_at(0, value, on);
     return {there, F(1.0f), usable_weight(average(there.contribution))};
+  }
+  PathImage<F> own(int, const PathSample<F>& value, Mask<F>) const { return of_contribution(value.contribution); }
+  PathImage<F> image(int, int to, const PathSample<F>& value, Mask<F> on) const {
+    return of_contribution(contribution_at(to, value, on));
   }
   F target_at(int to, const PathSample<F>& value, Mask<F> on) const {
     return usable_weight(average(contribution_at(to, value, on)));
   }
 
  private:
+  static PathImage<F> of_contribution(const Spectrum<F>& contribution) {
+    return {F(1.0f), usable_weight(average(contribution)), contribution};
+  }
   Spectrum<F> contribution_at(int to, const PathSample<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& first = vertices[std::size_t(to)];
     // Where surfaces move, a path with a different time cannot be shifted.

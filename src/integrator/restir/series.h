@@ -229,11 +229,29 @@ class ReuseSeries final : public FrameSeries {
   // What the pixels of the groups hold: lane k of input i is pixel i of the group first + k. Lanes without a pixel have
   // confidence 0.
   void meet_groups(int frame, int writes, const PixelGroups& groups, std::size_t first, ReuseInputs<F>& inputs) {
-    for (std::size_t i = 0; i < inputs.vertices.size(); ++i) inputs.cap(i, F(0.0f));
-    for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
-      const std::span<const std::uint32_t> members = groups.group(first + k);
-      for (std::size_t i = 0; i < members.size(); ++i) inputs.put_pixel(i, int(k), before(frame, writes, members[i]));
+    for (std::size_t i = 0; i < inputs.vertices.size(); ++i) {
+      PixelsInLanes<F> pixels;
+      std::uint32_t present = 0;
+      for (std::size_t k = 0; k < lanes_of<F>; ++k) {
+        const std::span<const std::uint32_t> members = groups.group(std::min(first + k, groups.count() - 1));
+        if (first + k < groups.count() && i < members.size()) present |= 1u << k;
+        pixels.put(k, before(frame, writes, members[std::min(i, members.size() - 1)]));
+      }
+      inputs.put_pixels(i, pixels);
+      inputs.cap(i, select(mask_of_bits<F>(present), F(std::numeric_limits<float>::infinity()), F(0.0f)));
     }
+  }
+
+  // What pixel i of a group holds after its step: what it has chosen, if anything.
+  template <template <class> class Value, class Image, class Change>
+  static void leave_choice(ReservoirPlanes<Value>& planes, int writes, std::span<const std::uint32_t> members,
+                           std::size_t i, int k, const GroupChoice<Image, F>& choice, Change change) {
+    const auto& before = planes.before(writes);
+    auto& left = planes.after(writes)[members[i]];
+    const float weight = lane(choice.weight, k);
+    left = {before[members[weight > 0 ? lane(choice.from, k) : i]].value, weight, lane(choice.confidence, k),
+            lane(choice.image.target, k)};
+    if (weight > 0) change(left.value);
   }
 
   // The same for the pixels of groups, all at once.
@@ -247,14 +265,21 @@ class ReuseSeries final : public FrameSeries {
     for (std::size_t first = 0; first < groups.count(); first += lanes_of<F>) {
       meet_groups(step.frame, writes, groups, first, inputs);
       const M on = inputs.lights[0].confidence > F(0.0f);
-      const std::vector<Spectrum<F>> light =
-          combination(inputs, counts).into_each(group_stream(step, groups, first), on, sums);
+      const GroupResult<F> result =
+          combination(inputs, counts).for_each_input(group_stream(step, groups, first), on, sums);
       for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
         const std::span<const std::uint32_t> members = groups.group(first + k);
         for (std::size_t i = 0; i < members.size(); ++i) {
-          get(inputs.lights[i], int(k), lights_.after(writes)[members[i]]);
-          if (reuses_paths()) get(inputs.paths[i], int(k), paths_.after(writes)[members[i]]);
-          if (last) frame_[members[i]].radiance += to_rgb(lane(inputs.vertices[i].throughput * light[i], int(k)));
+          if (settings().direct)
+            leave_choice(lights_, writes, members, i, int(k), result.lights[i], [](LightPoint<float>&) {});
+          else
+            lights_.after(writes)[members[i]] = lights_.before(writes)[members[i]];
+          if (reuses_paths())
+            leave_choice(paths_, writes, members, i, int(k), result.paths[i], [&](PathSample<float>& value) {
+              value.contribution = lane(result.paths[i].image.contribution, int(k));
+            });
+          if (last)
+            frame_[members[i]].radiance += to_rgb(lane(inputs.vertices[i].throughput * result.light[i], int(k)));
         }
       }
     }

@@ -141,6 +141,24 @@ struct IntervalGroup {
     return {y, has_jacobian ? jacobian : F(1.0f), Intervals<F>::target(to, y)};
   }
 };
+// Replaces the reservoirs of the group by what their domains have chosen.
+template <class F, bool has_jacobian = true, class Each>
+void share_in_group(std::span<Reservoir<F, F>> group, const RandomStream<F>& stream, Each&& each) {
+  const IntervalGroup<F, has_jacobian> domains;
+  const std::vector<Reservoir<F, F>> before(group.begin(), group.end());
+  const auto choices = combine_group(std::span(before), domains, stream, Mask<F>(true), each);
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const auto& choice = choices[k];
+    const Mask<F> found = choice.weight > F(0.0f);
+    for_each_lane(found, [&](int j) {
+      const int from = int(lane(choice.from, j));
+      EXPECT_EQ(lane(domains.image(from, int(k), before[std::size_t(from)].value, found).value, j),
+                lane(choice.image.value, j));
+    });
+    group[k] = {select(found, choice.image.value, before[k].value), choice.weight, choice.confidence,
+                choice.image.target};
+  }
+}
 // Of all x: what a domain cannot make has weight 0.
 template <class F>
 F integrand_of_group(F x) {
@@ -159,10 +177,10 @@ GroupEstimates<F> of_group(RandomStream<F> stream) {
   for (int domain = 0; domain < 3; ++domain) group[std::size_t(domain)] = first_reservoir<F>(domain, stream);
   GroupEstimates<F> e;
   e.sum.fill(F(0.0f));
-  combine_group<F, F>(group, IntervalGroup<F, has_jacobian>{}, stream.fork(Uint<F>(1u)), Mask<F>(true),
-                      [&](std::size_t k, const Shifted<F, F>& image, const F& weight, Mask<F> on) {
-                        e.sum[k] = e.sum[k] + select(on, integrand_of_group(image.value) * weight, F(0.0f));
-                      });
+  share_in_group<F, has_jacobian>(group, stream.fork(Uint<F>(1u)),
+                                  [&](std::size_t k, const Shifted<F, F>& image, const F& weight, Mask<F> on) {
+                                    e.sum[k] = e.sum[k] + select(on, integrand_of_group(image.value) * weight, F(0.0f));
+                                  });
   for (std::size_t k = 0; k < 3; ++k) {
     e.chosen[k] = integrand_of_group(group[k].value) * group[k].weight;
     EXPECT_TRUE(all(group[k].confidence == F(7.0f)));
@@ -310,10 +328,10 @@ TEST(ReuseGroup, takes_what_is_not_a_usable_number_for_nothing_found) {
     return Reservoir<float, float>{value, weight, 1, Intervals<float>::target(domain, value)};
   };
   const auto combine_all = [](std::array<Reservoir<float, float>, 3>& group) {
-    combine_group<float, float>(group, IntervalGroup<float>{}, RandomStream<float>(5, 6), true,
-                                [](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
-                                  EXPECT_TRUE(!on || (weight > 0 && weight <= 2)) << k << " " << weight;
-                                });
+    share_in_group<float>(group, RandomStream<float>(5, 6),
+                          [](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
+                            EXPECT_TRUE(!on || (weight > 0 && weight <= 2)) << k << " " << weight;
+                          });
   };
   for (float bad : {0.0f, inf, nan, 3e38f, -1.0f}) {
     std::array<Reservoir<float, float>, 3> nothing;
@@ -365,10 +383,10 @@ TEST(Reuse, takes_what_is_not_a_usable_confidence_for_none) {
       }
     }
     std::array<Reservoir<float, float>, 3> group{{{x, 2, 3, t}, {0.7f, 5, bad, 1.4f}, {0.6f, 5, bad, 0.9f}}};
-    combine_group<float, float>(group, IntervalGroup<float>{}, RandomStream<float>(5, 6), true,
-                                [&](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
-                                  EXPECT_TRUE(!on || (k == 0 && weight == 2)) << bad << " " << k << " " << weight;
-                                });
+    share_in_group<float>(group, RandomStream<float>(5, 6),
+                          [&](std::size_t k, const Shifted<float, float>&, float weight, bool on) {
+                            EXPECT_TRUE(!on || (k == 0 && weight == 2)) << bad << " " << k << " " << weight;
+                          });
     EXPECT_EQ(group[0].value, x) << bad;
     EXPECT_NEAR(group[0].weight, 2, 1e-6) << bad;
     EXPECT_EQ(group[0].confidence, 3) << bad;
@@ -404,8 +422,7 @@ TEST(Reuse, finds_the_integral_by_huge_and_tiny_confidences) {
     std::array<std::vector<double>, 3> of_group;
     for (std::uint32_t i = 0; i < count; ++i) {
       auto group = inputs_of(i, stream);
-      combine_group<float, float>(group, IntervalGroup<float>{}, stream.fork(1), true,
-                                  [](std::size_t, const Shifted<float, float>&, float, bool) {});
+      share_in_group<float>(group, stream.fork(1), [](std::size_t, const Shifted<float, float>&, float, bool) {});
       for (std::size_t k = 0; k < 3; ++k)
         of_group[k].push_back(double(integrand_of_group(group[k].value) * group[k].weight));
     }
