@@ -25,26 +25,24 @@ concept ReuseGroupDomains = requires(const D& domains, const T& value, Mask<F> o
   { domains.own(0, value, on).target } -> std::convertible_to<F>;
 };
 
-// What a domain has chosen from the samples of its group.
-template <class Image, class F>
-struct GroupChoice {
-  Image image;   // in this domain, where the weight is not 0,
-  Uint<F> from;  // of the sample of that domain
-  F weight;      // as in Reservoir; 0: nothing was found
-  F confidence;  // of the whole group; 0 for a domain that is ignored
-};
-
-// An image among those of which one is chosen.
+// An image among those of which a domain chooses one.
 template <class Image, class F>
 struct GroupCandidate {
-  Image image;
-  Uint<F> from;
+  Image image;   // in the domain that chooses
+  Uint<F> from;  // of the sample of that domain
 };
 template <class Image, class F>
 MONTELUX_INLINE GroupCandidate<Image, F> select(Mask<F> m, const GroupCandidate<Image, F>& a,
                                                 const GroupCandidate<Image, F>& b) requires(lanes_of<F> > 1) {
   return {select(m, a.image, b.image), select(m, a.from, b.from)};
 }
+
+// What a domain has chosen from the samples of its group. There is an image where the weight is not 0.
+template <class Image, class F>
+struct GroupChoice : GroupCandidate<Image, F> {
+  F weight;      // as in Reservoir; 0: nothing was found
+  F confidence;  // of the whole group; 0 for a domain that is ignored
+};
 
 // The images of a sample in all domains, where on[k].
 template <class T, class F, class Domains, class Image>
@@ -100,10 +98,10 @@ auto combine_group(std::span<const Reservoir<T, F>> group, const Domains& domain
   }
   std::vector<GroupChoice<ImageOf, F>> choices(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const auto& [image, from] = chosen[k].value;
-    const Mask<F> found = on & (chosen[k].weight_sum > F(0.0f)) & (image.target > F(0.0f));
-    const F weight = select(found, usable_weight<F>(chosen[k].weight_sum / image.target), F(0.0f));
-    choices[k] = {image, from, weight, select(confidences[k] > F(0.0f), all, F(0.0f))};
+    const F& target = chosen[k].value.image.target;
+    const Mask<F> found = on & (chosen[k].weight_sum > F(0.0f)) & (target > F(0.0f));
+    const F weight = select(found, usable_weight<F>(chosen[k].weight_sum / target), F(0.0f));
+    choices[k] = {chosen[k].value, weight, select(confidences[k] > F(0.0f), all, F(0.0f))};
   }
   return choices;
 }

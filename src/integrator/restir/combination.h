@@ -62,7 +62,7 @@ class ReuseCombination {
   }
 
   // For every input the combination of all in its own place, and its light, likewise.
-  GroupResult<F> for_each_input(const RandomStream<F>& numbers, M on, const ImageSums& sums) const {
+  GroupResult<F> group_result(const RandomStream<F>& numbers, M on, const ImageSums& sums) const {
     GroupResult<F> result;
     result.light.assign(inputs_.vertices.size(), gray(F(0.0f)));
     const auto combined = [&](const auto& inputs, const auto& domains, const RandomStream<F>& own, bool adds_all) {

@@ -1,6 +1,8 @@
 // A series of frames whose pixels share what they know of light. With a grid its pixels are the cells: what they share
 // is drawn by the numbers of the cells, while their paths have the numbers of the pixels that they stand for.
 #pragma once
+#include <limits>
+
 #include "integrator/restir/combination.h"
 #include "integrator/restir/groups.h"
 #include "integrator/restir/neighbours.h"
@@ -266,7 +268,7 @@ class ReuseSeries final : public FrameSeries {
       meet_groups(step.frame, writes, groups, first, inputs);
       const M on = inputs.lights[0].confidence > F(0.0f);
       const GroupResult<F> result =
-          combination(inputs, counts).for_each_input(group_stream(step, groups, first), on, sums);
+          combination(inputs, counts).group_result(group_stream(step, groups, first), on, sums);
       for (std::size_t k = 0; k < lanes_of<F> && first + k < groups.count(); ++k) {
         const std::span<const std::uint32_t> members = groups.group(first + k);
         for (std::size_t i = 0; i < members.size(); ++i) {
