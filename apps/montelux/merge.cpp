@@ -29,8 +29,8 @@ constexpr const char* examples = R"(Examples:
   montelux integrate '4*x^3' --over x=0:1 --seed 2 --save b.json
   montelux merge a.json b.json -o both.json
 
-  montelux render room.pbrt --spp 4096 --passes 0:7 --checkpoint a.film
-  montelux render room.pbrt --spp 4096 --passes 8:15 --checkpoint b.film
+  montelux render room.pbrt --spp 4096 --passes 0:3 --checkpoint a.film
+  montelux render room.pbrt --spp 4096 --passes 4:7 --checkpoint b.film
   montelux merge a.film b.film -o room.film -o room.exr
 
 Integrals are merged from runs of different seeds; films from different passes of one render, and the merged film is the

@@ -25,8 +25,8 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --spp 4096 --checkpoint room.film --checkpoint-every 1m
   montelux render --resume room.film --checkpoint room.film  continues where that was interrupted
   montelux render --resume room.film --spp 8192 -o room.exr
-  montelux render room.pbrt --spp 4096 --passes 0:7 --checkpoint a.film
-  montelux render room.pbrt --spp 4096 --passes 8:15 --checkpoint b.film
+  montelux render room.pbrt --spp 4096 --passes 0:3 --checkpoint a.film
+  montelux render room.pbrt --spp 4096 --passes 4:7 --checkpoint b.film
   montelux merge a.film b.film -o room.film -o room.exr
 
 Ctrl-C (or SIGTERM, SIGHUP) ends the render early and writes what is finished; a second one exits at once.

@@ -169,8 +169,9 @@ Status adjust_passes(const RenderOptions& options, const AnyIntegrator& integrat
   if (const auto& range = options.passes) {
     const bool further = options.resume && !options.samples;  // than the scene's number of samples
     if (!further && range->last >= plan.passes)
-      return Failure{fmt::format("there is no pass {}: {} samples per pixel are {} passes of {}, from 0 to {}",
-                                 range->last, samples, plan.passes, plan.samples_per_pass, plan.passes - 1)};
+      return Failure{fmt::format("there is no pass {}: {} samples per pixel are {} passes of {}, from 0 to {}{}",
+                                 range->last, samples, plan.passes, plan.samples_per_pass, plan.passes - 1,
+                                 options.samples_per_pass ? "" : "; --samples-per-pass makes more of them")};
     plan.first_pass = range->first, plan.passes = range->count();
   }
   return Done{};

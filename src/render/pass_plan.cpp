@@ -13,18 +13,13 @@ int PassPlan::tile_side() const {
 PassPlan plan_passes(int samples, PointSetKind kind) {
   samples = std::max(samples, 1);
   // Independent samples lose nothing by short passes; the others need the longest sets that leave enough replicates.
-  constexpr int enough_replicates = 16, bare_replicates = 8;
+  const int replicates = kind == PointSetKind::independent ? 64 : 8;
   // With longer passes a stop would have to wait too long for a unit of work.
   constexpr int longest_pass = 1024;
-  const int replicates = samples >= 256 ? enough_replicates : bare_replicates;
   // A second pass with the same points would add no information: one pass, and so no error bar.
   if (is_fixed(kind)) return {samples, 1};
   int k = 1;
-  if (kind == PointSetKind::independent) {
-    while (samples / (2 * k) >= 64 && k < longest_pass) k *= 2;
-  } else {
-    while (samples / (2 * k) >= replicates && k < longest_pass) k *= 2;
-  }
+  while (samples / (2 * k) >= replicates && k < longest_pass) k *= 2;
   return {k, (samples + k - 1) / k};
 }
 
