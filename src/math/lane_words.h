@@ -1,5 +1,6 @@
 // Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it, or all of them.
 #pragma once
+#include <bit>
 #include <cstring>
 #include <span>
 
@@ -22,10 +23,11 @@ MONTELUX_INLINE void get_lane_words(const S<F>& from_struct, int k, S<float>& to
   for (std::size_t w = 0; w < sizeof(S<float>) / 4; ++w) std::memcpy(to + 4 * w, from + 4 * w * lanes_of<F>, 4);
 }
 
-// Copies structs into all lanes of a pack of them, as set_lane_words() does one: rows are transposed, which takes a
-// fraction of the time.
+// Copies structs into those lanes of a pack whose bits are set, as set_lane_words() does one: rows are transposed,
+// which takes a fraction of the time. Every pointer must be valid, those of the other lanes, too.
 template <class Pack, class One>
-MONTELUX_INLINE void set_all_lane_words(Pack& to_pack, std::span<const One* const> from) {
+MONTELUX_INLINE void set_lanes_words(Pack& to_pack, [[maybe_unused]] std::uint32_t on,
+                                     std::span<const One* const> from) {
   constexpr std::size_t words = sizeof(One) / 4, lanes = sizeof(Pack) / sizeof(One);
   static_assert(sizeof(Pack) == sizeof(One) * lanes);
   auto* to = reinterpret_cast<char*>(&to_pack);
@@ -37,7 +39,8 @@ MONTELUX_INLINE void set_all_lane_words(Pack& to_pack, std::span<const One* cons
       for (std::size_t k = 0; k < 16; ++k)
         std::memcpy(&rows[k], reinterpret_cast<const char*>(from[k]) + 4 * first, 4 * width);
       row_gather::transpose(rows);
-      for (std::size_t w = 0; w < width; ++w) std::memcpy(to + 64 * (first + w), &rows[w], 64);
+      for (std::size_t w = 0; w < width; ++w)
+        _mm512_mask_storeu_ps(to + 64 * (first + w), __mmask16(on), __m512(rows[w]));
     };
     for (std::size_t w = 0; w + width <= words; w += width) copy_words(w);
     if constexpr (words % width != 0) copy_words(words - width);  // overlaps the part before
@@ -45,8 +48,41 @@ MONTELUX_INLINE void set_all_lane_words(Pack& to_pack, std::span<const One* cons
   }
 #endif
   for (std::size_t k = 0; k < lanes; ++k)
+    if ((on >> k) & 1u)
+      for (std::size_t w = 0; w < words; ++w)
+        std::memcpy(to + 4 * (w * lanes + k), reinterpret_cast<const char*>(from[k]) + 4 * w, 4);
+}
+template <class Pack, class One>
+MONTELUX_INLINE void set_all_lane_words(Pack& to_pack, std::span<const One* const> from) {
+  set_lanes_words<Pack, One>(to_pack, ~0u, from);
+}
+
+// Copies the lanes whose bits are set into structs, one after the other.
+template <class Pack, class One>
+MONTELUX_INLINE void get_lanes_words(const Pack& from_pack, std::uint32_t on, One* to) {
+  constexpr std::size_t words = sizeof(One) / 4, lanes = sizeof(Pack) / sizeof(One);
+  static_assert(sizeof(Pack) == sizeof(One) * lanes);
+  const auto* from = reinterpret_cast<const char*>(&from_pack);
+  constexpr std::uint32_t all = std::uint32_t((std::uint64_t(1) << lanes) - 1);
+#if defined(__AVX512F__)
+  if constexpr (lanes == 16) {
+    constexpr std::size_t width = std::min(words, std::size_t(words_of_row));
+    const auto copy_words = [&](std::size_t first) {
+      row_gather::Row rows[16]{};
+      for (std::size_t w = 0; w < width; ++w) std::memcpy(&rows[w], from + 64 * (first + w), 64);
+      row_gather::transpose(rows);
+      One* next = to;
+      for (std::uint32_t left = on & all; left != 0; left &= left - 1)
+        std::memcpy(reinterpret_cast<char*>(next++) + 4 * first, &rows[std::countr_zero(left)], 4 * width);
+    };
+    for (std::size_t w = 0; w + width <= words; w += width) copy_words(w);
+    if constexpr (words % width != 0) copy_words(words - width);
+    return;
+  }
+#endif
+  for (std::uint32_t left = on & all; left != 0; left &= left - 1, ++to)
     for (std::size_t w = 0; w < words; ++w)
-      std::memcpy(to + 4 * (w * lanes + k), reinterpret_cast<const char*>(from[k]) + 4 * w, 4);
+      std::memcpy(reinterpret_cast<char*>(to) + 4 * w, from + 4 * (w * lanes + std::size_t(std::countr_zero(left))), 4);
 }
 
 // Lane by lane a or b, word by word, for such a struct in a pack.

@@ -22,7 +22,7 @@ constexpr double sky_training_samples = 3.0 * (1 << 16);
 constexpr double light_training_samples = 7.0 * (1 << 15);
 
 constexpr AutomaticCandidate candidates[] = {
-    {"restir-pt", 1.1, 8, 0},
+    {"restir-pt", 1.05, 6, 0},
     {"path:light-selection=learned,sky-learning=on", 1.1, 1.2, 0, sky_training_samples, light_training_samples},
     {"path:roulette=efficiency", 1, 1, survival_pilot_samples},
     {"restir-di", 0.9, 3, 0},

@@ -22,9 +22,10 @@ inline constexpr std::uint32_t several_lights = 3;
 // An integrator that may be chosen.
 struct AutomaticCandidate {
   std::string_view text;  // as for --integrator
-  // The processor time of a ray over that of one by path, and about that of a sample. Measured by `montelux compare
-  // --clock processor` on veach-ajar, dining-room, living-room, coffee and many-lights-city: 0.94 to 1.15 and 3.0 to 10
-  // for restir-pt, 0.73 to 0.90 and 2.0 to 3.7 for restir-di, 1.0 and 1.0 for the roulette.
+  // The processor time of a ray over that of one by path, and about that of a sample. Measured by renders of 16 and 48
+  // samples on veach-ajar, dining-room, living-room, coffee, many-lights-city, light-types and a Cornell box: 0.87 to
+  // 1.19 and 2.8 to 12 for restir-pt, 0.73 to 1.4 and 1.4 to 3.7 for restir-di, 1.2 to 1.7 and 1.6 to 5.7 for bdpt; 1.0
+  // and 1.0 for the roulette.
   double ray_cost, sample_cost;
   // Samples of path that take as long as making it: always; and more where the scene has a light at infinity that rays
   // meet, or several lights with a place, which it learns.

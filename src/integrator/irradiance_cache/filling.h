@@ -6,6 +6,7 @@
 
 #include "integrator/irradiance_cache/cached_paths.h"
 #include "integrator/irradiance_cache/settings.h"
+#include "math/lane_queue.h"
 
 namespace montelux {
 
@@ -37,27 +38,19 @@ class PixelStarts {
       const auto [found, hit] =
           rays.template trace<F>({start.o, start.d, F(ray_infinity), start.time}, on, RayUse::camera);
       start.hit = hit;
-      for_each_lane(Mask<F>(on & (found | in_medium)),
-                    [&](int k) { get_lane_words(start, k, starts_.emplace_back()); });
+      starts_.add(start, on & (found | in_medium));
     }
   }
   Mask<F> refill(PathState<F>& path, Mask<F> on) {
-    const std::uint32_t running = bits(on);
-    std::uint32_t fresh = 0;
     PathStart<F> start{};
-    for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
-      if ((running >> k) & 1u) continue;
-      set_lane_words(start, k, starts_[next_++]);
-      fresh |= 1u << k;
-    }
-    if (fresh != 0) begin_paths(path, start, media_, mask_of_bits<F>(fresh));
-    return mask_of_bits<F>(running | fresh);
+    const Mask<F> fresh = starts_.fill(start, on);
+    if (any(fresh)) begin_paths(path, start, media_, fresh);
+    return on | fresh;
   }
 
  private:
-  std::vector<PathStart<float>> starts_;
+  LaneQueue<PathStart, F> starts_;
   Media<F> media_;
-  std::size_t next_ = 0;
 };
 
 // The paths of an irradiance cache: what `path` does by default, as long as the settings say.

@@ -6,6 +6,7 @@
 
 #include "integrator/irradiance_cache/cache.h"
 #include "integrator/path/loop.h"
+#include "math/lane_queue.h"
 
 namespace montelux {
 
@@ -71,7 +72,7 @@ class HemispherePaths {
     results_.assign(distances_.size(), PixelSample{});
     std::optional<PartsTally> tally;
     if (layers_) tally.emplace(*layers_, results_.size(), at.depth);
-    if (!starts_.empty()) counts_ += tally ? run(*tally) : run(no_tally);
+    if (!starts_.is_empty()) counts_ += tally ? run(*tally) : run(no_tally);
     samples_.clear();
     for (std::size_t i = 0; i < results_.size(); ++i)
       samples_.push_back({from_rgb(results_[i].radiance), distances_[i]});
@@ -82,15 +83,7 @@ class HemispherePaths {
   }
 
   // For the path loop.
-  M refill(PathState<F>& path, M on) {
-    std::uint32_t running = bits(on);
-    for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
-      if ((running >> k) & 1u) continue;
-      set_lane_words(path, k, starts_[next_++]);
-      running |= 1u << k;
-    }
-    return mask_of_bits<F>(running);
-  }
+  M refill(PathState<F>& path, M on) { return on | starts_.fill(path, on); }
   M counts_light(const PathState<F>& path, M on) const { return on & (path.depth != U(first_depth_)); }
 
  private:
@@ -121,7 +114,7 @@ class HemispherePaths {
   }
   // The paths at their first vertices, and the distances of these.
   void begin(const CachePoint& at) {
-    starts_.clear(), next_ = 0, first_depth_ = at.depth + 1;
+    first_depth_ = at.depth + 1;
     const int cells = strata_.count();
     distances_.assign(std::size_t(cells), std::numeric_limits<float>::infinity());
     const LocalFrame<float> local = LocalFrame<float>::from_normal(at.query.n);
@@ -153,7 +146,7 @@ class HemispherePaths {
       for_each_lane(found, [&](int k) { distances_[lane(start.output, k)] = lane(start.hit.t, k); });
       // In a medium a path may scatter on a ray that meets no surface.
       const M in_medium(at.media.medium != empty_space);
-      for_each_lane(M(on & (found | in_medium)), [&](int k) { get_lane_words(path, k, starts_.emplace_back()); });
+      starts_.add(path, on & (found | in_medium));
     }
   }
 
@@ -165,8 +158,7 @@ class HemispherePaths {
   TilePass pass_;  // for its points alone
   const LayerPlan* layers_;
   std::uint32_t first_depth_ = 0;
-  std::size_t next_ = 0;
-  std::vector<PathState<float>> starts_;
+  LaneQueue<PathState, F> starts_;
   std::vector<float> distances_;
   std::vector<PixelSample> results_;
   std::vector<HemisphereSample> samples_;

@@ -2,18 +2,20 @@
 // lanes.
 #pragma once
 #include <utility>
-#include <vector>
 
 #include "accel/accel.h"
 #include "integrator/integrator.h"
 #include "integrator/tally.h"
+#include "math/lane_queue.h"
 #include "scene/scene.h"
 #include "transport/numbers.h"
 #include "transport/path_state.h"
 
 namespace montelux {
 
-// The paths of a tile that met a surface, in a fixed order: that of the packets.
+// The paths of a tile that met a surface, in a fixed order: that of the packets. A loop that sets paths aside takes
+// them through their first vertex in full packs of neighbours, whose materials, texels, lights and shadow rays are
+// alike; then they take the place of others that have ended, in any order.
 template <class F>
 class FirstHits {
  public:
@@ -27,13 +29,19 @@ class FirstHits {
   // Fills lanes that are off, as long as there are paths left; returns the lanes that are on now. None is on once the
   // caller of the pass wants to stop.
   Mask<F> refill(PathState<F>& state, Mask<F> on);
+  // For loops that keep nothing of a path but its state: `on` are the paths that continue beyond a vertex. Returns
+  // those that stay in their lanes.
+  Mask<F> set_aside(const PathState<F>& state, Mask<F> on);
   std::uint64_t rays() const { return rays_; }
 
  private:
-  std::vector<PathStart<float>> starts_;
+  Mask<F> begin(PathState<F>& state, Mask<F> on);
+
+  LaneQueue<PathStart, F> starts_;
+  LaneQueue<PathState, F> waiting_;  // beyond their first vertex
+  bool sets_aside_ = false, begins_ = true;
   Media<F> media_;  // of the camera
   const StopQuery* stop_ = nullptr;
-  std::size_t next_ = 0;
   std::uint64_t rays_ = 0;
 };
 
@@ -156,26 +164,39 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         rays_ += std::uint64_t(count(on));
         // In a medium a path may scatter on a ray that meets no surface: its t is infinite.
         const Mask<F> starts = found | (on & in_medium);
-        for_each_lane(starts, [&](int k) { get_lane_words(state, k, starts_.emplace_back()); });
-
+        starts_.add(state, starts);
         show_sky<F>(scene, state, on & !starts, out, tally);
       }
 }
 
 template <class F>
+Mask<F> FirstHits<F>::begin(PathState<F>& state, Mask<F> on) {
+  PathStart<F> start{};
+  const Mask<F> fresh = starts_.fill(start, on);
+  if (any(fresh)) begin_paths(state, start, media_, fresh);
+  return on | fresh;
+}
+
+template <class F>
 Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
   if (stop_ && stop_->stop_requested()) return Mask<F>(false);
-  if (next_ == starts_.size()) return on;
-  const std::uint32_t running = bits(on);
-  std::uint32_t fresh = 0;
-  PathStart<F> start{};
-  for (int k = 0; k < lanes_of<F> && next_ < starts_.size(); ++k) {
-    if ((running >> k) & 1u) continue;
-    set_lane_words(start, k, starts_[next_++]);
-    fresh |= 1u << k;
+  if (!sets_aside_) return begin(state, on);
+  // Enough for many packs, and so few that they stay in the nearest caches.
+  constexpr std::size_t enough = 512;
+  if (!begins_ && waiting_.is_empty() && !starts_.is_empty()) {
+    begins_ = true;
+    on = set_aside(state, on);
   }
-  if (fresh != 0) begin_paths(state, start, media_, mask_of_bits<F>(fresh));
-  return mask_of_bits<F>(running | fresh);
+  begins_ = begins_ && waiting_.size() < enough && !starts_.is_empty();
+  return begins_ ? begin(state, on) : Mask<F>(on | waiting_.fill(state, on));
+}
+
+template <class F>
+Mask<F> FirstHits<F>::set_aside(const PathState<F>& state, Mask<F> on) {
+  sets_aside_ = true;
+  if (!begins_) return on;
+  waiting_.add(state, on);
+  return Mask<F>(false);
 }
 
 }  // namespace montelux

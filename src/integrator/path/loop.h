@@ -159,8 +159,9 @@ struct PathLight {
 };
 
 // Paths, one a lane. A lane whose path ends takes the next of the source: source.refill(path, on) fills lanes that are
-// off as long as there are paths left, and gives the lanes that are on. `rays` has trace() and occluded() as
-// Accel does; benchmarks and tests pass others. `lights` are the scene's, chosen as the settings state.
+// off as long as there are paths left, and gives the lanes that are on; source.set_aside(path, on), if it exists, may
+// take paths out of their lanes for a while. `rays` has trace() and occluded() as Accel does; benchmarks and tests pass
+// others. `lights` are the scene's, chosen as the settings state.
 // `in_media`: the scene has participating media; without it they cost nothing. `guide`: NoGuide or FieldGuide.
 template <class F, bool in_media = false, class Rays, class Source, class Tally, class Guide = NoGuide>
 RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
@@ -342,6 +343,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
     const M goes_far = in_media ? moves : found;
     finish(on & !goes_far);
     on = on & goes_far;
+    if constexpr (std::is_same_v<std::remove_cv_t<Tally>, NoTally> && requires { source.set_aside(path, on); })
+      if (!settings.manifold_light) on = source.set_aside(path, on);
   }
 }
 

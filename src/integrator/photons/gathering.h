@@ -10,6 +10,7 @@
 #include "integrator/path/segment_light.h"
 #include "integrator/photons/gathering_tallies.h"
 #include "integrator/photons/lookup.h"
+#include "math/lane_queue.h"
 #include "transport/connection.h"
 #include "transport/dimensions.h"
 #include "transport/path_steps.h"
@@ -315,7 +316,7 @@ class PhotonGathering {
       });
       // The number of the ray stands where the loop over packs finds it with the pixel's point.
       ray.path.output = U(std::uint32_t(i));
-      for_each_lane(met, [&](int k) { get_lane_words(ray, k, waiting_.emplace_back()); });
+      waiting_.add(ray, met);
     }
   }
   // What the ray of lane k has found so far joins the layers of its pixel.
@@ -326,15 +327,8 @@ class PhotonGathering {
   // Follows the gather rays that wait, and adds what they find to their pixels.
   void gather(const TilePass& pass) {
     GatherRay<F> ray{};
-    std::size_t next = 0;
     for (M on(false);;) {
-      std::uint32_t running = bits(on);
-      for (int k = 0; k < lanes_of<F> && next < waiting_.size(); ++k) {
-        if ((running >> k) & 1u) continue;
-        set_lane_words(ray, k, waiting_[next++]);
-        running |= 1u << k;
-      }
-      on = mask_of_bits<F>(running);
+      on = on | waiting_.fill(ray, on);
       if (!any(on)) break;
       const M left = gather_step(pass, ray, on);
       const Spectrum<F> radiance = ray.path.radiance * ray.path.weight;
@@ -347,7 +341,7 @@ class PhotonGathering {
     }
     const float share = 1 / float(std::max(rules_.gather_rays, 1));
     for (const Gathered& one : results_) gathered_[one.output] += one.radiance * share;
-    waiting_.clear(), results_.clear();
+    results_.clear();
   }
   // One vertex of every gather ray; gives the lanes that continue.
   M gather_step(const TilePass& pass, GatherRay<F>& ray, M on) {
@@ -374,7 +368,7 @@ class PhotonGathering {
   PhotonLookups in_view_;
   std::optional<PhotonLookups> beyond_;
   std::array<LayerTally, 2>* const tallies_;
-  std::vector<GatherRay<float>> waiting_;
+  LaneQueue<GatherRay, F> waiting_;
   std::vector<Gathered> results_;
   std::vector<Spectrum<float>> gathered_;  // by output
   RayCounts counts_;

@@ -1,10 +1,10 @@
 // What a pixel finds by itself behind its vertex: one path by BSDF sampling with next-event estimation at every further
 // vertex, of whose ends one is kept in proportion to its contribution.
 #pragma once
-#include <vector>
 
 #include "integrator/path/loop.h"
 #include "integrator/restir/path_shift.h"
+#include "math/lane_queue.h"
 #include "transport/next_vertex.h"
 
 namespace montelux {
@@ -55,7 +55,7 @@ class PathCandidates {
     walk.pixels = squared_distance_of_pixels(shared_.reuse, vertex);
     walk.events = U(1u), walk.crossings = U(0u), walk.joined = U(0u), walk.numbers = numbers;
     walk.plain = walk.until = walk.tail = gray(F(0.0f));
-    for_each_lane(on, [&](int k) { get_lane_words(walk, k, walks_.emplace_back()); });
+    walks_.add(walk, on);
   }
 
   // Calls done(output, reservoir, light of the pixel alone, mask) for every walk that has ended.
@@ -79,14 +79,9 @@ class PathCandidates {
 
  private:
   M refill(M on) {
-    std::uint32_t running = bits(on);
-    for (int k = 0; k < lanes_of<F> && next_ < walks_.size(); ++k) {
-      if ((running >> k) & 1u) continue;
-      set_lane_words(walk_, k, walks_[next_++]);
-      set_lane(chosen_.weight_sum, k, 0.0f);
-      running |= 1u << k;
-    }
-    return mask_of_bits<F>(running);
+    const M fresh = walks_.fill(walk_, on);
+    chosen_.weight_sum = select(fresh, F(0.0f), chosen_.weight_sum);
+    return on | fresh;
   }
 
   // Light that a path meets.
@@ -315,8 +310,7 @@ class PathCandidates {
   const PathScene<Rays>& shared_;
   const PathSettings& settings_;
   RayCounts& counts_;
-  std::vector<PathWalk<float>> walks_;
-  std::size_t next_ = 0;
+  LaneQueue<PathWalk, F> walks_;
   PathWalk<F> walk_{};
   WeightedReservoir<PathSample<F>, F> chosen_;
 };
