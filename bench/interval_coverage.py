@@ -145,8 +145,7 @@ def main():
             classes = classes_of(truth)
             for samples in map(int, arguments.samples.split(",")):
                 # Student's t for the passes that plan_passes() chooses.
-                quantile = (2.131 if samples < 64 else 1.998) if arguments.sampler == "independent" else (
-                    2.365 if samples < 256 else 2.131)
+                quantile = (2.131 if samples < 64 else 1.998) if arguments.sampler == "independent" else 2.365
                 pictures = [render(samples, seed) for seed in range(1, arguments.seeds + 1)]
                 figures = Figures()
                 for picture in pictures:
