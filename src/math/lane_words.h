@@ -1,4 +1,4 @@
-// Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it, or all of them.
+// Lanes of structs that are made of 32-bit words alone: one lane copied out of a pack and into it, or several.
 #pragma once
 #include <bit>
 #include <cstring>

@@ -7,7 +7,7 @@ namespace montelux {
 
 // Looks at a film after whole passes over all tiles, at numbers of passes that grow by an eighth or by one. The
 // probability of a wrong statement is spent over the looks (alpha spending, Lan and DeMets 1983). Most of it is spent
-// where renders are planned to end, at 8 to 15 passes (plan_passes()), or, for the error of the mean, at 24 to 47: 16 %
+// where renders are planned to end, at 8 to 16 passes (plan_passes()), or, for the error of the mean, at 24 to 48: 16 %
 // by the four looks before, 48 % by the next eight, 24 % by eight more, and of the rest the share
 // 1 / ((i + 1) (i + 2)) by each look i = 0, 1, ... after these (Howard, Ramdas, McAuliffe and Sekhon 2021).
 class Looks {

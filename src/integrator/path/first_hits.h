@@ -35,12 +35,14 @@ class FirstHits {
   std::uint64_t rays() const { return rays_; }
 
  private:
+  // Fills lanes that are off with paths at their first vertex.
   Mask<F> begin(PathState<F>& state, Mask<F> on);
 
   LaneQueue<PathStart, F> starts_;
   LaneQueue<PathState, F> waiting_;  // beyond their first vertex
-  bool sets_aside_ = false, begins_ = true;
-  Media<F> media_;  // of the camera
+  bool sets_aside_ = false;          // the loop calls set_aside()
+  bool begins_ = true;               // then: paths at their first vertex have the lanes, else those beyond it
+  Media<F> media_;                   // of the camera
   const StopQuery* stop_ = nullptr;
   std::uint64_t rays_ = 0;
 };
