@@ -77,6 +77,26 @@ TEST(SummedCoat, rough_directions_follow_the_density) {
   }
 }
 
+// A smooth coat over white reflects 4 % of the light, but what it mirrors has a fifth of the samples; over black it has
+// nearly all of them. The samples divide an interval of u, so that equidistant ones count exactly.
+TEST(SummedCoat, mirror_image_has_a_fifth_of_the_samples_at_least) {
+  const auto mirrored = [](float reflectance) {
+    const BsdfCase c = summed_coat_case("", {}, reflectance);
+    const CoatedDiffuse<float> model(BsdfRows<float>{&c.row});
+    RandomStream<float> none(9, 1u);
+    constexpr int samples = 1000;
+    int count = 0;
+    for (int i = 0; i < samples; ++i) {
+      const float u = (float(i) + 0.5f) / samples;
+      const BsdfSample<float> s = model.sample(direction(0.9f, 0.4f), u, {0.3f, 0.6f}, context_of(none));
+      count += s.valid && s.delta;
+    }
+    return double(count) / samples;
+  };
+  EXPECT_NEAR(mirrored(0.9f), 0.2, 0.001);
+  EXPECT_GT(mirrored(0.001f), 0.9);
+}
+
 // The internal reflectance of a smooth coat is one integral of Fresnel's law.
 TEST(SummedCoat, internal_reflectance_of_a_smooth_coat_is_an_integral_over_angles) {
   for (const float eta : {1.2f, 1.5f, 2.4f})
