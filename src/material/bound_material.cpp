@@ -1,5 +1,7 @@
 #include "material/bound_material.h"
 
+#include "material/coat_table.h"
+
 namespace montelux {
 
 namespace {
@@ -41,6 +43,16 @@ bool uses_parameters(const Material& material) {
   return has_grain;
 }
 
+// What the table knows of the roughnesses in the slots.
+template <class F>
+static void look_up_coat(const CoatTable& table, Mask<F> on, BsdfSlots<F>& slots) {
+  using Slots = CoatedDiffuseSlots;
+  const CoatKnowledge<F> known = table.at(select(on, slots.v[Slots::alpha_x], F(0.0f)));
+  slots.v[Slots::internal] = select(on, known.internal, slots.v[Slots::internal]);
+  for (int k = 0; k < coat_transmittance::terms; ++k)
+    slots.v[Slots::series + k] = select(on, known.series[std::size_t(k)], slots.v[Slots::series + k]);
+}
+
 template <class F>
 void look_up_slots(const Material& material, const TextureSet& textures, const TexturePoints<F>& points, Mask<F> on,
                    BsdfSlots<F>& slots) {
@@ -55,6 +67,7 @@ void look_up_slots(const Material& material, const TextureSet& textures, const T
     const Spectrum<F> value = textures.spectrum(SpectrumTextureId(binding.texture), points, on);
     for (int i = 0; i < spectrum_size; ++i) put(binding.slot + i, value.c[i], binding);
   }
+  if (material.coat) look_up_coat(*material.coat, on, slots);
 }
 
 BsdfRow material_row(const Material& material, const TextureSet& textures, const TexturePoint& point) {

@@ -10,6 +10,7 @@
 
 namespace montelux {
 
+class CoatTable;
 class MeasuredTable;
 
 // How the value of a texture is converted to a number of a row.
@@ -45,6 +46,7 @@ struct Material {
   std::vector<RowBinding> bindings;
   std::optional<Mixture> mixture;
   std::shared_ptr<const MeasuredTable> table;  // whose address is in the row
+  std::shared_ptr<const CoatTable> coat;       // of a CoatedDiffuse whose roughness is a texture
   std::shared_ptr<const TexelImage> normal_map;
   std::optional<SpectrumTextureId> normal_texture;       // instead of the image
   Vec2f normal_scale{1, 1};                              // factors of x and y of the mapped normal

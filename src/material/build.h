@@ -5,6 +5,7 @@
 
 #include "color/sampled_spectrum.h"
 #include "material/bound_material.h"
+#include "material/coat_table.h"
 #include "material/description.h"
 #include "texture/build.h"
 
@@ -19,6 +20,7 @@ struct MaterialInputs {
   std::function<std::optional<std::uint32_t>(const std::string&)> material;  // number of a named material
   // The table of a file; null if it cannot be read, which has been reported.
   std::function<std::shared_ptr<const MeasuredTable>(const std::string& file, const SourceLocation& where)> measured;
+  CoatTables& coats;
   Diagnostics& diagnostics;
 };
 

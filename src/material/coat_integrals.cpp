@@ -1,7 +1,6 @@
 #include "material/coat_integrals.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "material/dielectric.h"
 #include "mc/point_set.h"
@@ -32,10 +31,9 @@ namespace coat_transmittance {
 namespace {
 
 // At the cosine c, by sampled facets.
-double by_facets(float c, const CoatParameters& coat) {
+double by_facets(float c, const CoatParameters& coat, std::uint32_t points) {
   using F = NativeFloats;
   using U = Uint<F>;
-  constexpr std::uint32_t points = 1u << 13;
   const PointSet set{PointSetKind::sobol, 0, 0, points};
   const Dielectric<F> face({F(coat.alpha.x), F(coat.alpha.y)}, F(coat.eta));
   const Vec3<F> w{F(std::sqrt(std::max(0.0f, 1 - c * c))), F(0.0f), F(c)};
@@ -51,28 +49,17 @@ double by_facets(float c, const CoatParameters& coat) {
 
 }  // namespace
 
-// Interpolates at the zeros of the polynomial that follows the last one.
-std::array<float, terms> series(const CoatParameters& coat) {
-  constexpr float max_alpha = 0.6f;
+std::array<float, terms> series(const CoatParameters& coat, std::uint32_t points) {
   // Near 1 the light of the horizon determines the function, and below there is a critical angle.
   constexpr float min_eta = 1.3f, max_eta = 4;
   const float alpha = coat.alpha.x;
   if (coat.alpha.y != alpha || !(alpha <= max_alpha)) return {none};
   if (!(coat.eta >= min_eta && coat.eta <= max_eta)) return {none};
   if (GgxFacets<float>(alpha, alpha).is_smooth()) return {};
-  const auto angle = [](int j) { return std::numbers::pi * (j + 0.5) / terms; };
-  std::array<double, terms> rest;
-  for (int j = 0; j < terms; ++j) {
-    const float c = unstretched(float(0.5 + 0.5 * std::cos(angle(j))), alpha);
-    rest[std::size_t(j)] = by_facets(c, coat) - double(of_smooth(c, coat.eta, coat.thickness));
-  }
-  std::array<float, terms> result;
-  for (int k = 0; k < terms; ++k) {
-    double sum = 0;
-    for (int j = 0; j < terms; ++j) sum += rest[std::size_t(j)] * std::cos(k * angle(j));
-    result[std::size_t(k)] = float(sum * (k == 0 ? 1 : 2) / terms);
-  }
-  return result;
+  return chebyshev::interpolation<terms>([&](double x) {
+    const float c = unstretched(float(x), alpha);
+    return by_facets(c, coat, points) - double(of_smooth(c, coat.eta, coat.thickness));
+  });
 }
 
 }  // namespace coat_transmittance

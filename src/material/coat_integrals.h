@@ -3,6 +3,7 @@
 #include <array>
 
 #include "material/fresnel.h"
+#include "math/chebyshev.h"
 #include "mc/microfacet.h"
 
 namespace montelux {
@@ -14,7 +15,7 @@ struct CoatParameters {
 };
 
 // The fraction of light leaving the base by Lambert's law that returns to the base after one reflection at the
-// coat. By quadrature with 2^16 points, relative error below 1e-4.
+// coat. By quadrature with 2^16 points, relative error below 1e-3.
 float internal_reflectance(const CoatParameters& coat);
 
 // The transmittance of a coat, as a function of the cosine of the direction with the normal: that of a smooth coat plus
@@ -23,13 +24,14 @@ float internal_reflectance(const CoatParameters& coat);
 namespace coat_transmittance {
 
 inline constexpr int terms = 10;
+inline constexpr float max_alpha = 0.6f;
 // The first term where there is no series. (Transmittances differ by less than 1.)
 inline constexpr float none = 2;
 
-// None if the facets have a direction, if alpha exceeds 0.6, or if the index is not in [1.3, 4]. Else the absolute
-// error is below 5e-4 where the cosine is above 0.02, elsewhere below 2e-3, and on average over the cosines
-// below 1.5e-4. By quadrature with 2^13 points for each term.
-std::array<float, terms> series(const CoatParameters& coat);
+// None if the facets have a direction, if alpha exceeds max_alpha, or if the index is not in [1.3, 4]. Else the
+// absolute error is below 5e-4 where the cosine is above 0.02, elsewhere below 2e-3, and on average over the cosines
+// below 1.5e-4. By quadrature with this many points for each term.
+std::array<float, terms> series(const CoatParameters& coat, std::uint32_t points = 1u << 13);
 
 // Of light from a direction of cosine c > 0 the part that passes a smooth coat and, once, the layer.
 template <class F>
@@ -56,14 +58,7 @@ MONTELUX_INLINE F unstretched(F x, F alpha) {
 // At the cosine c > 0, of a coat whose facets have the roughness alpha in both directions.
 template <class F>
 MONTELUX_INLINE F at(F c, F alpha, F eta, F thickness, const std::array<F, terms>& series) {
-  // Clenshaw's recurrence.
-  const F y = stretched(c, alpha) * 2.0f - F(1.0f), y2 = y + y;
-  F next(0.0f), after_next(0.0f);
-  for (std::size_t k = terms - 1; k > 0; --k) {
-    const F sum = series[k] + (y2 * next - after_next);
-    after_next = next, next = sum;
-  }
-  return of_smooth(c, eta, thickness) + (series[0] + (y * next - after_next));
+  return of_smooth(c, eta, thickness) + chebyshev::value(stretched(c, alpha), series);
 }
 
 }  // namespace coat_transmittance

@@ -20,13 +20,24 @@ Fields<CoatedDiffuseDesc> CoatedDiffuseDesc::rows() {
 
 namespace {
 
-// If coat and layer are constant and nothing scatters under the coat, its walks can be summed in closed form.
-void sum_reflections(Material& material) {
+// If the layer is constant and nothing scatters under the coat, its walks can be summed in closed form: with what is
+// known of a constant roughness, or of the one that a texture has at a point, the same in both directions.
+void sum_reflections(RowBuilder& row) {
   using Slots = CoatedDiffuseSlots;
+  Material& material = row.material();
   float* v = material.row.v;
-  for (const RowBinding& binding : material.bindings)
-    if (binding.slot < Slots::max_depth) return;
+  const RowBinding *alpha_x = nullptr, *alpha_y = nullptr;
+  for (const RowBinding& binding : material.bindings) {
+    if (binding.slot >= Slots::max_depth) continue;
+    if (binding.slot != Slots::alpha_x && binding.slot != Slots::alpha_y) return;
+    (binding.slot == Slots::alpha_x ? alpha_x : alpha_y) = &binding;
+  }
   if (!is_black(BsdfRows<float>{&material.row}.spectrum(Slots::albedo))) return;
+  if (alpha_x || alpha_y) {
+    if (alpha_x && alpha_y && alpha_x->texture == alpha_y->texture)
+      row.coat_of_texture(v[Slots::eta], v[Slots::thickness]);
+    return;
+  }
   const CoatParameters coat{{v[Slots::alpha_x], v[Slots::alpha_y]}, v[Slots::eta], v[Slots::thickness]};
   v[Slots::internal] = internal_reflectance(coat);
   std::ranges::copy(coat_transmittance::series(coat), v + Slots::series);
@@ -37,7 +48,7 @@ void sum_reflections(Material& material) {
 void CoatedDiffuseDesc::fill(RowBuilder& row) const {
   row.coat(eta, facets, maps_roughness, layer);
   row.spectrum(CoatedDiffuseSlots::reflectance, albedo);
-  sum_reflections(row.material());
+  sum_reflections(row);
 }
 
 }  // namespace montelux

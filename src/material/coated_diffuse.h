@@ -8,7 +8,8 @@ namespace montelux {
 
 struct CoatedDiffuseSlots : LayeredSlots {
   static constexpr int reflectance = base + DiffuseSlots::reflectance;
-  // The result of internal_reflectance() for the coat; 0: unknown, or there are scatterers under the coat.
+  // What is known of the coat: the result of internal_reflectance(); 0: unknown, or there are scatterers under the
+  // coat.
   static constexpr int internal = base + DiffuseSlots::end;
   // That of coat_transmittance, where the internal reflectance is known.
   static constexpr int series = internal + 1, end = series + coat_transmittance::terms;
@@ -82,9 +83,9 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
   F passes_facet(Vec3<F> w, TransportMode mode, Vec2<F> u) const;
   // Summed over all numbers of reflections at the base: sum of r^n K^(n - 1), without entry and exit.
   Spectrum<F> reflections() const;
-  // The probability with which sample() uses a facet of the coat. In proportion to the light that coat and base reflect,
-  // but no less than a share: a light source of few pixels in the mirror is found by these samples alone, while light
-  // samples find nearly all that the base reflects.
+  // The probability with which sample() uses a facet of the coat. In proportion to the light that coat and base
+  // reflect, but no less than a share: a light source of few pixels in the mirror is found by these samples alone,
+  // while light samples find nearly all that the base reflects.
   F coat_share(Vec3<F> o) const;
   // Measured: a lower share is noisier where lamps are mirrored, a higher one where indirect light is.
   static constexpr float least_coat_share = 0.2f;

@@ -32,6 +32,8 @@ class RowBuilder {
   void coat(const IndexInput& eta, const FacetsDesc& facets, bool maps_roughness, const LayerDesc& layer);
   // The map of the coat's normals, if there is one.
   void coat_normals(const NormalMapDesc& normals);
+  // What is known of a coat of this index and this thickness is looked up by the texture of its roughness.
+  void coat_of_texture(float eta, float thickness) { material_.coat = inputs_.coats.of(eta, thickness); }
   // The address of the table of a file. A file that cannot be read has been reported.
   void table(int slot, const std::string& file);
 

@@ -100,6 +100,7 @@ class Preparation {
   TextureBuilder texture_builder_;
   std::map<std::string, std::shared_ptr<const LightImage>> light_images_;        // by file
   std::map<std::string, std::shared_ptr<const MeasuredTable>> measured_tables_;  // by path
+  CoatTables coat_tables_;
   std::vector<std::uint32_t> medium_numbers_;  // of the description's media, in the scene
   Bounds3 bounds_;
 };
@@ -119,6 +120,7 @@ std::vector<Material> Preparation::make_materials() {
         return found->second;
       },
       [&](const std::string& file, const SourceLocation& where) { return measured_table(file, where); },
+      coat_tables_,
       diagnostics_};
   std::vector<Material> materials;
   for (const MaterialDesc& material : desc_.materials) materials.push_back(build_material(material, inputs));

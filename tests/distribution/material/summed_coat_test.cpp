@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases.h"
+#include "material/coat_table.h"
 #include "statistics.h"
 
 namespace montelux {
@@ -142,12 +143,12 @@ struct SeriesError {
   double largest = 0, mean = 0;  // above the horizon
   double horizon = 0;
 };
-SeriesError error_of_series(float alpha, float eta, float thickness, float alpha_of_series) {
-  const auto series = coat_transmittance::series({{alpha_of_series, alpha_of_series}, eta, thickness});
+SeriesError error_of_series(const CoatParameters& coat, float alpha_of_series,
+                            const std::array<float, coat_transmittance::terms>& series) {
   SeriesError r;
   const auto error_at = [&](double c) {
-    const double stated = double(coat_transmittance::at(float(c), alpha_of_series, eta, thickness, series));
-    return std::abs(stated - transmittance(c, double(alpha), double(eta), double(thickness)));
+    const double stated = double(coat_transmittance::at(float(c), alpha_of_series, coat.eta, coat.thickness, series));
+    return std::abs(stated - transmittance(c, double(coat.alpha.x), double(coat.eta), double(coat.thickness)));
   };
   for (const double c : {0.002, 0.004, 0.01}) r.horizon = std::max(r.horizon, error_at(c));
   constexpr int cosines = 24;
@@ -156,6 +157,10 @@ SeriesError error_of_series(float alpha, float eta, float thickness, float alpha
     r.largest = std::max(r.largest, error), r.mean += error / cosines;
   }
   return r;
+}
+SeriesError error_of_series(float alpha, float eta, float thickness, float alpha_of_series) {
+  return error_of_series({{alpha, alpha}, eta, thickness}, alpha_of_series,
+                         coat_transmittance::series({{alpha_of_series, alpha_of_series}, eta, thickness}));
 }
 
 // The planted fault: the series of a coat that is less rough.
@@ -170,6 +175,53 @@ TEST(SummedCoat, transmittance_is_the_integral_over_all_facets) {
         const SeriesError fault = error_of_series(alpha, eta, thickness, 0.85f * alpha);
         EXPECT_TRUE(fault.horizon > 2e-3 || fault.largest > 5e-4) << eta << " " << alpha << " " << thickness;
       }
+}
+
+// A texture's roughness is between those of the table. The planted fault: a roughness that is less by two fifths.
+TEST(SummedCoat, table_has_the_transmittance_of_every_roughness) {
+  for (const float eta : {1.3f, 1.5f, 2.4f}) {
+    constexpr float thickness = 0.01f;
+    const CoatTable table(eta, thickness);
+    for (const float alpha : {0.0013f, 0.0023f, 0.007f, 0.031f, 0.0953f, 0.107f, 0.333f, 0.587f}) {
+      const SeriesError error = error_of_series({{alpha, alpha}, eta, thickness}, alpha, table.at(alpha).series);
+      EXPECT_LT(error.horizon, 2e-3) << eta << " " << alpha;
+      EXPECT_LT(error.largest, 6e-4) << eta << " " << alpha;
+      EXPECT_LT(error.mean, 1.5e-4) << eta << " " << alpha;
+      const SeriesError fault =
+          error_of_series({{alpha, alpha}, eta, thickness}, 0.6f * alpha, table.at(0.6f * alpha).series);
+      EXPECT_TRUE(fault.horizon > 2e-3 || fault.largest > 6e-4) << eta << " " << alpha;
+    }
+  }
+}
+
+TEST(SummedCoat, table_has_the_internal_reflectance_of_every_roughness) {
+  constexpr float eta = 1.5f, thickness = 0.2f;
+  const CoatTable table(eta, thickness);
+  for (const float alpha : {0.0005f, 0.0013f, 0.02f, 0.11f, 0.37f, 0.62f, 0.93f}) {
+    const double truth = double(internal_reflectance({{alpha, alpha}, eta, thickness}));
+    EXPECT_NEAR(double(table.at(alpha).internal), truth, 3e-3 * truth) << alpha;
+  }
+}
+
+// In all lanes at once, smooth and rough ones, and beyond what is known.
+TEST(SummedCoat, table_is_read_in_lanes_as_in_one) {
+  const CoatTable table(1.5f, 0.01f);
+  constexpr std::array alphas{0.0f, 0.0005f, 0.001f, 0.02f, 0.3f, 0.6f, 0.601f, 0.9f, 1.1f, 7.0f};
+  NativeFloats alpha(0.0f);
+  for (std::size_t k = 0; k < std::size_t(native_lanes); ++k) set_lane(alpha, int(k), alphas[k % alphas.size()]);
+  const auto known = table.at(alpha);
+  for (int k = 0; k < native_lanes; ++k) {
+    const auto one = table.at(lane(alpha, k));
+    EXPECT_EQ(lane(known.internal, k), one.internal) << k;
+    for (std::size_t term = 0; term < one.series.size(); ++term)
+      EXPECT_EQ(lane(known.series[term], k), one.series[term]) << k << " " << term;
+  }
+  EXPECT_EQ(table.at(0.0005f).series, (std::array<float, coat_transmittance::terms>{}));
+  EXPECT_LT(table.at(0.6f).series[0], 1);
+  EXPECT_EQ(table.at(0.601f).series[0], coat_transmittance::none);
+  EXPECT_GT(table.at(0.99f).internal, 0);
+  EXPECT_EQ(table.at(1.1f).internal, 0);
+  EXPECT_EQ(CoatTable(5, 0.01f).at(0.1f).series[0], coat_transmittance::none);
 }
 
 // A smooth coat has a series of zeros; a coat with a direction, a very rough one, or one of an index near 1 or below,

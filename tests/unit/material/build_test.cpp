@@ -14,6 +14,7 @@ namespace {
 struct Workshop {
   Diagnostics diagnostics;
   TextureSet textures;
+  CoatTables coats;
   TextureBuilder builder{textures, std::filesystem::temp_directory_path().string(),
                          [](const SpectrumValue& value) { return std::get<RgbValue>(value).rgb; }, diagnostics};
   MaterialInputs inputs{
@@ -30,6 +31,7 @@ struct Workshop {
         diagnostics.error(where, "no table");
         return nullptr;
       },
+      coats,
       diagnostics};
   std::shared_ptr<const MeasuredTable> table = table_of({0});
 
@@ -54,6 +56,12 @@ struct Workshop {
     CheckerboardTextureDesc board;
     board.even = gray_value(0.9f), board.odd = gray_value(0.1f);
     builder.add({"board", true, board, {}, {}});
+  }
+  // The same of numbers, 0.3 and 0.1.
+  void add_roughness(const std::string& name) {
+    CheckerboardTextureDesc board;
+    board.even = 0.3f, board.odd = 0.1f;
+    builder.add({name, false, board, {}, {}});
   }
   BsdfRow row(const Material& material) const {
     return material_row(material, textures, {{0.2f, 0.3f}, {}, {0, 0, 1}});
@@ -168,6 +176,48 @@ TEST(BuildMaterial, index_of_a_metal_may_be_a_texture) {
   const float at = shop.row(m).v[ConductorSlots::eta];
   EXPECT_TRUE(at == 0.9f || at == 0.1f) << at;
   EXPECT_EQ(m.row.v[ConductorSlots::k], 3.0f);
+}
+
+// At a point the row is that of a constant roughness, up to the errors of the table.
+TEST(BuildMaterial, coat_of_a_textured_roughness_is_known_at_the_point) {
+  Workshop shop;
+  using Slots = CoatedDiffuseSlots;
+  shop.add_roughness("rough"), shop.add_roughness("other");
+  CoatedDiffuseDesc coated;
+  coated.maps_roughness = false;
+  coated.facets.roughness = TextureName{"rough"};
+  const Material textured = shop.build(coated);
+  const BsdfRow at = shop.row(textured);
+  coated.facets.roughness = at.v[Slots::alpha_x];
+  const BsdfRow constant = shop.build(coated).row;
+  EXPECT_EQ(textured.row.v[Slots::internal], 0);
+  EXPECT_NEAR(at.v[Slots::internal], constant.v[Slots::internal], 2e-3);
+  EXPECT_NE(constant.v[Slots::series], 0);
+  for (int k = 0; k < coat_transmittance::terms; ++k)
+    EXPECT_NEAR(at.v[Slots::series + k], constant.v[Slots::series + k], 3e-4) << k;
+  coated.facets.roughness = TextureName{"rough"};
+  EXPECT_EQ(shop.build(coated).coat, textured.coat) << "one table for all materials with this coat";
+  coated.layer.thickness = 0.02f;
+  EXPECT_NE(shop.build(coated).coat, textured.coat);
+}
+
+// Walks are sampled where roughness has a direction, where the layer varies, and where something scatters under the
+// coat.
+TEST(BuildMaterial, coat_of_a_textured_roughness_is_unknown_where_more_varies) {
+  Workshop shop;
+  using Slots = CoatedDiffuseSlots;
+  shop.add_roughness("rough"), shop.add_roughness("other");
+  const auto internal = [&](auto change) {
+    CoatedDiffuseDesc coated;
+    coated.facets.roughness = TextureName{"rough"};
+    change(coated);
+    return shop.row(shop.build(coated)).v[Slots::internal];
+  };
+  EXPECT_GT(internal([](CoatedDiffuseDesc&) {}), 0);
+  EXPECT_EQ(internal([](CoatedDiffuseDesc& c) { c.facets.roughness_v = NumberInput(TextureName{"other"}); }), 0);
+  EXPECT_EQ(internal([](CoatedDiffuseDesc& c) { c.facets.roughness_v = NumberInput(0.2f); }), 0);
+  EXPECT_EQ(internal([](CoatedDiffuseDesc& c) { c.layer.thickness = TextureName{"other"}; }), 0);
+  EXPECT_EQ(internal([](CoatedDiffuseDesc& c) { c.layer.albedo = gray_value(0.5f); }), 0);
 }
 
 TEST(BuildMaterial, normals_are_those_of_the_material_and_of_its_coat) {
