@@ -48,23 +48,23 @@ enum class TransportMode { radiance, importance };
 // What a model may need besides directions: random numbers of its own (for models with random walks), independent of
 // all others. Models read the stream by position and never advance it, so that a lane's numbers do not depend on other
 // lanes; a caller that repeats an operation at one vertex forks the stream in between. `on` are the active lanes.
-// `densities` states whether an estimate of the density is sufficient.
-enum class Densities { may_be_estimates, exact };
+// `densities` states what the density is for.
+enum class Densities { for_weights, exact };
 template <class F>
 struct BsdfContext {
   TransportMode mode = TransportMode::radiance;
   RandomStream<F> random;
   Mask<F> on = Mask<F>(true);
-  Densities densities = Densities::may_be_estimates;
+  Densities densities = Densities::for_weights;
 
   MONTELUX_INLINE BsdfContext in(Mask<F> lanes) const { return {mode, random, lanes, densities}; }
 };
 
 // f(wo, wi) |cos wi| and the density with which sample() draws wi; both zero where the model has only deltas there.
-// A model whose value is itself an estimate (layers) returns an unbiased one, and a density that is independent of it.
-// The density may be an estimate, too. That suffices for weights that sum to one in expectation, as in multiple
-// importance sampling, but not for 1 / density, as in resampling: callers that need it request exact densities, and
-// get other directions, whose density is known.
+// A model whose value is itself an estimate (layers) returns an unbiased one. Its density for weights is a function of
+// the two directions that resembles the density of its samples. That suffices for weights that sum to one, as in
+// multiple importance sampling, but not for 1 / density, as in resampling: callers that need it request exact
+// densities, and get other directions, whose density is known.
 template <class F>
 struct BsdfValue {
   Spectrum<F> f_cos;

@@ -21,8 +21,8 @@ class CoatTable {
   // The index of the coat, and the layer's thickness times extinction.
   CoatTable(float eta, float thickness);
 
-  // Of a coat whose facets have the roughness alpha in both directions, with the errors of coat_transmittance::series();
-  // the internal reflectance within 0.3 %. Nothing is known above max_alpha().
+  // Of a coat whose facets have the roughness alpha in both directions, with the errors of
+  // coat_transmittance::series(); the internal reflectance within 0.3 %. Nothing is known above max_alpha().
   template <class F>
   CoatKnowledge<F> at(F alpha) const {
     const F place = sqrt(max(alpha - min_alpha, F(0.0f)) * (1 / scale));

@@ -18,6 +18,8 @@ struct CoatedConductorSlots : LayeredSlots {
 template <class F>
 class MetalUnderCoat {
  public:
+  static constexpr float walks = 4;
+
   explicit MetalUnderCoat(const BsdfRows<F>& rows)
       : eta_(rows.number(CoatedConductorSlots::eta)),
         facets_(widened(rows, CoatedConductorSlots::conductor_alpha_x, CoatedConductorSlots::alpha_x),

@@ -20,6 +20,8 @@ struct CoatedDiffuseSlots : LayeredSlots {
 // Lambert's law does not depend on where light came from.
 template <class F>
 struct CosineLobe {
+  static constexpr float walks = 0;
+
   explicit CosineLobe(const BsdfRows<F>&) {}
   MONTELUX_INLINE Vec3<F> sample(Vec3<F>, F, Vec2<F> u2) const { return sample_cosine_hemisphere(u2); }
   MONTELUX_INLINE F density(Vec3<F>, Vec3<F> wi) const { return cosine_density(wi); }

@@ -25,18 +25,16 @@ struct LayeredSlots {
 // Light enters through the coat, is reflected between base and coat and scattered in the medium, and leaves through the
 // coat; both sides of the surface are equal. A walk has up to max_depth events between entry and exit.
 //
-// evaluate() is an unbiased estimate of f |cos| by `samples` walks from wo that are connected to wi. Its density, and
-// that of sample(), is an estimate too, by the same function of (wo, wi) and separate random numbers. So it has the
-// same distribution in both, and is independent of the value and of the weight: given wi, the expected weights of the
-// two techniques of multiple importance sampling sum to one, which suffices for an unbiased combination. The mean of
-// the estimate follows the walks with one reflection at the base, plus a constant cosine lobe, and integrates to at
-// most one.
-//
-// Where densities must be exact, directions come from the coat's facets or from Lobe, which approximates the directions
-// of light that leaves after reaching the base:
+// evaluate() is an unbiased estimate of f |cos| by `samples` walks from wo that are connected to wi. Directions come
+// from the coat's facets and from Lobe, which approximates the directions of light that leaves after reaching the base,
+// with exact densities; or from a walk that leaves, whose density is not known. For weights of multiple importance
+// sampling beside walks, the density of facets and Lobe replaces it, as a function of (wo, wi). Of Lobe:
 //   explicit Lobe(const BsdfRows<F>&): the rows of the whole model;
 //   Vec3<F> sample(Vec3<F> wo, F u, Vec2<F> u2): directions of total probability at most 1; below the surface: none;
-//   F density(Vec3<F> wo, Vec3<F> wi): their density; greater than zero for all wi above.
+//   F density(Vec3<F> wo, Vec3<F> wi): their density; greater than zero for all wi above;
+//   static constexpr float walks: zero if its directions always replace walks, since they have less noise. Else they do
+//     where densities must be exact, and in weights this is the factor of its density: how much less noise walks have
+//     than the values of samples of lights. Measured.
 template <class F, class Base, class Lobe>
 class Layered {
  public:
@@ -63,6 +61,12 @@ class Layered {
   BsdfSample<F> sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
   BsdfSample<F> sample_by_lobes(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const;
   F density_of_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const;
+  F density_for_weights(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const;
+  // Whether walks are sampled; else directions of known density.
+  static bool samples_walks(const BsdfContext<F>& context) {
+    return Lobe::walks > 0 && context.densities != Densities::exact;
+  }
+  F coat_share(Vec3<F> wo) const;
   F top_share(Vec3<F> wo) const;
   // Consists only of deltas, except for scattering in the medium.
   Mask<F> is_between_mirrors() const { return coat_.is_delta() & base_.is_delta(); }
@@ -83,7 +87,6 @@ class Layered {
   Spectrum<F> meet_medium(LayerWalk<F>& walk, const Exit& exit, const WalkDraws<F>& draws, Mask<F> on) const;
   Spectrum<F> leave_between_mirrors(const LayerWalk<F>& walk, const Exit& exit, int depth, Mask<F> on) const;
   Spectrum<F> leave_by_chance(const LayerWalk<F>& walk, const Exit& exit, F density, Mask<F> on) const;
-  F density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const;
 
   Dielectric<F> coat_;
   Base base_;
@@ -93,13 +96,7 @@ class Layered {
 };
 
 // Independent random numbers for the parts of a call.
-enum LayerPurpose : std::uint32_t {
-  evaluation_walk = 11,
-  sampling_walk = 12,
-  evaluated_density = 13,
-  sampled_density = 14,
-  albedo_walk = 15
-};
+enum LayerPurpose : std::uint32_t { evaluation_walk = 11, sampling_walk = 12, albedo_walk = 15 };
 
 MONTELUX_INLINE TransportMode adjoint(TransportMode mode) {
   return mode == TransportMode::radiance ? TransportMode::importance : TransportMode::radiance;
@@ -122,9 +119,8 @@ BsdfValue<F> Layered<F, Base, Lobe>::evaluate(Vec3<F> wo, Vec3<F> wi, const Bsdf
   }
   F coat = coat_.template evaluate_lobes<Lobes::reflection>(o, i, context.mode).f_cos;
   Spectrum<F> value = gray(coat) + sum / max(samples_, F(1.0f));
-  const F density = context.densities == Densities::exact
-                        ? density_of_lobes(o, i, context.mode)
-                        : density_estimate(o, i, {context.random.fork(Uint<F>(evaluated_density))});
+  const F density =
+      samples_walks(context) ? density_for_weights(o, i, context.mode) : density_of_lobes(o, i, context.mode);
   return {select(on, value, gray(F(0.0f))), {select(on, density, F(0.0f))}};
 }
 
@@ -242,10 +238,17 @@ Spectrum<F> Layered<F, Base, Lobe>::leave_by_chance(const LayerWalk<F>& walk, co
 template <class F, class Base, class Lobe>
 BsdfSample<F> Layered<F, Base, Lobe>::sample(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
   const F side = copysign(F(1.0f), wo.z);
-  BsdfSample<F> s = context.densities == Densities::exact ? sample_by_lobes(wo * side, u, u2, context)
-                                                          : sample_by_walk(wo * side, u, u2, context);
+  BsdfSample<F> s =
+      samples_walks(context) ? sample_by_walk(wo * side, u, u2, context) : sample_by_lobes(wo * side, u, u2, context);
   s.wi = s.wi * side;
   return s;
+}
+
+// The probability with which a direction is reflected by the coat. What a coat mirrors may be bright, though it
+// reflects little.
+template <class F, class Base, class Lobe>
+F Layered<F, Base, Lobe>::coat_share(Vec3<F> wo) const {
+  return min(max(fresnel_dielectric(wo.z, coat_.eta()), F(0.1f)), F(0.75f));
 }
 
 // The probability with which sample_by_lobes() uses the coat or, if everything is smooth, the walks that meet only
@@ -253,14 +256,19 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample(Vec3<F> wo, F u, Vec2<F> u2, const 
 template <class F, class Base, class Lobe>
 F Layered<F, Base, Lobe>::top_share(Vec3<F> wo) const {
   const Mask<F> mirrors = is_between_mirrors(), delta = is_delta();
-  const F reflected = min(max(fresnel_dielectric(wo.z, coat_.eta()), F(0.1f)), F(0.75f));
-  return select(delta, F(1.0f), select(mirrors, F(0.5f), reflected));
+  return select(delta, F(1.0f), select(mirrors, F(0.5f), coat_share(wo)));
 }
 
 template <class F, class Base, class Lobe>
 F Layered<F, Base, Lobe>::density_of_lobes(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const {
   const F coat = coat_.template evaluate_lobes<Lobes::reflection>(wo, wi, mode).density;
   return lerp(top_share(wo), lobe_.density(wo, wi), coat);
+}
+
+template <class F, class Base, class Lobe>
+F Layered<F, Base, Lobe>::density_for_weights(Vec3<F> wo, Vec3<F> wi, TransportMode mode) const {
+  const F coat = coat_.template evaluate_lobes<Lobes::reflection>(wo, wi, mode).density;
+  return lerp(coat_share(wo), lobe_.density(wo, wi) * Lobe::walks, coat);
 }
 
 template <class F, class Base, class Lobe>
@@ -292,7 +300,13 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample_by_lobes(Vec3<F> wo, F u, Vec2<F> u
 
 template <class F, class Base, class Lobe>
 BsdfSample<F> Layered<F, Base, Lobe>::sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2, const BsdfContext<F>& context) const {
-  CoatSample entry = coat_.template sample_lobes<Lobes::both>(wo, u, u2, context.mode);
+  const F share = coat_share(wo);
+  const Mask<F> by_coat = u < share;
+  const CoatSample mirrored = coat_.template sample_lobes<Lobes::reflection>(wo, F(0.0f), u2, context.mode);
+  CoatSample entry = coat_.template sample_lobes<Lobes::transmission>(wo, F(0.0f), u2, context.mode);
+  entry.wi = select(by_coat, mirrored.wi, entry.wi);
+  entry.weight = select(by_coat, mirrored.weight / share, entry.weight / (F(1.0f) - share));
+  entry.valid = (mirrored.valid & by_coat) | (entry.valid & !by_coat);
   Mask<F> left = context.on & entry.valid & (entry.wi.z > F(0.0f));
   LayerWalk<F> walk{entry.wi, gray(entry.weight), medium_.thickness, Mask<F>(context.on & entry.valid & !left)};
   Mask<F> delta = coat_.is_delta();
@@ -325,41 +339,8 @@ BsdfSample<F> Layered<F, Base, Lobe>::sample_by_walk(Vec3<F> wo, F u, Vec2<F> u2
   }
   F density = F(0.0f);
   Mask<F> smooth = left & !delta;
-  if (any(smooth)) density = density_estimate(wo, walk.w, {context.random.fork(Uint<F>(sampled_density))});
+  if (any(smooth)) density = density_for_weights(wo, walk.w, context.mode);
   return {walk.w, walk.beta, {density}, F(1.0f), left, delta};
-}
-
-// Reflection at the coat, plus one reflection at the base between entry and exit, plus a constant lobe. The middle part
-// is an integral over the direction between base and coat, p(base samples w) p(coat maps w to wi): estimated by w from
-// the base and by w sampled backward from wi, with the balance heuristic; if the coat is smooth, w is known.
-template <class F, class Base, class Lobe>
-F Layered<F, Base, Lobe>::density_estimate(Vec3<F> wo, Vec3<F> wi, const WalkDraws<F>& draws) const {
-  constexpr TransportMode mode = TransportMode::importance;
-  const BsdfContext<F> context{mode, draws.stream};
-  F coat = coat_.template evaluate_lobes<Lobes::both>(wo, wi, mode).density;
-  CoatSample entry = coat_.template sample_lobes<Lobes::transmission>(wo, F(0.0f), draws.pair(0), mode);
-  CoatSample exit = coat_.template sample_lobes<Lobes::transmission>(wi, F(0.0f), draws.pair(2), mode);
-  F base = base_.evaluate(-entry.wi, -exit.wi, context).density.value;
-
-  // Snell's law compresses solid angles: d w / d wi = |cos wi| / (eta^2 |cos w|).
-  F squeeze = wi.z / max(square(coat_.eta()) * abs(exit.wi.z), F(1e-10f));
-  F middle = base * exit.weight * squeeze;
-  Mask<F> rough = !coat_.is_delta();
-  if (any(rough)) {
-    F out = coat_.template evaluate_lobes<Lobes::both>(exit.wi, wi, mode).density;
-    F backward = out * base / max(base + exit.density, F(1e-30f));
-    backward = select(exit.valid, backward, F(0.0f));
-
-    BsdfSample<F> s = base_.sample(-entry.wi, draws.number(4), draws.pair(5), context);
-    F onward_out = coat_.template evaluate_lobes<Lobes::both>(-s.wi, wi, mode).density;
-    F adjoint_density = coat_.template evaluate_lobes<Lobes::transmission>(wi, -s.wi, mode).density;
-    F share = s.density.value / max(s.density.value + adjoint_density, F(1e-30f));
-    F onward = select(s.valid, onward_out * select(s.delta, F(1.0f), share), F(0.0f));
-    middle = select(rough, backward + onward, middle);
-  }
-  middle = select(entry.valid & (rough | exit.valid), middle * entry.weight, F(0.0f));
-  constexpr float floor_share = 0.1f;
-  return lerp(F(floor_share), coat + middle, cosine_density(wi));
 }
 
 }  // namespace montelux

@@ -103,7 +103,6 @@ class EyeSubpaths {
     M scatters = on & at.found;
     if (frame_.paths.max_depth) scatters = scatters & (path.depth < U(std::uint32_t(*frame_.paths.max_depth)));
     if constexpr (!Frame::every_strategy) scatters = scatters & frame_.visits(vertices);
-    at.context.densities = Densities::exact;
     const Here here{at, M(scatters & !at.bsdf.is_delta)};
 
     // A point of a light, and a direction.
@@ -230,7 +229,7 @@ class EyeSubpaths {
     const BsdfValue<F> eye = evaluate_at<F, in_media>(scene_, at, at.wo, eye_wi, eye_context, on);
     on = on & !is_black(eye.f_cos);
     if (!any(on)) return;
-    const BsdfContext<F> light_context{TransportMode::importance, y.random, on, Densities::exact};
+    const BsdfContext<F> light_context{TransportMode::importance, y.random, on};
     const BsdfValue<F> light = evaluate_at<F, in_media>(scene_, y, y.wo, light_wi, light_context, on);
     const F ng_out = dot(y.ng, -wi), ng_in = -dot(y.ng, y.frame.to_world(y.wo));
     F correction = Correction()(y.wo, ng_in, light_wi, ng_out), cos_light = abs(ng_out);

@@ -278,7 +278,7 @@ void walk_from_lights(const Frame& frame, Splatting splatting, RayCounts& counts
                                           {},
                                           frame.paths.max_depth,
                                           frame.paths.roulette_depth,
-                                          Densities::exact,
+                                          Densities::for_weights,
                                           frame.light_media};
   using Sink = LightSubpathSink<F, Frame, Correction, Store, in_media>;
   Sink sink(frame, store, splatting == Splatting::on, counts);

@@ -19,7 +19,7 @@ struct LightWalkScene {
   std::optional<float> shutter_sample;  // in [0, 1), of the exposure: of all paths; else each has its own
   std::optional<int> max_depth;         // scattering events, that of the last vertex included
   int roulette_depth;                   // scattering events before roulette
-  Densities densities = Densities::may_be_estimates;
+  Densities densities = Densities::for_weights;
   const LightMedia* light_media = nullptr;  // of a walk in media
 };
 

@@ -44,7 +44,7 @@ class LightTracingLoop {
                                     {},
                                     shared_.settings.max_depth,
                                     shared_.settings.roulette_depth,
-                                    Densities::may_be_estimates,
+                                    Densities::for_weights,
                                     shared_.light_media};
     const auto width = std::uint32_t(tile.width());
     LightWalk<F, Rays, LightTracingLoop, Correction, in_media>(walk, *this, counts_)

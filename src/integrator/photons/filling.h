@@ -91,7 +91,7 @@ class PhotonFilling {
                                     set.shutter_sample,
                                     paths_.max_depth,
                                     paths_.roulette_depth,
-                                    Densities::may_be_estimates,
+                                    Densities::for_weights,
                                     lights_.media ? &*lights_.media : nullptr};
     const auto follow = [&](auto sink) {
       using Walk = LightWalk<F, Rays, decltype(sink), AdjointCorrection, in_media>;

@@ -64,7 +64,7 @@ PhotonPilot::PhotonPilot(const Scene& scene, const Accel& accel, const PhotonPat
                                    0.5f,
                                    paths.max_depth,
                                    paths.roulette_depth,
-                                   Densities::may_be_estimates,
+                                   Densities::for_weights,
                                    lights.media ? &*lights.media : nullptr};
   if (scene.media.empty()) {
     PhotonSink<NativeFloats> sink(surfaces_, paths.first_event, 1);

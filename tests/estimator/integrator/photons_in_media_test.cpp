@@ -79,16 +79,9 @@ PassMeans by_hand(const TestScene& scene, int passes, std::uint32_t seed, const 
   for (int number = 0; number < passes; ++number) {
     const PointSet points = render.image.points(number, 1);
     surfaces.box(0).clear(), events.box(0).clear();
-    const LightWalkScene<Accel> walk{s,
-                                     scene.accel(),
-                                     *lights.by_power,
-                                     photon_points(points, 0, paths),
-                                     s.shutter,
-                                     {},
-                                     {},
-                                     2,
-                                     Densities::may_be_estimates,
-                                     &*lights.media};
+    const LightWalkScene<Accel> walk{
+        s, scene.accel(),          *lights.by_power, photon_points(points, 0, paths), s.shutter, {}, {},
+        2, Densities::for_weights, &*lights.media};
     Sink sink(surfaces.box(0), fault.direct_twice ? 0 : 1, 1 / float(paths), nullptr,
               MediumBox{s.media, events.box(0)});
     RayCounts counts;
