@@ -218,7 +218,6 @@ class PhotonGathering {
     NextVertex<F> at = arrive(path, on, sampler, weight_for(path), layers, segments);
     const M scatters = on & at.found & may;
     const M rough = scatters & !at.bsdf.is_delta;
-    at.context.densities = Densities::exact;
 
     // A point of a light, and a direction.
     const M wants_light = rough & M(rules_.nee);
@@ -351,7 +350,6 @@ class PhotonGathering {
     NoSegments unreported;  // photons represent what events on a gather ray receive
     NextVertex<F> at = arrive(path, on, numbers, weight_of_gather_ray(ray), of_gather_rays(), unreported);
     const M scatters = on & at.found & may_scatter(path);
-    at.context.densities = Densities::exact;
     const Vec2<F> u = numbers.get2(dimension + U(path_dimension::direction));
     const BsdfSample<F> next = sampled(at, numbers.get1(dimension + U(path_dimension::lobe)), u, at.context, scatters);
     if (const M rough = scatters & !at.bsdf.is_delta; any(rough))

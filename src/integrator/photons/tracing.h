@@ -81,7 +81,7 @@ class CausticSink : public PhotonSink<F> {
   Mask<F> follows(const LightPathVertex<F>& v, const BsdfSample<F>& next, Mask<F> on) const {
     // A path from the eye arrives along `next` and samples the direction toward the light.
     BsdfContext<F> context = v.at.context;
-    context.mode = TransportMode::radiance, context.densities = Densities::exact;
+    context.mode = TransportMode::radiance;
     const Density<SolidAngle, F> reverse =
         evaluate_at<F, in_media>(scene_, v.at, next.wi, v.at.wo, context, on & !next.delta).density;
     return next.delta | (reverse.value > F(glossy_));
