@@ -90,7 +90,7 @@ class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
   // while light samples find nearly all that the base reflects.
   F coat_share(Vec3<F> o) const;
   // Measured: a lower share is noisier where lamps are mirrored, a higher one where indirect light is.
-  static constexpr float least_coat_share = 0.2f;
+  static constexpr float min_coat_share = 0.2f;
 
   Spectrum<F> reflectance_;
   F internal_;
@@ -159,7 +159,7 @@ template <class F>
 F CoatedDiffuse<F>::coat_share(Vec3<F> o) const {
   const F reflected = fresnel_dielectric(o.z, coat_.eta());
   const F base = (F(1.0f) - reflected) * (F(1.0f) - internal_) * max_component(reflections_);
-  return max(reflected / max(reflected + base, F(1e-30f)), F(least_coat_share));
+  return max(reflected / max(reflected + base, F(1e-30f)), F(min_coat_share));
 }
 
 template <class F>
