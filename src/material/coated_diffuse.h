@@ -46,7 +46,7 @@ struct CoatedDiffuseDesc {
 // r (r K)^(n - 1) of the entering light remains, distributed by the cosine. The transmittances of the way in and the
 // way out are known, too, if the coat's facets are the same in all directions and not very rough; else one facet is
 // sampled for each, an unbiased estimate. Directions come from the coat's facets or from a cosine lobe, so that the
-// density is exact. Otherwise the model is a random walk.
+// density is exact. Otherwise values are random walks.
 template <class F>
 class CoatedDiffuse : public Layered<F, Diffuse<F>, CosineLobe<F>> {
  public:
