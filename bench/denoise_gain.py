@@ -55,8 +55,10 @@ def main():
                 stated = run("denoise", folder / "noisy.exr", "-o", folder / "clean.pfm")["denoised"]["relative_mse"]
                 before, after = (relative_error(read_pfm(folder / f"{k}.pfm"), true, variance) for k in ("noisy", "clean"))
                 flip = [run("diff", folder / f"{k}.pfm", folder / "true.pfm")["flip"] for k in ("noisy", "clean")]
-                gains.setdefault(samples, []).append(before / after)
-                ratio = math.sqrt(stated / after)
+                if before > 0 and after > 0:
+                    gains.setdefault(samples, []).append(before / after)
+                # Where the reference is not exact enough, nothing is known of the error that is left.
+                ratio = math.sqrt(stated / after) if after > 0 else math.nan
                 print(f"| {scene.stem} | {samples} | {before:.3g} | {after:.3g} | {before / after:.1f} | {ratio:.2f} | "
                       f"{flip[0]:.3f} | {flip[1]:.3f} |", flush=True)
     for samples, all_gains in gains.items():

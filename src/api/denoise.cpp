@@ -70,7 +70,7 @@ NoisyImage noisy_image(const Film& film, bool layers) {
         to.share[i] = usable || from.share == 1 ? float(from.share) : 1.0f;
         for (std::size_t c = 0; c < rgb_size; ++c) {
           to.color[c][i] = float(usable ? from.mean[c] : pixel.mean[c]);
-          to.albedo[c][i] = float(from.albedo[c]);
+          to.emission[c][i] = float(from.emission[c]), to.albedo[c][i] = float(from.albedo[c]);
         }
         for (std::size_t c = 0; c < 3; ++c) to.normal[c][i] = float(from.normal[c]);
       }
@@ -144,6 +144,9 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
     const HalfLayerNames& names = half_layer_names[h];
     HalfPlanes& half = noisy.halves[h];
     if (Status read = read_planes(image, names.color, "RGB", half.color); !read) return read.failure();
+    // Images of older versions have none.
+    if (find_channel(image, std::string(names.emission) + ".R"))
+      if (Status read = read_planes(image, names.emission, "RGB", half.emission); !read) return read.failure();
     if (Status read = read_planes(image, names.albedo, "RGB", half.albedo); !read) return read.failure();
     if (Status read = read_planes(image, names.normal, "XYZ", half.normal); !read) return read.failure();
     const std::optional<int> share = find_channel(image, names.share);
@@ -160,8 +163,8 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
       usable &= error >= 0 && is_usable(double(error) * double(error));
       error *= error;
       for (const HalfPlanes& half : noisy.halves)
-        usable &= is_usable(double(half.color[c][i])) && is_usable(double(half.albedo[c][i])) &&
-                  is_usable(double(half.normal[c][i]));
+        usable &= is_usable(double(half.color[c][i])) && is_usable(double(half.emission[c][i])) &&
+                  is_usable(double(half.albedo[c][i])) && is_usable(double(half.normal[c][i]));
     }
     if (usable) {
       b.share[i] = 1 - a.share[i];
@@ -171,7 +174,7 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
       half.share[i] = 1;
       for (std::size_t c = 0; c < rgb_size; ++c) {
         half.color[c][i] = is_usable(double(color[c][i])) ? color[c][i] : 0;
-        half.albedo[c][i] = half.normal[c][i] = 0;
+        half.emission[c][i] = half.albedo[c][i] = half.normal[c][i] = 0;
       }
     }
     for (Plane& plane : noisy.variance) plane[i] = 0;

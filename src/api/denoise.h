@@ -82,14 +82,15 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
 // Entries of a header.
 std::vector<Attribute> header_of(const Denoising& estimate);
 
-// Names of the layers of both halves: colours, albedos, normals, and the share of the passes. The colours of the layer
-// NAME of light are first_half_NAME and second_half_NAME.
+// Names of the layers of both halves: colours, the part of them that the camera sees directly of emitters, albedos,
+// normals, and the share of the passes. The colours of the layer NAME of light are first_half_NAME and
+// second_half_NAME.
 struct HalfLayerNames {
-  std::string_view color, albedo, normal, share;
+  std::string_view color, emission, albedo, normal, share;
   std::string of_layer(std::string_view name) const { return std::string(color).append("_").append(name); }
 };
 inline constexpr std::array<HalfLayerNames, 2> half_layer_names{
-    {{"first_half", "first_half_albedo", "first_half_N", "first_half.share"},
-     {"second_half", "second_half_albedo", "second_half_N", "second_half.share"}}};
+    {{"first_half", "first_half_emission", "first_half_albedo", "first_half_N", "first_half.share"},
+     {"second_half", "second_half_emission", "second_half_albedo", "second_half_N", "second_half.share"}}};
 
 }  // namespace montelux

@@ -210,11 +210,13 @@ void check_features(const Json& j) {
     throw std::invalid_argument("it has other feature layers than films of this version");
 }
 
-// Of older versions the layers of light have no halves: their films cannot be continued.
-void check_layers(const Json& j) {
-  if (const Json& plan = j.at("picture").at("layers"); plan.is_null() || j.contains("layers_have_halves")) return;
+// Of older versions the halves have no emission and the layers of light no halves: their films cannot be continued.
+void check_halves(const Json& j) {
   const Result<LayerRequest> request = parse_layers(j.at("settings").at("layers").get<std::string>());
-  if (request && request->halves)
+  if (!request || !request->halves) return;
+  if (!j.contains("halves_have_emission"))
+    throw std::invalid_argument("its halves have no emission: an older version saved it");
+  if (!j.at("picture").at("layers").is_null() && !j.contains("layers_have_halves"))
     throw std::invalid_argument("its layers of light have no halves: an older version saved it");
 }
 
@@ -255,7 +257,7 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   if (!snapshot.bias.empty()) json["measured_bias"] = bias_json(snapshot.bias);
   if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
   if (film.adaptive) json["adaptive"] = adaptive_json(*film.adaptive, snapshot.rays_of_tiles);
-  json["features"] = feature_names(), json["layers_have_halves"] = true;
+  json["features"] = feature_names(), json["layers_have_halves"] = true, json["halves_have_emission"] = true;
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
@@ -275,7 +277,7 @@ Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& lay
 
 SavedFilm saved_from(const Json& j, std::string_view bytes) {
   check_features(j);
-  check_layers(j);
+  check_halves(j);
   const SavedScene scene = scene_from(j);
   const FilmSettings settings = settings_from(j.at("settings"));
   const PictureFacts facts = facts_from(j.at("picture"), settings);

@@ -137,8 +137,8 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
 void append_halves(PixelBuffer& image, int first, const Film& film) {
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {});
   for (const HalfLayerNames& names : half_layer_names) {
-    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(std::string(names.color) + channel);
-    for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(std::string(names.albedo) + channel);
+    for (std::string_view colors : {names.color, names.emission, names.albedo})
+      for (const char* channel : {".R", ".G", ".B"}) added.channels.push_back(std::string(colors) + channel);
     for (const char* channel : {".X", ".Y", ".Z"}) added.channels.push_back(std::string(names.normal) + channel);
     added.channels.emplace_back(names.share);
   }
@@ -147,6 +147,7 @@ void append_halves(PixelBuffer& image, int first, const Film& film) {
   fill_by_cells(grid, first, image.height, added.channel_count(), added.values.data(), [&](int x, int y, float* to) {
     for (const PixelHalf& half : film.halves(grid.bounds.x0 + x, grid.bounds.y0 + y)) {
       for (double channel : half.mean) *to++ = float(channel);
+      for (double channel : half.emission) *to++ = float(channel);
       for (double channel : half.albedo) *to++ = float(channel);
       for (double channel : half.normal) *to++ = float(channel);
       *to++ = float(half.share);

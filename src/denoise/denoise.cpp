@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "denoise/box_mean.h"
+#include "denoise/small_lamps.h"
 #include "denoise/squared_error.h"
 #include "denoise/weighted_sums.h"
 
 namespace montelux {
 
 HalfPlanes::HalfPlanes(std::size_t pixels) : share(pixels) {
-  for (ColorPlanes* planes : {&color, &albedo})
+  for (ColorPlanes* planes : {&color, &albedo, &emission})
     for (Plane& plane : *planes) plane.resize(pixels);
   for (Plane& plane : normal) plane.resize(pixels);
 }
@@ -47,6 +50,7 @@ struct FilteredColors {
   std::array<const ColorPlanes*, 2> noisy;  // both halves
   const ColorPlanes* variance;              // of the mean of both; null: not known
   std::array<ColorPlanes, 2> filtered;
+  const KeptLight* kept = nullptr;  // to be added to either; null: there is none
 };
 
 // Sums of squared errors over pixels and channels.
@@ -59,8 +63,10 @@ struct ErrorSums {
 
 class Denoiser {
  public:
-  Denoiser(const NoisyImage& image, const DenoiseSettings& settings)
+  // `lamps`: what the image is the rest of; null: it is whole.
+  Denoiser(const NoisyImage& image, const SplitImage* lamps, const DenoiseSettings& settings)
       : image_(image),
+        lamps_(lamps),
         settings_(settings),
         filtered_(filter_halves(image, settings)),
         filters_(filtered_[0].size()),
@@ -163,7 +169,8 @@ class Denoiser {
 
   // The colours of the image, and the share of each pixel itself in them.
   FilteredColors filtered_image() {
-    FilteredColors all{{&image_.halves[0].color, &image_.halves[1].color}, &image_.variance, {}};
+    FilteredColors all{{&image_.halves[0].color, &image_.halves[1].color}, &image_.variance, {}, nullptr};
+    if (lamps_) all.kept = &lamps_->kept;
     for (std::size_t half = 0; half < 2; ++half) {
       own_[half] = mixture_.unfiltered;
       for (std::size_t c = 0; c < rgb_size; ++c) {
@@ -186,8 +193,10 @@ class Denoiser {
     const auto filtered = filter_layers(image_, settings_, mixture_, filtered_);
     for (std::size_t k = 0; k < filtered.size(); ++k) {
       const NoisyLayer& layer = image_.layers[k];
-      const FilteredColors colors{
-          {&layer.halves[0], &layer.halves[1]}, layer.knows_variance() ? &layer.variance : nullptr, filtered[k]};
+      const FilteredColors colors{{&layer.halves[0], &layer.halves[1]},
+                                  layer.knows_variance() ? &layer.variance : nullptr,
+                                  filtered[k],
+                                  lamps_ ? &lamps_->kept_layers[k] : nullptr};
       DenoisedLayer& added = result.layers.emplace_back();
       added.color = mean_of(colors);
       if (colors.variance) estimate_error(colors, added.color, added.error);
@@ -201,8 +210,11 @@ class Denoiser {
       mean[c].resize(image_.pixels());
       for (std::size_t i = 0; i < image_.pixels(); ++i) {
         const float share = image_.halves[0].share[i];
-        const float a = colors.filtered[0][c][i], b = colors.filtered[1][c][i];
-        mean[c][i] = has_halves(i) ? share * a + (1 - share) * b : (*colors.noisy[0])[c][i];
+        const auto mean_of_halves = [&](const std::array<ColorPlanes, 2>& halves) {
+          return share * halves[0][c][i] + (1 - share) * halves[1][c][i];
+        };
+        mean[c][i] = has_halves(i) ? mean_of_halves(colors.filtered) : (*colors.noisy[0])[c][i];
+        if (colors.kept && has_halves(i)) mean[c][i] += mean_of_halves(colors.kept->halves);
       }
     }
     return mean;
@@ -225,11 +237,18 @@ class Denoiser {
                     double(image_.halves[0].share[i]), double((*colors.variance)[c][i])};
       const Filtered f{double(colors.filtered[0][c][i]), double(colors.filtered[1][c][i]), double(own_[0][i]),
                        double(own_[1][i])};
-      const double squared = squared_error(n, f), relative = double(scale[i]);
-      const double noise = n.share * (1 - n.share) * (f.first - f.second) * (f.first - f.second);
+      double squared = squared_error(n, f), noisy = n.variance, difference = f.first - f.second;
+      if (const KeptLight* kept = colors.kept) {
+        const double of_kept = double(kept->variance[c][i]), with_rest = double(kept->covariance[c][i]);
+        const double own = n.share * f.own_first + (1 - n.share) * f.own_second;
+        squared += of_kept + 2 * own * with_rest, noisy += of_kept + 2 * with_rest;
+        difference += double(kept->halves[0][c][i]) - double(kept->halves[1][c][i]);
+      }
+      const double relative = double(scale[i]);
+      const double noise = n.share * (1 - n.share) * difference * difference;
       error[i] = float(squared * relative), spread[i] = float(noise * relative);
       sums.filtered += squared, sums.least += noise;
-      sums.noisy += n.variance, sums.noisy_relative += n.variance * relative;
+      sums.noisy += noisy, sums.noisy_relative += noisy * relative;
       sums.measured += 1;
     }
     // Means of relative errors: those of bright pixels must not spread to dark ones.
@@ -245,6 +264,7 @@ class Denoiser {
   }
 
   const NoisyImage& image_;
+  const SplitImage* lamps_;
   const DenoiseSettings& settings_;
   const FilteredHalves filtered_;
   const std::size_t filters_, unfiltered_;  // the number of the filters; the number of the image among the candidates
@@ -256,7 +276,15 @@ class Denoiser {
 }  // namespace
 
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings) {
-  return Denoiser(image, settings).run();
+  const std::optional<SplitImage> split = split_small_lamps(image);
+  DenoiseSettings of_rest = settings;
+  std::vector<NoisyImage> others;
+  const auto has_lamps = [](const NoisyImage& other) { return split_small_lamps(other).has_value(); };
+  if (std::ranges::any_of(settings.others, has_lamps)) others.assign(settings.others.begin(), settings.others.end());
+  for (NoisyImage& other : others)
+    if (std::optional<SplitImage> lamps = split_small_lamps(other)) other = std::move(lamps->rest);
+  if (!others.empty()) of_rest.others = others;
+  return Denoiser(split ? split->rest : image, split ? &*split : nullptr, of_rest).run();
 }
 
 }  // namespace montelux

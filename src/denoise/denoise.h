@@ -12,6 +12,7 @@ namespace montelux {
 // One half of the passes: the image that they make, and what it shows. Features are means over samples that hit.
 struct HalfPlanes {
   ColorPlanes color, albedo;
+  ColorPlanes emission;  // the part of the colour that the camera sees directly of emitters
   std::array<Plane, 3> normal;
   Plane share;  // of the passes of the pixel; 0: the pixel has none
 
@@ -67,8 +68,9 @@ struct DenoiseSettings {
 // weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Of three
 // filters (with other images also those over the image alone), the unfiltered image and means of both each pixel takes
 // the one with the least estimated error around it, averaged over what its neighbours take. Layers are filtered as the
-// image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up to rounding. The
-// same bits for any number of threads. Throws std::runtime_error if it was stopped.
+// image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up to rounding.
+// Lamps of few pixels that are far brighter than what is around them are not filtered (denoise/small_lamps.h). The same
+// bits for any number of threads. Throws std::runtime_error if it was stopped.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

@@ -32,7 +32,7 @@ NoisyImage reprojected(const NoisyImage& earlier, const MotionPlanes& motion) {
         to.share[i] = half.share[*from];
         for (std::size_t c = 0; c < 3; ++c) {
           to.color[c][i] = half.color[c][*from], to.albedo[c][i] = half.albedo[c][*from];
-          to.normal[c][i] = half.normal[c][*from];
+          to.emission[c][i] = half.emission[c][*from], to.normal[c][i] = half.normal[c][*from];
         }
       }
       for (std::size_t c = 0; c < rgb_size; ++c) {

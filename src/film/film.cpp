@@ -81,7 +81,8 @@ void PixelPass::add(const PixelSample& sample) {
     return;
   }
   ++finite;
-  for (int i = 0; i < rgb_size; ++i) sum[i] += sample.radiance.c[i];
+  for (int i = 0; i < rgb_size; ++i)
+    sum[i] += sample.radiance.c[i], emission[i] += within(sample.features.emission.c[i], ExactSum::largest);
 }
 
 void PixelSums::add(int pass, const PixelPass& added) {
@@ -218,7 +219,7 @@ void Film::add_pixel(const PixelBounds& tile, std::size_t i, PixelPass of_pixel,
   }
   const std::size_t index = index_of_cell(x, y);
   PixelSums& pixel = pixels_[index];
-  if (has_halves() && in_first_half) halves_[index].add(of_pixel);
+  if (has_halves()) halves_[index].add(of_pixel, in_first_half);
   pixel.add(whole.pass, of_pixel);
   if (of_pixel.finite == 0) return;
   double mean[rgb_size] = {};

@@ -66,6 +66,7 @@ using FeatureSums = decltype(feature_sums_of(std::make_index_sequence<feature_ch
 // The samples of one pixel in one pass, summed: the radiance of those that are finite, and the features.
 struct PixelPass {
   double sum[rgb_size] = {};
+  double emission[rgb_size] = {};  // of these samples: what the camera sees directly of emitters
   int finite = 0, non_finite = 0;
   PixelFeatures features;
   void add(const PixelSample& sample);

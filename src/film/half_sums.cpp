@@ -1,6 +1,7 @@
 #include "film/half_sums.h"
 
 #include <algorithm>
+#include <span>
 
 #include "film/film.h"
 #include "film/film_bytes.h"
@@ -8,7 +9,10 @@
 
 namespace montelux {
 
-void HalfSums::add(const PixelPass& sums) {
+void HalfSums::add(const PixelPass& sums, bool in_first_half) {
+  if (sums.finite > 0)
+    for (int c = 0; c < rgb_size; ++c) emission[in_first_half ? 0 : 1][c].add(sums.emission[c] / sums.finite);
+  if (!in_first_half) return;
   if (sums.finite > 0)
     for (int c = 0; c < rgb_size; ++c) radiance[c].add(sums.sum[c] / sums.finite);
   const PixelFeatures& f = sums.features;
@@ -20,7 +24,10 @@ void HalfSums::add(const PixelPass& sums) {
 }
 
 void HalfSums::merge(const HalfSums& other) {
-  for (int c = 0; c < rgb_size; ++c) radiance[c] += other.radiance[c], albedo[c] += other.albedo[c];
+  for (int c = 0; c < rgb_size; ++c) {
+    radiance[c] += other.radiance[c], albedo[c] += other.albedo[c];
+    for (int h = 0; h < 2; ++h) emission[h][c] += other.emission[h][c];
+  }
   for (int c = 0; c < 3; ++c) normal[c] += other.normal[c];
   hits += other.hits;
 }
@@ -41,6 +48,9 @@ std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
   for (int c = 0; c < rgb_size; ++c) {
     const double sum = radiance[c].value(), m = mean[std::size_t(c)];
     a.mean[c] = both ? sum / first : m, b.mean[c] = both ? (m * passes - sum) / second : m;
+    const double of_a = emission[0][c].value(), of_b = emission[1][c].value(),
+                 of_all = (of_a + of_b) / std::max(passes, 1.0);
+    a.emission[c] = both ? of_a / first : of_all, b.emission[c] = both ? of_b / second : of_all;
     split(albedo[c].value(), whole.albedo(c), a.albedo[c], b.albedo[c]);
   }
   for (int c = 0; c < 3; ++c) split(normal[c].value(), whole.normal(c), a.normal[c], b.normal[c]);
@@ -50,6 +60,13 @@ std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
 void HalfSums::write(ByteWriter& out) const {
   out.count(hits);
   for (const ExactSum& x : radiance) out.sum(x);
+  const bool emits = std::ranges::any_of(std::span(emission), [](const ExactSum(&half)[rgb_size]) {
+    return std::ranges::any_of(half, [](const ExactSum& x) { return x.units() != 0; });
+  });
+  out.count(emits ? 1 : 0);
+  for (const auto& half : emission)
+    for (const ExactSum& x : half)
+      if (emits) out.sum(x);
   if (hits == 0) return;
   for (const SmallExactSum& x : albedo) out.sum(x);
   for (const SmallExactSum& x : normal) out.sum(x);
@@ -58,6 +75,9 @@ void HalfSums::write(ByteWriter& out) const {
 void HalfSums::read(const PixelSums& all, ByteReader& in) {
   hits = std::uint32_t(in.count(all.hits));
   for (ExactSum& x : radiance) x = in.sum(all.half_passes);
+  if (in.count(1) == 1)
+    for (std::size_t h = 0; h < 2; ++h)
+      for (ExactSum& x : emission[h]) x = in.sum(h == 0 ? all.half_passes : all.passes - all.half_passes);
   if (hits == 0) return;
   for (SmallExactSum& x : albedo) x = in.small_sum();
   for (SmallExactSum& x : normal) x = in.small_sum();

@@ -20,6 +20,7 @@ std::vector<PixelSample> samples_of(int pass) {
     for (float& c : s.radiance.c) c = 10 * random.next();
     s.features.coverage = random.next() < 0.7f ? 1.0f : 0.0f;
     for (float& c : s.features.albedo.c) c = random.next();
+    if (s.features.coverage > 0 && random.next() < 0.5f) s.features.emission = {{1, 2, random.next()}};
     s.features.normal = {random.next(), -random.next(), 0.5f};
   }
   return samples;
@@ -39,6 +40,7 @@ void expect_same(const Film& a, const Film& b) {
         EXPECT_EQ(of_a[h].share, of_b[h].share);
         for (int c = 0; c < 3; ++c) {
           EXPECT_EQ(of_a[h].mean[c], of_b[h].mean[c]);
+          EXPECT_EQ(of_a[h].emission[c], of_b[h].emission[c]);
           EXPECT_EQ(of_a[h].albedo[c], of_b[h].albedo[c]);
           EXPECT_EQ(of_a[h].normal[c], of_b[h].normal[c]);
         }
@@ -54,10 +56,11 @@ TEST(HalfSums, are_the_means_over_passes_with_even_and_odd_numbers) {
   std::size_t i = 0;
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x, ++i) {
-      double mean[2] = {}, albedo[2] = {}, hits[2] = {}, all = 0, hits_of_all = 0;
+      double mean[2] = {}, emission[2] = {}, albedo[2] = {}, hits[2] = {}, all = 0, hits_of_all = 0;
       for (int pass : passes) {
         const PixelSample s = samples_of(pass)[i];
         mean[pass % 2] += double(s.radiance.c[1]) / (pass % 2 == 0 ? 3 : 2);
+        emission[pass % 2] += double(s.features.emission.c[2]) / (pass % 2 == 0 ? 3 : 2);
         if (s.features.coverage == 0) continue;
         albedo[pass % 2] += double(s.features.albedo.c[2]), hits[pass % 2] += 1;
         all += double(s.features.albedo.c[2]), hits_of_all += 1;
@@ -67,6 +70,7 @@ TEST(HalfSums, are_the_means_over_passes_with_even_and_odd_numbers) {
       EXPECT_NEAR(halves[1].share, 0.4, 1e-12);
       for (std::size_t h = 0; h < 2; ++h) {
         EXPECT_NEAR(halves[h].mean[1], mean[h], 1e-9);
+        EXPECT_NEAR(halves[h].emission[2], emission[h], 1e-9);
         const double expected = hits[h] > 0 ? albedo[h] / hits[h] : hits_of_all > 0 ? all / hits_of_all : 0;
         EXPECT_NEAR(halves[h].albedo[2], expected, 1e-6);
       }
@@ -81,6 +85,7 @@ TEST(HalfSums, are_the_whole_where_one_half_has_no_pass) {
   for (const PixelHalf& half : halves) {
     EXPECT_EQ(half.share, 1);
     EXPECT_EQ(half.mean[0], film.pixel(2, 3).mean[0]);
+    EXPECT_EQ(half.emission[1], halves[0].emission[1]);
   }
 }
 
