@@ -28,6 +28,9 @@ constexpr double scale_heterogeneity = 0.3;
 // The least standard error of a pixel beside an emitter, in units of the emitter's: it may show a part of it that no
 // sample has hit.
 constexpr float beside_emitter = 0.2f;
+// If none of n independent samples of a pixel hits a lamp, the lamp covers less than -log(1 - confidence) / n of it (3
+// / n for 95 %: Hanley and Lippman-Hand 1983). Samples that are spread over the pixel leave this part of that.
+constexpr double spread_samples = 2.0 / 3;
 
 // Standard errors of pixels, or of blocks of pixels, and what makes them alike.
 struct Spreads {
@@ -256,6 +259,37 @@ Plane emitters_around(const Spreads& s, const std::vector<std::uint8_t>& emitter
   return all;
 }
 
+// Pixels that show an emitter, or mostly what is beyond the scene.
+std::vector<std::uint8_t> lamps_of(const Film& film, std::vector<std::uint8_t> emitters) {
+  const PixelBounds& b = film.bounds();
+  std::size_t i = 0;
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x, ++i) {
+      const PixelFeatures features = film.features(x, y);
+      if (2 * features.hits < features.samples) emitters[i] = 1;
+    }
+  return emitters;
+}
+
+// At each pixel the difference between the brightest and the darkest of the 3 x 3 pixels around it if one of them shows
+// a lamp, else 0.
+Plane contrast_of_lamps(const Plane& mean, const std::vector<std::uint8_t>& lamps, int width, int height) {
+  Plane contrast(mean.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+      float low = mean[i], high = mean[i];
+      bool shows_lamp = false;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+          const std::size_t k = std::size_t(v) * std::size_t(width) + std::size_t(u);
+          low = std::min(low, mean[k]), high = std::max(high, mean[k]), shows_lamp |= lamps[k] != 0;
+        }
+      if (shows_lamp) contrast[i] = high - low;
+    }
+  return contrast;
+}
+
 }  // namespace
 
 PixelIntervals pixel_intervals(const Film& film, double confidence) {
@@ -266,8 +300,12 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
   const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
-  ColorPlanes beside;
-  for (std::size_t c = 0; c < rgb_size; ++c) beside[c] = emitters_around(spreads, emitters, c);
+  const std::vector<std::uint8_t> lamps = lamps_of(film, emitters);
+  ColorPlanes beside, contrast;
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    beside[c] = emitters_around(spreads, emitters, c);
+    contrast[c] = contrast_of_lamps(planes.mean[c], lamps, b.width(), b.height());
+  }
   PixelIntervals intervals{b, confidence, planes.mean, planes.mean};
   Quantiles quantiles(confidence);
   std::size_t i = 0;
@@ -283,12 +321,14 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
       const double weight = spreads.known[i] > 0 ? double(near.weight[i]) : 0;
       double prior = prior_freedom * weight / (weight + few_alike);
       const double quantile = quantiles(freedom, prior);
+      const double uncertain_cover = -spread_samples * std::log(1 - confidence) / film.samples(b.x0 + x, b.y0 + y);
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
         if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);
         around = std::max(around, double(beside_emitter * beside[c][i]));
         const double variance = (prior * around * around + freedom * double(planes.variance[c][i])) / (prior + freedom);
-        const double mean = double(planes.mean[c][i]), half_width = quantile * std::sqrt(variance);
+        const double mean = double(planes.mean[c][i]);
+        const double half_width = std::max(quantile * std::sqrt(variance), uncertain_cover * double(contrast[c][i]));
         intervals.low[c][i] = float(mean - half_width), intervals.high[c][i] = float(mean + half_width);
       }
     }

@@ -128,6 +128,13 @@ Law lamps(int x, int y) {
   return {0.05f, 0.3f, beside_lamp(x, y) ? 30.0f : 0.0f, lamp ? 0.8 : 0.04, 1, true};
 }
 
+// A lamp that fills pixels, and a seventh of those along its edge, so that half of these have no sample of it.
+bool at_edge(int x, int) { return x % 12 == 3 || x % 12 == 8; }
+Law wide_lamp(int x, int) {
+  const bool lamp = x % 12 > 3 && x % 12 < 8;
+  return {0.05f, 0.3f, lamp || x % 12 == 3 || x % 12 == 8 ? 30.0f : 0.0f, lamp ? 1.0 : 1.0 / 7, 1, true};
+}
+
 }  // namespace
 
 TEST(PixelIntervals, contain_the_expectation_with_their_probability) {
@@ -175,8 +182,15 @@ TEST(PixelIntervals, keep_to_the_pixels_of_the_same_object) {
 
 TEST(PixelIntervals, know_of_a_lamp_beside_the_pixel) {
   const Coverage c = coverage_of(lamps, beside_lamp);
-  EXPECT_GT(c.share, 0.9);
-  EXPECT_LT(c.width, 1.25);
+  EXPECT_GT(c.share, 0.95);
+  EXPECT_LT(c.width, 1.4);
+}
+
+// Independent samples: fewer are spread over the pixel as well as the limit expects.
+TEST(PixelIntervals, know_of_the_edge_of_a_lamp) {
+  const Coverage c = coverage_of(wide_lamp, at_edge);
+  EXPECT_GT(c.share, 0.93);
+  EXPECT_LT(c.width, 1.3);
 }
 
 // A sample of a thousand of a thousand times the light: the interval of a pixel that has none is not that of one.
