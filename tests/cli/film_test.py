@@ -285,11 +285,14 @@ class Films(ProgramTest):
         self.assertTrue((self.folder / "first-light.exr").is_file())
         self.run_program("render", "--resume", "a.film")
 
-    def test_layers_without_halves_are_refused(self):
+    def test_halves_of_older_versions_are_refused(self):
         self.part(0, 0, "room.film", "--layers", "bounces:1,halves")
         film = self.bytes_of("room.film")
-        (self.folder / "old.film").write_bytes(resealed(film, b',"layers_have_halves":true', b"", after=b'"features"'))
-        self.refused("render", "--resume", "old.film", "-o", "x.exr", saying="old.film.*an older version saved it")
+        for key, missing in (("layers_have_halves", "layers of light have no halves"),
+                             ("halves_have_emission", "halves have no emission")):
+            (self.folder / "old.film").write_bytes(resealed(film, f',"{key}":true'.encode(), b"", after=b'"features"'))
+            self.refused("render", "--resume", "old.film", "-o", "x.exr",
+                         saying=f"old.film.*{missing}: an older version saved it")
         self.run_program("merge", "room.film", "-o", "x.exr")
 
     def test_damaged_and_foreign_files_are_refused(self):
