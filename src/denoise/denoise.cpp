@@ -279,10 +279,11 @@ DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings) 
   const std::optional<SplitImage> split = split_small_lamps(image);
   DenoiseSettings of_rest = settings;
   std::vector<NoisyImage> others;
-  const auto has_lamps = [](const NoisyImage& other) { return split_small_lamps(other).has_value(); };
-  if (std::ranges::any_of(settings.others, has_lamps)) others.assign(settings.others.begin(), settings.others.end());
-  for (NoisyImage& other : others)
-    if (std::optional<SplitImage> lamps = split_small_lamps(other)) other = std::move(lamps->rest);
+  for (std::size_t i = 0; i < settings.others.size(); ++i)
+    if (std::optional<SplitImage> lamps = split_small_lamps(settings.others[i])) {
+      if (others.empty()) others.assign(settings.others.begin(), settings.others.end());
+      others[i] = std::move(lamps->rest);
+    }
   if (!others.empty()) of_rest.others = others;
   return Denoiser(split ? split->rest : image, split ? &*split : nullptr, of_rest).run();
 }

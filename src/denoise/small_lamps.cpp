@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "denoise/box_mean.h"
+#include "film/max_around.h"
 #include "math/functions.h"
 
 namespace montelux {
@@ -33,17 +34,14 @@ std::vector<std::uint8_t> small_lamps(const NoisyImage& image) {
   }
   if (std::ranges::none_of(emission, [](float e) { return e > 0; })) return {};
   around = box_mean(around, image.width, image.height, around_reach);
+  const Plane brightest = max_around(emission, image.width, lamp_reach);
   std::vector<std::uint8_t> found(image.pixels());
   bool any = false;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const auto i = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
-      // The darkest brightness is that of relative errors.
-      const float limit = lamp_contrast * std::sqrt(square(around[i]) + 0.01f);
-      for (int v = std::max(y - lamp_reach, 0); v <= std::min(y + lamp_reach, image.height - 1); ++v)
-        for (int u = std::max(x - lamp_reach, 0); u <= std::min(x + lamp_reach, image.width - 1); ++u)
-          if (emission[std::size_t(v) * std::size_t(image.width) + std::size_t(u)] > limit) found[i] = 1, any = true;
-    }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    // The darkest brightness is that of relative errors.
+    found[i] = brightest[i] > lamp_contrast * std::sqrt(square(around[i]) + 0.01f);
+    any |= found[i] != 0;
+  }
   return any ? found : std::vector<std::uint8_t>{};
 }
 
@@ -89,7 +87,6 @@ std::optional<SplitImage> split_small_lamps(const NoisyImage& image) {
         const float share = image.halves[0].share[i], color = image.halves[h].color[c][i];
         if (lamps[i] == 0 || !(share > 0 && share < 1) || !(color > 0)) continue;
         parts[h][c][i] = std::clamp(image.halves[h].emission[c][i] / color, 0.0f, 1.0f);
-        rest.halves[h].emission[c][i] = 0;
       }
     }
   split.kept = keep(image, parts, {&rest.halves[0].color, &rest.halves[1].color}, &rest.variance);

@@ -18,7 +18,7 @@ struct KeptLight {
 
 // An image without the light of its small lamps, and that light; the two sum to the image and its layers.
 struct SplitImage {
-  NoisyImage rest;  // its emission is 0 where light was taken away
+  NoisyImage rest;
   KeptLight kept;
   std::vector<KeptLight> kept_layers;
 };

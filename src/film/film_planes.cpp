@@ -21,7 +21,7 @@ FilmPlanes::FilmPlanes(const PixelBounds& b) : bounds(b) {
   for (ColorPlanes* planes : {&mean, &variance, &albedo})
     for (Plane& plane : *planes) plane.resize(pixels);
   for (Plane& plane : normal) plane.resize(pixels);
-  for (Plane* plane : {&emission, &object, &first_half, &second_half}) plane->resize(pixels);
+  for (Plane* plane : {&emission, &coverage, &object, &first_half, &second_half}) plane->resize(pixels);
   passes.resize(pixels), expected.resize(pixels);
 }
 
@@ -40,7 +40,7 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
         albedo[std::size_t(c)][i] = float(features.albedo(c) / hits);
       }
       for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal(int(c)) / hits);
-      emission[i] = float(features.emission / samples);
+      emission[i] = float(features.emission / samples), coverage[i] = float(features.hits / samples);
       object[i] = float(features.object);
       const double all = mean_of(pixel.mean), half = pixel.half_sum;
       const bool halves = pixel.half_passes > 0 && pixel.half_passes < pixel.passes;

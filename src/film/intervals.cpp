@@ -7,6 +7,7 @@
 
 #include "film/film.h"
 #include "film/likeness.h"
+#include "film/max_around.h"
 #include "math/special.h"
 
 namespace montelux {
@@ -29,7 +30,8 @@ constexpr double scale_heterogeneity = 0.3;
 // sample has hit.
 constexpr float beside_emitter = 0.2f;
 // If none of n independent samples of a pixel hits a lamp, the lamp covers less than -log(1 - confidence) / n of it (3
-// / n for 95 %: Hanley and Lippman-Hand 1983). Samples that are spread over the pixel leave this part of that.
+// / n for 95 %: Hanley and Lippman-Hand 1983). Samples that are spread over the pixel leave a part of that,
+// which is measured: with two thirds the edges of lamps are covered as other pixels are.
 constexpr double spread_samples = 2.0 / 3;
 
 // Standard errors of pixels, or of blocks of pixels, and what makes them alike.
@@ -248,45 +250,29 @@ double error_around(const Pooled& near, std::size_t i, const Pooled& wide, std::
 
 // At each pixel the largest standard error of the emitters that the 3 x 3 pixels around it show.
 Plane emitters_around(const Spreads& s, const std::vector<std::uint8_t>& emitters, std::size_t c) {
-  const std::size_t width = std::size_t(s.width), height = std::size_t(s.height);
-  Plane rows(s.size()), all(s.size());
-  const auto error = [&](std::size_t i) { return emitters[i] ? s.error[c][i] : 0.0f; };
-  for (std::size_t y = 0, i = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x, ++i)
-      rows[i] = std::max({error(i), x > 0 ? error(i - 1) : 0.0f, x + 1 < width ? error(i + 1) : 0.0f});
-  for (std::size_t i = 0; i < all.size(); ++i)
-    all[i] = std::max({rows[i], i >= width ? rows[i - width] : 0.0f, i + width < all.size() ? rows[i + width] : 0.0f});
-  return all;
+  Plane error = s.error[c];
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (!emitters[i]) error[i] = 0;
+  return max_around(error, s.width, 1);
 }
 
-// Pixels that show an emitter, or mostly what is beyond the scene.
-std::vector<std::uint8_t> lamps_of(const Film& film, std::vector<std::uint8_t> emitters) {
-  const PixelBounds& b = film.bounds();
-  std::size_t i = 0;
-  for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x, ++i) {
-      const PixelFeatures features = film.features(x, y);
-      if (2 * features.hits < features.samples) emitters[i] = 1;
-    }
-  return emitters;
+// At each pixel 1 if one of the 3 x 3 pixels around it shows a lamp, else 0: an emitter, or mostly what is beyond the
+// scene.
+Plane lamps_around(const FilmPlanes& planes, const std::vector<std::uint8_t>& emitters) {
+  Plane lamps(emitters.size());
+  for (std::size_t i = 0; i < lamps.size(); ++i)
+    lamps[i] = emitters[i] || (planes.passes[i] > 0 && planes.coverage[i] < 0.5f) ? 1.0f : 0.0f;
+  return max_around(lamps, planes.bounds.width(), 1);
 }
 
-// At each pixel the difference between the brightest and the darkest of the 3 x 3 pixels around it if one of them shows
-// a lamp, else 0.
-Plane contrast_of_lamps(const Plane& mean, const std::vector<std::uint8_t>& lamps, int width, int height) {
-  Plane contrast(mean.size());
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-      float low = mean[i], high = mean[i];
-      bool shows_lamp = false;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-          const std::size_t k = std::size_t(v) * std::size_t(width) + std::size_t(u);
-          low = std::min(low, mean[k]), high = std::max(high, mean[k]), shows_lamp |= lamps[k] != 0;
-        }
-      if (shows_lamp) contrast[i] = high - low;
-    }
+// The difference between the brightest and the darkest of the 3 x 3 pixels around each pixel where `lamps` is 1, else
+// 0.
+Plane contrast_of_lamps(const Plane& mean, const Plane& lamps, int width) {
+  Plane negative = mean;
+  for (float& x : negative) x = -x;
+  Plane contrast = max_around(mean, width, 1);
+  const Plane darkest = max_around(negative, width, 1);
+  for (std::size_t i = 0; i < contrast.size(); ++i) contrast[i] = lamps[i] * (contrast[i] + darkest[i]);
   return contrast;
 }
 
@@ -300,11 +286,11 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
   const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
-  const std::vector<std::uint8_t> lamps = lamps_of(film, emitters);
+  const Plane lamps = lamps_around(planes, emitters);
   ColorPlanes beside, contrast;
   for (std::size_t c = 0; c < rgb_size; ++c) {
     beside[c] = emitters_around(spreads, emitters, c);
-    contrast[c] = contrast_of_lamps(planes.mean[c], lamps, b.width(), b.height());
+    contrast[c] = contrast_of_lamps(planes.mean[c], lamps, b.width());
   }
   PixelIntervals intervals{b, confidence, planes.mean, planes.mean};
   Quantiles quantiles(confidence);
