@@ -21,7 +21,7 @@ FilmPlanes::FilmPlanes(const PixelBounds& b) : bounds(b) {
   for (ColorPlanes* planes : {&mean, &variance, &albedo})
     for (Plane& plane : *planes) plane.resize(pixels);
   for (Plane& plane : normal) plane.resize(pixels);
-  for (Plane* plane : {&emission, &coverage, &object, &first_half, &second_half}) plane->resize(pixels);
+  for (Plane* plane : {&emission, &coverage, &samples, &object, &first_half, &second_half}) plane->resize(pixels);
   passes.resize(pixels), expected.resize(pixels);
 }
 
@@ -31,7 +31,7 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
       const PixelEstimate& pixel = film.pixel(x, y);
       const PixelFeatures& features = film.features(x, y);
       const std::size_t i = index(x, y);
-      const double hits = std::max(features.hits, 1.0), samples = std::max(features.samples, 1.0);
+      const double hits = std::max(features.hits, 1.0), sampled = std::max(features.samples, 1.0);
       passes[i] = std::uint8_t(std::min(pixel.passes, 2u));
       expected[i] = film.is_sampled(x, y) && (pixel.passes > 0 || pixel.non_finite == 0);
       for (int c = 0; c < rgb_size; ++c) {
@@ -40,8 +40,8 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
         albedo[std::size_t(c)][i] = float(features.albedo(c) / hits);
       }
       for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal(int(c)) / hits);
-      emission[i] = float(features.emission / samples), coverage[i] = float(features.hits / samples);
-      object[i] = float(features.object);
+      emission[i] = float(features.emission / sampled), coverage[i] = float(features.hits / sampled);
+      samples[i] = float(features.samples), object[i] = float(features.object);
       const double all = mean_of(pixel.mean), half = pixel.half_sum;
       const bool halves = pixel.half_passes > 0 && pixel.half_passes < pixel.passes;
       first_half[i] = float(halves ? half / pixel.half_passes : all);

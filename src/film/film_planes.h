@@ -29,6 +29,7 @@ struct FilmPlanes {
   std::array<Plane, 3> normal;         // world space
   Plane emission;                      // mean of the channels
   Plane coverage;                      // share of the samples that hit a surface
+  Plane samples;                       // their number
   Plane object;                        // number of the object, 0: none
   Plane first_half, second_half;       // mean over one half of the passes and over the other, mean of the channels
   std::vector<std::uint8_t> passes;    // 0, 1, or 2 for two and more

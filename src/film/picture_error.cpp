@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/neighbours.h"
+#include "film/partial_cover.h"
 #include "mc/tail.h"
 
 namespace montelux {
@@ -129,16 +130,19 @@ struct Sums {
 };
 
 // Returns its relative squared error.
-double add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreement& agreement, std::size_t i,
-                 Sums& sums) {
+double add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agreement& agreement,
+                 const PartialCovers& covers, std::size_t i, Sums& sums) {
   const Excess e = excess_of(p, neighbours, i);
   const Belief belief = belief_of(e, agreement);
   double relative = 0;
+  std::array<double, rgb_size> reciprocal;
   for (std::size_t c = 0; c < rgb_size; ++c) {
     const double variance = double(p.variance[c][i]) / rgb_size;
     sums.squared += variance;
-    relative += variance * reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
+    reciprocal[c] = reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
+    relative += variance * reciprocal[c];
   }
+  relative = std::max(relative + covers.correction(i, reciprocal), 0.0);
   sums.relative += relative, sums.relative_squares += relative * relative;
   constexpr double few_samples = 5;
   if (e.own * e.own < few_samples * e.variance) sums.of_few_samples += relative;
@@ -153,9 +157,10 @@ Sums sum_pixels(const FilmPlanes& p, Visit visit) {
   Agreement agreement;
   for (std::size_t i = 0; i < p.passes.size(); ++i)
     if (p.passes[i] == 2) agreement.add(excess_of(p, neighbours, i));
+  const PartialCovers covers(p);
   Sums sums;
   for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) visit(i, add_pixel(p, neighbours, agreement, i, sums));
+    if (p.passes[i] == 2) visit(i, add_pixel(p, neighbours, agreement, covers, i, sums));
   return sums;
 }
 

@@ -1,0 +1,57 @@
+// The relative error of pixels that something bright covers in part: an emitter that the camera sees, or a surface
+// before darkness.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "film/film_planes.h"
+
+namespace montelux {
+
+// Such a pixel has the expectation base + p bright, where p is the covered part of it, and with n samples the variance
+// bright^2 (m p (1 - p) + h p^2) / n: m is the mean square of the light of covered samples over their squared mean, h
+// the relative variance of a sample of a covered pixel. The samples show both the expectation and the variance by the
+// same number of hits. If they hit nothing, both seem to be zero, and the product of variance and 1 / expectation^2 is
+// too small by far in the mean. So it is estimated as one: by its mean over the distribution of p that the hits leave
+// possible (a beta distribution, whose prior mean is the cover of the pixels around).
+class PartialCovers {
+ public:
+  explicit PartialCovers(const FilmPlanes& planes);
+  // What to add to the relative squared error of a pixel that is the mean over channels of variance x reciprocal, where
+  // `reciprocal` is an estimate of 1 / (expectation^2 + relative_epsilon): 0 for pixels that are not covered in part.
+  double correction(std::size_t pixel, const std::array<double, rgb_size>& reciprocal) const;
+
+ private:
+  struct Cover {
+    std::uint32_t pixel = 0;
+    bool of_emitter = false;
+    double samples = 0;
+    double share = 0;   // of the samples that are covered
+    double around = 0;  // the mean share of the pixels around
+    double noise = 0;   // h
+    std::array<double, rgb_size> base{}, bright{};
+
+    double brightness() const;
+    // The unbiased estimate of p (1 - p).
+    double spread() const { return samples > 1 ? share * (1 - share) * samples / (samples - 1) : 0; }
+  };
+
+  bool covered_by_emitter(int x, int y, Cover& cover) const;
+  bool covered_before_darkness(int x, int y, Cover& cover) const;
+  void find_covers();
+  void measure_surfaces();
+  void measure_prior();
+  template <class Function>
+  void for_each_around(int x, int y, int reach, Function f) const;
+  double variance_of(std::size_t pixel) const;
+
+  const FilmPlanes& planes_;
+  Plane brightness_;                 // mean of the channels
+  std::vector<Cover> covers_;        // in the order of their pixels
+  std::vector<std::int32_t> index_;  // of each pixel's cover; -1: none
+  double mean_square_ = 1;           // m of surfaces; that of emitters is 1
+  double overlap_ = 0;  // of the filters of pixels: how probable it is that a pixel without a hit is not empty
+};
+
+}  // namespace montelux
