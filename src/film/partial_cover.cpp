@@ -14,6 +14,8 @@ namespace {
 
 // The pixels around count like so many samples at most.
 constexpr double max_prior_samples = 2;
+// No pixel is covered by less: filters end, and so does what the distribution of the part is worth.
+constexpr double min_part = 1e-3;
 
 double mean_of(const std::array<double, rgb_size>& channels) {
   double sum = 0;
@@ -68,6 +70,7 @@ double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb
   std::array<double, rgb_size> sums{};
   for_each_part(hits, misses, [&](double p, double weight) {
     weights += weight;
+    if (p < min_part) return;
     for (std::size_t k = 0; k < rgb_size; ++k) {
       const double expected = c.base[k] + p * c.bright[k];
       sums[k] += weight * (mean_square * p * (1 - p) + c.noise * p * p) / (expected * expected + relative_epsilon);

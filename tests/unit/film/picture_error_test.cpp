@@ -133,7 +133,7 @@ TEST(PictureError, is_true_at_the_edge_of_a_surface_before_darkness) {
 
 // No pixel beside the edge shows a part of the lamp, which eight samples do not show: the error is stated too large, 30
 // times as large as it was if all of these pixels were thought to be in part covered.
-TEST(PictureError, learns_from_halves_that_pixels_do_not_overlap) {
+TEST(PictureError, knows_by_halves_that_pixels_do_not_overlap) {
   const Means m = means_of([](int x, int y) { return RareLight{0.01f, 10, inside_a_disk(x, y, false), true}; });
   EXPECT_GT(m.stated, 0.8 * m.truth);
   EXPECT_LT(m.stated, 6 * m.truth);
