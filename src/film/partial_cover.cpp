@@ -14,7 +14,7 @@ namespace {
 
 // The pixels around count like so many samples at most.
 constexpr double max_prior_samples = 2;
-// No pixel is covered by less: filters end, and so does what the distribution of the part is worth.
+// Smaller parts count as none: filters end, and show nothing of what lies farther away.
 constexpr double min_part = 1e-3;
 
 double mean_of(const std::array<double, rgb_size>& channels) {
@@ -26,16 +26,18 @@ double mean_of(const std::array<double, rgb_size>& channels) {
 // The beta distribution of a part p, by points of equal distance in log(p / (1 - p)).
 template <class Function>
 void for_each_part(double hits, double misses, Function f) {
-  constexpr int points = 12;  // on each side of the mode
-  constexpr double step = 0.33, max_deviation = 6;
+  constexpr int points = 8;  // on each side of the mode
+  constexpr double step = 0.5, max_deviation = 6;
   const double mode = std::log(hits / misses), deviation = std::sqrt(1 / hits + 1 / misses);
-  const auto log_density = [&](double log_p, double log_q) { return hits * log_p + misses * log_q; };
-  const auto log_logistic = [](double z) { return -std::log1p(std::exp(-z)); };
-  const double largest = log_density(log_logistic(mode), log_logistic(-mode));
+  // The part, and the logarithm of its density there.
+  const auto at = [&](double z) {
+    const double odds = std::exp(-z), log_p = -std::log1p(odds);
+    return std::pair{1 / (1 + odds), (hits + misses) * log_p - misses * z};
+  };
+  const double largest = at(mode).second;
   for (int i = -points; i <= points; ++i) {
-    const double z = mode + i * step * std::min(deviation, max_deviation);
-    const double log_p = log_logistic(z), log_q = log_logistic(-z);
-    f(std::exp(log_p), std::exp(log_density(log_p, log_q) - largest));
+    const auto [part, log_density] = at(mode + i * step * std::min(deviation, max_deviation));
+    f(part, std::exp(log_density - largest));
   }
 }
 
@@ -64,7 +66,8 @@ double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb
   const double prior_samples = is_found ? overlap_ * max_prior_samples : max_prior_samples;
   const double hits = c.samples * c.share + prior_samples * c.around;
   const double misses = c.samples * (1 - c.share) + prior_samples * (1 - c.around);
-  if (hits <= 0 || misses <= 0) return 0;
+  constexpr double least = 1e-6;
+  if (hits < least || misses < least) return 0;
   const double mean_square = c.of_emitter ? 1 : mean_square_;
   double weights = 0;
   std::array<double, rgb_size> sums{};
@@ -80,7 +83,7 @@ double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb
   double correction = 0;
   for (std::size_t k = 0; k < rgb_size; ++k)
     correction += c.bright[k] * c.bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
-  // Nor may they show the same emitter.
+  // They may show another emitter, which is larger: the error is at least what the agreement of halves says.
   if (c.of_emitter && is_found) correction = std::max(correction, 0.0);
   return (is_found ? 1 : overlap_) * correction / (c.samples * rgb_size);
 }

@@ -124,8 +124,9 @@ double reciprocal_of(double own, double neighbours, const Excess& e, const Belie
 
 // Sums over pixels.
 struct Sums {
-  double squared = 0, relative = 0, relative_squares = 0;
-  double of_few_samples = 0;  // of the relative
+  double squared = 0, relative = 0;
+  double seen = 0, seen_squares = 0;  // of the relative errors without the correction for partial covers
+  double of_few_samples = 0;          // of the relative
   LargestTerms largest;
 };
 
@@ -142,11 +143,16 @@ double add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agree
     reciprocal[c] = reciprocal_of(double(p.mean[c][i]), double(neighbours[c][i]), e, belief);
     relative += variance * reciprocal[c];
   }
+  const double of_pixel_alone = relative;
   relative = std::max(relative + covers.correction(i, reciprocal), 0.0);
-  sums.relative += relative, sums.relative_squares += relative * relative;
+  sums.relative += relative, sums.seen += of_pixel_alone, sums.seen_squares += of_pixel_alone * of_pixel_alone;
   constexpr double few_samples = 5;
-  if (e.own * e.own < few_samples * e.variance) sums.of_few_samples += relative;
-  sums.largest.add(relative);
+  if (e.own * e.own < few_samples * e.variance) {
+    // What the hits of a pixel that is covered in part do not show, the pixels around do.
+    constexpr double of_cover = 0.5;
+    sums.of_few_samples += (covers.has(i) ? of_cover : 1) * std::min(of_pixel_alone, relative);
+  }
+  sums.largest.add(of_pixel_alone);
   return relative;
 }
 
@@ -175,8 +181,7 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);
   // Their number decides how far the logarithm of the sum may be off. The divisor is another part of it: pictures of
   // many scenes show 0.8 to 1.25 of the true error in their mean.
-  error.effective_pixels =
-      sums.relative_squares > 0 ? sums.relative * sums.relative / sums.relative_squares : double(error.pixels);
+  error.effective_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
   if (sums.relative > 0) error.share_of_few_samples = sums.of_few_samples / sums.relative;
   const double factor = std::exp(1.96 * std::hypot(std::sqrt(2 / error.effective_pixels), divisor_deviation));
   error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
