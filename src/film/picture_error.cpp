@@ -149,7 +149,7 @@ double add_pixel(const FilmPlanes& p, const ColorPlanes& neighbours, const Agree
   constexpr double few_samples = 5;
   if (e.own * e.own < few_samples * e.variance) {
     // What the hits of a pixel that is covered in part do not show, the pixels around do.
-    constexpr double of_cover = 0.5;
+    constexpr double of_cover = 0.65;
     sums.of_few_samples += (covers.has(i) ? of_cover : 1) * std::min(of_pixel_alone, relative);
   }
   sums.largest.add(of_pixel_alone);
