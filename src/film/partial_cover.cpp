@@ -85,7 +85,8 @@ double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb
     correction += c.bright[k] * c.bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
   // They may show another emitter, which is larger: the error is at least what the agreement of halves says.
   if (c.of_emitter && is_found) correction = std::max(correction, 0.0);
-  return (is_found ? 1 : overlap_) * correction / (c.samples * rgb_size);
+  correction *= (is_found ? 1 : overlap_) / (c.samples * rgb_size);
+  return std::isfinite(correction) ? correction : 0;
 }
 
 // Calls f(pixel) for those with passes.

@@ -116,7 +116,8 @@ double inside(double distance, bool overlap) {
 
 double inside_a_disk(int x, int y, bool overlap) { return inside(14.3 - std::hypot(x - 30.2, y - 33.7), overlap); }
 
-// Where no sample of a pixel hits the disk, both its mean and its variance seem to be zero.
+// Where no sample of a pixel hits the disk, both its mean and its variance seem to be zero. Without what the pixels
+// around show, 0.08 and 0.24 of the error would be stated.
 TEST(PictureError, is_true_at_the_edge_of_a_lamp) {
   const Means m = means_of([](int x, int y) { return RareLight{0.01f, 10, inside_a_disk(x, y, true), true}; });
   EXPECT_GT(m.stated, 0.8 * m.truth);
@@ -131,8 +132,8 @@ TEST(PictureError, is_true_at_the_edge_of_a_surface_before_darkness) {
   EXPECT_LT(m.over_own_mean, 0.5 * m.truth);
 }
 
-// No pixel beside the edge shows a part of the lamp, which eight samples do not show: the error is stated too large, 30
-// times as large as it was if all of these pixels were thought to be in part covered.
+// The pixels beside the edge show nothing of the lamp, which eight samples do not tell for sure: the error is
+// stated 4.9 times too large, and would be 7.6 times if the halves were not compared.
 TEST(PictureError, knows_by_halves_that_pixels_do_not_overlap) {
   const Means m = means_of([](int x, int y) { return RareLight{0.01f, 10, inside_a_disk(x, y, false), true}; });
   EXPECT_GT(m.stated, 0.8 * m.truth);
