@@ -53,6 +53,7 @@ NoisyImage noisy_image(const Film& film, bool layers) {
   NoisyImage image(b.width(), b.height());
   if (layers)
     image.layers.assign(std::size_t(film.layers()->count()), NoisyLayer(image.pixels(), film.layers()->has_spread()));
+  image.whole.emplace(b).copy(film, b);
   std::size_t i = 0;
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x, ++i) {
@@ -64,6 +65,7 @@ NoisyImage noisy_image(const Film& film, bool layers) {
         usable &= is_usable(variance);
         image.variance[c][i] = is_usable(variance) ? float(variance) : 0;
       }
+      if (!usable) image.whole->passes[i] = 0;
       for (std::size_t h = 0; h < 2; ++h) {
         HalfPlanes& to = image.halves[h];
         const PixelHalf& from = halves[h];
@@ -92,6 +94,18 @@ Status read_planes(const PixelBuffer& image, std::string_view layer, std::string
       const float value = image.values[i * image.channels.size() + std::size_t(*channel)];
       planes[c][i] = value;
     }
+  }
+  return Done{};
+}
+
+// Numbers that cannot be are 0.
+Status read_plane(const PixelBuffer& image, std::string_view channel, Plane& plane) {
+  const std::optional<int> number = find_channel(image, channel);
+  if (!number) return Failure{fmt::format("it has no channel {}", channel)};
+  plane.resize(image.pixel_count());
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    const float value = image.values[i * image.channels.size() + std::size_t(*number)];
+    plane[i] = is_usable(double(value)) ? value : 0;
   }
   return Done{};
 }
@@ -134,6 +148,29 @@ Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage&
   return Done{};
 }
 
+// The mean of the channels.
+float gray_of(const ColorPlanes& planes, std::size_t i) { return (planes[0][i] + planes[1][i] + planes[2][i]) / 3; }
+
+// The whole of which both halves are known; nothing if the image has not all of its layers.
+std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& noisy, const ColorPlanes& color) {
+  FilmPlanes whole({0, 0, image.width, image.height});
+  for (auto [name, plane] :
+       {std::pair{"A", &whole.coverage}, std::pair{"samples", &whole.samples}, std::pair{"id", &whole.object}})
+    if (!read_plane(image, name, *plane)) return std::nullopt;
+  if (!read_planes(image, "albedo", "RGB", whole.albedo) || !read_planes(image, "N", "XYZ", whole.normal))
+    return std::nullopt;
+  whole.variance = noisy.variance;
+  const auto& [a, b] = noisy.halves;
+  for (std::size_t i = 0; i < noisy.pixels(); ++i) {
+    if (!(a.share[i] > 0 && a.share[i] < 1)) continue;
+    whole.passes[i] = 2, whole.expected[i] = 1;
+    for (std::size_t c = 0; c < rgb_size; ++c) whole.mean[c][i] = color[c][i];
+    whole.emission[i] = a.share[i] * gray_of(a.emission, i) + b.share[i] * gray_of(b.emission, i);
+    whole.first_half[i] = gray_of(a.color, i), whole.second_half[i] = gray_of(b.color, i);
+  }
+  return whole;
+}
+
 // `layers`: the names of those of light that are read.
 Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::string>& layers) {
   NoisyImage noisy(image.width, image.height);
@@ -149,10 +186,7 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
       if (Status read = read_planes(image, names.emission, "RGB", half.emission); !read) return read.failure();
     if (Status read = read_planes(image, names.albedo, "RGB", half.albedo); !read) return read.failure();
     if (Status read = read_planes(image, names.normal, "XYZ", half.normal); !read) return read.failure();
-    const std::optional<int> share = find_channel(image, names.share);
-    if (!share) return Failure{fmt::format("it has no channel {}", names.share)};
-    for (std::size_t i = 0; i < half.share.size(); ++i)
-      half.share[i] = image.values[i * image.channels.size() + std::size_t(*share)];
+    if (Status read = read_plane(image, names.share, half.share); !read) return read.failure();
   }
   // Pixels with numbers that cannot be are left as they are.
   for (std::size_t i = 0; i < noisy.pixels(); ++i) {
@@ -179,6 +213,7 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
     }
     for (Plane& plane : noisy.variance) plane[i] = 0;
   }
+  noisy.whole = whole_of(image, noisy, color);
   for (const std::string& name : layers)
     if (Status read = read_layer(image, name, noisy); !read) return read.failure();
   return noisy;

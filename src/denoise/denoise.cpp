@@ -10,6 +10,11 @@
 #include "denoise/small_lamps.h"
 #include "denoise/squared_error.h"
 #include "denoise/weighted_sums.h"
+#include "film/max_around.h"
+#include "film/partial_cover.h"
+#include "film/picture_error.h"
+#include "film/reciprocals.h"
+#include "math/functions.h"
 
 namespace montelux {
 
@@ -34,16 +39,15 @@ namespace {
 constexpr int choice_reach = 3;   // pixels over which estimated errors are averaged to choose a filter,
 constexpr int error_reach = 10;   // and to be stated: the estimate at one pixel has the noise of the unfiltered image
 constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
+// A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this
+// factor.
+constexpr int lamp_reach = filter_reach + 1;
+constexpr float lamp_contrast = 3;
+constexpr int choice_spread_beside_lamps = 3;
 // The candidates: the filters, the means of the first of them and the image, the image.
 constexpr std::size_t halved = 2;
 
-float relative_scale(float brightness) { return 1 / (brightness * brightness + 0.01f); }
-
-float mean_of_channels(const ColorPlanes& planes, std::size_t i) {
-  float sum = 0;
-  for (const Plane& plane : planes) sum += plane[i];
-  return sum / rgb_size;
-}
+float relative_scale(float brightness) { return 1 / (square(brightness) + float(relative_epsilon)); }
 
 // Colours of one kind, all light or one layer: unfiltered, and after the filters that each pixel takes.
 struct FilteredColors {
@@ -51,6 +55,12 @@ struct FilteredColors {
   const ColorPlanes* variance;              // of the mean of both; null: not known
   std::array<ColorPlanes, 2> filtered;
   const KeptLight* kept = nullptr;  // to be added to either; null: there is none
+};
+
+// How squared errors become relative, by channel and pixel.
+struct RelativeScale {
+  ColorPlanes reciprocals;  // estimates of 1 / (expectation^2 + relative_epsilon)
+  ColorPlanes of_covers;    // to be added for unfiltered pixels that are covered in part; empty planes: nothing
 };
 
 // Sums of squared errors over pixels and channels.
@@ -63,10 +73,11 @@ struct ErrorSums {
 
 class Denoiser {
  public:
-  // `lamps`: what the image is the rest of; null: it is whole.
-  Denoiser(const NoisyImage& image, const SplitImage* lamps, const DenoiseSettings& settings)
+  // `lamps`: what the image is the rest of; null: it is whole. `whole`: that of the whole image; null: not known.
+  Denoiser(const NoisyImage& image, const SplitImage* lamps, const FilmPlanes* whole, const DenoiseSettings& settings)
       : image_(image),
         lamps_(lamps),
+        whole_(whole),
         settings_(settings),
         filtered_(filter_halves(image, settings)),
         filters_(filtered_[0].size()),
@@ -79,7 +90,8 @@ class Denoiser {
     DenoisedImage result;
     FilteredColors all = filtered_image();
     result.color = mean_of(all);
-    const ErrorSums sums = estimate_error(all, result.color, result.error);
+    const RelativeScale scale = whole_ ? scale_of(all, result.color) : scale_of(result.color);
+    const ErrorSums sums = estimate_error(all, scale, result.error);
     const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
     result.filtered = double(changed) / double(image_.pixels());
     const double count = std::max(sums.measured, 1.0);
@@ -136,9 +148,31 @@ class Denoiser {
     }
     const Plane mean = box_mean(gray, image_.width, image_.height, 1);
     for (std::size_t i = 0; i < gray.size(); ++i) relative_[i] = relative_scale(mean[i]);
+    if (whole_) find_scale_beside_lamps();
   }
 
-  // The candidate with the least error around the pixel. What one pixel chooses is a noisy decision: it is averaged.
+  // Beside lamps a filter may make a glow, whose error would seem small by its own brightness. What the camera sees of
+  // lamps near, and the mean of all else around, tell better how bright the pixel is.
+  void find_scale_beside_lamps() {
+    const int w = image_.width, h = image_.height;
+    const Plane& emission = whole_->emission;
+    const Plane lamp = max_around(emission, w, lamp_reach), emission_near = box_mean(emission, w, h, 1);
+    Plane gray(image_.pixels()), rest(image_.pixels());
+    for (std::size_t i = 0; i < gray.size(); ++i) {
+      gray[i] = (whole_->mean[0][i] + whole_->mean[1][i] + whole_->mean[2][i]) / rgb_size;
+      rest[i] = gray[i] - emission[i];
+    }
+    rest = box_mean(rest, w, h, filter_reach);
+    beside_lamp_.resize(image_.pixels());
+    for (std::size_t i = 0; i < lamp.size(); ++i) {
+      if (lamp[i] <= lamp_contrast * std::sqrt(square(gray[i]) + float(relative_epsilon))) continue;
+      beside_lamp_[i] = 1;
+      relative_[i] = std::max(relative_[i], relative_scale(std::max(rest[i], 0.0f) + emission_near[i]));
+    }
+  }
+
+  // The candidate with the least error around the pixel. What one pixel chooses is a noisy decision: it is averaged,
+  // over fewer pixels beside lamps, where a small part of the wrong filter may do more harm.
   void choose() {
     const int w = image_.width, h = image_.height;
     std::vector<std::uint8_t> choice(image_.pixels(), 0);
@@ -155,7 +189,11 @@ class Denoiser {
       Plane chosen(image_.pixels());
       for (std::size_t i = 0; i < chosen.size(); ++i)
         chosen[i] = (has_halves(i) ? choice[i] : unfiltered_) == k ? 1.0f : 0.0f;
-      add_choice(k, box_mean(chosen, w, h, choice_spread));
+      Plane share = box_mean(chosen, w, h, choice_spread);
+      const Plane beside_lamps = box_mean(chosen, w, h, choice_spread_beside_lamps);
+      for (std::size_t i = 0; i < beside_lamp_.size(); ++i)
+        if (beside_lamp_[i]) share[i] = beside_lamps[i];
+      add_choice(k, share);
     }
   }
   void add_choice(std::size_t candidate, const Plane& share) {
@@ -199,7 +237,7 @@ class Denoiser {
                                   lamps_ ? &lamps_->kept_layers[k] : nullptr};
       DenoisedLayer& added = result.layers.emplace_back();
       added.color = mean_of(colors);
-      if (colors.variance) estimate_error(colors, added.color, added.error);
+      if (colors.variance) estimate_error(colors, scale_of(added.color), added.error);
     }
   }
 
@@ -220,16 +258,83 @@ class Denoiser {
     return mean;
   }
 
-  // The error of each pixel, and sums over all. `mean`: of both halves after the filter.
-  ErrorSums estimate_error(const FilteredColors& colors, const ColorPlanes& mean, ColorPlanes& errors) const {
-    Plane scale(image_.pixels());
-    for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = relative_scale(mean_of_channels(mean, i));
+  // Divisors that are the squares of the filtered colours themselves.
+  static RelativeScale scale_of(const ColorPlanes& mean) {
+    RelativeScale scale{mean, {}};
+    for (Plane& plane : scale.reciprocals)
+      for (float& value : plane) value = relative_scale(value);
+    return scale;
+  }
+
+  // Divisors that do not share the noise of the errors. A rare bright sample that the filter left in its pixel is known
+  // by the pixels around, as in an unfiltered image. One that the filter of a half spread is known by the other half.
+  // No pixel is taken to be darker than both images show it.
+  // `mean`: of both halves after the filter.
+  RelativeScale scale_of(const FilteredColors& colors, const ColorPlanes& mean) const {
+    const FilmPlanes filtered = filtered_planes(colors, mean);
+    const Reciprocals of_filtered(filtered), of_noisy(*whole_);
+    const PartialCovers covers(*whole_);
+    RelativeScale scale = scale_of(mean);
+    for (Plane& plane : scale.of_covers) plane.resize(image_.pixels());
+    for (std::size_t i = 0; i < image_.pixels(); ++i) {
+      if (whole_->passes[i] != 2) continue;
+      std::array<double, rgb_size> reciprocal = of_filtered.of(i);
+      const std::array<double, rgb_size> noisy = of_noisy.of(i);
+      // At the edge of a lamp one half may have no light of it, too.
+      const bool compares_halves = !covers.has(i) && whole_->emission[i] <= 0;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        if (compares_halves) {
+          const float first = relative_scale(half(colors, 0, c, i)), second = relative_scale(half(colors, 1, c, i));
+          const double lack = double(first + second) / 2 - reciprocal[c];
+          reciprocal[c] += double(1 - own_share(i)) * std::max(lack, 0.0);
+        }
+        reciprocal[c] = std::min(reciprocal[c], std::max(noisy[c], double(scale.reciprocals[c][i])));
+      }
+      const std::array<double, rgb_size> of_covers = covers.correction(i, reciprocal);
+      for (std::size_t c = 0; c < rgb_size; ++c)
+        scale.reciprocals[c][i] = float(reciprocal[c]), scale.of_covers[c][i] = float(of_covers[c]);
+    }
+    return scale;
+  }
+
+  // The filtered image, with the variance that the noise of each pixel alone gives it.
+  FilmPlanes filtered_planes(const FilteredColors& colors, const ColorPlanes& mean) const {
+    FilmPlanes planes = *whole_;
+    planes.mean = mean;
+    for (std::size_t i = 0; i < image_.pixels(); ++i) {
+      const float own = own_share(i);
+      float first = 0, second = 0;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        planes.variance[c][i] *= own * own;
+        first += half(colors, 0, c, i) / rgb_size, second += half(colors, 1, c, i) / rgb_size;
+      }
+      planes.first_half[i] = first, planes.second_half[i] = second;
+    }
+    return planes;
+  }
+
+  // A half after the filter.
+  static float half(const FilteredColors& colors, std::size_t h, std::size_t c, std::size_t i) {
+    return colors.filtered[h][c][i] + (colors.kept ? colors.kept->halves[h][c][i] : 0);
+  }
+
+  // The share of the unfiltered pixel in the filtered one. The light of small lamps is not filtered.
+  float own_share(std::size_t i) const {
+    if (lamps_ && lamps_->is_lamp[i]) return 1;
+    const float share = image_.halves[0].share[i];
+    return share * own_[0][i] + (1 - share) * own_[1][i];
+  }
+
+  // The error of each pixel, and sums over all.
+  ErrorSums estimate_error(const FilteredColors& colors, const RelativeScale& scale, ColorPlanes& errors) const {
     ErrorSums sums;
-    for (std::size_t c = 0; c < rgb_size; ++c) errors[c] = error_of_channel(colors, c, scale, sums);
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], sums);
     return sums;
   }
 
-  Plane error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale, ErrorSums& sums) const {
+  Plane error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale, const Plane& of_covers,
+                         ErrorSums& sums) const {
     Plane error(image_.pixels(), 0.0f), spread(image_.pixels(), 0.0f);
     for (std::size_t i = 0; i < image_.pixels(); ++i) {
       if (!has_halves(i)) continue;
@@ -237,10 +342,10 @@ class Denoiser {
                     double(image_.halves[0].share[i]), double((*colors.variance)[c][i])};
       const Filtered f{double(colors.filtered[0][c][i]), double(colors.filtered[1][c][i]), double(own_[0][i]),
                        double(own_[1][i])};
+      const double own = n.share * f.own_first + (1 - n.share) * f.own_second;
       double squared = squared_error(n, f), noisy = n.variance, difference = f.first - f.second;
       if (const KeptLight* kept = colors.kept) {
         const double of_kept = double(kept->variance[c][i]), with_rest = double(kept->covariance[c][i]);
-        const double own = n.share * f.own_first + (1 - n.share) * f.own_second;
         squared += of_kept + 2 * own * with_rest, noisy += of_kept + 2 * with_rest;
         difference += double(kept->halves[0][c][i]) - double(kept->halves[1][c][i]);
       }
@@ -250,6 +355,9 @@ class Denoiser {
       sums.filtered += squared, sums.least += noise;
       sums.noisy += noisy, sums.noisy_relative += noisy * relative;
       sums.measured += 1;
+      if (of_covers.empty()) continue;
+      const double lack = std::max(double(of_covers[i]), -noisy * relative);  // no error is below 0
+      error[i] += square(own_share(i)) * float(lack), sums.noisy_relative += lack;
     }
     // Means of relative errors: those of bright pixels must not spread to dark ones.
     const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
@@ -265,12 +373,14 @@ class Denoiser {
 
   const NoisyImage& image_;
   const SplitImage* lamps_;
+  const FilmPlanes* whole_;
   const DenoiseSettings& settings_;
   const FilteredHalves filtered_;
   const std::size_t filters_, unfiltered_;  // the number of the filters; the number of the image among the candidates
   Plane relative_;
-  FilterMixture mixture_;     // what each pixel takes
-  std::array<Plane, 2> own_;  // the share of the pixel itself in either half
+  std::vector<std::uint8_t> beside_lamp_;  // empty: no pixel is known to be
+  FilterMixture mixture_;                  // what each pixel takes
+  std::array<Plane, 2> own_;               // the share of the pixel itself in either half
 };
 
 }  // namespace
@@ -285,7 +395,8 @@ DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings) 
       others[i] = std::move(lamps->rest);
     }
   if (!others.empty()) of_rest.others = others;
-  return Denoiser(split ? split->rest : image, split ? &*split : nullptr, of_rest).run();
+  const FilmPlanes* whole = image.whole ? &*image.whole : nullptr;
+  return Denoiser(split ? split->rest : image, split ? &*split : nullptr, whole, of_rest).run();
 }
 
 }  // namespace montelux

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct NoisyImage {
   int width = 0, height = 0;
   std::array<HalfPlanes, 2> halves;
   ColorPlanes variance;  // of the mean of both
+  // The whole image as the film shows it, if it is known: by it the stated error is that of ErrorEstimate, in so far as
+  // the filter leaves the noise of pixels.
+  std::optional<FilmPlanes> whole;
   std::vector<NoisyLayer> layers;
 
   NoisyImage(int w, int h);
@@ -47,8 +51,8 @@ struct DenoisedLayer {
 struct DenoisedImage {
   ColorPlanes color;
   ColorPlanes error;  // root of the estimated mean squared error, bias included; a mean over 21 x 21 pixels
-  // Estimated mean squared errors, over channels and pixels, of the image and of the filtered one. Relative to the
-  // square of the filtered image, plus 0.01, as in ErrorEstimate.
+  // Estimated mean squared errors, over channels and pixels, of the image and of the filtered one. Relative: over the
+  // square of the filtered channel plus relative_epsilon, as in ErrorEstimate.
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;
   double filtered = 0;  // share of the pixels that the filter changes

@@ -74,9 +74,9 @@ KeptLight keep(const NoisyImage& image, const std::array<ColorPlanes, 2>& parts,
 }  // namespace
 
 std::optional<SplitImage> split_small_lamps(const NoisyImage& image) {
-  const std::vector<std::uint8_t> lamps = small_lamps(image);
+  std::vector<std::uint8_t> lamps = small_lamps(image);
   if (lamps.empty()) return std::nullopt;
-  SplitImage split{image, {}, {}};
+  SplitImage split{image, {}, {}, {}};
   NoisyImage& rest = split.rest;
   // What is kept of each colour. The halves have their own parts, which do not depend on each other.
   std::array<ColorPlanes, 2> parts;
@@ -93,6 +93,7 @@ std::optional<SplitImage> split_small_lamps(const NoisyImage& image) {
   for (NoisyLayer& layer : rest.layers)
     split.kept_layers.push_back(
         keep(image, parts, {&layer.halves[0], &layer.halves[1]}, layer.knows_variance() ? &layer.variance : nullptr));
+  split.is_lamp = std::move(lamps);
   return split;
 }
 

@@ -1,6 +1,7 @@
 // Lamps of few pixels that the camera sees: what is so bright, and ends so sharply, that no filter may spread it.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct SplitImage {
   NoisyImage rest;
   KeptLight kept;
   std::vector<KeptLight> kept_layers;
+  std::vector<std::uint8_t> is_lamp;  // 1: the pixel is at a small lamp, whose light is kept if a sample finds it
 };
 
 // Nothing if the image shows no small lamp. Emission counts as such where, within two pixels, it is brighter than 300

@@ -57,17 +57,19 @@ PartialCovers::PartialCovers(const FilmPlanes& planes)
   measure_prior();
 }
 
-double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb_size>& reciprocal) const {
-  if (index_[pixel] < 0) return 0;
+std::array<double, rgb_size> PartialCovers::correction(std::size_t pixel,
+                                                       const std::array<double, rgb_size>& reciprocal) const {
+  constexpr std::array<double, rgb_size> none{};
+  if (index_[pixel] < 0) return none;
   const Cover& c = covers_[std::size_t(index_[pixel])];
   const bool is_found = is_hit(c.share, c.samples);
   // The pixels around say nothing of an emitter that is smaller than a pixel; the agreement of halves knows it.
-  if (c.of_emitter && is_found && 4 * c.around < c.share) return 0;
+  if (c.of_emitter && is_found && 4 * c.around < c.share) return none;
   const double prior_samples = is_found ? overlap_ * max_prior_samples : max_prior_samples;
   const double hits = c.samples * c.share + prior_samples * c.around;
   const double misses = c.samples * (1 - c.share) + prior_samples * (1 - c.around);
   constexpr double least = 1e-6;
-  if (hits < least || misses < least) return 0;
+  if (hits < least || misses < least) return none;
   const double mean_square = c.of_emitter ? 1 : mean_square_;
   double weights = 0;
   std::array<double, rgb_size> sums{};
@@ -80,13 +82,14 @@ double PartialCovers::correction(std::size_t pixel, const std::array<double, rgb
     }
   });
   const double as_seen = mean_square * c.spread() + c.noise * c.share * c.share;
-  double correction = 0;
+  const double factor = (is_found ? 1 : overlap_) / c.samples;
+  std::array<double, rgb_size> correction;
   for (std::size_t k = 0; k < rgb_size; ++k)
-    correction += c.bright[k] * c.bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
+    correction[k] = factor * c.bright[k] * c.bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
+  const double mean = mean_of(correction);
   // They may show another emitter, which is larger: the error is at least what the agreement of halves says.
-  if (c.of_emitter && is_found) correction = std::max(correction, 0.0);
-  correction *= (is_found ? 1 : overlap_) / (c.samples * rgb_size);
-  return std::isfinite(correction) ? correction : 0;
+  if (!std::isfinite(mean) || (c.of_emitter && is_found && mean < 0)) return none;
+  return correction;
 }
 
 // Calls f(pixel) for those with passes.

@@ -17,10 +17,12 @@ namespace montelux {
 // possible (a beta distribution, whose prior mean is the cover of the pixels around).
 class PartialCovers {
  public:
+  // The planes must outlive it.
   explicit PartialCovers(const FilmPlanes& planes);
-  // What to add to the relative squared error of a pixel that is the mean over channels of variance x reciprocal, where
+  explicit PartialCovers(FilmPlanes&&) = delete;
+  // What to add to the relative squared error of each channel of a pixel that is variance x reciprocal, where
   // `reciprocal` is an estimate of 1 / (expectation^2 + relative_epsilon): 0 for pixels that are not covered in part.
-  double correction(std::size_t pixel, const std::array<double, rgb_size>& reciprocal) const;
+  std::array<double, rgb_size> correction(std::size_t pixel, const std::array<double, rgb_size>& reciprocal) const;
   // Whether the pixel is covered in part.
   bool has(std::size_t pixel) const { return index_[pixel] >= 0; }
 

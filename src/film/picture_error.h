@@ -24,7 +24,8 @@ struct ErrorEstimate {
   // tail. Below 1 they have no finite mean.
   double tail_index = std::numeric_limits<double>::infinity();
   double effective_pixels = 0;  // number of pixels of equal error with the same uncertainty (Kish 1965)
-  // The share of the relative error in pixels whose brightness fewer than five bright samples determine.
+  // The share of the relative error in pixels whose brightness fewer than five bright samples determine. Pixels that
+  // are covered in part count by two thirds of theirs: the pixels around show them, too.
   double share_of_few_samples = 0;
   std::size_t pixels = 0;  // pixels that have two passes
   std::size_t all = 0;     // pixels that could have two: sampled, with a finite sample
@@ -38,13 +39,7 @@ struct ErrorEstimate {
   }
 };
 
-// The divisor of a relative error must not share the noise of the squared error that it divides: else a bright outlier
-// counts as 1 at most, and the picture looks better than it is. So the expectation of a pixel is estimated from its
-// neighbours, and from the pixel itself as far as it is known to differ from them: by more than its noise explains, or,
-// where few samples made it bright, as often as such pixels of this picture are bright in both halves of their passes.
+// Relative errors are products of variances and Reciprocals, with the correction of PartialCovers.
 ErrorEstimate estimate_error(const FilmPlanes& planes);
-
-// The relative squared error of each pixel, of which estimate_error() has the mean: 0 below two passes.
-Plane relative_errors(const FilmPlanes& planes);
 
 }  // namespace montelux

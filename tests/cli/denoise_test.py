@@ -7,13 +7,8 @@ from program import ROOT, SCENE, ProgramTest, read_pfm
 
 def relative_error(picture, reference):
     """Mean of the squared errors over the squares of the reference, plus 0.01."""
-    total, count = 0.0, 0
-    for row, true in zip(picture[2], reference[2]):
-        for x in range(0, len(row), 3):
-            scale = (sum(true[x:x + 3]) / 3) ** 2 + 0.01
-            total += sum((a - b) ** 2 for a, b in zip(row[x:x + 3], true[x:x + 3])) / scale / 3
-            count += 1
-    return total / count
+    pairs = [pair for rows in zip(picture[2], reference[2]) for pair in zip(*rows)]
+    return sum((a - b) ** 2 / (b ** 2 + 0.01) for a, b in pairs) / len(pairs)
 
 
 class DenoiseTest(ProgramTest):

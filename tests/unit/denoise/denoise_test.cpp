@@ -67,11 +67,9 @@ double mean_squared_error(const ColorPlanes& color, const ColorPlanes& truth) {
 
 double mean_relative_error(const ColorPlanes& color, const ColorPlanes& truth) {
   double sum = 0;
-  for (std::size_t i = 0; i < color[0].size(); ++i) {
-    const double mean = (double(color[0][i]) + double(color[1][i]) + double(color[2][i])) / 3;
-    for (std::size_t c = 0; c < 3; ++c)
-      sum += std::pow(double(color[c][i]) - double(truth[c][i]), 2) / (mean * mean + 0.01);
-  }
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < color[c].size(); ++i)
+      sum += std::pow(double(color[c][i]) - double(truth[c][i]), 2) / (std::pow(double(truth[c][i]), 2) + 0.01);
   return sum / (3.0 * double(color[0].size()));
 }
 
