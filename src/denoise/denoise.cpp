@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "denoise/box_mean.h"
+#include "denoise/relative_scale.h"
 #include "denoise/small_lamps.h"
 #include "denoise/squared_error.h"
 #include "denoise/weighted_sums.h"
 #include "film/max_around.h"
-#include "film/partial_cover.h"
 #include "film/picture_error.h"
-#include "film/reciprocals.h"
 #include "math/functions.h"
 
 namespace montelux {
@@ -41,13 +41,11 @@ constexpr int error_reach = 10;   // and to be stated: the estimate at one pixel
 constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
 // A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this
 // factor.
-constexpr int lamp_reach = filter_reach + 1;
-constexpr float lamp_contrast = 3;
+constexpr int beside_lamp_reach = filter_reach + 1;
+constexpr float beside_lamp_contrast = 3;
 constexpr int choice_spread_beside_lamps = 3;
 // The candidates: the filters, the means of the first of them and the image, the image.
 constexpr std::size_t halved = 2;
-
-float relative_scale(float brightness) { return 1 / (square(brightness) + float(relative_epsilon)); }
 
 // Colours of one kind, all light or one layer: unfiltered, and after the filters that each pixel takes.
 struct FilteredColors {
@@ -55,12 +53,6 @@ struct FilteredColors {
   const ColorPlanes* variance;              // of the mean of both; null: not known
   std::array<ColorPlanes, 2> filtered;
   const KeptLight* kept = nullptr;  // to be added to either; null: there is none
-};
-
-// How squared errors become relative, by channel and pixel.
-struct RelativeScale {
-  ColorPlanes reciprocals;  // estimates of 1 / (expectation^2 + relative_epsilon)
-  ColorPlanes of_covers;    // to be added for unfiltered pixels that are covered in part; empty planes: nothing
 };
 
 // Sums of squared errors over pixels and channels.
@@ -88,9 +80,10 @@ class Denoiser {
     find_scale();
     choose();
     DenoisedImage result;
-    FilteredColors all = filtered_image();
+    FilteredColors all = filtered_colors();
     result.color = mean_of(all);
-    const RelativeScale scale = whole_ ? scale_of(all, result.color) : scale_of(result.color);
+    const RelativeScale scale =
+        whole_ ? scale_by_expectation(*whole_, filtered_image(all, result.color)) : scale_by_colors(result.color);
     const ErrorSums sums = estimate_error(all, scale, result.error);
     const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
     result.filtered = double(changed) / double(image_.pixels());
@@ -147,28 +140,30 @@ class Denoiser {
       gray[i] = float(sum / rgb_size);
     }
     const Plane mean = box_mean(gray, image_.width, image_.height, 1);
-    for (std::size_t i = 0; i < gray.size(); ++i) relative_[i] = relative_scale(mean[i]);
+    for (std::size_t i = 0; i < gray.size(); ++i) relative_[i] = reciprocal_square(mean[i]);
     if (whole_) find_scale_beside_lamps();
   }
 
   // Beside lamps a filter may make a glow, whose error would seem small by its own brightness. What the camera sees of
-  // lamps near, and the mean of all else around, tell better how bright the pixel is.
+  // emitters within a pixel, and the mean of all other light around, tell better how bright the pixel is.
   void find_scale_beside_lamps() {
     const int w = image_.width, h = image_.height;
     const Plane& emission = whole_->emission;
-    const Plane lamp = max_around(emission, w, lamp_reach), emission_near = box_mean(emission, w, h, 1);
+    const Plane lamp = max_around(emission, w, beside_lamp_reach), emission_near = box_mean(emission, w, h, 1);
     Plane gray(image_.pixels()), rest(image_.pixels());
     for (std::size_t i = 0; i < gray.size(); ++i) {
       gray[i] = (whole_->mean[0][i] + whole_->mean[1][i] + whole_->mean[2][i]) / rgb_size;
       rest[i] = gray[i] - emission[i];
     }
     rest = box_mean(rest, w, h, filter_reach);
-    beside_lamp_.resize(image_.pixels());
+    std::vector<std::uint8_t> found(image_.pixels());
+    bool any = false;
     for (std::size_t i = 0; i < lamp.size(); ++i) {
-      if (lamp[i] <= lamp_contrast * std::sqrt(square(gray[i]) + float(relative_epsilon))) continue;
-      beside_lamp_[i] = 1;
-      relative_[i] = std::max(relative_[i], relative_scale(std::max(rest[i], 0.0f) + emission_near[i]));
+      if (lamp[i] <= beside_lamp_contrast * std::sqrt(square(gray[i]) + float(relative_epsilon))) continue;
+      found[i] = 1, any = true;
+      relative_[i] = std::max(relative_[i], reciprocal_square(std::max(rest[i], 0.0f) + emission_near[i]));
     }
+    if (any) beside_lamp_ = std::move(found);
   }
 
   // The candidate with the least error around the pixel. What one pixel chooses is a noisy decision: it is averaged,
@@ -190,9 +185,11 @@ class Denoiser {
       for (std::size_t i = 0; i < chosen.size(); ++i)
         chosen[i] = (has_halves(i) ? choice[i] : unfiltered_) == k ? 1.0f : 0.0f;
       Plane share = box_mean(chosen, w, h, choice_spread);
-      const Plane beside_lamps = box_mean(chosen, w, h, choice_spread_beside_lamps);
-      for (std::size_t i = 0; i < beside_lamp_.size(); ++i)
-        if (beside_lamp_[i]) share[i] = beside_lamps[i];
+      if (!beside_lamp_.empty()) {
+        const Plane less_spread = box_mean(chosen, w, h, choice_spread_beside_lamps);
+        for (std::size_t i = 0; i < share.size(); ++i)
+          if (beside_lamp_[i]) share[i] = less_spread[i];
+      }
       add_choice(k, share);
     }
   }
@@ -206,7 +203,7 @@ class Denoiser {
   }
 
   // The colours of the image, and the share of each pixel itself in them.
-  FilteredColors filtered_image() {
+  FilteredColors filtered_colors() {
     FilteredColors all{{&image_.halves[0].color, &image_.halves[1].color}, &image_.variance, {}, nullptr};
     if (lamps_) all.kept = &lamps_->kept;
     for (std::size_t half = 0; half < 2; ++half) {
@@ -237,7 +234,7 @@ class Denoiser {
                                   lamps_ ? &lamps_->kept_layers[k] : nullptr};
       DenoisedLayer& added = result.layers.emplace_back();
       added.color = mean_of(colors);
-      if (colors.variance) estimate_error(colors, scale_of(added.color), added.error);
+      if (colors.variance) estimate_error(colors, scale_by_colors(added.color), added.error);
     }
   }
 
@@ -258,64 +255,15 @@ class Denoiser {
     return mean;
   }
 
-  // Divisors that are the squares of the filtered colours themselves.
-  static RelativeScale scale_of(const ColorPlanes& mean) {
-    RelativeScale scale{mean, {}};
-    for (Plane& plane : scale.reciprocals)
-      for (float& value : plane) value = relative_scale(value);
-    return scale;
-  }
-
-  // Divisors that do not share the noise of the errors. A rare bright sample that the filter left in its pixel is known
-  // by the pixels around, as in an unfiltered image. One that the filter of a half spread is known by the other half.
-  // No pixel is taken to be darker than both images show it.
-  // `mean`: of both halves after the filter.
-  RelativeScale scale_of(const FilteredColors& colors, const ColorPlanes& mean) const {
-    const FilmPlanes filtered = filtered_planes(colors, mean);
-    const Reciprocals of_filtered(filtered), of_noisy(*whole_);
-    const PartialCovers covers(*whole_);
-    RelativeScale scale = scale_of(mean);
-    for (Plane& plane : scale.of_covers) plane.resize(image_.pixels());
-    for (std::size_t i = 0; i < image_.pixels(); ++i) {
-      if (whole_->passes[i] != 2) continue;
-      std::array<double, rgb_size> reciprocal = of_filtered.of(i);
-      const std::array<double, rgb_size> noisy = of_noisy.of(i);
-      // At the edge of a lamp one half may have no light of it, too.
-      const bool compares_halves = !covers.has(i) && whole_->emission[i] <= 0;
-      for (std::size_t c = 0; c < rgb_size; ++c) {
-        if (compares_halves) {
-          const float first = relative_scale(half(colors, 0, c, i)), second = relative_scale(half(colors, 1, c, i));
-          const double lack = double(first + second) / 2 - reciprocal[c];
-          reciprocal[c] += double(1 - own_share(i)) * std::max(lack, 0.0);
-        }
-        reciprocal[c] = std::min(reciprocal[c], std::max(noisy[c], double(scale.reciprocals[c][i])));
-      }
-      const std::array<double, rgb_size> of_covers = covers.correction(i, reciprocal);
-      for (std::size_t c = 0; c < rgb_size; ++c)
-        scale.reciprocals[c][i] = float(reciprocal[c]), scale.of_covers[c][i] = float(of_covers[c]);
-    }
-    return scale;
-  }
-
-  // The filtered image, with the variance that the noise of each pixel alone gives it.
-  FilmPlanes filtered_planes(const FilteredColors& colors, const ColorPlanes& mean) const {
-    FilmPlanes planes = *whole_;
-    planes.mean = mean;
-    for (std::size_t i = 0; i < image_.pixels(); ++i) {
-      const float own = own_share(i);
-      float first = 0, second = 0;
-      for (std::size_t c = 0; c < rgb_size; ++c) {
-        planes.variance[c][i] *= own * own;
-        first += half(colors, 0, c, i) / rgb_size, second += half(colors, 1, c, i) / rgb_size;
-      }
-      planes.first_half[i] = first, planes.second_half[i] = second;
-    }
-    return planes;
-  }
-
-  // A half after the filter.
-  static float half(const FilteredColors& colors, std::size_t h, std::size_t c, std::size_t i) {
-    return colors.filtered[h][c][i] + (colors.kept ? colors.kept->halves[h][c][i] : 0);
+  // The image after the filter. `mean`: of both halves.
+  FilteredImage filtered_image(const FilteredColors& colors, const ColorPlanes& mean) const {
+    FilteredImage image{colors.filtered, mean, Plane(image_.pixels())};
+    if (colors.kept)
+      for (std::size_t half = 0; half < 2; ++half)
+        for (std::size_t c = 0; c < rgb_size; ++c)
+          for (std::size_t i = 0; i < image_.pixels(); ++i) image.halves[half][c][i] += colors.kept->halves[half][c][i];
+    for (std::size_t i = 0; i < image_.pixels(); ++i) image.own[i] = own_share(i);
+    return image;
   }
 
   // The share of the unfiltered pixel in the filtered one. The light of small lamps is not filtered.
@@ -378,7 +326,7 @@ class Denoiser {
   const FilteredHalves filtered_;
   const std::size_t filters_, unfiltered_;  // the number of the filters; the number of the image among the candidates
   Plane relative_;
-  std::vector<std::uint8_t> beside_lamp_;  // empty: no pixel is known to be
+  std::vector<std::uint8_t> beside_lamp_;  // 1: the pixel is; empty: no pixel is known to be
   FilterMixture mixture_;                  // what each pixel takes
   std::array<Plane, 2> own_;               // the share of the pixel itself in either half
 };

@@ -52,7 +52,7 @@ struct DenoisedImage {
   ColorPlanes color;
   ColorPlanes error;  // root of the estimated mean squared error, bias included; a mean over 21 x 21 pixels
   // Estimated mean squared errors, over channels and pixels, of the image and of the filtered one. Relative: over the
-  // square of the filtered channel plus relative_epsilon, as in ErrorEstimate.
+  // square of the expectation plus relative_epsilon, as in ErrorEstimate.
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;
   double filtered = 0;  // share of the pixels that the filter changes
