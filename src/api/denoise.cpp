@@ -152,19 +152,22 @@ Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage&
 float gray_of(const ColorPlanes& planes, std::size_t i) { return (planes[0][i] + planes[1][i] + planes[2][i]) / 3; }
 
 // The whole of which both halves are known; nothing if the image has not all of its layers.
-std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& noisy, const ColorPlanes& color) {
+std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& noisy) {
   FilmPlanes whole({0, 0, image.width, image.height});
+  auto& [red, green, blue] = whole.albedo;
+  auto& [x, y, z] = whole.normal;
   for (auto [name, plane] :
-       {std::pair{"A", &whole.coverage}, std::pair{"samples", &whole.samples}, std::pair{"id", &whole.object}})
+       {std::pair{"A", &whole.coverage}, std::pair{"samples", &whole.samples}, std::pair{"id", &whole.object},
+        std::pair{"albedo.R", &red}, std::pair{"albedo.G", &green}, std::pair{"albedo.B", &blue}, std::pair{"N.X", &x},
+        std::pair{"N.Y", &y}, std::pair{"N.Z", &z}})
     if (!read_plane(image, name, *plane)) return std::nullopt;
-  if (!read_planes(image, "albedo", "RGB", whole.albedo) || !read_planes(image, "N", "XYZ", whole.normal))
-    return std::nullopt;
   whole.variance = noisy.variance;
   const auto& [a, b] = noisy.halves;
   for (std::size_t i = 0; i < noisy.pixels(); ++i) {
     if (!(a.share[i] > 0 && a.share[i] < 1)) continue;
     whole.passes[i] = 2, whole.expected[i] = 1;
-    for (std::size_t c = 0; c < rgb_size; ++c) whole.mean[c][i] = color[c][i];
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      whole.mean[c][i] = a.share[i] * a.color[c][i] + b.share[i] * b.color[c][i];
     whole.emission[i] = a.share[i] * gray_of(a.emission, i) + b.share[i] * gray_of(b.emission, i);
     whole.first_half[i] = gray_of(a.color, i), whole.second_half[i] = gray_of(b.color, i);
   }
@@ -213,7 +216,7 @@ Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::
     }
     for (Plane& plane : noisy.variance) plane[i] = 0;
   }
-  noisy.whole = whole_of(image, noisy, color);
+  noisy.whole = whole_of(image, noisy);
   for (const std::string& name : layers)
     if (Status read = read_layer(image, name, noisy); !read) return read.failure();
   return noisy;

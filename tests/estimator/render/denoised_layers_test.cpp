@@ -8,6 +8,7 @@
 #include "api/render.h"
 #include "api/scene.h"
 #include "image/image_file.h"
+#include "image/layers.h"
 #include "temporary_folder.h"
 
 namespace montelux::test {
@@ -71,6 +72,26 @@ TEST(DenoisedLayers, of_a_file_are_those_of_the_film) {
   for (const char* name : {"denoised_bounce1", "denoised_error_bounce1", "denoised_bounce_rest"}) {
     const PixelBuffer a = *layer(of_file, name), b = *layer(of_film, name);
     for (std::size_t i = 0; i < a.values.size(); ++i) ASSERT_NEAR(a.values[i], b.values[i], 1e-4f * (1 + b.values[i]));
+  }
+}
+
+// By the features, coverage and samples of the file as by those of the film. Numbers that cannot be do not spread.
+TEST(DenoisedFile, states_the_error_that_a_film_states) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = std::filesystem::path(folder.path()) / "halves.exr";
+  const Rendering rendering = rendering_of(16, 1, "halves", true);
+  ASSERT_TRUE(write_rendering(file, rendering, {}));
+  const double stated = denoise_file(file)->estimate.relative_mse;
+  EXPECT_NEAR(stated / denoise(rendering.result.film)->estimate.relative_mse, 1, 2e-3);
+  PixelBuffer pixels = read_image(file)->pixels;
+  for (const char* name : {"R", "A", "samples", "id", "albedo.G", "N.X", "stderr.B"}) {
+    PixelBuffer broken = pixels;
+    const std::size_t channel = std::size_t(*find_channel(broken, name));
+    for (float value : {std::nanf(""), -1e30f}) {
+      broken.values[(60 * 20 + 30) * broken.channels.size() + channel] = value;
+      ASSERT_TRUE(write_image(file, broken));
+      EXPECT_NEAR(denoise_file(file)->estimate.relative_mse / stated, 1, 0.05) << name << " " << value;
+    }
   }
 }
 
