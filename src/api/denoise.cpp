@@ -359,6 +359,7 @@ Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBu
   }
   Result<DenoisedLayers> layers = denoise_image(image, options, others);
   if (!layers) return layers;
+  image.whole.reset();  // what the next images need is in the halves
   before.push_front({std::move(image), *std::move(to_before)});
   if (before.size() > max_earlier) before.pop_back();
   earlier_ = std::move(before);

@@ -78,6 +78,7 @@ std::optional<SplitImage> split_small_lamps(const NoisyImage& image) {
   if (lamps.empty()) return std::nullopt;
   SplitImage split{image, {}, {}, {}};
   NoisyImage& rest = split.rest;
+  rest.whole.reset();  // it shows the lamps
   // What is kept of each colour. The halves have their own parts, which do not depend on each other.
   std::array<ColorPlanes, 2> parts;
   for (std::size_t h = 0; h < 2; ++h)

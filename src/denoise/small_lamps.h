@@ -17,7 +17,8 @@ struct KeptLight {
   ColorPlanes variance, covariance;
 };
 
-// An image without the light of its small lamps, and that light; the two sum to the image and its layers.
+// An image without the light of its small lamps, and that light; the two sum to the image and its layers. The rest does
+// not know the whole.
 struct SplitImage {
   NoisyImage rest;
   KeptLight kept;
