@@ -47,6 +47,7 @@ class PixelWork final : public StagedWork {
     for (const PixelBounds& bounds : tiles_of(film_)) {
       TileState& tile = tiles_.emplace_back(bounds);
       const int passes = film_.passes(bounds);
+      samples_done_ += samples_of(bounds) * std::uint64_t(passes);
       if (passes > 0) tile.begun = true, ++tiles_begun_, ++tiles_with_one_;
       if (passes > 1) ++tiles_with_two_;
     }
@@ -107,13 +108,7 @@ class PixelWork final : public StagedWork {
 
   WorkDone done() override {
     const auto all = double(std::max<std::uint64_t>(units_, 1));
-    WorkDone done{double(units_before_) / all, double(units_done_) / all, 0};
-    for (TileState& tile : tiles_) {
-      const std::scoped_lock lock(tile.mutex);
-      done.samples += std::uint64_t(tile.bounds.area()) * std::uint64_t(film_.passes(tile.bounds)) *
-                      std::uint64_t(settings_.plan.samples_per_pass);
-    }
-    return done;
+    return {double(units_before_) / all, double(units_done_) / all, samples_done_};
   }
 
   std::uint64_t passes() override { return units_done_; }
@@ -156,6 +151,11 @@ class PixelWork final : public StagedWork {
 
   const WorkPlan& plan() const { return settings_.work ? *settings_.work : pass_by_pass_; }
 
+  // Of a tile in one pass.
+  std::uint64_t samples_of(const PixelBounds& tile) const {
+    return std::uint64_t(tile.area()) * std::uint64_t(settings_.plan.samples_per_pass);
+  }
+
   void do_unit(std::size_t number, int pass, Workspace& space) {
     TileState& tile = tiles_.at(number);
     if (has(tile, pass)) return;
@@ -176,6 +176,7 @@ class PixelWork final : public StagedWork {
       film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
       tile.traced += rays;
       const int passes = film_.passes(tile.bounds);
+      samples_done_ += samples_of(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }
     if (compares) paired_->add(number, pass, k, space.samples, space.unbiased);
@@ -201,6 +202,7 @@ class PixelWork final : public StagedWork {
   std::deque<TileState> tiles_;
   const std::uint64_t units_, units_before_;  // of the plan: all, and those that the film had before
   std::atomic<std::uint64_t> units_done_;
+  std::atomic<std::uint64_t> samples_done_{0};
   std::atomic<std::size_t> tiles_begun_{0}, tiles_with_one_{0}, tiles_with_two_{0};  // with so many passes, or more
   WorkRound round_;
   std::uint64_t units_before_round_ = 0;
