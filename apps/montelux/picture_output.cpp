@@ -117,7 +117,7 @@ std::string target_line(const TargetResult& target) {
   const std::string text = to_text(error), sure = fmt::format("{:.4g} %", 100 * error.confidence);
   if (target.reached())
     return fmt::format("{} reached: with {} confidence the error is at most {:.3g} %", text, sure, 100 * state.bound);
-  if (!state.is_known || state.is_unsure) return fmt::format("{} {}", text, why_not_reached(target));
+  if (!state.is_known) return fmt::format("{} {}", text, why_not_reached(target));
   std::string line =
       fmt::format("{} not reached: with {} confidence the error is at most {:.3g} %", text, sure, 100 * state.bound);
   if (std::isfinite(state.work_high))
@@ -139,7 +139,6 @@ Json target_json(const TargetResult& target) {
           {"confidence", target.request.error.confidence},
           {"unbiased", target.request.unbiased},
           {"reached", target.reached()},
-          {"unsure", state.is_unsure},
           {"error", value(state.error)},
           {"bound", value(state.bound)},
           {"samples_needed", value(target.more_samples(state.work))},

@@ -71,7 +71,6 @@ std::string to_text(const ErrorTarget& target) {
 
 std::string why_not_reached(const TargetResult& target) {
   if (!target.state.is_known) return "unknown: it takes two passes of every pixel, and light";
-  if (target.state.is_unsure) return "unknown: few bright samples determine the error";
   return "no";
 }
 

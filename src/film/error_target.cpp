@@ -11,23 +11,11 @@ namespace montelux {
 
 namespace {
 
-// The same for pixels that few bright samples determine, as those that an edge of a lamp crosses: their own divisor and
-// the chance in their error are both unknown.
-constexpr double of_few_samples = 1;
-
 // The factor for the upper end of a squared error. Deviations of its logarithm: by chance, and for another reason,
 // which is the same at all looks.
 double upper_factor(const ErrorTarget& target, double by_chance, double constant, double spent) {
   const double wrong = 1 - target.confidence;
   return std::exp(std::hypot(normal_quantile(1 - wrong * spent) * by_chance, normal_quantile(1 - wrong) * constant));
-}
-
-// Whether rare bright samples determine the error, so that this film cannot show how uncertain it is either. Where
-// every pixel has many bright samples, a few pixels with most of the error, as at the edge of a lamp, are known well.
-bool is_unsure(const ErrorEstimate& error) {
-  constexpr double few_pixels = 16, small_share = 0.1;
-  const bool has_tail = error.tail_index < 1 || error.effective_pixels < std::min(few_pixels, double(error.pixels) / 8);
-  return has_tail && error.share_of_few_samples > small_share;
 }
 
 // Work for an error that falls like the root of the number of samples. `deviation`: of the logarithm of the squared
@@ -44,10 +32,9 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
                     TargetState& state) {
   const double of_estimate = std::sqrt(2 / (error.effective_pixels * (passes - 1)));
   const double of_picture = std::sqrt(2 / error.effective_pixels);
-  const double constant = divisor_deviation + of_few_samples * error.share_of_few_samples;
   state.error = std::sqrt(error.relative_mse);
-  state.bound =
-      std::sqrt(error.relative_mse * upper_factor(target, std::hypot(of_picture, of_estimate), constant, spent));
+  state.bound = std::sqrt(error.relative_mse *
+                          upper_factor(target, std::hypot(of_picture, of_estimate), error.log_deviation, spent));
   const double later = std::sqrt(error.relative_mse * upper_factor(target, of_picture, divisor_deviation, spent));
   predict_work(target, of_estimate, later, state);
 }
@@ -172,7 +159,6 @@ TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const Err
   switch (target.measure) {
     case TargetMeasure::relative:
       judge_relative(target, error, image.passes, spent, state);
-      state.is_unsure = is_unsure(error) && error.relative_mse > 0;
       break;
     case TargetMeasure::pixels:
       judge_pixels(target, planes, image.passes, spent, state);

@@ -29,14 +29,13 @@ struct ErrorTarget {
 // What is known of a film's error against a target.
 struct TargetState {
   bool is_known = false;                                   // false: it takes two passes of every pixel, and light
-  bool is_unsure = false;                                  // few bright samples determine it: the bound may be far off
   double error = std::numeric_limits<double>::infinity();  // the estimate
   double bound = std::numeric_limits<double>::infinity();  // with the target's confidence the true error is below
   // The total number of samples that the target requires, over the number that the film has: the expected factor, and
   // an interval that contains it with a probability of about 95 %.
   double work = std::numeric_limits<double>::infinity(), work_low = work, work_high = work;
 
-  bool reaches(const ErrorTarget& target) const { return is_known && !is_unsure && bound <= target.error; }
+  bool reaches(const ErrorTarget& target) const { return is_known && bound <= target.error; }
 };
 
 // `spent`: the share of the probability of a wrong statement that this look at the film may use; 1 if it is the only
@@ -44,7 +43,8 @@ struct TargetState {
 //
 // The true error of a picture is random around its expectation, of which the film gives an estimate. The bound includes
 // both, and the uncertainty of the divisors:
-// - relative: the logarithm of the sum over pixels, with the number of effective pixels (Kish 1965);
+// - relative: the logarithm of the sum over pixels, with the number of effective pixels (Kish 1965) and the tail of
+//   their errors;
 // - pixels: Student's t of each pixel, with variances that are shrunk toward those of the pixels around it (James and
 //   Stein 1961); the number of pixels beyond the error is a Poisson number;
 // - mean: Student's t over the passes. Here looks spend nothing: they see only the spread of the passes, which is

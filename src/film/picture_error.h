@@ -24,9 +24,9 @@ struct ErrorEstimate {
   // tail. Below 1 they have no finite mean.
   double tail_index = std::numeric_limits<double>::infinity();
   double effective_pixels = 0;  // number of pixels of equal error with the same uncertainty (Kish 1965)
-  // The share of the relative error in pixels whose brightness fewer than five bright samples determine. Pixels that
-  // are covered in part count by two thirds of theirs: the pixels around show them, too.
-  double share_of_few_samples = 0;
+  // The standard deviation of the logarithm of relative_mse apart from chance: because divisors are estimates, and
+  // because bright samples may be rarer than the image shows, by the tail index.
+  double log_deviation = divisor_deviation;
   std::size_t pixels = 0;  // pixels that have two passes
   std::size_t all = 0;     // pixels that could have two: sampled, with a finite sample
 

@@ -166,4 +166,26 @@ TEST(PictureError, says_so_where_few_bright_samples_decide) {
   EXPECT_LT(sure.relative_high, 1.6 * sure.relative_low);
 }
 
+// Some pixels are bright details, and others rarely have a bright sample: few of the latter are in an image, and their
+// divisors are hard to tell from those of details. The interval is as wide as the tail of the errors says.
+TEST(PictureError, has_an_interval_that_knows_of_its_tail) {
+  constexpr int images = 200;
+  int within = 0, without_tail = 0;
+  for (std::uint32_t seed = 0; seed < images; ++seed) {
+    const RandomStream<float> details(seed, 6u);
+    const Picture picture = picture_of(
+        [&](int x, int y) {
+          const bool is_detail = details.at(std::uint32_t(y * side + x)) < 0.01f;
+          return is_detail ? RareLight{0.2f, 20, 0.5, false} : RareLight{0.2f, 40, 1e-3, false};
+        },
+        seed);
+    const ErrorEstimate e = picture.film.error();
+    const double chance = std::sqrt(2 / e.effective_pixels);
+    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
+    without_tail += picture.true_error <= e.relative_mse * std::exp(1.96 * std::hypot(chance, divisor_deviation));
+  }
+  EXPECT_GE(within, 0.95 * images);
+  EXPECT_LT(without_tail, 0.8 * images);
+}
+
 }  // namespace montelux
