@@ -25,7 +25,9 @@ void predict_work(const ErrorTarget& target, double deviation, double later, Tar
   const double factor = std::exp(std::hypot(1.96 * deviation, of_rate));
   const auto work_of = [&](double bound) { return bound * bound / (target.error * target.error); };
   const double now = work_of(state.bound), then = work_of(std::min(later, state.bound));
-  state.work = std::sqrt(now * then), state.work_low = then / factor, state.work_high = now * factor;
+  // A little more at least, if the bound is not below the target yet.
+  state.work = std::clamp(then, std::min(now, 1.1), now), state.work_low = then / factor,
+  state.work_high = now * factor;
 }
 
 void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, double passes, double spent,

@@ -35,10 +35,12 @@ void add_pixel(const FilmPlanes& p, const Reciprocals& reciprocals, const Partia
 }
 
 // The standard deviation of the logarithm of an error whose tail has this index, by the images of 57 scenes with 8 to
-// 512 samples: a tail whose cubes have a mean hides nothing, and below 1/2 the image does not show more of it.
-double tail_deviation(double index) {
-  constexpr double light_tail = 3, heaviest_tail = 0.5, of_tail = 1.5;
-  return of_tail * std::max(1 / std::max(index, heaviest_tail) - 1 / light_tail, 0.0);
+// 512 samples: a tail whose cubes have a mean hides nothing, below 1/2 the image does not show more of it, and it hides
+// the less the more pixels share in the error.
+double tail_deviation(double index, double effective_pixels) {
+  constexpr double light_tail = 3, heaviest_tail = 0.5, of_tail = 1.5, few_pixels = 40;
+  const double tail = std::max(1 / std::max(index, heaviest_tail) - 1 / light_tail, 0.0);
+  return of_tail * tail * std::min(few_pixels / effective_pixels, 1.0);
 }
 
 // Over the pixels that have two passes.
@@ -64,7 +66,7 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   // many scenes show 0.8 to 1.25 of the true error in their mean.
   error.effective_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
   error.tail_index = hill_index(sums.largest.sorted());
-  error.log_deviation = divisor_deviation + tail_deviation(error.tail_index);
+  error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, error.effective_pixels);
   const double factor = std::exp(1.96 * std::hypot(std::sqrt(2 / error.effective_pixels), error.log_deviation));
   error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
   return error;
