@@ -295,7 +295,7 @@ class Signals(ProgramTest):
     def interrupted_after(self, share, *options):
         """Renders two passes, is interrupted when that share of them is done, and returns what was said."""
         terminal, inside = pty.openpty()
-        process = self.start("render", SCENE, "--resolution", "900x700", "--spp", "2", "--sampler", "independent",
+        process = self.start("render", SCENE, "--resolution", "1800x1400", "--spp", "2", "--sampler", "independent",
                              "--threads", "1", "-o", "early.exr", *options, stderr=inside)
         self.addCleanup(process.kill)
         os.close(inside)
@@ -320,7 +320,7 @@ class Signals(ProgramTest):
     def test_the_error_is_not_known_before_every_pixel_has_two_passes(self):
         written = json.loads(self.interrupted_after(0.6, "--json"))
         # The second pass is cut: some pixels have two samples, others one.
-        self.assertTrue(900 * 700 < written["samples"] < 2 * 900 * 700, written["samples"])
+        self.assertTrue(1800 * 1400 < written["samples"] < 2 * 1800 * 1400, written["samples"])
         self.assertEqual(written["passes"], 1)
         for key in "mse", "relative_mse", "relative_mse_range", "tail_index", "interval_of_mean":
             self.assertIsNone(written[key], key)
