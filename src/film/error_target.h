@@ -31,8 +31,9 @@ struct TargetState {
   bool is_known = false;                                   // false: it takes two passes of every pixel, and light
   double error = std::numeric_limits<double>::infinity();  // the estimate
   double bound = std::numeric_limits<double>::infinity();  // with the target's confidence the true error is below
-  // The total number of samples that the target requires, over the number that the film has: the expected factor, and
-  // an interval that contains it with a probability of about 95 %.
+  // The total number of samples that the target requires, over the number that the film has: the factor if no bright
+  // samples are rarer than those found, and an interval that contains it with a probability of about 95 %, whose upper
+  // end takes them into account.
   double work = std::numeric_limits<double>::infinity(), work_low = work, work_high = work;
 
   bool reaches(const ErrorTarget& target) const { return is_known && bound <= target.error; }

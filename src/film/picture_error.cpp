@@ -62,8 +62,7 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   if (error.pixels == 0) return error;
   const Sums sums = sum_pixels(p);
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);
-  // Their number decides how far the logarithm of the sum may be off. The divisor is another part of it: pictures of
-  // many scenes show 0.8 to 1.25 of the true error in their mean.
+  // Their number decides how far the logarithm of the sum may be off by chance. Divisors and tails are the other parts.
   error.effective_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
   error.tail_index = hill_index(sums.largest.sorted());
   error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, error.effective_pixels);
