@@ -11,11 +11,14 @@ namespace montelux {
 
 namespace {
 
-// The factor for the upper end of a squared error. Deviations of its logarithm: by chance, and for another reason,
-// which is the same at all looks.
-double upper_factor(const ErrorTarget& target, double by_chance, double constant, double spent) {
+// The factor for the upper end of a squared error. Deviations of its logarithm: of the estimate, which decides at each
+// look whether the render ends; and those that do not depend on that decision, and so count for one look. Among these
+// is the chance of the image itself: the spread of passes, by which renders end, is independent of their mean where
+// noise is normal (Chow and Robbins 1965), and larger where rare bright samples make the mean wrong.
+double upper_factor(const ErrorTarget& target, double of_estimate, double of_one_look, double spent) {
   const double wrong = 1 - target.confidence;
-  return std::exp(std::hypot(normal_quantile(1 - wrong * spent) * by_chance, normal_quantile(1 - wrong) * constant));
+  return std::exp(
+      std::hypot(normal_quantile(1 - wrong * spent) * of_estimate, normal_quantile(1 - wrong) * of_one_look));
 }
 
 // Work for an error that falls like the root of the number of samples. `deviation`: of the logarithm of the squared
@@ -32,12 +35,14 @@ void predict_work(const ErrorTarget& target, double deviation, double later, Tar
 
 void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, double passes, double spent,
                     TargetState& state) {
-  const double of_estimate = std::sqrt(2 / (error.effective_pixels * (passes - 1)));
-  const double of_picture = std::sqrt(2 / error.effective_pixels);
+  const double of_estimate = error.chance_deviation(passes - 1), of_image = error.chance_deviation();
+  const auto bound_with = [&](double log_deviation) {
+    const double of_one_look = std::hypot(of_image, log_deviation);
+    return std::sqrt(error.relative_mse * upper_factor(target, of_estimate, of_one_look, spent));
+  };
   state.error = std::sqrt(error.relative_mse);
-  state.bound = std::sqrt(error.relative_mse *
-                          upper_factor(target, std::hypot(of_picture, of_estimate), error.log_deviation, spent));
-  const double later = std::sqrt(error.relative_mse * upper_factor(target, of_picture, divisor_deviation, spent));
+  state.bound = bound_with(error.log_deviation);
+  const double later = bound_with(divisor_deviation);
   predict_work(target, of_estimate, later, state);
 }
 
@@ -111,10 +116,10 @@ void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double pa
   const std::vector<double> variances = pixel_variances(planes, passes);
   const MissedShare missed(variances, passes - 1 + prior_degrees);
   const double share = 1 - target.share, count = std::max(share * double(variances.size()), 1.0);
-  const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_picture = 1 / std::sqrt(count);
+  const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_image = 1 / std::sqrt(count);
   state.error = missed.error_of(share);
   state.bound =
-      missed.error_of(share / upper_factor(target, std::hypot(of_picture, of_estimate), divisor_deviation, spent));
+      missed.error_of(share / upper_factor(target, of_estimate, std::hypot(of_image, divisor_deviation), spent));
   predict_work(target, of_estimate, state.bound, state);
 }
 

@@ -57,39 +57,70 @@ PartialCovers::PartialCovers(const FilmPlanes& planes)
   measure_prior();
 }
 
+const PartialCovers::Cover* PartialCovers::cover_of(std::size_t pixel) const {
+  return has(pixel) ? &covers_[std::size_t(index_[pixel])] : nullptr;
+}
+
+std::optional<PartialCovers::PossibleParts> PartialCovers::possible_parts(const Cover& c) const {
+  const bool is_found = is_hit(c.share, c.samples);
+  // The pixels around say nothing of an emitter that is smaller than a pixel; the agreement of halves knows it.
+  if (c.of_emitter && is_found && 4 * c.around < c.share) return std::nullopt;
+  const double prior_samples = is_found ? overlap_ * max_prior_samples : max_prior_samples;
+  const PossibleParts parts{c.samples * c.share + prior_samples * c.around,
+                            c.samples * (1 - c.share) + prior_samples * (1 - c.around), is_found ? 1 : overlap_};
+  constexpr double least = 1e-6;
+  if (parts.hits < least || parts.misses < least) return std::nullopt;
+  return parts;
+}
+
 std::array<double, rgb_size> PartialCovers::correction(std::size_t pixel,
                                                        const std::array<double, rgb_size>& reciprocal) const {
   constexpr std::array<double, rgb_size> none{};
-  if (index_[pixel] < 0) return none;
-  const Cover& c = covers_[std::size_t(index_[pixel])];
-  const bool is_found = is_hit(c.share, c.samples);
-  // The pixels around say nothing of an emitter that is smaller than a pixel; the agreement of halves knows it.
-  if (c.of_emitter && is_found && 4 * c.around < c.share) return none;
-  const double prior_samples = is_found ? overlap_ * max_prior_samples : max_prior_samples;
-  const double hits = c.samples * c.share + prior_samples * c.around;
-  const double misses = c.samples * (1 - c.share) + prior_samples * (1 - c.around);
-  constexpr double least = 1e-6;
-  if (hits < least || misses < least) return none;
-  const double mean_square = c.of_emitter ? 1 : mean_square_;
+  const Cover* c = cover_of(pixel);
+  const std::optional<PossibleParts> parts = c ? possible_parts(*c) : std::nullopt;
+  if (!parts) return none;
+  const double of_light = mean_square_of_light(*c);
   double weights = 0;
   std::array<double, rgb_size> sums{};
-  for_each_part(hits, misses, [&](double p, double weight) {
+  for_each_part(parts->hits, parts->misses, [&](double p, double weight) {
     weights += weight;
     if (p < min_part) return;
     for (std::size_t k = 0; k < rgb_size; ++k) {
-      const double expected = c.base[k] + p * c.bright[k];
-      sums[k] += weight * (mean_square * p * (1 - p) + c.noise * p * p) / (expected * expected + relative_epsilon);
+      const double expected = c->base[k] + p * c->bright[k];
+      sums[k] += weight * (of_light * p * (1 - p) + c->noise * p * p) / (expected * expected + relative_epsilon);
     }
   });
-  const double as_seen = mean_square * c.spread() + c.noise * c.share * c.share;
-  const double factor = (is_found ? 1 : overlap_) / c.samples;
+  const double as_seen = of_light * c->spread() + c->noise * c->share * c->share;
+  const double factor = parts->weight / c->samples;
   std::array<double, rgb_size> correction;
   for (std::size_t k = 0; k < rgb_size; ++k)
-    correction[k] = factor * c.bright[k] * c.bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
+    correction[k] = factor * c->bright[k] * c->bright[k] * (sums[k] / weights - as_seen * reciprocal[k]);
   const double mean = mean_of(correction);
   // They may show another emitter, which is larger: the error is at least what the agreement of halves says.
-  if (!std::isfinite(mean) || (c.of_emitter && is_found && mean < 0)) return none;
+  if (!std::isfinite(mean) || (c->of_emitter && is_hit(c->share, c->samples) && mean < 0)) return none;
   return correction;
+}
+
+// The fourth moment of a mean of n independent samples of variance v and fourth cumulant k: 3 v^2 / n^2 + k / n^3. Hits
+// that are rare have the fourth cumulant of a Poisson distribution.
+std::optional<double> PartialCovers::mean_square(std::size_t pixel) const {
+  const Cover* c = cover_of(pixel);
+  const std::optional<PossibleParts> parts = c ? possible_parts(*c) : std::nullopt;
+  if (!parts) return std::nullopt;
+  const double of_light = mean_square_of_light(*c), n = c->samples;
+  double weights = 0, sum = 0;
+  for_each_part(parts->hits, parts->misses, [&](double p, double weight) {
+    weights += weight;
+    if (p < min_part) return;
+    const double variance = of_light * p * (1 - p) + c->noise * p * p, cumulant = of_light * of_light * p * (1 - p);
+    double reciprocal = 0;
+    for (std::size_t k = 0; k < rgb_size; ++k) {
+      const double expected = c->base[k] + p * c->bright[k];
+      reciprocal += c->bright[k] * c->bright[k] / (expected * expected + relative_epsilon) / rgb_size;
+    }
+    sum += weight * (3 * variance * variance + cumulant / n) / (n * n) * reciprocal * reciprocal;
+  });
+  return parts->weight * sum / weights;
 }
 
 // Calls f(pixel) for those with passes.
@@ -199,11 +230,10 @@ void PartialCovers::measure_surfaces() {
     const double light = c.brightness();
     double noise = 0, squares = 0;
     for_each_around(int(c.pixel) % width, int(c.pixel) / width, 1, [&](std::size_t i) {
-      if (index_[i] < 0) return;
-      const Cover& other = covers_[std::size_t(index_[i])];
-      if (other.of_emitter) return;
-      noise += variance_of(i) * other.samples / (light * light) - mean_square_ * other.spread();
-      squares += other.share * other.share;
+      const Cover* other = cover_of(i);
+      if (!other || other->of_emitter) return;
+      noise += variance_of(i) * other->samples / (light * light) - mean_square_ * other->spread();
+      squares += other->share * other->share;
     });
     c.noise = squares > 0 ? std::max(noise / squares, 0.0) : 0;
   }

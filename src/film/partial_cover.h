@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "film/film_planes.h"
@@ -23,6 +24,9 @@ class PartialCovers {
   // What to add to the relative squared error of each channel of a pixel that is variance x reciprocal, where
   // `reciprocal` is an estimate of 1 / (expectation^2 + relative_epsilon): 0 for pixels that are not covered in part.
   std::array<double, rgb_size> correction(std::size_t pixel, const std::array<double, rgb_size>& reciprocal) const;
+  // The expectation of the square of the pixel's relative squared error (the mean of its channels), corrected as above:
+  // few hits make it far larger than the square of the expectation. None for pixels whose error is not corrected.
+  std::optional<double> mean_square(std::size_t pixel) const;
   // Whether the pixel is covered in part.
   bool has(std::size_t pixel) const { return index_[pixel] >= 0; }
 
@@ -41,6 +45,16 @@ class PartialCovers {
     double spread() const { return samples > 1 ? share * (1 - share) * samples / (samples - 1) : 0; }
   };
 
+  // What the hits and misses leave possible: the beta distribution of p.
+  struct PossibleParts {
+    double hits = 0, misses = 0;  // with those that the pixels around count for
+    double weight = 1;            // how probable it is that there is any cover
+  };
+
+  const Cover* cover_of(std::size_t pixel) const;
+  std::optional<PossibleParts> possible_parts(const Cover& c) const;
+  // The mean square of the light of covered samples over their squared mean.
+  double mean_square_of_light(const Cover& c) const { return c.of_emitter ? 1 : mean_square_; }
   bool covered_by_emitter(int x, int y, Cover& cover) const;
   bool covered_before_darkness(int x, int y, Cover& cover) const;
   void find_covers();

@@ -188,4 +188,64 @@ TEST(PictureError, has_an_interval_that_knows_of_its_tail) {
   EXPECT_LT(without_tail, 0.8 * images);
 }
 
+// A tail hides the less the more pixels share in the error: this one would give a deviation of 0.38 to a few pixels.
+TEST(PictureError, has_a_narrower_interval_where_many_pixels_have_a_tail) {
+  constexpr int images = 200;
+  int within = 0;
+  double deviation = 0, index = 0;
+  for (std::uint32_t seed = 0; seed < images; ++seed) {
+    const RandomStream<float> contrasts(seed, 6u);
+    const Picture picture = picture_of(
+        [&](int x, int y) {
+          const float u = contrasts.at(std::uint32_t(y * side + x));
+          return RareLight{0.2f, 2 * std::pow(std::max(u, 1e-4f), -0.35f), 0.1, false};
+        },
+        seed);
+    const ErrorEstimate e = picture.film.error();
+    deviation += e.log_deviation / images, index += e.tail_index / images;
+    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
+  }
+  EXPECT_LT(index, 2);
+  EXPECT_LT(deviation, 0.2);
+  EXPECT_GE(within, 0.95 * images);
+}
+
+// The variance of the true error of images, by the binomial distribution of the hits of each pixel.
+template <class Law>
+double variance_of_true_error(Law law) {
+  double variance = 0;
+  for (int i = 0; i < bounds.area(); ++i) {
+    const RareLight light = law(i % side, i / side);
+    const double p = light.probability, expected = double(light.base) + p * double(light.bright);
+    double pmf = std::pow(1 - p, passes), mean = 0, square = 0;
+    for (int hits = 0; hits <= passes && p < 1; ++hits) {
+      const double difference = double(light.bright) * (double(hits) / passes - p);
+      const double error = difference * difference / (expected * expected + 0.01) / bounds.area();
+      mean += pmf * error, square += pmf * error * error;
+      pmf *= double(passes - hits) / (hits + 1) * p / (1 - p);
+    }
+    variance += square - mean * mean;
+  }
+  return variance;
+}
+
+// At the edge of a lamp few hits make most of the error.
+TEST(PictureError, knows_how_uncertain_rare_hits_make_it) {
+  const auto law = [](int x, int y) { return RareLight{0.01f, 10, inside_a_disk(x, y, true), true}; };
+  constexpr int images = 200;
+  double stated = 0;
+  int within = 0;
+  for (std::uint32_t seed = 0; seed < images; ++seed) {
+    const Picture picture = picture_of(law, seed);
+    const ErrorEstimate e = picture.film.error();
+    EXPECT_GT(e.tail_index, 3);  // hits of a known law are no tail
+    stated += e.relative_mse * e.relative_mse * 2 / e.effective_pixels / images;
+    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
+  }
+  const double truth = variance_of_true_error(law);
+  EXPECT_GT(stated, 0.5 * truth);
+  EXPECT_LT(stated, 2 * truth);
+  EXPECT_GE(within, 0.95 * images);
+}
+
 }  // namespace montelux
