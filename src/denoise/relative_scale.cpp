@@ -40,7 +40,7 @@ RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage&
   RelativeScale scale = scale_by_colors(filtered.mean);
   for (Plane& plane : scale.of_covers) plane.resize(filtered.own.size());
   for (std::size_t i = 0; i < filtered.own.size(); ++i) {
-    if (noisy.passes[i] != 2) continue;
+    if (noisy.passes[i] < 2) continue;
     std::array<double, rgb_size> reciprocal = of_filtered.of(i);
     const std::array<double, rgb_size> before = of_noisy.of(i);
     // At the edge of a lamp one half may have no light of it, too.

@@ -1,10 +1,14 @@
 #include "film/error_target.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "film/film.h"
+#include "film/intervals.h"
+#include "film/reciprocals.h"
 #include "mc/confidence.h"
 
 namespace montelux {
@@ -46,20 +50,67 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
   predict_work(target, of_estimate, later, state);
 }
 
-// The relative variances of the pixels that have two passes, shrunk toward the mean of the eight around them: a pixel
-// that missed its light has none of its own.
-constexpr double prior_degrees = 2;
-std::vector<double> pixel_variances(const FilmPlanes& p, double passes) {
-  const int width = p.bounds.width(), height = p.bounds.height();
-  std::vector<double> own(p.passes.size(), -1);
-  for (std::size_t i = 0; i < own.size(); ++i) {
+// The relative errors of the pixels that have two passes.
+struct PixelErrors {
+  std::vector<double> squares;  // estimates of their expected squares
+  double freedom = 0;           // the degrees of freedom of such an estimate
+  // The mean of the channels' squared errors is distributed like that of so many independent ones: 3 where the errors
+  // of channels are independent, 1 where they are equal (Satterthwaite 1946).
+  double channels = 1;
+};
+
+// Of a pixel, its channels' squared errors times the reciprocals of their squared expectations; negative where it has
+// fewer than two passes.
+template <class SquaredError>
+std::vector<double> relative_squares(const FilmPlanes& p, SquaredError squared_error) {
+  const Reciprocals reciprocals(p);
+  std::vector<double> squares(p.passes.size(), -1);
+  for (std::size_t i = 0; i < squares.size(); ++i) {
     if (p.passes[i] < 2) continue;
-    own[i] = 0;
-    for (std::size_t c = 0; c < rgb_size; ++c)
-      own[i] += double(p.variance[c][i]) / (double(p.mean[c][i]) * double(p.mean[c][i]) + relative_epsilon) / rgb_size;
+    const std::array<double, rgb_size> reciprocal = reciprocals.of(i);
+    squares[i] = 0;
+    for (std::size_t c = 0; c < rgb_size; ++c) squares[i] += squared_error(c, i) * reciprocal[c] / rgb_size;
   }
-  std::vector<double> shrunk;
-  shrunk.reserve(own.size());
+  return squares;
+}
+
+// By how much the errors of a pixel's channels are alike: the variance of their mean over the mean of their variances.
+double independent_channels(const FilmPlanes& p) {
+  double ratios = 0, pixels = 0;
+  for (std::size_t i = 0; i < p.passes.size(); ++i) {
+    double variance = 0;
+    for (const Plane& channel : p.variance) variance += double(channel[i]) / rgb_size;
+    if (p.passes[i] < 2 || variance <= 0) continue;
+    const double half_difference = (double(p.first_half[i]) - double(p.second_half[i])) / 2;
+    ratios += half_difference * half_difference / variance, pixels += 1;
+  }
+  const double ratio = std::clamp(pixels > 0 ? ratios / pixels : 1, 1.0 / rgb_size, 1.0);
+  const double correlation = (rgb_size * ratio - 1) / (rgb_size - 1);
+  return rgb_size / (1 + (rgb_size - 1) * correlation * correlation);
+}
+
+// By the calibrated intervals of pixels, which know what light a pixel may have missed.
+PixelErrors errors_by_intervals(const FilmPlanes& p, double passes) {
+  const PixelIntervals intervals = pixel_intervals(p);
+  const double freedom = interval_freedom(passes);
+  const double width = 2 * student_t_quantile((1 + intervals.confidence) / 2, freedom);
+  const auto squared_error = [&](std::size_t c, std::size_t i) {
+    const double error = (double(intervals.high[c][i]) - double(intervals.low[c][i])) / width;
+    return error * error;
+  };
+  std::vector<double> squares = relative_squares(p, squared_error);
+  std::erase_if(squares, [](double square) { return square < 0; });
+  return {std::move(squares), freedom, independent_channels(p)};
+}
+
+// By the variances of the pixels, shrunk toward the mean of the eight around each.
+PixelErrors errors_by_variances(const FilmPlanes& p, double passes) {
+  constexpr double prior_degrees = 2;
+  const int width = p.bounds.width(), height = p.bounds.height();
+  const std::vector<double> own =
+      relative_squares(p, [&](std::size_t c, std::size_t i) { return double(p.variance[c][i]); });
+  PixelErrors errors{{}, passes - 1 + prior_degrees, independent_channels(p)};
+  errors.squares.reserve(own.size());
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto at = [&](int px, int py) { return own[std::size_t(py) * std::size_t(width) + std::size_t(px)]; };
@@ -70,28 +121,31 @@ std::vector<double> pixel_variances(const FilmPlanes& p, double passes) {
         for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px)
           if ((px != x || py != y) && at(px, py) >= 0) sum += at(px, py), ++count;
       const double around = count > 0 ? sum / count : variance;
-      shrunk.push_back(((passes - 1) * variance + prior_degrees * around) / (passes - 1 + prior_degrees));
+      errors.squares.push_back(((passes - 1) * variance + prior_degrees * around) / errors.freedom);
     }
-  return shrunk;
+  return errors;
 }
 
-// The mean over pixels of P(|T| > error / deviation), T by Student's law; by its table, since there are many pixels.
+// The mean over pixels of P(error > x): the square of an error over its estimate has an F distribution, here by its
+// table, since there are many pixels.
 class MissedShare {
  public:
-  MissedShare(const std::vector<double>& variances, double degrees) : variances_(variances) {
-    for (std::size_t i = 0; i < table_.size(); ++i)
-      table_[i] = 2 * (1 - student_t_cdf(largest * double(i) / double(table_.size() - 1), degrees));
+  explicit MissedShare(const PixelErrors& errors) : squares_(errors.squares) {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      const double x = largest * double(i) / double(table_.size() - 1), f = errors.channels * x * x;
+      table_[i] = incomplete_beta(errors.freedom / 2, errors.channels / 2, errors.freedom / (errors.freedom + f));
+    }
   }
   double operator()(double error) const {
     double sum = 0;
-    for (double variance : variances_) {
-      if (variance <= 0) continue;
-      const double at = error / std::sqrt(variance) / largest * double(table_.size() - 1);
+    for (double square : squares_) {
+      if (square <= 0) continue;
+      const double at = error / std::sqrt(square) / largest * double(table_.size() - 1);
       if (at >= double(table_.size() - 1)) continue;
       const auto below = std::size_t(at);
       sum += table_[below] + (at - double(below)) * (table_[below + 1] - table_[below]);
     }
-    return sum / double(variances_.size());
+    return sum / double(squares_.size());
   }
   // The error beyond which there is this share of the pixels.
   double error_of(double share) const {
@@ -107,19 +161,25 @@ class MissedShare {
 
  private:
   static constexpr double largest = 24;
-  const std::vector<double>& variances_;
+  const std::vector<double>& squares_;
   std::array<double, 1025> table_{};
 };
 
+// A bright sample that few pixels have widens the intervals of all pixels around, most of which have far less error: so
+// the error is at most 1.5 times what the variances show.
 void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double passes, double spent,
                   TargetState& state) {
-  const std::vector<double> variances = pixel_variances(planes, passes);
-  const MissedShare missed(variances, passes - 1 + prior_degrees);
-  const double share = 1 - target.share, count = std::max(share * double(variances.size()), 1.0);
+  constexpr double most_over_variances = 1.5;
+  const PixelErrors by_intervals = errors_by_intervals(planes, passes),
+                    by_variances = errors_by_variances(planes, passes);
+  const MissedShare missed(by_intervals), missed_by_variances(by_variances);
+  const auto error_of = [&](double share) {
+    return std::min(missed.error_of(share), most_over_variances * missed_by_variances.error_of(share));
+  };
+  const double share = 1 - target.share, count = std::max(share * double(by_intervals.squares.size()), 1.0);
   const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_image = 1 / std::sqrt(count);
-  state.error = missed.error_of(share);
-  state.bound =
-      missed.error_of(share / upper_factor(target, of_estimate, std::hypot(of_image, divisor_deviation), spent));
+  state.error = error_of(share);
+  state.bound = error_of(share / upper_factor(target, of_estimate, std::hypot(of_image, divisor_deviation), spent));
   predict_work(target, of_estimate, state.bound, state);
 }
 

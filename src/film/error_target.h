@@ -43,11 +43,12 @@ struct TargetState {
 // one. `image` and `error` are those of the film whose planes these are.
 //
 // The true error of a picture is random around its expectation, of which the film gives an estimate. The bound includes
-// both, and the uncertainty of the divisors:
+// both, and the uncertainty of the divisors. Of these only the estimate depends on what earlier looks saw.
 // - relative: the logarithm of the sum over pixels, with the number of effective pixels (Kish 1965) and the tail of
 //   their errors;
-// - pixels: Student's t of each pixel, with variances that are shrunk toward those of the pixels around it (James and
-//   Stein 1961); the number of pixels beyond the error is a Poisson number;
+// - pixels: the squared error of a pixel over its estimate has an F distribution, with the estimates of the calibrated
+//   intervals of pixels (pixel_intervals()), but an error at most 1.5 times that of the pixels' own variances; the
+//   number of pixels beyond the error is a Poisson number;
 // - mean: Student's t over the passes. Here looks spend nothing: they see only the spread of the passes, which is
 //   independent of their mean where they are normal (Chow and Robbins 1965), as long as they are few and the first one
 //   is at eight passes or more.

@@ -32,7 +32,7 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
       const PixelFeatures& features = film.features(x, y);
       const std::size_t i = index(x, y);
       const double hits = std::max(features.hits, 1.0), sampled = std::max(features.samples, 1.0);
-      passes[i] = std::uint8_t(std::min(pixel.passes, 2u));
+      passes[i] = pixel.passes;
       expected[i] = film.is_sampled(x, y) && (pixel.passes > 0 || pixel.non_finite == 0);
       for (int c = 0; c < rgb_size; ++c) {
         mean[std::size_t(c)][i] = float(pixel.mean[c]);

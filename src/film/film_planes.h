@@ -32,7 +32,7 @@ struct FilmPlanes {
   Plane samples;                       // their number
   Plane object;                        // number of the object, 0: none
   Plane first_half, second_half;       // mean over one half of the passes and over the other, mean of the channels
-  std::vector<std::uint8_t> passes;    // 0, 1, or 2 for two and more
+  std::vector<std::uint32_t> passes;   // their number
   std::vector<std::uint8_t> expected;  // 1: the pixel is sampled and has a finite sample
 };
 

@@ -80,9 +80,8 @@ class Quantiles {
 // Numbers that no sum of squares can hold belong to no pixel that others can use.
 bool is_usable(double x) { return std::abs(x) < 1e15; }
 
-// `planes` have the same pixels as the film.
-Spreads spreads_of(const Film& film, const FilmPlanes& planes) {
-  const PixelBounds& b = film.bounds();
+Spreads spreads_of(const FilmPlanes& planes) {
+  const PixelBounds& b = planes.bounds;
   Spreads s(b.width(), b.height());
   s.albedo = planes.albedo, s.normal = planes.normal, s.object = planes.object;
   std::uint32_t last_passes = 0;  // which most pixels share
@@ -90,7 +89,7 @@ Spreads spreads_of(const Film& film, const FilmPlanes& planes) {
   std::size_t i = 0;
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x, ++i) {
-      const std::uint32_t passes = film.passes_of(x, y);
+      const std::uint32_t passes = planes.passes[i];
       if (passes < 2) continue;
       if (passes != last_passes) bias = mean_of_chi((last_passes = passes) - 1.0);
       bool usable = true;
@@ -278,11 +277,17 @@ Plane contrast_of_lamps(const Plane& mean, const Plane& lamps, int width) {
 
 }  // namespace
 
+double interval_freedom(double passes) { return std::min(passes - 1, own_freedom) + prior_freedom; }
+
 PixelIntervals pixel_intervals(const Film& film, double confidence) {
-  const PixelBounds& b = film.bounds();
-  FilmPlanes planes(b);
-  planes.copy(film, b);
-  const Spreads spreads = spreads_of(film, planes);
+  FilmPlanes planes(film.bounds());
+  planes.copy(film, film.bounds());
+  return pixel_intervals(planes, confidence);
+}
+
+PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
+  const PixelBounds& b = planes.bounds;
+  const Spreads spreads = spreads_of(planes);
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
   const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
@@ -298,7 +303,7 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
   for (int y = 0; y < b.height(); ++y)
     for (int x = 0; x < b.width(); ++x, ++i) {
       const std::size_t k = std::size_t(y / block) * std::size_t(blocks.width) + std::size_t(x / block);
-      const double freedom = std::min(double(film.passes_of(b.x0 + x, b.y0 + y)) - 1, own_freedom);
+      const double freedom = std::min(double(planes.passes[i]) - 1, own_freedom);
       if (freedom < 1) {
         for (std::size_t c = 0; c < rgb_size; ++c)
           intervals.low[c][i] = -std::numeric_limits<float>::infinity(), intervals.high[c][i] = -intervals.low[c][i];
@@ -307,7 +312,7 @@ PixelIntervals pixel_intervals(const Film& film, double confidence) {
       const double weight = spreads.known[i] > 0 ? double(near.weight[i]) : 0;
       double prior = prior_freedom * weight / (weight + few_alike);
       const double quantile = quantiles(freedom, prior);
-      const double uncertain_cover = -spread_samples * std::log(1 - confidence) / film.samples(b.x0 + x, b.y0 + y);
+      const double uncertain_cover = -spread_samples * std::log(1 - confidence) / double(planes.samples[i]);
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
         if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);

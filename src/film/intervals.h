@@ -28,7 +28,10 @@ struct PixelIntervals {
 // of a pixel may all hit the lamp, or none: the half-width is at least what the part of the pixel is worth that they
 // may have missed.
 //
+PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence = default_confidence);
 // Requires a film without stride.
 PixelIntervals pixel_intervals(const Film& film, double confidence = default_confidence);
+// The degrees of freedom of the quantile for a pixel of so many passes among others that show the like.
+double interval_freedom(double passes);
 
 }  // namespace montelux

@@ -69,7 +69,7 @@ void add_neighbour(const FilmPlanes& p, const Plane& variance, int row, Offset o
   const auto normal = rows_at(p.normal, own), normal_there = rows_at(p.normal, other);
   const auto mean_there = rows_at(p.mean, other);
   const float *object = p.object.data() + own, *object_there = p.object.data() + other;
-  const std::uint8_t* passes_there = p.passes.data() + other;
+  const std::uint32_t* passes_there = p.passes.data() + other;
   const float *emission_there = p.emission.data() + other, *variance_there = variance.data() + other;
   // No other pointer aliases the sums.
   float* __restrict weights = sums.weight.data(), * __restrict squares = sums.square.data();

@@ -55,7 +55,7 @@ Sums sum_pixels(const FilmPlanes& p) {
   const PartialCovers covers(p);
   Sums sums;
   for (std::size_t i = 0; i < p.passes.size(); ++i)
-    if (p.passes[i] == 2) add_pixel(p, reciprocals, covers, i, sums);
+    if (p.passes[i] >= 2) add_pixel(p, reciprocals, covers, i, sums);
   return sums;
 }
 
@@ -64,7 +64,7 @@ Sums sum_pixels(const FilmPlanes& p) {
 ErrorEstimate estimate_error(const FilmPlanes& p) {
   ErrorEstimate error;
   error.all = std::size_t(std::count(p.expected.begin(), p.expected.end(), std::uint8_t(1)));
-  error.pixels = std::size_t(std::count(p.passes.begin(), p.passes.end(), std::uint8_t(2)));
+  error.pixels = std::size_t(std::ranges::count_if(p.passes, [](std::uint32_t passes) { return passes >= 2; }));
   if (error.pixels == 0) return error;
   const Sums sums = sum_pixels(p);
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);

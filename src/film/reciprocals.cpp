@@ -63,7 +63,7 @@ double mean_reciprocal(double neighbours, double excess, double samples) {
 
 Reciprocals::Reciprocals(const FilmPlanes& planes) : planes_(planes), neighbours_(mean_of_neighbours(planes)) {
   for (std::size_t i = 0; i < planes.passes.size(); ++i)
-    if (planes.passes[i] == 2) agreement_.add(excess_of(i));
+    if (planes.passes[i] >= 2) agreement_.add(excess_of(i));
 }
 
 Reciprocals::Excess Reciprocals::excess_of(std::size_t i) const {
