@@ -54,16 +54,12 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
 struct PixelErrors {
   std::vector<double> squares;  // estimates of their expected squares
   double freedom = 0;           // the degrees of freedom of such an estimate
-  // The mean of the channels' squared errors is distributed like that of so many independent ones: 3 where the errors
-  // of channels are independent, 1 where they are equal (Satterthwaite 1946).
-  double channels = 1;
 };
 
 // Of a pixel, its channels' squared errors times the reciprocals of their squared expectations; negative where it has
 // fewer than two passes.
 template <class SquaredError>
-std::vector<double> relative_squares(const FilmPlanes& p, SquaredError squared_error) {
-  const Reciprocals reciprocals(p);
+std::vector<double> relative_squares(const FilmPlanes& p, const Reciprocals& reciprocals, SquaredError squared_error) {
   std::vector<double> squares(p.passes.size(), -1);
   for (std::size_t i = 0; i < squares.size(); ++i) {
     if (p.passes[i] < 2) continue;
@@ -74,7 +70,9 @@ std::vector<double> relative_squares(const FilmPlanes& p, SquaredError squared_e
   return squares;
 }
 
-// By how much the errors of a pixel's channels are alike: the variance of their mean over the mean of their variances.
+// The mean of the squared errors of a pixel's channels is distributed like that of so many independent ones: 3 where
+// the errors of channels are independent, 1 where they are equal (Satterthwaite 1946). By the variance of the channels'
+// mean over the mean of their variances.
 double independent_channels(const FilmPlanes& p) {
   double ratios = 0, pixels = 0;
   for (std::size_t i = 0; i < p.passes.size(); ++i) {
@@ -90,7 +88,7 @@ double independent_channels(const FilmPlanes& p) {
 }
 
 // By the calibrated intervals of pixels, which know what light a pixel may have missed.
-PixelErrors errors_by_intervals(const FilmPlanes& p, double passes) {
+PixelErrors errors_by_intervals(const FilmPlanes& p, const Reciprocals& reciprocals, double passes) {
   const PixelIntervals intervals = pixel_intervals(p);
   const double freedom = interval_freedom(passes);
   const double width = 2 * student_t_quantile((1 + intervals.confidence) / 2, freedom);
@@ -98,18 +96,18 @@ PixelErrors errors_by_intervals(const FilmPlanes& p, double passes) {
     const double error = (double(intervals.high[c][i]) - double(intervals.low[c][i])) / width;
     return error * error;
   };
-  std::vector<double> squares = relative_squares(p, squared_error);
+  std::vector<double> squares = relative_squares(p, reciprocals, squared_error);
   std::erase_if(squares, [](double square) { return square < 0; });
-  return {std::move(squares), freedom, independent_channels(p)};
+  return {std::move(squares), freedom};
 }
 
 // By the variances of the pixels, shrunk toward the mean of the eight around each.
-PixelErrors errors_by_variances(const FilmPlanes& p, double passes) {
+PixelErrors errors_by_variances(const FilmPlanes& p, const Reciprocals& reciprocals, double passes) {
   constexpr double prior_degrees = 2;
   const int width = p.bounds.width(), height = p.bounds.height();
   const std::vector<double> own =
-      relative_squares(p, [&](std::size_t c, std::size_t i) { return double(p.variance[c][i]); });
-  PixelErrors errors{{}, passes - 1 + prior_degrees, independent_channels(p)};
+      relative_squares(p, reciprocals, [&](std::size_t c, std::size_t i) { return double(p.variance[c][i]); });
+  PixelErrors errors{{}, passes - 1 + prior_degrees};
   errors.squares.reserve(own.size());
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -130,29 +128,31 @@ PixelErrors errors_by_variances(const FilmPlanes& p, double passes) {
 // table, since there are many pixels.
 class MissedShare {
  public:
-  explicit MissedShare(const PixelErrors& errors) : squares_(errors.squares) {
+  // `channels`: the number of independent ones.
+  MissedShare(const PixelErrors& errors, double channels) : pixels_(double(errors.squares.size())) {
+    for (double square : errors.squares)
+      if (square > 0) scales_.push_back(double(table_.size() - 1) / (largest * std::sqrt(square)));
     for (std::size_t i = 0; i < table_.size(); ++i) {
-      const double x = largest * double(i) / double(table_.size() - 1), f = errors.channels * x * x;
-      table_[i] = incomplete_beta(errors.freedom / 2, errors.channels / 2, errors.freedom / (errors.freedom + f));
+      const double x = largest * double(i) / double(table_.size() - 1), f = channels * x * x;
+      table_[i] = incomplete_beta(errors.freedom / 2, channels / 2, errors.freedom / (errors.freedom + f));
     }
   }
   double operator()(double error) const {
     double sum = 0;
-    for (double square : squares_) {
-      if (square <= 0) continue;
-      const double at = error / std::sqrt(square) / largest * double(table_.size() - 1);
+    for (double scale : scales_) {
+      const double at = error * scale;
       if (at >= double(table_.size() - 1)) continue;
       const auto below = std::size_t(at);
       sum += table_[below] + (at - double(below)) * (table_[below + 1] - table_[below]);
     }
-    return sum / double(squares_.size());
+    return sum / pixels_;
   }
   // The error beyond which there is this share of the pixels.
   double error_of(double share) const {
     double low = 0, high = 1e-6;
     while ((*this)(high) > share && high < 1e6) high *= 4;
     if (high <= 1e-6) return (*this)(0) > share ? high : 0;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 30; ++i) {
       const double middle = (low + high) / 2;
       ((*this)(middle) > share ? low : high) = middle;
     }
@@ -161,7 +161,8 @@ class MissedShare {
 
  private:
   static constexpr double largest = 24;
-  const std::vector<double>& squares_;
+  double pixels_;
+  std::vector<double> scales_;  // of the pixels that have an error, from it to the place in the table
   std::array<double, 1025> table_{};
 };
 
@@ -169,12 +170,14 @@ class MissedShare {
 // the error is at most 1.5 times what the variances show.
 void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double passes, double spent,
                   TargetState& state) {
-  constexpr double most_over_variances = 1.5;
-  const PixelErrors by_intervals = errors_by_intervals(planes, passes),
-                    by_variances = errors_by_variances(planes, passes);
-  const MissedShare missed(by_intervals), missed_by_variances(by_variances);
+  constexpr double max_over_variances = 1.5;
+  const Reciprocals reciprocals(planes);
+  const PixelErrors by_intervals = errors_by_intervals(planes, reciprocals, passes),
+                    by_variances = errors_by_variances(planes, reciprocals, passes);
+  const double channels = independent_channels(planes);
+  const MissedShare missed(by_intervals, channels), missed_by_variances(by_variances, channels);
   const auto error_of = [&](double share) {
-    return std::min(missed.error_of(share), most_over_variances * missed_by_variances.error_of(share));
+    return std::min(missed.error_of(share), max_over_variances * missed_by_variances.error_of(share));
   };
   const double share = 1 - target.share, count = std::max(share * double(by_intervals.squares.size()), 1.0);
   const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_image = 1 / std::sqrt(count);
