@@ -167,10 +167,10 @@ class MissedShare {
 };
 
 // A bright sample that few pixels have widens the intervals of all pixels around, most of which have far less error: so
-// the error is at most 1.5 times what the variances show.
+// the error is at most twice what the variances show.
 void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double passes, double spent,
                   TargetState& state) {
-  constexpr double max_over_variances = 1.5;
+  constexpr double max_over_variances = 2;
   const Reciprocals reciprocals(planes);
   const PixelErrors by_intervals = errors_by_intervals(planes, reciprocals, passes),
                     by_variances = errors_by_variances(planes, reciprocals, passes);

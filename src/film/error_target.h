@@ -47,7 +47,7 @@ struct TargetState {
 // - relative: the logarithm of the sum over pixels, with the number of effective pixels (Kish 1965) and the tail of
 //   their errors;
 // - pixels: the squared error of a pixel over its estimate has an F distribution, with the estimates of the calibrated
-//   intervals of pixels (pixel_intervals()), but an error at most 1.5 times that of the pixels' own variances; the
+//   intervals of pixels (pixel_intervals()), but an error at most twice that of the pixels' own variances; the
 //   number of pixels beyond the error is a Poisson number;
 // - mean: Student's t over the passes. Here looks spend nothing: they see only the spread of the passes, which is
 //   independent of their mean where they are normal (Chow and Robbins 1965), as long as they are few and the first one

@@ -214,8 +214,39 @@ double share_within(const ErrorTarget& target, int seeds, Render render_one) {
   return double(within) / seeds;
 }
 
-// The estimated error that a share of the pixels is within over the true one: the mean of 20 images.
-double estimate_of_pixels(Channels channels, double share) {
+// Samples with little noise, some of which are brighter.
+struct RareLight {
+  float probability, brightness;
+  float index;  // the brightness falls like a power law from there on, up to 1e4 times as much; 0: all are alike
+  double mean() const {
+    const double all = index > 0 ? (1 - std::pow(1e-4, 1 - 1.0 / double(index))) / (1 - 1 / double(index)) : 1;
+    return double(probability * brightness) * all;
+  }
+};
+class RareBrightNoise final : public PixelIntegrator {
+ public:
+  static constexpr float base = 0.2f;
+  RareBrightNoise(std::uint32_t seed, const RareLight& light) : seed_(seed), light_(light) {}
+  RayCounts trace(const TilePass& pass, std::span<PixelSample> out) const override {
+    RandomStream<float> random = test::tile_numbers(pass, seed_);
+    for (PixelSample& s : out) {
+      const float noise = 0.8f + 0.4f * random.next();
+      const bool hit = random.next() < light_.probability;
+      const float u = 1e-4f + (1 - 1e-4f) * random.next();
+      s.radiance = gray_rgb(base * noise +
+                            (hit ? light_.brightness * (light_.index > 0 ? std::pow(u, -1 / light_.index) : 1) : 0.0f));
+    }
+    return {out.size(), 0, 0};
+  }
+
+ private:
+  std::uint32_t seed_;
+  RareLight light_;
+};
+
+// The estimated error that a share of the pixels is within over the true one: the mean of 20 images of 32 passes.
+template <class MakeNoise, class Expectation>
+double estimate_of_pixels(double share, MakeNoise noise_of, Expectation expectation) {
   constexpr int images = 20;
   const ErrorTarget target{TargetMeasure::pixels, 0.1, share};
   double ratio = 0;
@@ -223,11 +254,11 @@ double estimate_of_pixels(Channels channels, double share) {
     RenderSettings s = settings_for(1);
     s.plan = {1, 32};
     RenderObserver silent;
-    const Film film = render(Noise(seed, channels), s, silent).film;
+    const Film film = render(noise_of(seed), s, silent).film;
     std::vector<double> errors;
     for (int y = bounds.y0; y < bounds.y1; ++y)
       for (int x = bounds.x0; x < bounds.x1; ++x) {
-        const double expected = truth(x, y);
+        const double expected = expectation(x, y);
         double square = 0;
         for (double value : film.mean(x, y)) square += (value - expected) * (value - expected) / rgb_size;
         errors.push_back(std::sqrt(square / (expected * expected + 0.01)));
@@ -243,10 +274,33 @@ double estimate_of_pixels(Channels channels, double share) {
 TEST(TargetState, knows_the_errors_of_pixels) {
   for (Channels channels : {Channels::equal, Channels::independent})
     for (double share : {0.5, 0.9, 0.97}) {
-      const double ratio = estimate_of_pixels(channels, share);
+      const double ratio = estimate_of_pixels(
+          share, [=](std::uint32_t seed) { return Noise(seed, channels); }, truth);
       EXPECT_GT(ratio, 0.97) << int(channels) << " " << share;
       EXPECT_LT(ratio, 1.12) << int(channels) << " " << share;
     }
+}
+
+double estimate_beside(const RareLight& light, double share) {
+  const double expected = double(RareBrightNoise::base) + light.mean();
+  return estimate_of_pixels(
+      share, [&](std::uint32_t seed) { return RareBrightNoise(seed, light); }, [=](int, int) { return expected; });
+}
+
+// Nearly all pixels lack the light of the bright samples, which a few show. By the variances of the pixels half as much
+// would be stated.
+TEST(TargetState, knows_the_light_that_pixels_have_missed) {
+  const double ratio = estimate_beside({1e-4f, 100, 0}, 0.9);
+  EXPECT_GT(ratio, 0.9);
+  EXPECT_LT(ratio, 1.5);
+}
+
+// A few samples of extreme brightness are most of the light. The intervals of all pixels around them are so wide that
+// 14 times the error would be stated.
+TEST(TargetState, knows_that_most_pixels_are_not_those_of_extreme_samples) {
+  const double ratio = estimate_beside({1e-2f, 0.5f, 0.6f}, 0.9);
+  EXPECT_GT(ratio, 0.9);
+  EXPECT_LT(ratio, 2);
 }
 
 // A rule that looks after every pass, and takes the estimate for the truth. That of the errors of pixels is 6 % too
