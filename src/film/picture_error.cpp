@@ -15,8 +15,10 @@ namespace {
 // Sums over pixels.
 struct Sums {
   double squared = 0, relative = 0;
-  double chance = 0;                  // variance of the relative squared errors
-  LargestTerms largest, of_no_cover;  // of the relative errors without the correction for partial covers
+  double chance = 0;  // variance of the relative squared errors
+  // Of the relative errors without the correction for partial covers.
+  double seen = 0, seen_squares = 0;
+  LargestTerms largest;
 };
 
 void add_pixel(const FilmPlanes& p, const Reciprocals& reciprocals, const PartialCovers& covers, std::size_t i,
@@ -31,22 +33,19 @@ void add_pixel(const FilmPlanes& p, const Reciprocals& reciprocals, const Partia
   for (double of_channel : covers.correction(i, reciprocal)) relative += of_channel / rgb_size;
   relative = std::max(relative, 0.0);
   sums.squared += variance, sums.relative += relative;
+  sums.seen += of_pixel_alone, sums.seen_squares += of_pixel_alone * of_pixel_alone;
   sums.largest.add(of_pixel_alone);
-  if (const std::optional<double> mean_square = covers.mean_square(i)) {
-    sums.chance += std::max(*mean_square - relative * relative, 0.0);
-  } else {
-    sums.chance += 2 * relative * relative;  // of a normal error
-    sums.of_no_cover.add(of_pixel_alone);
-  }
+  const double squared_mean = relative * relative, of_normal = 3 * squared_mean;
+  sums.chance += std::max(covers.mean_square(i).value_or(of_normal) - squared_mean, 0.0);
 }
 
 // The standard deviation of the logarithm of an error whose tail has this index, by the images of 57 scenes with 8 to
 // 512 samples: a tail whose cubes have a mean hides nothing, below 1/2 the image does not show more of it, and it hides
-// the less the more pixels share in the error.
-double tail_deviation(double index, double effective_pixels) {
-  constexpr double light_tail = 3, heaviest_tail = 0.5, few_pixels = 20;
+// the less the more pixels share in the error, by the number of equal ones.
+double tail_deviation(double index, double equal_pixels) {
+  constexpr double light_tail = 3, heaviest_tail = 0.5, of_tail = 1.5, few_pixels = 40;
   const double tail = std::max(1 / std::max(index, heaviest_tail) - 1 / light_tail, 0.0);
-  return tail * std::min(few_pixels / effective_pixels, 1.0);
+  return of_tail * tail * std::min(few_pixels / equal_pixels, 1.0);
 }
 
 // Over the pixels that have two passes.
@@ -69,8 +68,9 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   const Sums sums = sum_pixels(p);
   error.mse = sums.squared / double(error.pixels), error.relative_mse = sums.relative / double(error.pixels);
   error.effective_pixels = sums.chance > 0 ? 2 * sums.relative * sums.relative / sums.chance : double(error.pixels);
-  error.tail_index = hill_index(sums.largest.sorted(), sums.of_no_cover.sorted());
-  error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, error.effective_pixels);
+  error.tail_index = hill_index(sums.largest.sorted());
+  const double equal_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
+  error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, equal_pixels);
   const double factor = std::exp(1.96 * std::hypot(error.chance_deviation(), error.log_deviation));
   error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
   return error;

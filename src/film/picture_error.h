@@ -22,7 +22,7 @@ struct ErrorEstimate {
   double relative_mse = 0;
   double relative_low = 0, relative_high = 0;  // its interval: for about 95 % of such images it is between these
   // Of the pixels' relative squared errors: P(error > x) falls like x^-index (Hill 1975); infinite if there is no
-  // tail. Below 1 they have no finite mean. Partial covers, whose law is known, have no part in the tail.
+  // tail. Below 1 they have no finite mean.
   double tail_index = std::numeric_limits<double>::infinity();
   // Number of pixels of equal and normal error whose sum would be as uncertain (Kish 1965): relative_mse of one image
   // differs from its expectation by the relative variance 2 / effective_pixels.

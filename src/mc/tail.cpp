@@ -72,13 +72,10 @@ LargestTerms LargestTerms::from(std::span<const double> magnitudes, std::size_t 
   return result;
 }
 
-double hill_index(std::span<const double> largest) { return hill_index(largest, largest); }
-
-double hill_index(std::span<const double> largest, std::span<const double> heavy) {
+double hill_index(std::span<const double> largest) {
   if (largest.size() < 10 || !(largest.back() > 0)) return none;
-  double sum = 0;
-  for (double x : heavy) sum += std::max(std::log(x / largest.back()), 0.0);
-  return sum > 0 ? double(largest.size() - 1) / sum : none;
+  const LogExcess e = log_excess(largest);
+  return e.mean > 0 ? 1 / e.mean : none;
 }
 
 double TailFit::lower_bound(double level) const {

@@ -45,8 +45,6 @@ struct TailFit {
 // Hill's estimate (1975) from the largest terms in decreasing order, the last of them being the threshold; infinite for
 // fewer than 10 terms or if all are equal.
 double hill_index(std::span<const double> largest);
-// The same of terms of which some only, `heavy`, may have a tail: the others count as if they were at the threshold.
-double hill_index(std::span<const double> largest, std::span<const double> heavy);
 
 // Hill's estimate from as many of the largest of `count` terms as follow a power law: at most sqrt(count), which keeps
 // the bias of terms outside the tail below the noise, and halved as long as their logarithms vary less

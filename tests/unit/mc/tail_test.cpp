@@ -41,17 +41,6 @@ TEST(HillIndex, is_large_where_the_terms_are_bounded) {
   EXPECT_TRUE(std::isinf(hill_index(std::vector<double>(100, 1.0))));
 }
 
-TEST(HillIndex, is_of_the_heavy_terms_alone) {
-  std::vector<double> largest, heavy;
-  for (int i = 1; i <= 100; ++i) largest.push_back(std::exp((100 - i) / 10.0));
-  for (int i = 2; i <= 100; i += 2) heavy.push_back(largest[std::size_t(i - 1)]);
-  heavy.push_back(0.5);  // below the threshold
-  // The logarithms of all over the last: 0 to 9.9; of every second: 0 to 9.8.
-  EXPECT_NEAR(hill_index(largest), 99 / 495.0, 1e-12);
-  EXPECT_NEAR(hill_index(largest, heavy), 99 / 245.0, 1e-12);
-  EXPECT_TRUE(std::isinf(hill_index(largest, {})));
-}
-
 // exp(-50 |x - 0.2|^2) in the plane: a peak away from the centre.
 void peak(std::span<const double> points, std::span<double> values) {
   const std::size_t n = values.size();
