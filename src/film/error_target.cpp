@@ -18,7 +18,7 @@ namespace {
 // The factor for the upper end of a squared error. Deviations of its logarithm: of the estimate, which decides at each
 // look whether the render ends; and those that do not depend on that decision, and so count for one look. Among these
 // is the chance of the image itself: the spread of passes, by which renders end, is independent of their mean where
-// noise is normal (Chow and Robbins 1965), and larger where rare bright samples make the mean wrong.
+// noise is normal (Chow and Robbins 1965).
 double upper_factor(const ErrorTarget& target, double of_estimate, double of_one_look, double spent) {
   const double wrong = 1 - target.confidence;
   return std::exp(
