@@ -169,9 +169,9 @@ RTCGeometry make_triangles(RTCDevice device, const GeometryStore& store, const G
   if (row.poses > 1) rtcSetGeometryTimeStepCount(geometry, row.poses);
   const std::size_t behind_first = std::size_t(row.poses - 1) * row.pose_vertices;
   for (std::uint32_t pose = 0; pose < row.poses; ++pose)
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, pose, RTC_FORMAT_FLOAT3, store.positions.data(),
-                               std::size_t(pose) * row.pose_vertices * sizeof(Vec3f), sizeof(Vec3f),
-                               store.positions.size() - 1 - behind_first);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, pose, RTC_FORMAT_FLOAT3, store.vertices.data(),
+                               std::size_t(pose) * row.pose_vertices * sizeof(MeshVertex), sizeof(MeshVertex),
+                               store.vertices.size() - behind_first);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, store.triangles.data(),
                              std::size_t(row.first) * sizeof(store.triangles[0]), sizeof(store.triangles[0]),
                              row.count);

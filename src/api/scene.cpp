@@ -41,8 +41,8 @@ std::size_t bytes_of(const std::vector<T>& v) {
 }
 
 std::size_t geometry_bytes(const GeometryStore& g) {
-  return bytes_of(g.positions) + bytes_of(g.normals) + bytes_of(g.uvs) + bytes_of(g.triangles) + bytes_of(g.shapes) +
-         bytes_of(g.rows) + bytes_of(g.instances) + bytes_of(g.instance_rows) + bytes_of(g.instance_keys);
+  return bytes_of(g.vertices) + bytes_of(g.triangles) + bytes_of(g.shapes) + bytes_of(g.rows) + bytes_of(g.instances) +
+         bytes_of(g.instance_rows) + bytes_of(g.instance_keys);
 }
 
 // Counts triangles as they are in memory and, through the instances, as rays see them.

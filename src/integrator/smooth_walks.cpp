@@ -49,7 +49,8 @@ Vec3f SmoothTargets::point_of_row(std::uint32_t number, RandomStream<float>& ran
   if (row.kind == GeometryKind::shape) return sample_area(g.shapes[row.first], u).point.p;
   const auto& corners = g.triangles[row.first + pick(random, row.count)];
   if (u.x + u.y > 1) u = {1 - u.x, 1 - u.y};
-  const Vec3f a = g.positions[corners[0]], b = g.positions[corners[1]], c = g.positions[corners[2]];
+  const auto corner = [&](std::size_t i) { return g.vertices[corners[i]].position; };
+  const Vec3f a = corner(0), b = corner(1), c = corner(2);
   return a + (b - a) * u.x + (c - a) * u.y;
 }
 

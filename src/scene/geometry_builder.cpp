@@ -17,6 +17,16 @@ Bounds3 bounds_of(const std::vector<Vec3f>& points) {
   return box;
 }
 
+// Normals and texture coordinates: of each vertex, or of none.
+void append_vertices(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
+                     const std::vector<Vec2f>& uvs, std::vector<MeshVertex>& to) {
+  const std::size_t first = to.size();
+  to.resize(first + positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) to[first + i].position = positions[i];
+  for (std::size_t i = 0; i < normals.size(); ++i) to[first + i].normal = normals[i];
+  for (std::size_t i = 0; i < uvs.size(); ++i) to[first + i].uv = uvs[i];
+}
+
 // Whether the oriented normal of triangle `i` is opposite to (p1 - p0) x (p2 - p0): vertex normals decide if there are
 // any.
 bool faces_backward(const Mesh& world, std::size_t i, bool flip) {
@@ -166,10 +176,8 @@ GeometryStore GeometryBuilder::take() {
   }
   if (!in_object_) store_.world_rows = std::uint32_t(store_.rows.size());
   if (!store_.instance_keys.empty()) store_.instance_motion.resize(store_.instances.size());
-  store_.positions.push_back({0, 0, 0});  // so that the last vertex can be read as four floats
   // Idle lanes gather element 0 of every array.
-  if (store_.normals.empty()) store_.normals.push_back({0, 0, 1});
-  if (store_.uvs.empty()) store_.uvs.push_back({0, 0});
+  if (store_.vertices.empty()) store_.vertices.emplace_back();
   if (store_.triangles.empty()) store_.triangles.push_back({0, 0, 0});
   if (store_.rows.empty()) store_.rows.emplace_back();
   return std::move(store_);
@@ -228,23 +236,15 @@ void GeometryBuilder::add_mesh(const Mesh& mesh, const ShapeDesc& shape, const G
 void GeometryBuilder::add_triangles(const Mesh& world, bool flip, const GeometryRow& like,
                                     const std::optional<Emission>& emission) {
   GeometryRow row = like;
-  const auto vertex_base = std::uint32_t(store_.positions.size());
+  const auto vertex_base = std::uint32_t(store_.vertices.size());
   const auto count = std::uint32_t(world.triangles.size() / 3);
   row.kind = GeometryKind::triangles;
   row.first = std::uint32_t(store_.triangles.size());
   row.count = count;
   if (flip) row.flags |= GeometryRow::flip_normal;
-  if (!world.normals.empty()) {
-    row.flags |= GeometryRow::has_normals;
-    row.normal_shift = std::uint32_t(store_.normals.size()) - vertex_base;
-    store_.normals.insert(store_.normals.end(), world.normals.begin(), world.normals.end());
-  }
-  if (!world.uvs.empty()) {
-    row.flags |= GeometryRow::has_uvs;
-    row.uv_shift = std::uint32_t(store_.uvs.size()) - vertex_base;
-    store_.uvs.insert(store_.uvs.end(), world.uvs.begin(), world.uvs.end());
-  }
-  store_.positions.insert(store_.positions.end(), world.positions.begin(), world.positions.end());
+  if (!world.normals.empty()) row.flags |= GeometryRow::has_normals;
+  if (!world.uvs.empty()) row.flags |= GeometryRow::has_uvs;
+  append_vertices(world.positions, world.normals, world.uvs, store_.vertices);
   add_later_poses(world, row);
   for (std::size_t i = 0; i < world.triangles.size(); i += 3)
     store_.triangles.push_back(
@@ -276,8 +276,7 @@ void GeometryBuilder::add_later_poses(const Mesh& world, GeometryRow& row) {
   row.pose_vertices = std::uint32_t(world.positions.size());
   store_.deforms = true;
   for (const MeshPose& pose : world.later) {
-    store_.positions.insert(store_.positions.end(), pose.positions.begin(), pose.positions.end());
-    if (!world.normals.empty()) store_.normals.insert(store_.normals.end(), pose.normals.begin(), pose.normals.end());
+    append_vertices(pose.positions, pose.normals, {}, store_.vertices);
     grow(bounds_of(pose.positions));
   }
 }

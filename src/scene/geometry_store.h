@@ -13,15 +13,22 @@
 
 namespace montelux {
 
+// A vertex of a mesh, in the world or in the object that instances place: half a line of the cache, since rays read all
+// of it. Read lane by lane as eight words.
+struct alignas(32) MeshVertex {
+  Vec3f position;
+  Vec3f normal{0, 0, 0};  // not unit; 0 if the mesh has none
+  Vec2f uv{0, 0};         // 0 if the mesh has none, and in the later poses of a deforming mesh
+};
+static_assert(sizeof(MeshVertex) == 32);
+
 enum class GeometryKind : std::uint32_t { triangles, shape, curves };
 
 // One surface with one material: a mesh, a quadric or patch, or a bundle of curves. Read lane by lane as sixteen words.
 struct alignas(64) GeometryRow {
   GeometryKind kind = GeometryKind::triangles;
-  std::uint32_t first = 0;         // triangles: number of the first; shape: its index; curves: index of the curve set
-  std::uint32_t count = 0;         // triangles or segments
-  std::uint32_t normal_shift = 0;  // vertex number + shift is the number of its normal (wrapping)
-  std::uint32_t uv_shift = 0;      // the same for uv
+  std::uint32_t first = 0;  // triangles: number of the first; shape: its index; curves: index of the curve set
+  std::uint32_t count = 0;  // triangles or segments
   std::uint32_t flags = 0;
   std::uint32_t material = 0;
   std::uint32_t first_light = 0;          // 1 + the light of primitive 0, the others following; 0: emits nothing
@@ -30,7 +37,7 @@ struct alignas(64) GeometryRow {
   std::uint32_t poses = 1;                // number of poses of a deforming mesh, evenly spaced over time
   std::uint32_t pose_vertices = 0;        // vertices of one pose; the poses are consecutive; 0: only one pose
   std::uint32_t inside = 0, outside = 0;  // numbers of the media on its sides, if it bounds media
-  std::uint32_t unused[2] = {};
+  std::uint32_t unused[4] = {};
 
   static constexpr std::uint32_t has_normals = 1, has_uvs = 2, flip_normal = 4, invisible_to_shadow_rays = 8,
                                  ray_facing = 16, open_to_some_shadow_rays = 32;
@@ -56,10 +63,8 @@ struct PlacedObject {
 };
 
 struct GeometryStore {
-  std::vector<Vec3f> positions;  // one more than the number of vertices, so that the last can be read as four floats
-  std::vector<Vec3f> normals;
-  std::vector<Vec2f> uvs;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into positions
+  std::vector<MeshVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
   std::vector<Shape> shapes;
   std::vector<CurveSet> curves;
   std::vector<GeometryRow> rows;  // first those of the world, then those of the objects

@@ -72,16 +72,16 @@ NormalPatch triangle_patch(const GeometryStore& store, const GeometryRow& row, c
   const auto& corner = store.triangles[row.first + hit.primitive];
   const PoseTime pose = pose_time(row, time);
   // `first`: of the pose at the start; the poses of a mesh are consecutive.
-  const auto value = [&](const std::vector<Vec3f>& from, std::uint32_t first) {
-    const Vec3d before = to_double(from[first + pose.before * row.pose_vertices]);
+  const auto value = [&](Vec3f MeshVertex::*of, std::uint32_t first) {
+    const Vec3d before = to_double(store.vertices[first + pose.before * row.pose_vertices].*of);
     if (row.poses < 2) return before;
-    return mix(double(pose.fraction), before, to_double(from[first + pose.after * row.pose_vertices]));
+    return mix(double(pose.fraction), before, to_double(store.vertices[first + pose.after * row.pose_vertices].*of));
   };
   std::array<Vec3d, 3> p, n;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = value(store.positions, corner[i]);
+  for (std::size_t i = 0; i < 3; ++i) p[i] = value(&MeshVertex::position, corner[i]);
   const Vec3d pu = p[1] - p[0], pv = p[2] - p[0];
   if (!(row.flags & GeometryRow::has_normals)) return plane(pu, pv);
-  for (std::size_t i = 0; i < 3; ++i) n[i] = value(store.normals, corner[i] + row.normal_shift);
+  for (std::size_t i = 0; i < 3; ++i) n[i] = value(&MeshVertex::normal, corner[i]);
   const Vec3d nu = n[1] - n[0], nv = n[2] - n[0], here = n[0] + nu * double(hit.u) + nv * double(hit.v);
   if (!(dot(here, here) > 0)) return plane(pu, pv);
   return {here, pu, pv, nu, nv};

@@ -1,7 +1,6 @@
 #include "scene/surface.h"
 
 #include "math/affine.h"
-#include "math/prefetch.h"
 #include "math/row_gather.h"
 #include "scene/placement.h"
 
@@ -16,8 +15,6 @@ enum RowWord : std::uint32_t {
   kind,
   first,
   count,
-  normal_shift,
-  uv_shift,
   flags,
   material,
   first_light,
@@ -42,14 +39,22 @@ struct RowOf {
   MONTELUX_INLINE Uint<F> operator[](RowWord i) const { return float_bits(words[i]); }
 };
 
+// The vertices of the triangle of each lane.
 template <class F>
-Vec3<F> gather_vec3(const std::vector<Vec3f>& from, Uint<F> i) {
-  return gather3<F>(&from.data()->x, Uint<F>(i * Uint<F>(3u)));
-}
-template <class F>
-Vec2<F> gather_vec2(const std::vector<Vec2f>& from, Uint<F> i) {
-  return gather2<F>(&from.data()->x, Uint<F>(i * Uint<F>(2u)));
-}
+struct TriangleVertices {
+  std::array<Vec3<F>, 3> position, normal;
+  std::array<Vec2<F>, 3> uv;
+
+  TriangleVertices(const GeometryStore& store, const std::array<Uint<F>, 3>& corner) {
+    static_assert(sizeof(MeshVertex) == 4 * words_of_short_row && offsetof(MeshVertex, normal) == 12 &&
+                  offsetof(MeshVertex, uv) == 24);
+    const auto words = gather_short_rows<F>(&store.vertices.data()->position.x, corner);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& w = words[c];
+      position[c] = {w[0], w[1], w[2]}, normal[c] = {w[3], w[4], w[5]}, uv[c] = {w[6], w[7]};
+    }
+  }
+};
 
 // Indices of the three corners; those of triangle 0 in idle lanes.
 template <class F>
@@ -89,24 +94,22 @@ PosePair<F> pose_pair(const RowOf<F>& row, F time) {
   return {before, before + stride, step.fraction};
 }
 
-// Corners and normals at the time of each lane. Used only for scenes with deforming meshes.
+// Positions and normals at the time of each lane. Used only for scenes with deforming meshes.
 template <class F>
 void pose_triangles(const GeometryStore& store, const std::array<Uint<F>, 3>& corner, const PosePair<F>& pose,
-                    Uint<F> normal_shift, TriangleCorners<F>& corners, TriangleNormals<F>& normals) {
-  using U = Uint<F>;
-  const auto between = [&](const std::vector<Vec3f>& from, U i) {
-    return gather_vec3<F>(from, U(i + pose.before)) * (F(1.0f) - pose.fraction) +
-           gather_vec3<F>(from, U(i + pose.after)) * pose.fraction;
+                    TriangleVertices<F>& vertices) {
+  const auto at = [&](Uint<F> offset) {
+    return TriangleVertices<F>(store,
+                               {Uint<F>(corner[0] + offset), Uint<F>(corner[1] + offset), Uint<F>(corner[2] + offset)});
   };
-  corners.p0 = between(store.positions, corner[0]), corners.p1 = between(store.positions, corner[1]);
-  corners.p2 = between(store.positions, corner[2]);
-  if (!any(normals.present)) return;
-  const auto normal = [&](U i) {
-    const auto at = [&](U offset) { return select(normals.present, i + normal_shift + offset, U(0u)); };
-    return gather_vec3<F>(store.normals, at(pose.before)) * (F(1.0f) - pose.fraction) +
-           gather_vec3<F>(store.normals, at(pose.after)) * pose.fraction;
+  const TriangleVertices<F> before = at(pose.before), after = at(pose.after);
+  const auto between = [&](const Vec3<F>& a, const Vec3<F>& b) {
+    return a * (F(1.0f) - pose.fraction) + b * pose.fraction;
   };
-  normals.n0 = normal(corner[0]), normals.n1 = normal(corner[1]), normals.n2 = normal(corner[2]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    vertices.position[c] = between(before.position[c], after.position[c]);
+    vertices.normal[c] = between(before.normal[c], after.normal[c]);
+  }
 }
 
 template <class F>
@@ -114,32 +117,19 @@ SurfacePoint<F> triangles_point(const GeometryStore& store, const Hit<F>& hit, F
                                 Mask<F> on) {
   using U = Uint<F>;
   const U triangle = select(on, row[RowWord::first] + hit.primitive, U(0u));
-  const auto [i0, i1, i2] = corner_numbers<F>(store, triangle);
+  const std::array<U, 3> corner = corner_numbers<F>(store, triangle);
+  TriangleVertices<F> vertices(store, corner);
+  if (store.deforms) pose_triangles<F>(store, corner, pose_pair<F>(row, time), vertices);
   const U flag = row[RowWord::flags];
   auto has = [&](std::uint32_t bit) -> Mask<F> { return on & ((flag & U(bit)) != U(0u)); };
-  // Nothing of a triangle is in the cache as a rule: all of it is loaded at the same time.
-  const Mask<F> with_uvs = has(GeometryRow::has_uvs), with_normals = has(GeometryRow::has_normals);
-  const U uv_shift = row[RowWord::uv_shift], normal_shift = row[RowWord::normal_shift];
-  for (U i : {i0, i1, i2}) prefetch(store.positions.data(), i, on);
-  for (U i : {i0, i1, i2}) prefetch(store.normals.data(), U(i + normal_shift), with_normals);
-  for (U i : {i0, i1, i2}) prefetch(store.uvs.data(), U(i + uv_shift), with_uvs);
-  TriangleCorners<F> corners{gather_vec3<F>(store.positions, i0), gather_vec3<F>(store.positions, i1),
-                             gather_vec3<F>(store.positions, i2)};
-  if (any(with_uvs)) {
-    auto uv = [&](U i, Vec2<F> otherwise) {
-      return select<F>(with_uvs, gather_vec2<F>(store.uvs, select(with_uvs, i + uv_shift, U(0u))), otherwise);
-    };
-    corners.uv0 = uv(i0, corners.uv0), corners.uv1 = uv(i1, corners.uv1), corners.uv2 = uv(i2, corners.uv2);
-  }
-  const Vec3<F> zero{F(0.0f), F(0.0f), F(0.0f)};
-  TriangleNormals<F> normals{zero, zero, zero, with_normals};
-  if (any(with_normals)) {
-    auto normal = [&](U i) { return gather_vec3<F>(store.normals, select(with_normals, i + normal_shift, U(0u))); };
-    normals.n0 = normal(i0), normals.n1 = normal(i1), normals.n2 = normal(i2);
-  }
-  if (!store.deforms) return triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
-  pose_triangles<F>(store, {i0, i1, i2}, pose_pair<F>(row, time), normal_shift, corners, normals);
+  const auto& [p, n, uv] = vertices;
+  TriangleCorners<F> corners{p[0], p[1], p[2]};
+  const Mask<F> with_uvs = has(GeometryRow::has_uvs);
+  corners.uv0 = select<F>(with_uvs, uv[0], corners.uv0), corners.uv1 = select<F>(with_uvs, uv[1], corners.uv1);
+  corners.uv2 = select<F>(with_uvs, uv[2], corners.uv2);
+  const TriangleNormals<F> normals{n[0], n[1], n[2], has(GeometryRow::has_normals)};
   SurfacePoint<F> s = triangle_point<F>(corners, normals, has(GeometryRow::flip_normal), hit.u, hit.v);
+  if (!store.deforms) return s;
   // The interpolated corners are rounded, too.
   s.p_error = s.p_error * 2.0f;
   return s;
@@ -304,8 +294,7 @@ Vec2f surface_uv(const GeometryStore& store, const Hit<float>& hit) {
   if (row.kind == GeometryKind::curves) return {hit.u, 0.5f * (1.0f + hit.v)};
   Vec2f uv[3] = {default_triangle_uv[0], default_triangle_uv[1], default_triangle_uv[2]};
   if (row.flags & GeometryRow::has_uvs)
-    for (int i = 0; i < 3; ++i)
-      uv[i] = store.uvs[store.triangles[row.first + hit.primitive][std::size_t(i)] + row.uv_shift];
+    for (int i = 0; i < 3; ++i) uv[i] = store.vertices[store.triangles[row.first + hit.primitive][std::size_t(i)]].uv;
   return uv[0] * (1.0f - hit.u - hit.v) + uv[1] * hit.u + uv[2] * hit.v;
 }
 

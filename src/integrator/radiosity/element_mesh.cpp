@@ -83,10 +83,9 @@ void ElementMesh::append(Primitive primitive, bool is_triangle) {
 void ElementMesh::add_triangles(std::uint32_t row, float edge) {
   const GeometryRow& r = store_->rows[row];
   for (std::uint32_t i = 0; i < r.count; ++i) {
-    const auto& corners = store_->triangles[r.first + i];
+    const auto corner = [&](std::size_t k) { return store_->vertices[store_->triangles[r.first + i][k % 3]].position; };
     float longest = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      longest = std::max(longest, length(store_->positions[corners[(k + 1) % 3]] - store_->positions[corners[k]]));
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, length(corner(k + 1) - corner(k)));
     const std::uint32_t n = parts(longest, edge);
     append({row, i, 0, n, n}, true);
   }

@@ -19,8 +19,6 @@ const OpacityTest opaque = [](const Hit<float>&, const Ray<float>&, RayUse) { re
 struct StoreBuilder {
   GeometryStore store;
 
-  StoreBuilder() { store.positions.push_back({0, 0, 0}); }
-
   std::uint32_t add(GeometryKind kind, std::size_t first, std::size_t count) {
     GeometryRow row;
     row.kind = kind, row.first = std::uint32_t(first), row.count = std::uint32_t(count);
@@ -28,8 +26,8 @@ struct StoreBuilder {
     return std::uint32_t(store.rows.size() - 1);
   }
   std::uint32_t triangle(Vec3f a, Vec3f b, Vec3f c) {
-    auto n = std::uint32_t(store.positions.size() - 1);  // the last one is room for reading four floats
-    store.positions.insert(store.positions.end() - 1, {a, b, c});
+    auto n = std::uint32_t(store.vertices.size());
+    for (const Vec3f& p : {a, b, c}) store.vertices.push_back({p});
     store.triangles.push_back({n, n + 1, n + 2});
     return add(GeometryKind::triangles, store.triangles.size() - 1, 1);
   }
@@ -174,12 +172,12 @@ TYPED_TEST(AccelFor, wrong_distances_missed_primitives_and_rays_without_end_are_
             hits * 9 / 10);
   // The surface stands a thousandth of its size beside its place.
   EXPECT_GT(wrong_with([](StoreBuilder& b) {
-              for (Vec3f& p : b.store.positions) p.z += 3e-3f;
+              for (MeshVertex& v : b.store.vertices) v.position.z += 3e-3f;
             }),
             hits * 9 / 10);
   // The triangle is missed, and another one found behind it.
   EXPECT_GE(wrong_with([](StoreBuilder& b) {
-              for (Vec3f& p : b.store.positions) p = 50.0f * p + Vec3f{0, 0, 500};
+              for (MeshVertex& v : b.store.vertices) v.position = 50.0f * v.position + Vec3f{0, 0, 500};
             }),
             hits);
   // Neither the nearest hit nor any hit heeds the end of the ray.

@@ -1,4 +1,4 @@
-// Rows of sixteen words in every lane.
+// Rows of sixteen and of eight words in every lane.
 #include "math/row_gather.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +18,17 @@ void expect_rows(const std::vector<float>& table, const Uint<F>& numbers) {
           << "word " << w << ", lane " << k;
 }
 
+// The same for three rows of eight words.
+template <class F>
+void expect_short_rows(const std::vector<float>& table, const std::array<Uint<F>, 3>& numbers) {
+  const auto words = gather_short_rows<F>(table.data(), numbers);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int w = 0; w < words_of_short_row; ++w)
+      for (int k = 0; k < lanes_of<F>; ++k)
+        ASSERT_EQ(lane(words[i][std::size_t(w)], k), table[lane(numbers[i], k) * words_of_short_row + std::uint32_t(w)])
+            << "row " << i << ", word " << w << ", lane " << k;
+}
+
 TEST(RowGather, gives_every_lane_its_own_row) {
   constexpr std::uint32_t rows = 37;
   std::vector<float> table;
@@ -29,6 +40,11 @@ TEST(RowGather, gives_every_lane_its_own_row) {
     expect_rows<NativeFloats>(table, numbers);
     expect_rows<Floats<4>>(table, Uints<4>(round % rows));
     expect_rows<float>(table, round % rows);
+    // There are twice as many short rows.
+    const Uint<NativeFloats> next = numbers + Uint<NativeFloats>(rows), first = numbers ^ Uint<NativeFloats>(1u);
+    expect_short_rows<NativeFloats>(table, {numbers, next, first});
+    expect_short_rows<Floats<4>>(table, {Uints<4>(round % rows), Uints<4>(rows), Uints<4>(0u)});
+    expect_short_rows<float>(table, {round % rows, rows, 2 * rows - 1});
     const std::array<NativeFloats, words_of_row> same = row_in_all_lanes<NativeFloats>(table.data(), round % rows);
     for (int w = 0; w < words_of_row; ++w)
       ASSERT_EQ(lane(same[std::size_t(w)], native_lanes - 1), float(100 * (round % rows) + std::uint32_t(w)));
