@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "denoise/box_mean.h"
+#include "film/max_around.h"
 #include "math/functions.h"
 #include "math/lanes.h"
 #include "work/scheduler.h"
@@ -73,7 +74,8 @@ struct PaddedFeature {
 struct PaddedHalf {
   PaddedColors color, variance;
   PaddedFeature albedo, normal;
-  PaddedPlane exists;  // 1 for pixels of the image that have a pass, else 0
+  PaddedPlane exists;        // 1 for pixels of the image that have a pass, else 0
+  PaddedPlane near_surface;  // 1 for pixels that show a surface, and those beside them, else 0
 };
 using PaddedImage = std::array<PaddedHalf, 2>;
 
@@ -102,6 +104,14 @@ PaddedFeature padded_feature(const NoisyImage& image, std::size_t half, std::arr
   return {padded(own.*feature, image.width, image.height), PaddedPlane(variance, image.width, image.height)};
 }
 
+Plane near_surface(const NoisyImage& image, const HalfPlanes& half) {
+  Plane surface(image.pixels());
+  for (const Plane& component : half.normal)
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      if (component[i] != 0) surface[i] = 1;
+  return max_around(surface, image.width, 1);
+}
+
 PaddedImage padded_image(const NoisyImage& image) {
   const int w = image.width, h = image.height;
   PaddedImage both;
@@ -109,9 +119,12 @@ PaddedImage padded_image(const NoisyImage& image) {
     const HalfPlanes& half = image.halves[k];
     Plane exists(image.pixels());
     for (std::size_t i = 0; i < exists.size(); ++i) exists[i] = half.share[i] > 0 ? 1.0f : 0.0f;
-    both[k] = {padded(half.color, w, h), padded(variance_of_half(image, half), w, h),
-               padded_feature(image, k, &HalfPlanes::albedo), padded_feature(image, k, &HalfPlanes::normal),
-               PaddedPlane(exists, w, h, false)};
+    both[k] = {padded(half.color, w, h),
+               padded(variance_of_half(image, half), w, h),
+               padded_feature(image, k, &HalfPlanes::albedo),
+               padded_feature(image, k, &HalfPlanes::normal),
+               PaddedPlane(exists, w, h, false),
+               PaddedPlane(near_surface(image, half), w, h)};
   }
   return both;
 }
@@ -225,8 +238,11 @@ class TileFilter {
       const PixelPair pair{x, y, x + to.x, y + to.y};
       const F features = distance(guide_.albedo, guide.albedo, pair) * (1 / square(albedo_scale)) +
                          distance(guide_.normal, guide.normal, pair) * (1 / square(normal_scale));
-      const F exists =
-          load(source.exists.at(pair.other_x, pair.other_y)) * load(guide.exists.at(pair.other_x, pair.other_y)) * near;
+      // No light of surfaces spreads to where there are none: lamps before darkness would have a halo.
+      const F other_near_surface = load(guide.near_surface.at(pair.other_x, pair.other_y));
+      const F counts = 1.0f - other_near_surface * (1.0f - load(guide_.near_surface.at(x, y)));
+      const F exists = load(source.exists.at(pair.other_x, pair.other_y)) *
+                       load(guide.exists.at(pair.other_x, pair.other_y)) * counts * near;
       FilterWeights weights;
       for (std::size_t k = 0; k < filter_count; ++k) {
         const float scale = 1 / (color_scales[k] * color_scales[k]);

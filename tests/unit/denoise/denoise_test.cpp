@@ -184,6 +184,47 @@ TEST(Denoise, keeps_edges_that_only_the_colours_show) {
   }
 }
 
+// A lamp that a few samples of each pixel hit, before nothing.
+NoisyImage lamp_before_darkness(bool is_before_surface) {
+  NoisyImage image(width, height);
+  std::mt19937 numbers(5);
+  constexpr int samples = 32;  // of a half
+  constexpr double part = 0.02, radiance = 150;
+  std::binomial_distribution<int> hits(samples, part);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto i = std::size_t(y * width + x);
+      const bool shows_lamp = std::abs(x - 30) <= 2 && std::abs(y - 18) <= 1;
+      double variance = 0;
+      for (HalfPlanes& half : image.halves) {
+        half.share[i] = 0.5f;
+        const double share = shows_lamp ? hits(numbers) / double(samples) : 0;
+        for (Plane& plane : half.color) plane[i] = float(share * radiance);
+        half.normal[2][i] = is_before_surface || share > 0 ? 1.0f : 0.0f;
+        variance += share * (1 - share) * radiance * radiance / samples / 4;
+      }
+      for (Plane& plane : image.variance) plane[i] = float(variance);
+    }
+  return image;
+}
+
+// The largest brightness of pixels that neither show a surface nor have a neighbour that does.
+float brightest_beyond(const NoisyImage& image, const ColorPlanes& color) {
+  float brightest = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (std::abs(x - 30) > 3 || std::abs(y - 18) > 2)
+        brightest = std::max(brightest, color[0][std::size_t(y * image.width + x)]);
+  return brightest;
+}
+
+// Planted: a surface behind the lamp, which light might reach.
+TEST(Denoise, spreads_no_light_to_where_there_is_no_surface) {
+  const NoisyImage image = lamp_before_darkness(false), planted = lamp_before_darkness(true);
+  EXPECT_EQ(brightest_beyond(image, denoise(image).color), 0);
+  EXPECT_GT(brightest_beyond(planted, denoise(planted).color), 1e-3f);
+}
+
 // One bright sample makes its own pixel look like any other; the others must not take it for one of theirs.
 TEST(Denoise, does_not_spread_a_rare_bright_sample_by_its_own_variance) {
   Made m = made(4);
