@@ -23,7 +23,8 @@ double mean_of(const std::array<double, rgb_size>& channels) {
   return sum / rgb_size;
 }
 
-// The beta distribution of a part p, by points of equal distance in log(p / (1 - p)).
+// The beta distribution of a part p, by points of equal distance in log(p / (1 - p)). Calls f(p, the density there,
+// half of the distance to the next point).
 template <class Function>
 void for_each_part(double hits, double misses, Function f) {
   constexpr int points = 8;  // on each side of the mode
@@ -35,10 +36,21 @@ void for_each_part(double hits, double misses, Function f) {
     return std::pair{1 / (1 + odds), (hits + misses) * log_p - misses * z};
   };
   const double largest = at(mode).second;
+  const double distance = step * std::min(deviation, max_deviation);
   for (int i = -points; i <= points; ++i) {
-    const auto [part, log_density] = at(mode + i * step * std::min(deviation, max_deviation));
-    f(part, std::exp(log_density - largest));
+    const auto [part, log_density] = at(mode + i * distance);
+    f(part, std::exp(log_density - largest), 0.5 * distance * part * (1 - part));
   }
+}
+
+// 1 / (expectation^2 + relative_epsilon) of a part. Filters with negative lobes make what surrounds an emitter
+// negative, so that some part has the expectation 0: there it is the mean up to half of the distance to the next
+// points, or one point near that part would make most of the sum.
+double reciprocal_of(double base, double bright, double part, double half_distance) {
+  const double expected = base + part * bright, reach = half_distance * std::abs(bright);
+  const double darkest = std::sqrt(relative_epsilon);
+  if (base >= 0 || reach < 0.01 * darkest) return 1 / (expected * expected + relative_epsilon);
+  return (std::atan((expected + reach) / darkest) - std::atan((expected - reach) / darkest)) / (2 * reach * darkest);
 }
 
 // Whether a share of the samples is one or more of them, apart from noise.
@@ -82,13 +94,12 @@ std::array<double, rgb_size> PartialCovers::correction(std::size_t pixel,
   const double of_light = mean_square_of_light(*c);
   double weights = 0;
   std::array<double, rgb_size> sums{};
-  for_each_part(parts->hits, parts->misses, [&](double p, double weight) {
+  for_each_part(parts->hits, parts->misses, [&](double p, double weight, double half_distance) {
     weights += weight;
     if (p < min_part) return;
-    for (std::size_t k = 0; k < rgb_size; ++k) {
-      const double expected = c->base[k] + p * c->bright[k];
-      sums[k] += weight * (of_light * p * (1 - p) + c->noise * p * p) / (expected * expected + relative_epsilon);
-    }
+    const double variance = of_light * p * (1 - p) + c->noise * p * p;
+    for (std::size_t k = 0; k < rgb_size; ++k)
+      sums[k] += weight * variance * reciprocal_of(c->base[k], c->bright[k], p, half_distance);
   });
   const double as_seen = of_light * c->spread() + c->noise * c->share * c->share;
   const double factor = parts->weight / c->samples;
@@ -109,15 +120,13 @@ std::optional<double> PartialCovers::mean_square(std::size_t pixel) const {
   if (!parts) return std::nullopt;
   const double of_light = mean_square_of_light(*c), n = c->samples;
   double weights = 0, sum = 0;
-  for_each_part(parts->hits, parts->misses, [&](double p, double weight) {
+  for_each_part(parts->hits, parts->misses, [&](double p, double weight, double half_distance) {
     weights += weight;
     if (p < min_part) return;
     const double variance = of_light * p * (1 - p) + c->noise * p * p, cumulant = of_light * of_light * p * (1 - p);
     double reciprocal = 0;
-    for (std::size_t k = 0; k < rgb_size; ++k) {
-      const double expected = c->base[k] + p * c->bright[k];
-      reciprocal += c->bright[k] * c->bright[k] / (expected * expected + relative_epsilon) / rgb_size;
-    }
+    for (std::size_t k = 0; k < rgb_size; ++k)
+      reciprocal += c->bright[k] * c->bright[k] * reciprocal_of(c->base[k], c->bright[k], p, half_distance) / rgb_size;
     sum += weight * (3 * variance * variance + cumulant / n) / (n * n) * reciprocal * reciprocal;
   });
   return parts->weight * sum / weights;
