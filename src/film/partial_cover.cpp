@@ -73,6 +73,11 @@ const PartialCovers::Cover* PartialCovers::cover_of(std::size_t pixel) const {
   return has(pixel) ? &covers_[std::size_t(index_[pixel])] : nullptr;
 }
 
+bool PartialCovers::is_at_rim(std::size_t pixel) const {
+  const Cover* c = cover_of(pixel);
+  return c && c->at_rim;
+}
+
 std::optional<PartialCovers::PossibleParts> PartialCovers::possible_parts(const Cover& c) const {
   const bool is_found = is_hit(c.share, c.samples);
   // The pixels around say nothing of an emitter that is smaller than a pixel; the agreement of halves knows it.
@@ -192,6 +197,9 @@ bool PartialCovers::covered_by_emitter(int x, int y, Cover& cover) const {
   }
   const auto share_of = [&](double value) { return std::clamp((value - dark) / (scale * (light - dark)), 0.0, 1.0); };
   cover.share = share_of(double(brightness_[cover.pixel])), cover.around = share_of(around / count);
+  int half_covered = 0;
+  for_each_around(x, y, 1, [&](std::size_t i) { half_covered += share_of(double(brightness_[i])) >= 0.5; });
+  cover.at_rim = half_covered >= 2;
   return true;
 }
 

@@ -29,11 +29,15 @@ class PartialCovers {
   std::optional<double> mean_square(std::size_t pixel) const;
   // Whether the pixel is covered in part.
   bool has(std::size_t pixel) const { return index_[pixel] >= 0; }
+  // Whether the pixel is at the rim of an emitter that is larger than a pixel: its error hides no more than what the
+  // hits of the pixels around leave possible.
+  bool is_at_rim(std::size_t pixel) const;
 
  private:
   struct Cover {
     std::uint32_t pixel = 0;
     bool of_emitter = false;
+    bool at_rim = false;  // of an emitter that covers at least half of two pixels near
     double samples = 0;
     double share = 0;   // of the samples that are covered
     double around = 0;  // the mean share of the pixels around

@@ -16,7 +16,7 @@ namespace {
 struct Sums {
   double squared = 0, relative = 0;
   double chance = 0;  // variance of the relative squared errors
-  // Of the relative errors without the correction for partial covers.
+  // Of the relative errors without the correction for partial covers, except at rims of emitters.
   double seen = 0, seen_squares = 0;
   LargestTerms largest;
 };
@@ -33,8 +33,10 @@ void add_pixel(const FilmPlanes& p, const Reciprocals& reciprocals, const Partia
   for (double of_channel : covers.correction(i, reciprocal)) relative += of_channel / rgb_size;
   relative = std::max(relative, 0.0);
   sums.squared += variance, sums.relative += relative;
-  sums.seen += of_pixel_alone, sums.seen_squares += of_pixel_alone * of_pixel_alone;
-  sums.largest.add(of_pixel_alone);
+  if (!covers.is_at_rim(i)) {
+    sums.seen += of_pixel_alone, sums.seen_squares += of_pixel_alone * of_pixel_alone;
+    sums.largest.add(of_pixel_alone);
+  }
   const double squared_mean = relative * relative, of_normal = 3 * squared_mean;
   sums.chance += std::max(covers.mean_square(i).value_or(of_normal) - squared_mean, 0.0);
 }
