@@ -104,6 +104,7 @@ PaddedFeature padded_feature(const NoisyImage& image, std::size_t half, std::arr
   return {padded(own.*feature, image.width, image.height), PaddedPlane(variance, image.width, image.height)};
 }
 
+// A pixel shows a surface if its mean normal is not zero.
 Plane near_surface(const NoisyImage& image, const HalfPlanes& half) {
   Plane surface(image.pixels());
   for (const Plane& component : half.normal)

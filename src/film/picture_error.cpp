@@ -16,7 +16,7 @@ namespace {
 struct Sums {
   double squared = 0, relative = 0;
   double chance = 0;  // variance of the relative squared errors
-  // Of the relative errors without the correction for partial covers, except at rims of emitters.
+  // Of the relative errors without the correction for partial covers; without the rims of emitters.
   double seen = 0, seen_squares = 0;
   LargestTerms largest;
 };
