@@ -47,9 +47,8 @@ Roots<D> solve_round(const Vec3<D>& o, const Vec3<D>& d, double r) {
 // Where the azimuth of (x, y) is within phi_max; computed for shapes in part alone.
 bool within_azimuth(float phi_max, double x, double y) { return phi_max >= 360 || azimuth(x, y) <= phi_limit(phi_max); }
 DoubleMask within_azimuth(float phi_max, const Doubles& x, const Doubles& y) {
-  DoubleMask within;
-  for (int k = 0; k < double_lanes; ++k)
-    within.v[k] = within_azimuth(phi_max, lane(x, k), lane(y, k)) ? std::int64_t(-1) : std::int64_t(0);
+  DoubleMask within{};
+  for (int k = 0; k < double_lanes; ++k) set_lane(within, k, within_azimuth(phi_max, lane(x, k), lane(y, k)));
   return within;
 }
 

@@ -11,101 +11,13 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
+
+#include "math/lane_types.h"
+#include "math/mask_registers.h"
 
 // The intrinsics below are used in their masked forms: g++ 12 warns of an uninitialised value inside the plain ones.
-#define MONTELUX_INLINE inline __attribute__((always_inline))
 
 namespace montelux {
-
-// The widest pack that fits a register of this machine.
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-inline constexpr int native_lanes = 16;
-#elif defined(__AVX2__)
-inline constexpr int native_lanes = 8;
-#else
-inline constexpr int native_lanes = 4;
-#endif
-
-// The compiler's vector types, by number of lanes.
-template <int N>
-struct Vectors;
-template <>
-struct Vectors<4> {
-  typedef float Float __attribute__((vector_size(16)));
-  typedef std::int32_t Int __attribute__((vector_size(16)));
-  typedef std::uint32_t Uint __attribute__((vector_size(16)));
-};
-template <>
-struct Vectors<8> {
-  typedef float Float __attribute__((vector_size(32)));
-  typedef std::int32_t Int __attribute__((vector_size(32)));
-  typedef std::uint32_t Uint __attribute__((vector_size(32)));
-};
-template <>
-struct Vectors<16> {
-  typedef float Float __attribute__((vector_size(64)));
-  typedef std::int32_t Int __attribute__((vector_size(64)));
-  typedef std::uint32_t Uint __attribute__((vector_size(64)));
-};
-
-// N truth values; every lane is all ones (yes) or all zeros (no).
-template <int N>
-struct Bools {
-  using Vector = typename Vectors<N>::Int;
-  Vector v;
-  Bools() = default;
-  MONTELUX_INLINE Bools(Vector a) : v(a) {}
-  MONTELUX_INLINE Bools(bool b) : v(Vector{} - std::int32_t(b)) {}
-};
-
-template <int N>
-struct Floats;
-
-// N unsigned 32-bit integers, wrapping.
-template <int N>
-struct Uints {
-  using Vector = typename Vectors<N>::Uint;
-  Vector v;
-  Uints() = default;
-  MONTELUX_INLINE Uints(Vector a) : v(a) {}
-  MONTELUX_INLINE Uints(std::uint32_t a) : v(Vector{} + a) {}
-};
-
-// N single-precision reals.
-template <int N>
-struct Floats {
-  using Vector = typename Vectors<N>::Float;
-  Vector v;
-  Floats() = default;
-  MONTELUX_INLINE Floats(Vector a) : v(a) {}
-  MONTELUX_INLINE Floats(float a) : v(a - Vector{}) {}
-};
-
-using NativeFloats = Floats<native_lanes>;
-
-template <class F>
-struct LaneTraits;
-template <>
-struct LaneTraits<float> {
-  static constexpr int lanes = 1;
-  using Uint = std::uint32_t;
-  using Mask = bool;
-};
-template <int N>
-struct LaneTraits<Floats<N>> {
-  static constexpr int lanes = N;
-  using Uint = Uints<N>;
-  using Mask = Bools<N>;
-};
-template <class F>
-inline constexpr int lanes_of = LaneTraits<F>::lanes;
-template <class F>
-using Uint = typename LaneTraits<F>::Uint;
-template <class F>
-using Mask = typename LaneTraits<F>::Mask;
 
 // ---- arithmetic -----------------------------------------------------------------------------------------------------
 
@@ -165,10 +77,10 @@ template <int N> MONTELUX_INLINE Bools<N> operator>(Uints<N> a, Uints<N> b) { re
 template <int N> MONTELUX_INLINE Bools<N> operator<=(Uints<N> a, Uints<N> b) { return Bools<N>(a.v <= b.v); }
 template <int N> MONTELUX_INLINE Bools<N> operator>=(Uints<N> a, Uints<N> b) { return Bools<N>(a.v >= b.v); }
 
-template <int N> MONTELUX_INLINE Bools<N> operator&(Bools<N> a, Bools<N> b) { return Bools<N>(a.v & b.v); }
-template <int N> MONTELUX_INLINE Bools<N> operator|(Bools<N> a, Bools<N> b) { return Bools<N>(a.v | b.v); }
-template <int N> MONTELUX_INLINE Bools<N> operator^(Bools<N> a, Bools<N> b) { return Bools<N>(a.v ^ b.v); }
-template <int N> MONTELUX_INLINE Bools<N> operator!(Bools<N> a) { return Bools<N>(~a.v); }
+template <int N> MONTELUX_INLINE Bools<N> operator&(Bools<N> a, Bools<N> b) { return typename Bools<N>::Vector(a.v & b.v); }
+template <int N> MONTELUX_INLINE Bools<N> operator|(Bools<N> a, Bools<N> b) { return typename Bools<N>::Vector(a.v | b.v); }
+template <int N> MONTELUX_INLINE Bools<N> operator^(Bools<N> a, Bools<N> b) { return typename Bools<N>::Vector(a.v ^ b.v); }
+template <int N> MONTELUX_INLINE Bools<N> operator!(Bools<N> a) { return typename Bools<N>::Vector(~a.v); }
 // clang-format on
 
 // ---- masks ----------------------------------------------------------------------------------------------------------
@@ -176,9 +88,6 @@ template <int N> MONTELUX_INLINE Bools<N> operator!(Bools<N> a) { return Bools<N
 // Bit k of the result is lane k of the mask.
 template <int N>
 MONTELUX_INLINE std::uint32_t bits(Bools<N> m) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  if constexpr (N == 16) return _mm512_movepi32_mask((__m512i)m.v);
-#endif
 #if defined(__AVX2__)
   if constexpr (N == 8) return std::uint32_t(_mm256_movemask_ps((__m256)m.v));
 #endif
@@ -193,6 +102,8 @@ template <class F>
 MONTELUX_INLINE Mask<F> mask_of_bits(std::uint32_t b) {
   if constexpr (lanes_of<F> == 1) {
     return (b & 1u) != 0;
+  } else if constexpr (std::is_integral_v<typename Mask<F>::Vector>) {
+    return typename Mask<F>::Vector(b);
   } else {
     Uint<F> lane;
     for (int k = 0; k < lanes_of<F>; ++k) lane.v[k] = 1u << k;
@@ -351,13 +262,13 @@ MONTELUX_INLINE float float_from_bits(std::uint32_t a) { return std::bit_cast<fl
 // Valid for values below 2^31.
 template <int N>
 MONTELUX_INLINE Floats<N> to_float(Uints<N> a) {
-  return __builtin_convertvector((typename Bools<N>::Vector)a.v, typename Floats<N>::Vector);
+  return __builtin_convertvector((typename Vectors<N>::Int)a.v, typename Floats<N>::Vector);
 }
 MONTELUX_INLINE float to_float(std::uint32_t a) { return float(std::int32_t(a)); }
 // Toward zero; valid for values of magnitude below 2^31 (a negative value wraps as two's complement).
 template <int N>
 MONTELUX_INLINE Uints<N> to_uint(Floats<N> a) {
-  return (typename Uints<N>::Vector) __builtin_convertvector(a.v, typename Bools<N>::Vector);
+  return (typename Uints<N>::Vector) __builtin_convertvector(a.v, typename Vectors<N>::Int);
 }
 MONTELUX_INLINE std::uint32_t to_uint(float a) { return std::uint32_t(std::int32_t(a)); }
 
@@ -395,7 +306,7 @@ MONTELUX_INLINE std::uint32_t lane(const Uints<N>& a, int k) {
 }
 template <int N>
 MONTELUX_INLINE bool lane(const Bools<N>& a, int k) {
-  return a.v[k] != 0;
+  return ((bits(a) >> k) & 1u) != 0;
 }
 MONTELUX_INLINE float lane(float a, int) { return a; }
 MONTELUX_INLINE std::uint32_t lane(std::uint32_t a, int) { return a; }
