@@ -22,8 +22,8 @@ class StopQuery {
   virtual bool stop_requested() const = 0;
 };
 
-// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Only the frames of coupled
-// integrators and traced paths request a single sample.
+// One pass over one tile: every pixel of the tile takes points.samples_per_pass samples. Frames of coupled
+// integrators, traced paths and measurements of bias request a single sample.
 struct TilePass {
   PixelBounds tile;
   PointSet points;

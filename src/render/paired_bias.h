@@ -11,26 +11,26 @@ namespace montelux {
 
 // Compares samples of a biased integrator with those that an unbiased one takes with the same numbers. Where both
 // integrators are the same except for a limit or a clamp, the difference of samples has far less noise than each of
-// them. One tile of `every` is compared at each turn, and each tile once in so many turns. A turn is a pass, or a frame
-// of one.
+// them. An eighth of the samples of each tile is compared: in passes of eight samples or more a part of each pass, so
+// that every pass sees the whole picture and its parts are no noise.
 class PairedBias {
  public:
-  // `unbiased` must outlive this.
-  PairedBias(const PixelIntegrator& unbiased, std::size_t tiles);
+  // `samples_per_pass`: of each pixel; of a series, frames. `unbiased` must outlive this.
+  PairedBias(const PixelIntegrator& unbiased, std::size_t tiles, int samples_per_pass);
 
   const PixelIntegrator& unbiased() const { return unbiased_; }
-  bool compares(std::size_t tile, std::size_t turn) const;
-  // The samples of both in such a tile, at a turn of the pass. Those that are not finite in both do not count.
-  // Thread-safe; turns of one pass must follow one another.
-  void add(std::size_t tile, int pass, int samples_per_pixel, std::span<const PixelSample> biased,
-           std::span<const PixelSample> unbiased);
-  // Of the mean of the picture; the same bits whatever the order in which tiles came. The mean over passes is the sum
-  // of all differences over the number of pixels, and the spread of passes is that of this ratio (Cochran 1977,
-  // sec. 6.3): tiles of different sizes are no noise.
+  bool compares(std::size_t tile, int pass, int sample) const;
+  // One sample of each pixel of such a tile, by both. Those that are not finite in both do not count. Thread-safe;
+  // samples of one pass must follow one another.
+  void add(std::size_t tile, int pass, std::span<const PixelSample> biased, std::span<const PixelSample> unbiased);
+  // Of the mean of the picture; the same bits whatever the order in which tiles came. By pass or, where shorter passes
+  // see the whole picture only together and there are enough, by the first of so many. The mean over them is the sum
+  // of all differences over the number of pixels, and their spread is that of this ratio (Cochran 1977, sec. 6.3):
+  // tiles of different sizes are no noise.
   BiasOfPasses bias();
 
  private:
-  // Sums over pixels of differences of their means.
+  // Over pixels and samples.
   struct Sum {
     MeanDifference difference{};
     double pixels = 0;
@@ -41,9 +41,10 @@ class PairedBias {
     }
   };
   const PixelIntegrator& unbiased_;
-  std::size_t every_;
+  std::size_t every_;  // turns until each tile has had one
+  std::size_t samples_per_pass_, samples_per_turn_;
   std::mutex mutex_;
-  std::map<int, std::map<std::size_t, Sum>> sums_;  // over the turns of a pass, by pass and tile
+  std::map<int, std::map<std::size_t, Sum>> sums_;  // by pass and tile
 };
 
 }  // namespace montelux

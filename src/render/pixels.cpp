@@ -56,7 +56,7 @@ class PixelWork final : public StagedWork {
       if (const auto& rays = settings.begun->rays_of_tiles; rays.size() == tiles_.size())
         for (std::size_t i = 0; i < rays.size(); ++i) tiles_[i].rays_before = rays[i];
     }
-    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
+    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size(), settings.plan.samples_per_pass);
   }
 
   RenderResult run(RenderObserver& observer) {
@@ -145,7 +145,7 @@ class PixelWork final : public StagedWork {
  private:
   // The memory of one worker, reused for all its units.
   struct Workspace {
-    std::vector<PixelSample> samples, unbiased;
+    std::vector<PixelSample> samples, compared, unbiased;
     std::vector<ExactRgb> sums;
   };
 
@@ -165,11 +165,7 @@ class PixelWork final : public StagedWork {
     if (settings_.plan.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
     RayCounts rays = trace(request, space);
-    const bool compares = paired_ && paired_->compares(number, std::size_t(pass));
-    if (compares) {
-      space.unbiased.resize(space.samples.size());
-      rays += paired_->unbiased().trace(request, space.unbiased);
-    }
+    if (paired_) rays += compare(number, pass, request, space);
     {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
@@ -179,7 +175,23 @@ class PixelWork final : public StagedWork {
       samples_done_ += samples_of(tile.bounds);
       ++units_done_, tiles_with_one_ += passes == 1, tiles_with_two_ += passes == 2;
     }
-    if (compares) paired_->add(number, pass, k, space.samples, space.unbiased);
+  }
+
+  // Some of the tile's samples in this pass with unbiased ones.
+  RayCounts compare(std::size_t number, int pass, TilePass request, Workspace& space) {
+    const int k = settings_.plan.samples_per_pass;
+    RayCounts rays;
+    for (int sample = 0; sample < k; ++sample) {
+      if (!paired_->compares(number, pass, sample)) continue;
+      space.compared.clear();
+      for (std::size_t i = std::size_t(sample); i < space.samples.size(); i += std::size_t(k))
+        space.compared.push_back(space.samples[i]);
+      space.unbiased.assign(space.compared.size(), {});
+      request.only = std::uint32_t(sample);
+      rays += paired_->unbiased().trace(request, space.unbiased);
+      if (!drop_.stop_requested()) paired_->add(number, pass, space.compared, space.unbiased);
+    }
+    return rays;
   }
 
   bool has(TileState& tile, int pass) {

@@ -38,7 +38,7 @@ class SeriesWork final : public StagedWork {
       has_image_ = film_.passes(tiles_.front().bounds) > 0;
       samples_before_ = std::uint64_t(film_.samples(settings.image.bounds.x0, settings.image.bounds.y0));
     }
-    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size());
+    if (settings.unbiased) paired_.emplace(*settings.unbiased, tiles_.size(), settings.plan.samples_per_pass);
     over_ = is_whole_ = is_planned();
     if (!over_) begin_series();
   }
@@ -144,13 +144,9 @@ class SeriesWork final : public StagedWork {
     if (step_.stage + 1 < integrator_.stages() || !is_shown(step_.frame)) return rays;
     for (std::size_t i = 0; i < samples.size(); ++i) tile.pixels[i].add(samples[i]);
     for (std::size_t i = 0; i < worker.sums.size(); ++i) tile.sums[i] += worker.sums[i];
-    if (paired_ && paired_->compares(number, turn())) rays += compare(number, worker);
+    if (paired_ && paired_->compares(number, pass_number(), step_.frame - integrator_.warm_up()))
+      rays += compare(number, worker);
     return rays;
-  }
-  // Of all frames that are shown.
-  std::size_t turn() const {
-    return std::size_t(pass_number()) * std::size_t(settings_.plan.samples_per_pass) +
-           std::size_t(step_.frame - integrator_.warm_up());
   }
   // The tile's samples in this frame with unbiased ones.
   RayCounts compare(std::size_t number, Worker& worker) {
@@ -159,7 +155,7 @@ class SeriesWork final : public StagedWork {
     if (film_.grid().stride > 1) request.grid = film_.grid();
     worker.unbiased.assign(worker.samples.size(), {});
     const RayCounts rays = paired_->unbiased().trace(request, worker.unbiased);
-    paired_->add(number, pass_number(), 1, worker.samples, worker.unbiased);
+    paired_->add(number, pass_number(), worker.samples, worker.unbiased);
     return rays;
   }
   // The number of sums of a tile's layers.
