@@ -258,19 +258,20 @@ Json header_json(const SavedFilm& film, const FilmSnapshot& snapshot) {
   if (!snapshot.mixing.empty()) json["mixing"] = mixing_json(snapshot.mixing);
   if (film.adaptive) json["adaptive"] = adaptive_json(*film.adaptive, snapshot.rays_of_tiles);
   json["features"] = feature_names(), json["layers_have_halves"] = true, json["halves_have_emission"] = true;
+  json["has_emission_rays"] = true;
   json["tile_side"] = snapshot.tile_side;
   return json;
 }
 
 Film film_from(const FilmSettings& settings, const std::optional<LayerPlan>& layers, int tile_side,
-               std::string_view bytes) {
+               bool has_emission_rays, std::string_view bytes) {
   const std::vector<PixelBounds> tiles = tiles_of(settings.crop, tile_side);
   // A tile takes a byte at least: room is not made for a picture that the file cannot hold.
   if (bytes.size() < tiles.size()) throw std::invalid_argument("its film is damaged");
   const Result<LayerRequest> request = parse_layers(settings.layers);
   Film film(settings.crop, layers, 1, request && request->halves);
   ByteReader in(bytes);
-  for (const PixelBounds& tile : tiles) film.read_tile(tile, in);
+  for (const PixelBounds& tile : tiles) film.read_tile(tile, in, has_emission_rays);
   if (!in.at_end()) throw std::invalid_argument("it is damaged: more follows its film");
   return film;
 }
@@ -289,7 +290,8 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
   }
   const double seconds = j.at("seconds");
   if (!(seconds >= 0)) throw std::invalid_argument("its time is damaged");
-  Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side), bytes);
+  Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side),
+                        j.contains("has_emission_rays"), bytes);
   const auto adaptive = j.find("adaptive");
   const bool is_adaptive = adaptive != j.end() && !adaptive->is_null();
   const std::size_t tiles = film.tiles().size();

@@ -62,11 +62,11 @@ std::vector<PixelBounds> tiles_of(const PixelBounds& b, int side) {
 }
 
 void PixelFeatures::add(const Features& f) {
-  samples += 1;
-  if (f.coverage <= 0) return;
-  hits += 1;
   const auto finite = [](float x) { return std::isfinite(x) ? x : 0; };
   for (float channel : f.emission.c) emission += finite(channel / rgb_size);
+  samples += 1, emission_rays += f.emission_rays;
+  if (f.coverage <= 0) return;
+  hits += 1;
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     ((sums[I] += finite(feature_rows[feature_channels[I].row].value(f, feature_channels[I].channel))), ...);
   }
@@ -88,9 +88,11 @@ void PixelPass::add(const PixelSample& sample) {
 void PixelSums::add(int pass, const PixelPass& added) {
   const PixelFeatures& f = added.features;
   samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(added.non_finite);
-  if (f.hits == 0) return;
+  emission_rays += std::uint64_t(f.emission_rays);
+  if (f.hits == 0 && f.emission == 0) return;
+  const double sampled = std::max(f.hits, 1.0);
   for_each_feature(*this, f, [&](auto& sum, double of_pass, double limit) {
-    sum.add(within(of_pass, std::min(limit * f.hits, double(ExactSum::largest))));
+    sum.add(within(of_pass, std::min(limit * sampled, double(ExactSum::largest))));
   });
   if (f.object != 0 && (object == 0 || pass < object_pass)) object = f.object, object_pass = pass;
 }
@@ -108,7 +110,7 @@ void PixelSums::merge(const PixelSums& other) {
   for_each_feature(*this, other, [](auto& sum, const auto& more, double) { sum += more; });
   half += other.half;
   passes += other.passes, half_passes += other.half_passes, non_finite += other.non_finite;
-  hits += other.hits, samples += other.samples;
+  hits += other.hits, samples += other.samples, emission_rays += other.emission_rays;
   if (other.object != 0 && (object == 0 || other.object_pass < object_pass))
     object = other.object, object_pass = other.object_pass;
 }
@@ -130,7 +132,7 @@ std::array<double, rgb_size> PixelSums::mean() const {
 PixelFeatures PixelSums::features() const {
   PixelFeatures f;
   for_each_feature(f, *this, [](double& to, const auto& sum, double) { to = sum.value(); });
-  f.hits = hits, f.samples = samples, f.object = object;
+  f.hits = hits, f.samples = samples, f.emission_rays = double(emission_rays), f.object = object;
   return f;
 }
 

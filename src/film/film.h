@@ -48,6 +48,7 @@ struct PixelFeatures {
   // Sums over samples that hit, by channel of the table of features.
   std::array<double, feature_channel_count> sums{};
   double hits = 0, samples = 0;
+  double emission_rays = 0;
   std::uint32_t object = 0;  // of the first sample that hit
   void add(const Features& sample);
 
@@ -80,6 +81,7 @@ struct PixelSums {
   FeatureSums sums;
   std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
   std::uint32_t hits = 0, samples = 0;
+  std::uint64_t emission_rays = 0;
   std::uint32_t object = 0;
   int object_pass = 0;  // the first pass in which a sample hit, and so the pass of the object
 
@@ -171,7 +173,8 @@ class Film {
   void write_tile(const PixelBounds& tile, std::string& bytes) const;
   // Adds a tile that the film does not have yet, from the next bytes. Throws std::invalid_argument if these cannot
   // be the bytes of such a tile.
-  void read_tile(const PixelBounds& tile, ByteReader& bytes);
+  // `has_emission_rays`: films of older versions have one for each sample, and do not state it.
+  void read_tile(const PixelBounds& tile, ByteReader& bytes, bool has_emission_rays = true);
 
   // For a pixel that is not sampled, the result is that of the sampled pixel of its cell.
   PixelEstimate pixel(int x, int y) const { return pixels_[index(x, y)].estimate(); }

@@ -130,11 +130,14 @@ void write(ByteWriter& out, const PixelSums& p) {
   if (p.object != 0) out.count(std::uint64_t(p.object_pass));
   for (const ExactMoments& channel : p.radiance) out.sum(channel.sum()), out.sum(channel.squares());
   out.sum(p.half);
+  // Samples that hit nothing have emission where other rays of theirs have met it.
+  out.count(p.emission_rays);
+  if (p.hits == 0 && p.emission_rays > p.samples) out.sum(p.emission);
   if (p.hits == 0) return;
   for_each_feature(p, p, [&](const auto& sum, const auto&, double) { out.sum(sum); });
 }
 
-PixelSums read_pixel(ByteReader& in, std::uint64_t passes) {
+PixelSums read_pixel(ByteReader& in, std::uint64_t passes, bool has_emission_rays) {
   PixelSums p;
   p.passes = std::uint32_t(in.count(passes)), p.half_passes = std::uint32_t(in.count(p.passes));
   p.non_finite = std::uint32_t(in.count(max_film_samples)), p.samples = std::uint32_t(in.count(max_film_samples));
@@ -145,10 +148,12 @@ PixelSums read_pixel(ByteReader& in, std::uint64_t passes) {
     channel = ExactMoments::of(sum, in.products());
   }
   p.half = in.sum(p.passes);
+  p.emission_rays = has_emission_rays ? in.count(std::uint64_t(p.samples) * max_emission_rays) : p.samples;
+  if (p.hits == 0 && p.emission_rays > p.samples) p.emission = in.sum(p.samples);
   if (p.hits == 0) return p;
   for_each_feature(p, p, [&]<class Sum>(Sum& sum, const Sum&, double) {
     if constexpr (std::is_same_v<Sum, ExactSum>)
-      sum = in.sum(p.hits);
+      sum = in.sum(p.samples);
     else
       sum = in.small_sum();
   });
@@ -174,7 +179,7 @@ void Film::write_tile(const PixelBounds& b, std::string& bytes) const {
     }
 }
 
-void Film::read_tile(const PixelBounds& b, ByteReader& in) {
+void Film::read_tile(const PixelBounds& b, ByteReader& in, bool has_emission_rays) {
   FilmTile& tile = name_tile(b);
   const std::uint64_t passes = in.count(max_film_samples);
   for (std::uint64_t i = 0; i < passes; ++i) {
@@ -188,7 +193,7 @@ void Film::read_tile(const PixelBounds& b, ByteReader& in) {
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       PixelSums& pixel = pixels_[index_of_cell(x, y)];
-      pixel = read_pixel(in, passes);
+      pixel = read_pixel(in, passes, has_emission_rays);
       if (has_halves()) halves_[index_of_cell(x, y)].read(pixel, in);
       if (layers_) layers_->read_pixel(x, y, pixel, in);
     }

@@ -21,7 +21,8 @@ FilmPlanes::FilmPlanes(const PixelBounds& b) : bounds(b) {
   for (ColorPlanes* planes : {&mean, &variance, &albedo})
     for (Plane& plane : *planes) plane.resize(pixels);
   for (Plane& plane : normal) plane.resize(pixels);
-  for (Plane* plane : {&emission, &coverage, &samples, &object, &first_half, &second_half}) plane->resize(pixels);
+  for (Plane* plane : {&emission, &coverage, &samples, &emission_rays, &object, &first_half, &second_half})
+    plane->resize(pixels);
   passes.resize(pixels), expected.resize(pixels);
 }
 
@@ -41,7 +42,8 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
       }
       for (std::size_t c = 0; c < 3; ++c) normal[c][i] = float(features.normal(int(c)) / hits);
       emission[i] = float(features.emission / sampled), coverage[i] = float(features.hits / sampled);
-      samples[i] = float(features.samples), object[i] = float(features.object);
+      samples[i] = float(features.samples), emission_rays[i] = float(features.emission_rays);
+      object[i] = float(features.object);
       const double all = mean_of(pixel.mean), half = pixel.half_sum;
       const bool halves = pixel.half_passes > 0 && pixel.half_passes < pixel.passes;
       first_half[i] = float(halves ? half / pixel.half_passes : all);

@@ -30,6 +30,7 @@ struct FilmPlanes {
   Plane emission;                      // mean of the channels
   Plane coverage;                      // share of the samples that hit a surface
   Plane samples;                       // their number
+  Plane emission_rays;                 // the number of rays that show the emission
   Plane object;                        // number of the object, 0: none
   Plane first_half, second_half;       // mean over one half of the passes and over the other, mean of the channels
   std::vector<std::uint32_t> passes;   // their number

@@ -312,7 +312,7 @@ PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
       const double weight = spreads.known[i] > 0 ? double(near.weight[i]) : 0;
       double prior = prior_freedom * weight / (weight + few_alike);
       const double quantile = quantiles(freedom, prior);
-      const double uncertain_cover = -spread_samples * std::log(1 - confidence) / double(planes.samples[i]);
+      const double uncertain_cover = -spread_samples * std::log(1 - confidence) / double(planes.emission_rays[i]);
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
         if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);

@@ -168,6 +168,7 @@ void PartialCovers::find_covers() {
       Cover cover;
       cover.pixel = std::uint32_t(pixel), cover.samples = double(planes_.samples[pixel]);
       cover.of_emitter = emission[pixel] > 0 && covered_by_emitter(x, y, cover);
+      if (cover.of_emitter) cover.samples = double(planes_.emission_rays[pixel]);
       if (!cover.of_emitter && !(open[pixel] > 0 && covered_before_darkness(x, y, cover))) continue;
       index_[pixel] = std::int32_t(covers_.size());
       covers_.push_back(cover);
@@ -189,7 +190,7 @@ bool PartialCovers::covered_by_emitter(int x, int y, Cover& cover) const {
   });
   const double light = double(brightness_[brightest]), dark = double(brightness_[darkest]);
   if (count == 0 || light <= std::max(dark, 0.0) || 2 * double(most - least) < light - dark) return false;
-  const double others = std::max(double(planes_.samples[brightest]) - 1, 0.0);
+  const double others = std::max(double(planes_.emission_rays[brightest]) - 1, 0.0);
   const double scale = 1 + others * variance_of(brightest) / (light * light);
   for (std::size_t c = 0; c < rgb_size; ++c) {
     cover.base[c] = double(planes_.mean[c][darkest]);

@@ -20,8 +20,10 @@ struct Features {
   Vec3f position{};  // world space
   float depth = 0;   // distance along the ray from the camera's origin
   float coverage = 0;
-  std::uint32_t object = 0;  // number of the object, from 1; 0: none
+  std::uint32_t object = 0;         // number of the object, from 1; 0: none
+  std::uint32_t emission_rays = 1;  // of which the emission is the mean; at most max_emission_rays
 };
+inline constexpr std::uint32_t max_emission_rays = 256;
 
 // A feature whose layer is the mean over the samples that hit a surface.
 struct FeatureRow {

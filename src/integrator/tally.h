@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "color/spectrum.h"
@@ -77,6 +78,12 @@ struct NoTally {
 };
 inline constexpr NoTally no_tally;
 
+// A tally that also receives light of samples that are in no lane yet, by add_early().
+template <class Tally>
+concept TakesEarlyLight = requires {
+  &Tally::add_early;
+};
+
 // The contributions of the samples of a tile, layer by layer, without rounding. The sums of a pixel are consecutive:
 // first that of all contributions, then those of the layers. Lane by lane a sample's contributions are gathered until
 // it is known to be finite.
@@ -98,8 +105,18 @@ class LayerTally {
     for_each_lane(on, [&](int k) { add_lane(k, lane(contribution, k), lane_of(from, k)); });
   }
 
+  // The same, of a sample that is not in a lane yet.
+  void add_early(std::uint32_t output, const Spectrum<float>& contribution, const LightOrigin<float>& from) {
+    early_.emplace(output, Early{contribution, from});
+  }
+
   // The sample of lane k is done. One that is not finite, or beyond the range of the sums, is excluded and set to NaN.
   void finish(int k, std::uint32_t output, PixelSample& sample) {
+    if (!early_.empty()) {
+      const auto [first, last] = early_.equal_range(output);
+      for (auto at = first; at != last; ++at) add_lane(k, at->second.contribution, at->second.from);
+      early_.erase(first, last);
+    }
     const auto lane_sums = std::span(lanes_).subspan(std::size_t(k) * stride_, stride_);
     float& brightness = brightness_[std::size_t(k)];
     bool good = brightness < ExactSum::largest;
@@ -123,6 +140,11 @@ class LayerTally {
   }
 
  private:
+  struct Early {
+    Spectrum<float> contribution;
+    LightOrigin<float> from;
+  };
+
   void add_lane(int k, const Spectrum<float>& carried, const LightOrigin<float>& from) {
     const Rgb contribution = to_rgb(carried);
     float& brightness = brightness_[std::size_t(k)];
@@ -141,6 +163,7 @@ class LayerTally {
   std::uint32_t samples_per_pixel_;
   std::span<ExactRgb> sums_;
   std::vector<ExactRgb> lanes_;
+  std::unordered_multimap<std::uint32_t, Early> early_;  // by output
   std::vector<float> brightness_;  // sum of absolute values, by lane; once beyond the range it stays there
 };
 

@@ -66,6 +66,8 @@ class LightSet {
 
   std::uint32_t count() const { return std::uint32_t(tables_.kinds.size()); }
   LightKind kind(LightId light) const { return LightKind(tables_.kinds[std::uint32_t(light)]); }
+  // Of its points; none: it has no position.
+  const std::optional<LightBounds>& bounds(LightId light) const { return tables_.bounds[std::uint32_t(light)]; }
   // The group of every light, for layers of an image, and the names of the groups, in the order of their lights.
   const std::vector<std::uint32_t>& groups() const { return tables_.groups; }
   const std::vector<std::string>& group_names() const { return tables_.group_names; }

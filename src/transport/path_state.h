@@ -71,6 +71,7 @@ struct PathStart {
   F weight, time;
   Uint<F> x, y, index;
   Uint<F> output;
+  Spectrum<F> seen;  // light that its pixel shows directly of other camera rays, over `weight`
 };
 
 // Paths begin in the lanes `fresh`, where the starts stand.
@@ -85,7 +86,7 @@ MONTELUX_INLINE void begin_paths(PathState<F>& path, const PathStart<F>& start, 
   put_one(path.hit.geometry, start.hit.geometry), put_one(path.hit.primitive, start.hit.primitive);
   put_one(path.hit.instance, start.hit.instance);
   path.throughput = select(fresh, gray(F(1.0f)), path.throughput);
-  path.radiance = select(fresh, gray(F(0.0f)), path.radiance);
+  path.radiance = select(fresh, start.seen, path.radiance);
   path.media = select_media<F>(fresh, media, path.media);
   put(path.p, start.o), put(path.n, zero);
   put_one(path.density.value, F(0.0f)), put_one(path.by_delta, U(3u));

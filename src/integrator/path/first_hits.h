@@ -5,9 +5,12 @@
 
 #include "accel/accel.h"
 #include "integrator/integrator.h"
+#include "integrator/path/lamp_pixels.h"
 #include "integrator/tally.h"
 #include "math/lane_queue.h"
 #include "scene/scene.h"
+#include "scene/surface.h"
+#include "transport/light_met.h"
 #include "transport/numbers.h"
 #include "transport/path_state.h"
 
@@ -21,7 +24,8 @@ class FirstHits {
  public:
   // `rays` has trace() as Accel does.
   template <class Rays, class Tally>
-  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out, Tally& tally);
+  FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out, Tally& tally,
+            const LampRays& lamps = {});
   template <class Rays>
   FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out)
       : FirstHits(scene, rays, pass, out, no_tally) {}
@@ -32,6 +36,8 @@ class FirstHits {
   // For loops that keep nothing of a path but its state: `on` are the paths that continue beyond a vertex. Returns
   // those that stay in their lanes.
   Mask<F> set_aside(const PathState<F>& state, Mask<F> on);
+  // The lanes in which the path loop adds light that paths meet: not what lamp rays have shown of it.
+  Mask<F> counts_light(const PathState<F>& state, Mask<F> on) const;
   std::uint64_t rays() const { return rays_; }
 
  private:
@@ -44,6 +50,7 @@ class FirstHits {
   bool begins_ = true;               // then: paths at their first vertex have the lanes, else those beyond it
   Media<F> media_;                   // of the camera
   const StopQuery* stop_ = nullptr;
+  std::vector<std::uint8_t> shown_;  // by output, 1: by lamp rays; empty: none is
   std::uint64_t rays_ = 0;
 };
 
@@ -120,8 +127,12 @@ template <class F, class Tally>
 void show_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::span<PixelSample> out,
               [[maybe_unused]] Tally& tally) {
   if (!any(left)) return;
-  const Spectrum<F> all = scene.lights.template escaped_radiance<F>(start.d, left) * start.weight;
-  for_each_lane(left, [&](int k) { out[lane(start.output, k)].radiance = to_rgb(lane(all, k)); });
+  const Spectrum<F> all = (scene.lights.template escaped_radiance<F>(start.d, left) + start.seen) * start.weight;
+  const Spectrum<F> emission = start.seen * start.weight;
+  for_each_lane(left, [&](int k) {
+    PixelSample& sample = out[lane(start.output, k)];
+    sample.radiance = to_rgb(lane(all, k)), sample.features.emission = to_rgb(lane(emission, k));
+  });
   if constexpr (Tally::records) {
     const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
     for (int i = 0; i < scene.lights.infinite_count(); ++i) {
@@ -133,10 +144,33 @@ void show_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::
   }
 }
 
+// The light of emitters that the pixels of these samples show directly, by rays of points of their own: all points of a
+// pixel in a pass are one (0,2)-set. Calls sink(on, contribution, light).
+template <class F, class Rays, class Sink>
+void show_lamps(const Scene& scene, const Rays& rays, const TilePass& pass, std::uint32_t count,
+                const PathSite<F>& site, Mask<F> on, Sink sink) {
+  using U = Uint<F>;
+  PointSet points = pass.points;
+  points.kind = PointSetKind::padded_sobol, points.seed = mix_bits(points.seed ^ 0x1f83d9abu);
+  points.samples_per_pass *= count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const PathStart<F> start =
+        start_of_path<F>(scene, {pass.tile, points, pass.shutter}, {site.x, site.y, site.index * U(count) + U(i)});
+    const Ray<F> ray{start.o, start.d, F(ray_infinity), start.time};
+    const auto [found, hit] = rays.template trace<F>(ray, on, RayUse::camera);
+    const Mask<F> met = meets_emitter<F>(scene, hit, found);
+    if (!any(met)) continue;
+    const SurfaceHit<F> x = surface_at<F>(scene.geometry, ray, hit, start.time, met);
+    const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+    const LightHit<F> light = emission_met<F>(scene.lights, {ray.o, nowhere}, x, ray.d, met);
+    sink(met, light.radiance * (start.weight * F(1.0f / float(count))), x.light - U(1u));
+  }
+}
+
 template <class F>
 template <class Rays, class Tally>
 FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pass, std::span<PixelSample> out,
-                        Tally& tally) {
+                        Tally& tally, const LampRays& lamps) {
   using U = Uint<F>;
   stop_ = pass.stop;
   media_ = media_of<F>(scene.media, Uint<F>(scene.camera_medium));
@@ -164,6 +198,30 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
+        state.seen = gray(F(0.0f));
+        if (lamps.pixels) {
+          const PathSite<F> site{pixel_x, pixel_y, U(first + sample)};
+          if (const Mask<F> wanted = lamps.pixels->template at<F>(scene, rays, site.x, site.y, on); any(wanted)) {
+            shown_.resize(out.size());
+            for_each_lane(wanted, [&](int k) {
+              const std::uint32_t output = lane(state.output, k);
+              shown_[output] = 1, out[output].features.emission_rays = lamps.count;
+            });
+            Spectrum<F> seen = gray(F(0.0f));
+            show_lamps<F>(scene, rays, pass, lamps.count, site, wanted,
+                          [&](Mask<F> met, const Spectrum<F>& contribution, [[maybe_unused]] const U& light) {
+                            seen += select(met, contribution, gray(F(0.0f)));
+                            if constexpr (TakesEarlyLight<Tally>)
+                              for_each_lane(met, [&](int k) {
+                                tally.add_early(lane(state.output, k), lane(contribution, k),
+                                                {0, lane(light, k), Technique::emission});
+                              });
+                          });
+            const F weight = select(state.weight != F(0.0f), F(1.0f) / state.weight, F(0.0f));
+            state.seen = seen * weight;
+            rays_ += std::uint64_t(count(wanted)) * lamps.count;
+          }
+        }
         // In a medium a path may scatter on a ray that meets no surface: its t is infinite.
         const Mask<F> starts = found | (on & in_medium);
         starts_.add(state, starts);
@@ -191,6 +249,15 @@ Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
   }
   begins_ = begins_ && waiting_.size() < enough && !starts_.is_empty();
   return begins_ ? begin(state, on) : Mask<F>(on | waiting_.fill(state, on));
+}
+
+template <class F>
+Mask<F> FirstHits<F>::counts_light(const PathState<F>& state, Mask<F> on) const {
+  if (shown_.empty()) return on;
+  std::uint32_t counts = bits(on);
+  for_each_lane(on & (state.depth == Uint<F>(0u)),
+                [&](int k) { counts &= ~(std::uint32_t(shown_[lane(state.output, k)]) << k); });
+  return mask_of_bits<F>(counts);
 }
 
 template <class F>

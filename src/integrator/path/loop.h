@@ -352,7 +352,10 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 template <class F, bool in_media = false, class Rays, class Tally, class Guide = NoGuide>
 RayCounts trace_paths(const Scene& scene, const LightSet& lights, const Rays& rays, const PathSettings& settings,
                       const TilePass& pass, std::span<PixelSample> out, Tally& tally, const Guide& guide = {}) {
-  FirstHits<F> first_hits(scene, rays, pass, out, tally);
+  // Tallies that gather the light of a sample in its lane alone have none.
+  constexpr bool has_lamp_rays = !Tally::records || TakesEarlyLight<Tally>;
+  const LampRays lamps = has_lamp_rays ? settings.lamps() : LampRays{};
+  FirstHits<F> first_hits(scene, rays, pass, out, tally, lamps);
   RayCounts counts = run_paths<F, in_media>(scene, lights, rays, settings, pass, out, first_hits, tally, guide);
   counts.camera += first_hits.rays();
   return counts;

@@ -31,6 +31,9 @@ class PathRecorder {
                                      lane(from.bounces, k) == 0 ? Technique::emission : from.technique});
     });
   }
+  void add_early(std::uint32_t, const Spectrum<float>& contribution, const LightOrigin<float>& from) {
+    add<float>(true, contribution, from);
+  }
   void finish(int, std::uint32_t, const PixelSample& sample) { path_.radiance = sample.radiance; }
 
   template <class F>

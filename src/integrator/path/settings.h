@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "integrator/path/lamp_pixels.h"
 #include "light/light.h"
 #include "parameter/choice.h"
 #include "parameter/fields.h"
@@ -22,6 +23,9 @@ enum class Lanes { one, native };
 NamedValues<Lanes> lanes_names();
 // The row of the maximum depth, which the catalogue reads, since a scene may state it too.
 ParameterSpec max_depth_spec();
+inline constexpr char lamp_rays_meaning[] =
+    "camera rays of each sample that show lamps in view, in pixels where lamps may be seen in part; 0: the sample's "
+    "own";
 
 // How next-event estimation and BSDF sampling share the light that both can find; `off`: it is all next-event
 // estimation's where the surface is not a mirror.
@@ -71,11 +75,16 @@ struct PathSettings {
   int sky_paths = 1 << 16;
   // What learned_selection and sky_learning have learned, made where there is none.
   std::shared_ptr<const LearnedLights> learned;
+  // Rays for each sample of a pixel in which lamps may be in view, which show their light; 0: the sample's own ray
+  // shows it. Where they may be, made where there is none.
+  int lamp_rays = 8;
+  std::shared_ptr<const LampPixels> lamp_pixels;
   // Scattering events before roulette begins.
   int roulette_depth = 2;
   Lanes lanes = Lanes::native;
 
   LightWeights light_weights() const { return {nee, mis}; }
+  LampRays lamps() const { return {lamp_pixels.get(), std::uint32_t(lamp_rays)}; }
 };
 
 EntitySpec path_spec();

@@ -14,6 +14,8 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
+  if (settings.lamp_rays > 0 && !settings.lamp_pixels)
+    settings_.lamp_pixels = LampPixels::of(scene, accel, settings.width, settings.height);
   if (settings.learned_selection || settings.sky_learning) {
     if (!settings.learned)
       settings_.learned = std::make_shared<LearnedLights>(learn_lights(scene, lights(), accel, settings_));
@@ -32,7 +34,7 @@ SurvivalMap PathTracer::run_pilot() const {
   // Without roulette, and so not without an end; what is deeper is rare and counts little.
   constexpr int deepest = 24, samples = 8, side = 4, tiles_in_block = 2;
   PathSettings plain = settings_;
-  plain.roulette = PathRoulette::off;
+  plain.roulette = PathRoulette::off, plain.lamp_rays = 0, plain.lamp_pixels = nullptr;
   plain.max_depth = std::min(settings_.max_depth.value_or(deepest), deepest);
   const PathTracer pilot(scene_, accel_, plain);
   const PilotBlocks blocks = PilotBlocks::of(settings_.width, settings_.height);

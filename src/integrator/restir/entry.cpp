@@ -11,6 +11,7 @@ template <const char* name>
 Result<ChosenIntegrator> make_restir(const IntegratorRequest& r) {
   auto settings = restir_settings(name, r.list, r.max_depth);
   if (!settings) return settings.failure();
+  settings->path.width = r.defaults.width, settings->path.height = r.defaults.height;
   std::string note;
   // A candidate by the BSDF has passed such surfaces by chance, and would be tested by chance again when it is shown.
   if (settings->direct && settings->bsdf_candidate && !settings->visibility_reuse && r.scene.geometry.has_half_open()) {

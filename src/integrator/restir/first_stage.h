@@ -44,13 +44,13 @@ class FirstStage {
 
   // Fills `out` with all light but that of the vertices' reservoirs.
   RayCounts run() {
-    FirstHits<F> first_hits(shared_.scene, shared_.rays, pass_, out_);
+    FirstHits<F> first_hits(shared_.scene, shared_.rays, pass_, out_, no_tally, shared_.settings.path.lamps());
     counts_.camera = first_hits.rays();
     PathState<F> path{};
     for (M on(false);;) {
       on = first_hits.refill(path, on);
       if (!any(on)) break;
-      on = step(path, on);
+      on = step(path, on, first_hits);
     }
     if (reuses_paths()) {
       paths_.run([&](const U& output, const PathReservoir<F>& reservoir, const Spectrum<F>& plain, M done) {
@@ -73,8 +73,10 @@ class FirstStage {
   struct SeenLight {
     const LightSet& lights;
     PathState<F>& path;
+    const FirstHits<F>& source;
 
     void emitter(const EmitterOnRay<F>& met, M on) {
+      on = source.counts_light(path, on);
       const SurfaceHit<F>& x = met.v.x;
       const U number = select(on, x.light - U(1u), U(0u));
       add(met.left, lights.template hit_radiance<F>(number, x.point.ng, x.point.uv, path.d, on), on);
@@ -88,14 +90,14 @@ class FirstStage {
   };
 
   // One surface of every path; gives the lanes that continue to another.
-  M step(PathState<F>& path, M on) {
+  M step(PathState<F>& path, M on, const FirstHits<F>& source) {
     const M may_scatter = path.depth < max_depth_;
     const auto sampler = numbers_of(pass_.points, path);
     const U dimension = U(path_dimension::first_vertex) + path.depth * U(path_dimension::per_vertex);
     const U own = U(path_dimension::own) + path.crossings * U(path_dimension::per_crossing);
     const VertexOrigin<F> origin{{path.o, path.d, path.hit.t, path.time}, path.hit, path.depth == U(0u)};
     RayProgress<F> way{{ray_of(path), path.hit, path.media}, path.throughput, F(1.0f), path.crossings};
-    SeenLight seen{shared_.scene.lights, path};
+    SeenLight seen{shared_.scene.lights, path, source};
     SegmentEnd<F> end = end_segment<F>(shared_.scene, way, {on, may_scatter}, sampler.stream(dimension + own), seen);
     Vertex<F>& v = end.v;
     v.context.on = on, v.context.densities = Densities::exact;

@@ -8,7 +8,10 @@ RestirIntegrator::RestirIntegrator(const Scene& scene, const Accel& accel, const
     : scene_(scene),
       accel_(accel),
       settings_(settings),
-      lights_(std::make_unique<LightTechniques>(scene.lights, settings)) {}
+      lights_(std::make_unique<LightTechniques>(scene.lights, settings)) {
+  PathSettings& path = settings_.path;
+  if (path.lamp_rays > 0) path.lamp_pixels = LampPixels::of(scene, accel, path.width, path.height);
+}
 RestirIntegrator::~RestirIntegrator() = default;
 
 int RestirIntegrator::stages() const { return ReuseSeries<float, Accel>::stages(settings_); }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "image/features.h"
+
 namespace montelux {
 
 namespace {
@@ -70,6 +72,8 @@ Fields<RestirSettings> fields_of(std::string_view name) {
       .integer("frames", &S::frames, "frames that share samples, which form one pass", 1, 1024)
       .formerly("chain")
       .integer("warm-up", &S::warm_up, "preceding frames that are not shown, with temporal=on", 0, 1024)
+      .integer(
+          "lamp-rays", [](S& s) -> int& { return s.path.lamp_rays; }, lamp_rays_meaning, 0, int(max_emission_rays))
       .other(max_depth_spec())
       .choice<Lanes>(
           "lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "number of pixels computed together", lanes_names());

@@ -39,6 +39,7 @@ Film film_of(const std::optional<LayerPlan>& layers) {
         s.features.depth = 1e4f * random.next(), s.features.object = std::uint32_t(3e9f * random.next());
         s.features.position = {-random.next(), 1e-6f * random.next(), -1e6f};
         s.features.normal = {-1, 0, 0}, s.features.albedo = gray_rgb(random.next());
+        s.features.emission = gray_rgb(t == 1 ? random.next() : 0), s.features.emission_rays = t == 1 ? 8 : 1;
       }
       std::vector<ExactRgb> sums;
       if (layers) {
@@ -80,8 +81,8 @@ TEST(FilmBytes, are_the_film) {
         const PixelFeatures f = film.features(x, y), g = again.features(x, y);
         EXPECT_EQ(std::tie(p.passes, p.non_finite, p.half_passes, p.half_sum),
                   std::tie(q.passes, q.non_finite, q.half_passes, q.half_sum));
-        EXPECT_EQ(std::tie(f.hits, f.samples, f.object, f.sums, f.emission),
-                  std::tie(g.hits, g.samples, g.object, g.sums, g.emission));
+        EXPECT_EQ(std::tie(f.hits, f.samples, f.object, f.sums, f.emission, f.emission_rays),
+                  std::tie(g.hits, g.samples, g.object, g.sums, g.emission, g.emission_rays));
         for (int c = 0; c < 3; ++c) {
           EXPECT_EQ(std::tie(p.mean[c], p.m2[c]), std::tie(q.mean[c], q.m2[c]));
           if (!layers) continue;

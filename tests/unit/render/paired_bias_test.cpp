@@ -52,7 +52,7 @@ BiasEstimate measured(int passes, int samples_per_pass, double noise, unsigned s
 }
 
 TEST(PairedBias, has_no_error_because_parts_of_the_picture_differ) {
-  const struct { int passes, samples; } plans[] = {{8, 8}, {2, 8}, {8, 64}, {5, 24}, {8, 4}, {6, 12}, {16, 2}, {32, 1}};
+  const struct { int passes, samples; } plans[] = {{8, 8}, {2, 8}, {8, 64}, {5, 24}, {8, 4}, {8, 12}, {16, 2}, {32, 1}};
   for (const auto [passes, samples] : plans) {
     SCOPED_TRACE(testing::Message() << passes << " passes of " << samples);
     const BiasEstimate bias = measured(passes, samples, 0);

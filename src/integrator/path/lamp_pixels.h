@@ -1,0 +1,91 @@
+// Where lamps are in view.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "accel/accel.h"
+#include "scene/scene.h"
+
+namespace montelux {
+
+// The pixels of a picture in which the light of emitters that the camera sees directly may differ from ray to ray:
+// those of small emitters, and those at the rims of large ones. A pixel that is missing costs nothing but noise.
+class LampPixels {
+ public:
+  // Of a picture of this size. Null where there are none; and where a ray does not show all light that a pixel has of
+  // its first surface, or boxes do not say in which pixels emitters are seen: in scenes that move, with participating
+  // media or surfaces without scattering, for cameras that look along all directions, and for rays through the centres
+  // of pixels.
+  static std::shared_ptr<const LampPixels> of(const Scene& scene, const Accel& accel, int width, int height);
+
+  // The lanes whose pixels are among them. Looks at a pixel of a large emitter when it is first wanted. Thread-safe,
+  // and a pure function of the scene.
+  template <class F, class Rays>
+  Mask<F> at(const Scene& scene, const Rays& rays, const Uint<F>& x, const Uint<F>& y, Mask<F> on) const;
+
+ private:
+  enum State : std::uint8_t { none, unknown, some };
+
+  LampPixels(int width, int height);
+  void mark(const Scene& scene, const Accel& accel, const LightBounds& box);
+  std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width_ + x; }
+
+  std::uint32_t width_, height_;
+  bool is_empty_ = true;
+  mutable std::vector<std::atomic<std::uint8_t>> states_;
+};
+
+// Camera rays that show emitters alone: so many for each sample of such a pixel, instead of the sample's own ray, to
+// which all other light of the sample belongs. Rims of lamps and lamps that are smaller than a pixel make much of the
+// noise of a picture, and such a ray costs a small part of a path.
+struct LampRays {
+  const LampPixels* pixels = nullptr;  // null: none
+  std::uint32_t count = 0;
+};
+
+// Lanes whose hit is on an emitter.
+template <class F>
+Mask<F> meets_emitter(const Scene& scene, const Hit<F>& hit, Mask<F> found) {
+  std::uint32_t emits = 0;
+  for_each_lane(
+      found, [&](int k) { emits |= std::uint32_t(scene.geometry.rows[lane(hit.geometry, k)].first_light != 0) << k; });
+  return mask_of_bits<F>(emits);
+}
+
+template <class F, class Rays>
+Mask<F> LampPixels::at(const Scene& scene, const Rays& rays, const Uint<F>& x, const Uint<F>& y, Mask<F> on) const {
+  std::uint32_t found = 0, open = 0;
+  for_each_lane(on, [&](int k) {
+    if (lane(x, k) >= width_ || lane(y, k) >= height_) return;
+    const std::uint8_t state = states_[index(lane(x, k), lane(y, k))].load(std::memory_order_relaxed);
+    found |= std::uint32_t(state == some) << k, open |= std::uint32_t(state == unknown) << k;
+  });
+  if (open == 0) return mask_of_bits<F>(found);
+  // All of the pixel shows one emitter, or none, where nine points of its filter do.
+  const Mask<F> wanted = mask_of_bits<F>(open);
+  Mask<F> any_emits(false), all_alike = wanted;
+  Uint<F> geometry(0u);
+  const Vec2f reach = scene.filter.radius();
+  bool is_first = true;
+  for (const float v : {-1.0f, 0.0f, 1.0f})
+    for (const float u : {-1.0f, 0.0f, 1.0f}) {
+      const Vec2<F> raster{to_float(x) + (0.5f + u * reach.x), to_float(y) + (0.5f + v * reach.y)};
+      const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f + 0.499f * v), F(0.5f - 0.499f * u)}).ray;
+      const auto [meets, hit] =
+          rays.template trace<F>({ray.o, ray.d, F(ray_infinity), F(0.0f)}, wanted, RayUse::camera);
+      const Mask<F> emits = meets_emitter<F>(scene, hit, meets);
+      if (is_first) geometry = hit.geometry;
+      any_emits = any_emits | emits, all_alike = all_alike & emits & (hit.geometry == geometry);
+      is_first = false;
+    }
+  const Mask<F> shows = any_emits & !all_alike;
+  const std::uint32_t now = bits(shows);
+  for_each_lane(wanted, [&](int k) {
+    states_[index(lane(x, k), lane(y, k))].store((now >> k) & 1u ? some : none, std::memory_order_relaxed);
+  });
+  return mask_of_bits<F>(found | now);
+}
+
+}  // namespace montelux

@@ -1,0 +1,124 @@
+// Rays that show lamps in view: the light of lamps of known area, with less noise, and none where it is not needed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "film/film.h"
+#include "render_scenes.h"
+
+namespace montelux::test {
+namespace {
+
+// A lamp of a hundredth of a pixel, and one of 6 x 5 pixels between their edges, before darkness: at the depth 3,
+// where a pixel is `pixel_side` wide.
+constexpr int width = 24, height = 16;
+const double pixel_side = 2 * 3 * std::tan(std::numbers::pi / 6) / height;
+constexpr double small_side = 0.1, large_width = 6.3, large_height = 5.4;  // in pixels
+constexpr std::array<double, 3> small_light{100, 50, 25}, large_light{1, 2, 4};
+
+std::string rectangle(double x, double y, double w, double h, const std::array<double, 3>& light) {
+  const double s = pixel_side, x0 = x * s, y0 = y * s, x1 = (x + w) * s, y1 = (y + h) * s;
+  return fmt::format(R"(AttributeBegin
+AreaLightSource "diffuse" "rgb L" [{} {} {}] "bool twosided" true
+Material "diffuse" "rgb reflectance" [0 0 0]
+Shape "trianglemesh" "point3 P" [{} {} 3 {} {} 3 {} {} 3 {} {} 3] "integer indices" [0 1 2 0 2 3]
+AttributeEnd
+)",
+                     light[0], light[1], light[2], x0, y0, x1, y0, x1, y1, x0, y1);
+}
+
+std::string scene_text(const std::string& lens) {
+  return fmt::format(R"(LookAt 0 0 0 0 0 1 0 1 0
+Camera "perspective" "float fov" 60 {}
+Film "rgb" "integer xresolution" {} "integer yresolution" {}
+PixelFilter "box"
+WorldBegin
+)",
+                     lens, width, height) +
+         rectangle(-4.27, 2.61, small_side, small_side, small_light) +
+         rectangle(1.37, -3.81, large_width, large_height, large_light);
+}
+
+double expected(std::size_t channel) {
+  return (small_light[channel] * small_side * small_side + large_light[channel] * large_width * large_height) /
+         (width * height);
+}
+
+RenderResult rendered(const TestScene& scene, const std::string& way, int passes = 64, int samples = 4) {
+  const ChosenIntegrator chosen = scene.integrator(way);
+  RenderObserver silent;
+  PassPlan plan;
+  plan.passes = passes, plan.samples_per_pass = samples;
+  return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, 5), silent);
+}
+
+// How many standard errors the mean of a channel is off, at most, if the image is `factor` times as bright.
+double deviation(const Film& film, double factor = 1) {
+  const ImageEstimate image = film.image();
+  double largest = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    largest = std::max(largest, std::abs(factor * image.mean[c] - expected(c)) / (factor * image.standard_error[c]));
+  return largest;
+}
+
+double mean_square(const Film& film) {
+  double sum = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) sum += film.pixel(x, y).variance_of_mean(c);
+  return sum;
+}
+
+TEST(LampRays, show_the_light_of_lamps_with_less_noise) {
+  for (const std::string lens : {"", R"("float lensradius" 0.05 "float focaldistance" 2)"}) {
+    const TestScene scene{std::string_view(scene_text(lens))};
+    for (const std::string name : {"path", "restir-di", "restir-pt"}) {
+      SCOPED_TRACE(name + " " + lens);
+      const Film without = rendered(scene, name + ":lamp-rays=0").film,
+                 one = rendered(scene, name + ":lamp-rays=1").film, with = rendered(scene, name).film;
+      EXPECT_LT(deviation(without), 4.5);
+      EXPECT_LT(deviation(one), 4.5);
+      EXPECT_LT(deviation(with), 4.5);
+      EXPECT_LT(mean_square(with), mean_square(without) / 4);
+      // If the sample's own ray counted as well.
+      EXPECT_GT(deviation(with, 2), 10);
+      // If they stood for all of the rays: an eighth more of them.
+      EXPECT_GT(deviation(with, 9.0 / 8), 4.5);
+    }
+  }
+}
+
+TEST(LampRays, are_spent_where_pixels_show_lamps_in_part) {
+  const TestScene scene{std::string_view(scene_text(""))};
+  constexpr int passes = 2, samples = 4;
+  const Film film = rendered(scene, "path:lamp-rays=8", passes, samples).film;
+  const auto rays_at = [&](double x, double y) {  // in pixels from the centre, y up
+    const PixelFeatures f = film.features(int(std::floor(width / 2 + x)), int(std::floor(height / 2 - y)));
+    return f.emission_rays / f.samples;
+  };
+  // The camera of this space looks along z with x to the left or to the right: both sides count.
+  const auto either = [&](double x, double y) { return std::max(rays_at(x, y), rays_at(-x, y)); };
+  EXPECT_EQ(either(-4.22, 2.66), 8);  // the small lamp
+  EXPECT_EQ(either(1.5, -2), 8);      // the rim of the large one
+  EXPECT_EQ(either(4, -1), 1);        // within it
+  EXPECT_EQ(either(10.5, 6.5), 1);    // darkness
+  int pixels = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) pixels += film.features(x, y).emission_rays > passes * samples;
+  EXPECT_LE(pixels, 48);
+}
+
+TEST(LampRays, make_the_same_bits_for_any_lanes_and_threads) {
+  const TestScene scene{std::string_view(scene_text(""))};
+  const Film all = rendered(scene, "path", 2).film, one = rendered(scene, "path:lanes=one", 2).film;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(all.pixel(x, y).mean[c], one.pixel(x, y).mean[c]);
+}
+
+}  // namespace
+}  // namespace montelux::test
