@@ -23,7 +23,7 @@ struct Features {
   std::uint32_t object = 0;         // number of the object, from 1; 0: none
   std::uint32_t emission_rays = 1;  // of which the emission is the mean; at most max_emission_rays
 };
-inline constexpr std::uint32_t max_emission_rays = 256;
+inline constexpr std::uint32_t max_emission_rays = 128;
 
 // A feature whose layer is the mean over the samples that hit a surface.
 struct FeatureRow {

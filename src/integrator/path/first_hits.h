@@ -113,6 +113,7 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathS
   state.weight = camera.weight * filtered.weight * scene.imaging_ratio;
   state.time = time;
   state.x = x, state.y = y, state.index = index;
+  state.seen = gray(F(0.0f));
   return state;
 }
 
@@ -198,7 +199,6 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         auto [found, hit] = rays.template trace<F>({state.o, state.d, F(ray_infinity), state.time}, on, RayUse::camera);
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
-        state.seen = gray(F(0.0f));
         if (lamps.pixels) {
           const PathSite<F> site{pixel_x, pixel_y, U(first + sample)};
           if (const Mask<F> wanted = lamps.pixels->template at<F>(scene, rays, site.x, site.y, on); any(wanted)) {
