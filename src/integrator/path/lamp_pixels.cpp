@@ -102,8 +102,8 @@ void LampPixels::mark(const Scene& scene, const Accel& accel, const LightBounds&
   is_empty_ = false;
   for (std::uint32_t y = y0; y < y1; ++y)
     for (std::uint32_t x = x0; x < x1; ++x) {
-      std::atomic<std::uint8_t>& state = states_[index(x, y)];
-      state = std::max(state.load(), std::uint8_t(is_large ? unknown : some));
+      SharedByte& state = states_[index(x, y)];
+      state.set(std::max(state.get(), std::uint8_t(is_large ? unknown : some)));
     }
 }
 

@@ -1,11 +1,11 @@
 // Where lamps are in view.
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "accel/accel.h"
+#include "math/shared_byte.h"
 #include "scene/scene.h"
 
 namespace montelux {
@@ -34,7 +34,7 @@ class LampPixels {
 
   std::uint32_t width_, height_;
   bool is_empty_ = true;
-  mutable std::vector<std::atomic<std::uint8_t>> states_;
+  mutable std::vector<SharedByte> states_;
 };
 
 // Camera rays that show emitters alone: so many for each sample of such a pixel, instead of the sample's own ray, to
@@ -59,7 +59,7 @@ Mask<F> LampPixels::at(const Scene& scene, const Rays& rays, const Uint<F>& x, c
   std::uint32_t found = 0, open = 0;
   for_each_lane(on, [&](int k) {
     if (lane(x, k) >= width_ || lane(y, k) >= height_) return;
-    const std::uint8_t state = states_[index(lane(x, k), lane(y, k))].load(std::memory_order_relaxed);
+    const std::uint8_t state = states_[index(lane(x, k), lane(y, k))].get();
     found |= std::uint32_t(state == some) << k, open |= std::uint32_t(state == unknown) << k;
   });
   if (open == 0) return mask_of_bits<F>(found);
@@ -82,9 +82,7 @@ Mask<F> LampPixels::at(const Scene& scene, const Rays& rays, const Uint<F>& x, c
     }
   const Mask<F> shows = any_emits & !all_alike;
   const std::uint32_t now = bits(shows);
-  for_each_lane(wanted, [&](int k) {
-    states_[index(lane(x, k), lane(y, k))].store((now >> k) & 1u ? some : none, std::memory_order_relaxed);
-  });
+  for_each_lane(wanted, [&](int k) { states_[index(lane(x, k), lane(y, k))].set((now >> k) & 1u ? some : none); });
   return mask_of_bits<F>(found | now);
 }
 
