@@ -11,6 +11,8 @@ namespace {
 
 // An emitter of so many pixels along both axes is large: what nine points of a pixel's filter do not show is missed.
 constexpr float large = 4;
+// Of larger pictures the pixels are not looked for: it would take more memory than their parts do.
+constexpr std::size_t max_pixels = std::size_t(1) << 25;
 
 // Of a camera whose rays through one point of the lens have different places on the picture; null: of another one.
 const ThinLens* lens_of(const Camera& camera) {
@@ -26,21 +28,30 @@ struct RasterBox {
   Vec2f size() const { return high - low; }
 };
 
-// Of the places of the corners, as these points of the lens see them; none where one of them is behind the camera.
-std::optional<RasterBox> places_of(const LightBounds& box, const Camera& camera, std::span<const Vec2f> lens_points) {
-  std::optional<RasterBox> all;
+// Where the picture shows an emitter, as some points of the lens see it.
+struct Place {
+  bool in_view = false;  // false: it is behind the camera
+  bool known = true;     // false: a part of its box is behind the camera, and it may be seen anywhere
+  RasterBox box{{0, 0}, {0, 0}};
+};
+Place place_of(const LightBounds& bounds, const Camera& camera, std::span<const Vec2f> lens_points) {
+  Place place;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3f p{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                  corner & 4 ? box.high.z : box.low.z};
+    const Vec3f p{corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
+                  corner & 4 ? bounds.high.z : bounds.low.z};
     for (const Vec2f& u : lens_points) {
       const LensConnection<float> at = camera.toward(p, u);
-      if (!at.seen || !std::isfinite(at.raster.x) || !std::isfinite(at.raster.y)) return std::nullopt;
-      if (!all) all = {at.raster, at.raster};
-      all->low = {std::min(all->low.x, at.raster.x), std::min(all->low.y, at.raster.y)};
-      all->high = {std::max(all->high.x, at.raster.x), std::max(all->high.y, at.raster.y)};
+      if (!at.seen || !std::isfinite(at.raster.x) || !std::isfinite(at.raster.y)) {
+        place.known = false;
+        continue;
+      }
+      RasterBox& box = place.box;
+      if (!place.in_view) box = {at.raster, at.raster}, place.in_view = true;
+      box.low = {std::min(box.low.x, at.raster.x), std::min(box.low.y, at.raster.y)};
+      box.high = {std::max(box.high.x, at.raster.x), std::max(box.high.y, at.raster.y)};
     }
   }
-  return all;
+  return place;
 }
 // The centre of the lens, and points of its rim.
 constexpr float last = 0.999f;
@@ -64,47 +75,78 @@ bool shows_emitter(const Scene& scene, const Accel& accel, const RasterBox& box)
   return false;
 }
 
+// The pixels of many boxes, which may overlap: in a time of the number of boxes plus that of pixels.
+class PixelBoxes {
+ public:
+  PixelBoxes(std::uint32_t width, std::uint32_t height)
+      : width_(width), height_(height), steps_((std::size_t(width) + 1) * (std::size_t(height) + 1)) {}
+  // Those whose filter meets the box. Pixel i has its samples within the filter's radius of i + 0.5.
+  void add(const RasterBox& box, Vec2f radius) {
+    const std::size_t x0 = first_of(box.low.x - radius.x, width_), x1 = end_of(box.high.x + radius.x, width_),
+                      y0 = first_of(box.low.y - radius.y, height_), y1 = end_of(box.high.y + radius.y, height_);
+    if (x0 >= x1 || y0 >= y1) return;
+    ++at(x0, y0), --at(x1, y0), --at(x0, y1), ++at(x1, y1);
+    is_empty_ = false;
+  }
+  bool is_empty() const { return is_empty_; }
+  // Calls f(index) for each pixel of a box, from the top and from the left. Only once.
+  template <class Function>
+  void for_each(Function f) {
+    for (std::size_t y = 0; y < height_; ++y)
+      for (std::size_t x = 0; x < width_; ++x) {
+        std::int32_t& boxes = at(x, y);
+        if (x > 0) boxes += at(x - 1, y);
+        if (y > 0) boxes += at(x, y - 1);
+        if (x > 0 && y > 0) boxes -= at(x - 1, y - 1);
+        if (boxes > 0) f(y * width_ + x);
+      }
+  }
+
+ private:
+  static constexpr float rounding = 0.01f;
+  static std::size_t first_of(float from, std::uint32_t end) {
+    return std::size_t(std::clamp(std::ceil(from - 0.5f - rounding), 0.0f, float(end)));
+  }
+  static std::size_t end_of(float to, std::uint32_t end) {
+    return std::size_t(std::clamp(std::floor(to - 0.5f + rounding) + 1, 0.0f, float(end)));
+  }
+  std::int32_t& at(std::size_t x, std::size_t y) { return steps_[y * (std::size_t(width_) + 1) + x]; }
+
+  std::uint32_t width_, height_;
+  std::vector<std::int32_t> steps_;
+  bool is_empty_ = true;
+};
+
 }  // namespace
 
 std::shared_ptr<const LampPixels> LampPixels::of(const Scene& scene, const Accel& accel, int width, int height) {
+  const ThinLens* lens = lens_of(scene.camera);
   const bool is_simple = !scene.moves() && !scene.pixel_centres && scene.media.empty() &&
-                         !scene.materials.has_interfaces() && lens_of(scene.camera);
-  if (!is_simple || width <= 0 || height <= 0) return nullptr;
+                         !scene.materials.has_interfaces() && lens && width > 0 && height > 0 &&
+                         std::size_t(width) * std::size_t(height) <= max_pixels;
+  if (!is_simple) return nullptr;
   std::shared_ptr<LampPixels> lamps(new LampPixels(width, height));
-  for (std::uint32_t light = 0; light < scene.lights.count(); ++light)
-    if (const auto& box = scene.lights.bounds(LightId(light)); box && has_surface(scene.lights.kind(LightId(light))))
-      lamps->mark(scene, accel, *box);
-  return lamps->is_empty_ ? nullptr : lamps;
+  PixelBoxes large_ones(lamps->width_, lamps->height_), small_ones(lamps->width_, lamps->height_);
+  const Vec2f radius = scene.filter.radius(), size{float(width), float(height)};
+  for (std::uint32_t i = 0; i < scene.lights.count(); ++i) {
+    const auto& bounds = scene.lights.bounds(LightId(i));
+    if (!bounds || !has_surface(scene.lights.kind(LightId(i)))) continue;
+    const Place sharp = place_of(*bounds, scene.camera, std::span(lens_points).first(1)),
+                seen = lens->open ? place_of(*bounds, scene.camera, lens_points) : sharp;
+    if (!seen.in_view) continue;
+    const RasterBox box = seen.known ? seen.box : RasterBox{{0, 0}, size};
+    if (!sharp.known || (sharp.box.size().x >= large && sharp.box.size().y >= large))
+      large_ones.add(box, radius);
+    else if (lens->open || shows_emitter(scene, accel, box))
+      small_ones.add(box, radius);
+  }
+  if (large_ones.is_empty() && small_ones.is_empty()) return nullptr;
+  large_ones.for_each([&](std::size_t i) { lamps->states_[i].set(unknown); });
+  small_ones.for_each([&](std::size_t i) { lamps->states_[i].set(some); });
+  return lamps;
 }
 
 LampPixels::LampPixels(int width, int height)
     : width_(std::uint32_t(width)), height_(std::uint32_t(height)), states_(std::size_t(width) * std::size_t(height)) {}
-
-void LampPixels::mark(const Scene& scene, const Accel& accel, const LightBounds& box) {
-  const Vec2f size{float(width_), float(height_)}, reach = scene.filter.radius();
-  const bool is_pinhole = !lens_of(scene.camera)->open;
-  const std::optional<RasterBox> sharp = places_of(box, scene.camera, std::span(lens_points).first(1)),
-                                 seen = is_pinhole ? sharp : places_of(box, scene.camera, lens_points);
-  const RasterBox at = seen.value_or(RasterBox{{0, 0}, size});
-  // Pixel i has its samples within the filter's radius of i + 0.5.
-  constexpr float rounding = 0.01f;
-  const auto first_of = [](float from, std::uint32_t end) {
-    return std::uint32_t(std::clamp(std::ceil(from - 0.5f - rounding), 0.0f, float(end)));
-  };
-  const auto end_of = [](float to, std::uint32_t end) {
-    return std::uint32_t(std::clamp(std::floor(to - 0.5f + rounding) + 1, 0.0f, float(end)));
-  };
-  const std::uint32_t x0 = first_of(at.low.x - reach.x, width_), x1 = end_of(at.high.x + reach.x, width_),
-                      y0 = first_of(at.low.y - reach.y, height_), y1 = end_of(at.high.y + reach.y, height_);
-  if (x0 >= x1 || y0 >= y1) return;
-  const bool is_large = !sharp || (sharp->size().x >= large && sharp->size().y >= large);
-  if (!is_large && is_pinhole && !shows_emitter(scene, accel, at)) return;
-  is_empty_ = false;
-  for (std::uint32_t y = y0; y < y1; ++y)
-    for (std::uint32_t x = x0; x < x1; ++x) {
-      SharedByte& state = states_[index(x, y)];
-      state.set(std::max(state.get(), std::uint8_t(is_large ? unknown : some)));
-    }
-}
 
 }  // namespace montelux

@@ -29,11 +29,9 @@ class LampPixels {
   enum State : std::uint8_t { none, unknown, some };
 
   LampPixels(int width, int height);
-  void mark(const Scene& scene, const Accel& accel, const LightBounds& box);
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width_ + x; }
 
   std::uint32_t width_, height_;
-  bool is_empty_ = true;
   mutable std::vector<SharedByte> states_;
 };
 

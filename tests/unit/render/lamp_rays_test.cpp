@@ -48,12 +48,13 @@ double expected(std::size_t channel) {
          (width * height);
 }
 
-RenderResult rendered(const TestScene& scene, const std::string& way, int passes = 64, int samples = 4) {
+RenderResult rendered(const TestScene& scene, const std::string& way, int passes = 64, int samples = 4,
+                      int threads = 1) {
   const ChosenIntegrator chosen = scene.integrator(way);
   RenderObserver silent;
   PassPlan plan;
   plan.passes = passes, plan.samples_per_pass = samples;
-  return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, 5), silent);
+  return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, 5, threads), silent);
 }
 
 // How many standard errors the mean of a channel is off, at most, if the image is `factor` times as bright.
@@ -114,10 +115,14 @@ TEST(LampRays, are_spent_where_pixels_show_lamps_in_part) {
 
 TEST(LampRays, make_the_same_bits_for_any_lanes_and_threads) {
   const TestScene scene{std::string_view(scene_text(""))};
-  const Film all = rendered(scene, "path", 2).film, one = rendered(scene, "path:lanes=one", 2).film;
+  const Film all = rendered(scene, "path", 2).film, one = rendered(scene, "path:lanes=one", 2).film,
+             threads = rendered(scene, "path", 2, 4, 3).film;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) EXPECT_EQ(all.pixel(x, y).mean[c], one.pixel(x, y).mean[c]);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(all.pixel(x, y).mean[c], one.pixel(x, y).mean[c]);
+        EXPECT_EQ(all.pixel(x, y).mean[c], threads.pixel(x, y).mean[c]);
+      }
 }
 
 }  // namespace
