@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -20,15 +21,16 @@ const double pixel_side = 2 * 3 * std::tan(std::numbers::pi / 6) / height;
 constexpr double small_side = 0.1, large_width = 6.3, large_height = 5.4;  // in pixels
 constexpr std::array<double, 3> small_light{100, 50, 25}, large_light{1, 2, 4};
 
-std::string rectangle(double x, double y, double w, double h, const std::array<double, 3>& light) {
+std::string rectangle(double x, double y, double w, double h, const std::array<double, 3>& light,
+                      const std::string& group) {
   const double s = pixel_side, x0 = x * s, y0 = y * s, x1 = (x + w) * s, y1 = (y + h) * s;
   return fmt::format(R"(AttributeBegin
-AreaLightSource "diffuse" "rgb L" [{} {} {}] "bool twosided" true
+AreaLightSource "diffuse" "rgb L" [{} {} {}] "bool twosided" true "string group" "{}"
 Material "diffuse" "rgb reflectance" [0 0 0]
 Shape "trianglemesh" "point3 P" [{} {} 3 {} {} 3 {} {} 3 {} {} 3] "integer indices" [0 1 2 0 2 3]
 AttributeEnd
 )",
-                     light[0], light[1], light[2], x0, y0, x1, y0, x1, y1, x0, y1);
+                     light[0], light[1], light[2], group, x0, y0, x1, y0, x1, y1, x0, y1);
 }
 
 std::string scene_text(const std::string& lens) {
@@ -39,8 +41,8 @@ PixelFilter "box"
 WorldBegin
 )",
                      lens, width, height) +
-         rectangle(-4.27, 2.61, small_side, small_side, small_light) +
-         rectangle(1.37, -3.81, large_width, large_height, large_light);
+         rectangle(-4.27, 2.61, small_side, small_side, small_light, "small") +
+         rectangle(1.37, -3.81, large_width, large_height, large_light, "large");
 }
 
 double expected(std::size_t channel) {
@@ -111,6 +113,37 @@ TEST(LampRays, are_spent_where_pixels_show_lamps_in_part) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) pixels += film.features(x, y).emission_rays > passes * samples;
   EXPECT_LE(pixels, 48);
+}
+
+// Light by light: the layers of the two lamps sum to the image, and that of the large one has its closed form (its rim
+// alone makes noise, of less than a hundredth).
+TEST(LampRays, belong_to_the_layers_of_their_lamps) {
+  const TestScene scene{std::string_view(scene_text(""))};
+  const ChosenIntegrator chosen = scene.integrator("path");
+  RenderObserver silent;
+  PassPlan plan;
+  plan.passes = 64, plan.samples_per_pass = 4;
+  RenderSettings settings = scene.settings(PointSetKind::blue_noise, plan, 5);
+  LayerPlan layers;
+  layers.light_groups = true;
+  layers.group_of_light = scene.scene().lights.groups(), layers.group_names = scene.scene().lights.group_names();
+  settings.image.layers = layers;
+  const Film film = render(chosen.any(), settings, silent).film;
+  const auto place = std::ranges::find(layers.group_names, "large");
+  ASSERT_NE(place, layers.group_names.end());
+  const int large = int(place - layers.group_names.begin());
+  for (int c = 0; c < 3; ++c) {
+    double of_large = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        double sum = 0;
+        for (int group = 0; group < layers.group_count(); ++group) sum += film.layers()->layer_mean(x, y, group, c);
+        EXPECT_NEAR(sum, film.pixel(x, y).mean[c], 1e-12);
+        of_large += film.layers()->layer_mean(x, y, large, c);
+      }
+    const double truth = large_light[std::size_t(c)] * large_width * large_height;
+    EXPECT_NEAR(of_large, truth, 0.01 * truth);
+  }
 }
 
 TEST(LampRays, make_the_same_bits_for_any_lanes_and_threads) {
