@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <span>
 #include <utility>
 #include <vector>
@@ -69,13 +70,20 @@ void for_each_block(const ReuseBlocks& blocks, const PixelBounds& picture, const
     }
 }
 
-// The groups of the blocks that belong to `tile`. key(pixel, x, y) is a pixel's place in the order of its block: any
-// number that does not depend on what was found there, and nothing where the pixel has no vertex.
-template <class Key>
+// A pixel of a block: its number in the picture, and its place in the order of the block.
+struct PlacedPixel {
+  std::uint64_t place;
+  std::uint32_t pixel;
+  auto operator<=>(const PlacedPixel&) const = default;
+};
+
+// The groups of the blocks that belong to `tile`, of pixels for which has_vertex(pixel) holds. put_in_order(pixels)
+// states the place of each: any number that does not depend on what was found there.
+template <class HasVertex, class PutInOrder>
 PixelGroups groups_of(const ReuseBlocks& blocks, const PixelBounds& picture, const PixelBounds& tile, std::size_t size,
-                      Key key) {
+                      HasVertex has_vertex, PutInOrder put_in_order) {
   PixelGroups groups{size, {}, {0}};
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> pixels;
+  std::vector<PlacedPixel> pixels;
   for_each_block(blocks, picture, tile, [&](const ReuseBlocks::Block& block) {
     const Vec2<double> centre = blocks.centre(block);
     const double reach = blocks.reach();
@@ -84,16 +92,17 @@ PixelGroups groups_of(const ReuseBlocks& blocks, const PixelBounds& picture, con
     pixels.clear();
     for (int y = first(centre.y, picture.y0); y < last(centre.y, picture.y1); ++y)
       for (int x = first(centre.x, picture.x0); x < last(centre.x, picture.x1); ++x) {
-        if (blocks.block_of(x + 0.5, y + 0.5) != block) continue;
         const std::size_t pixel = pixel_number(picture, x, y);
-        if (const auto k = key(pixel, x, y)) pixels.emplace_back(*k, std::uint32_t(pixel));
+        if (has_vertex(pixel) && blocks.block_of(x + 0.5, y + 0.5) == block)
+          pixels.push_back({0, std::uint32_t(pixel)});
       }
+    put_in_order(std::span(pixels));
     std::sort(pixels.begin(), pixels.end());
     // As even as can be.
     const std::size_t parts = (pixels.size() + size - 1) / size;
     for (std::size_t part = 0, begin = 0; part < parts; ++part) {
       const std::size_t end = pixels.size() * (part + 1) / parts;
-      for (; begin < end; ++begin) groups.members.push_back(pixels[begin].second);
+      for (; begin < end; ++begin) groups.members.push_back(pixels[begin].pixel);
       groups.begins.push_back(std::uint32_t(groups.members.size()));
     }
   });

@@ -24,7 +24,7 @@ class ReuseSeries final : public FrameSeries {
     for (auto& vertices : vertices_) vertices.resize(pixels);
     lights_.resize(pixels);
     if (reuses_paths()) paths_.resize(pixels);
-    frame_.resize(pixels);
+    objects_.resize(pixels), frame_.resize(pixels);
   }
 
   // Stage 0 looks for light at every pixel and in the frame before; every further one reuses samples of neighbours,
@@ -92,6 +92,7 @@ class ReuseSeries final : public FrameSeries {
       if (series.before_ && frame == 0) series.trace_back({tile, output, U(0u), on}, vertex, origin);
       for_each_pixel(output, on, [&](int k, std::size_t pixel) {
         get_lane_words(vertex, k, series.vertices(frame)[pixel]);
+        series.objects_[pixel] = lane(vertex.object, k);
         get(reservoir, k, series.lights_.after(step)[pixel]);
         if (series.reuses_paths()) series.paths_.after(step)[pixel] = {{}, 0.0f, 1.0f, 0.0f};
       });
@@ -115,7 +116,7 @@ class ReuseSeries final : public FrameSeries {
     std::vector<PixelSample> out(std::size_t(tile.area()));
     const TilePass request{tile, pass_.points, pass_.shutter, std::uint32_t(frame), shutter_sample(frame), pass_.grid};
     for_each_row(pass_.bounds, tile, [&](std::size_t pixel, std::size_t, std::size_t n) {
-      for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0;
+      for (std::size_t i = 0; i < n; ++i) vertices(frame)[pixel + i].exists = 0, objects_[pixel + i] = no_vertex;
     });
     FirstStageSink finds{*this, frame, tile};
     FirstStage<F, Rays, FirstStageSink> stage(shared_, request, out, finds);
@@ -248,11 +249,10 @@ class ReuseSeries final : public FrameSeries {
   template <template <class> class Value, class Image, class Change>
   static void leave_choice(ReservoirPlanes<Value>& planes, int writes, std::span<const std::uint32_t> members,
                            std::size_t i, int k, const GroupChoice<Image, F>& choice, Change change) {
-    const auto& before = planes.before(writes);
     auto& left = planes.after(writes)[members[i]];
     const float weight = lane(choice.weight, k);
-    left = {before[members[weight > 0 ? lane(choice.from, k) : i]].value, weight, lane(choice.confidence, k),
-            lane(choice.image.target, k)};
+    left.value = planes.before(writes)[members[weight > 0 ? lane(choice.from, k) : i]].value;
+    left.weight = weight, left.confidence = lane(choice.confidence, k), left.target = lane(choice.image.target, k);
     if (weight > 0) change(left.value);
   }
 
@@ -288,24 +288,41 @@ class ReuseSeries final : public FrameSeries {
     return counts;
   }
 
+  // The numbers of pixels for the groups of a step.
+  template <class G>
+  RandomStream<G> group_numbers(const SeriesStep& step, const Uint<G>& x, const Uint<G>& y) const {
+    return numbers_of<G>(pass_.points, PathSite<G>{x, y, Uint<G>(std::uint32_t(step.frame))})
+        .stream(Uint<G>(path_dimension::reuse))
+        .fork(Uint<G>(restir_stream::spatial + std::uint32_t(step.stage)));
+  }
+
+  // Pixels in an order at random; where groups prefer what is similar, object by object.
+  void put_in_order(const SeriesStep& step, std::span<PlacedPixel> pixels) const {
+    const auto width = std::uint32_t(pass_.bounds.width());
+    for (std::size_t first = 0; first < pixels.size(); first += lanes_of<F>) {
+      const std::span<PlacedPixel> pack =
+          pixels.subspan(first, std::min(pixels.size() - first, std::size_t(lanes_of<F>)));
+      U xs(0u), ys(0u);
+      for (std::size_t k = 0; k < pack.size(); ++k) {
+        set_lane(xs, int(k), std::uint32_t(pass_.bounds.x0) + pack[k].pixel % width);
+        set_lane(ys, int(k), std::uint32_t(pass_.bounds.y0) + pack[k].pixel / width);
+      }
+      const U random = to_uint(group_numbers<F>(step, xs, ys).at(U(2u)) * F(16777216.0f));
+      for (std::size_t k = 0; k < pack.size(); ++k) {
+        const std::uint32_t kind = settings().similar ? objects_[pack[k].pixel] : 0;
+        pack[k].place = std::uint64_t(kind) << 32 | lane(random, int(k));
+      }
+    }
+  }
+
   PixelGroups groups_at(const SeriesStep& step, const PixelBounds& tile) {
-    const auto number = [&](int x, int y, std::uint32_t which) {
-      return numbers_of<float>(pass_.points,
-                               PathSite<float>{std::uint32_t(x), std::uint32_t(y), std::uint32_t(step.frame)})
-          .stream(path_dimension::reuse)
-          .fork(restir_stream::spatial + std::uint32_t(step.stage))
-          .at(which);
-    };
-    const ReuseBlocks blocks(2 * double(settings().radius), 2 * pi * double(number(0, 0, 0)),
-                             {double(number(0, 0, 1)), double(number(0, 0, 3))});
-    return groups_of(blocks, pass_.bounds, tile, 1 + std::size_t(settings().neighbours),
-                     [&](std::size_t pixel, int x, int y) -> std::optional<std::uint64_t> {
-                       const ReuseVertex<float>& v = vertices(step.frame)[pixel];
-                       if (v.exists == 0) return {};
-                       const auto random = std::uint64_t(number(x, y, 2) * 16777216.0f);
-                       if (!settings().similar) return random;
-                       return std::uint64_t(v.object) << 32 | random;
-                     });
+    const RandomStream<float> numbers = group_numbers<float>(step, 0u, 0u);
+    const ReuseBlocks blocks(2 * double(settings().radius), 2 * pi * double(numbers.at(0)),
+                             {double(numbers.at(1)), double(numbers.at(3))});
+    return groups_of(
+        blocks, pass_.bounds, tile, 1 + std::size_t(settings().neighbours),
+        [&](std::size_t pixel) { return objects_[pixel] != no_vertex; },
+        [&](std::span<PlacedPixel> pixels) { put_in_order(step, pixels); });
   }
 
   // Of the first pixel of each group.
@@ -392,6 +409,8 @@ class ReuseSeries final : public FrameSeries {
   std::shared_ptr<const ReuseMemory> before_;        // of the picture before, if there is one
   std::vector<std::optional<std::size_t>> earlier_;  // pixels of it that showed what the pixels show
   std::vector<ReuseVertex<float>> vertices_[2];      // of this frame and the one before
+  static constexpr std::uint32_t no_vertex = 0;      // objects are counted from 1
+  std::vector<std::uint32_t> objects_;               // of the vertices of this frame, or no_vertex
   ReservoirPlanes<LightPoint> lights_;
   ReservoirPlanes<PathSample> paths_;  // of no size where paths are not reused
   std::vector<PixelSample> frame_;     // without the reused light

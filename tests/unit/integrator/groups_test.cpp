@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <optional>
 #include <set>
 
 #include "render/watch.h"
@@ -15,10 +14,9 @@ namespace {
 const PixelBounds picture{3, 2, 40, 29};
 constexpr std::size_t size = 6;
 
-// A key that spreads; every seventh pixel has no vertex.
-std::optional<std::uint64_t> key(std::size_t pixel, int x, int y) {
-  if (pixel % 7 == 0) return {};
-  return std::uint64_t(x * 7919 + y * 104729) % 1009;
+// An order that mixes; every seventh pixel has no vertex.
+void put_in_order(std::span<PlacedPixel> pixels) {
+  for (PlacedPixel& p : pixels) p.place = p.pixel * std::uint64_t(7919) % 1009;
 }
 bool exists(std::size_t pixel) { return pixel % 7 != 0; }
 
@@ -26,7 +24,7 @@ using Groups = std::set<std::set<std::uint32_t>>;
 Groups all_groups(const ReuseBlocks& blocks, const std::vector<PixelBounds>& tiles) {
   Groups all;
   for (const PixelBounds& tile : tiles) {
-    const PixelGroups groups = groups_of(blocks, picture, tile, size, key);
+    const PixelGroups groups = groups_of(blocks, picture, tile, size, exists, put_in_order);
     for (std::size_t i = 0; i < groups.count(); ++i)
       EXPECT_TRUE(all.insert({groups.group(i).begin(), groups.group(i).end()}).second);
   }
