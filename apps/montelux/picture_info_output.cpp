@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
+#include "picture_output.h"
 #include "progress.h"
 
 namespace montelux::cli {
@@ -74,6 +75,7 @@ void print_error(const RenderFacts& facts) {
     print_line("error",
                facts.error_bar.starts_with("none: ") ? "unknown: " + facts.error_bar.substr(6) : facts.error_bar);
   }
+  if (facts.missing_by_chance) print_line("", missing_text(*facts.missing_by_chance));
   if (facts.interval_confidence)
     print_line(
         "", fmt::format("low to high contain the true value of a pixel with {:g} %", 100 * *facts.interval_confidence));

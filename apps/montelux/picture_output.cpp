@@ -166,6 +166,7 @@ std::string error_line(const Rendering& rendering) {
   if (error.is_unsure())
     line += fmt::format("; few bright samples determine it: {:.3g} to {:.3g} %", 100 * std::sqrt(error.relative_low),
                         100 * std::sqrt(error.relative_high));
+  if (error.may_miss_light()) line += "\n         " + missing_text(error.missing_share(confidence));
   return line;
 }
 
@@ -194,6 +195,12 @@ void print_mixing(const MixingFigures& mixing) {
 }
 
 }  // namespace
+
+std::string missing_text(double share) {
+  return fmt::format(
+      "up to {} may be missing: light that paths meet by chance (vcm and sppm look for it in other ways)",
+      share < 1 ? fmt::format("{:.2g} % of the mean", 100 * share) : fmt::format("{:.2g} times the mean", share));
+}
 
 Outcome outcome_of(const Rendering& rendering) {
   const RenderResult& result = rendering.result;
@@ -228,6 +235,7 @@ void print_picture_json(const PictureReport& report, const Rendering& rendering)
       known ? Json{number_or_null(outcome.error.relative_low), number_or_null(outcome.error.relative_high)} : Json();
   json["tail_index"] = known ? number_or_null(outcome.error.tail_index) : Json();
   json["unsure_error"] = known && outcome.error.is_unsure();
+  json["missing_by_chance"] = known ? number_or_null(outcome.error.missing_share(confidence)) : Json();
   if (rendering.choice) json["choice"] = choice_json(*rendering.choice);
   if (rendering.target) json["target"] = target_json(*rendering.target);
   if (rendering.denoised) json["denoised"] = denoising_json<Json>(rendering.denoised->estimate);

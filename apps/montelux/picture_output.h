@@ -18,6 +18,9 @@ struct Outcome {
 
 Outcome outcome_of(const Rendering& rendering);
 
+// A sentence on light that may be missing because paths meet it by chance; `share`: of the picture's mean.
+std::string missing_text(double share);
+
 // What is reported of a picture besides itself.
 struct PictureReport {
   std::string scene;

@@ -183,6 +183,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
     name = candidates[choice.chosen].name;
     plan.chosen = std::move(*best.chosen), plan.integrator_text = canonical_text(best.choice);
     note_light(plan.chosen, parts);
+    plan.settings.image.max_chance_radiance = plan.chosen.max_chance_radiance;
     plan.settings.plan = {};
     if (Status good = plan_samples(automatic.options, parts.picture.samples, plan); !good) return good;
   }

@@ -134,7 +134,8 @@ Json facts_json(const PictureFacts& f) {
           {"content", content_names[std::size_t(f.content)]},
           {"states_exposure", f.states_exposure},
           {"layers", f.layers ? layers_json(*f.layers) : Json()},
-          {"choice", f.choice ? choice_json(*f.choice) : Json()}};
+          {"choice", f.choice ? choice_json(*f.choice) : Json()},
+          {"max_chance_radiance", f.max_chance_radiance.c}};
 }
 PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   PictureFacts f;
@@ -150,6 +151,8 @@ PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   if (const Json& layers = j.at("layers"); !layers.is_null()) f.layers = layers_from(layers);
   // Films of older versions have none.
   if (const auto choice = j.find("choice"); choice != j.end() && !choice->is_null()) f.choice = choice_from(*choice);
+  if (const auto radiance = j.find("max_chance_radiance"); radiance != j.end())
+    for (std::size_t c = 0; c < rgb_size; ++c) f.max_chance_radiance.c[c] = radiance->at(c);
   return f;
 }
 
@@ -292,6 +295,7 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
   if (!(seconds >= 0)) throw std::invalid_argument("its time is damaged");
   Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side),
                         j.contains("has_emission_rays"), bytes);
+  film.set_max_chance_radiance(facts.max_chance_radiance);
   const auto adaptive = j.find("adaptive");
   const bool is_adaptive = adaptive != j.end() && !adaptive->is_null();
   const std::size_t tiles = film.tiles().size();

@@ -80,6 +80,7 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
     add("estimatedRelativeMSELow", error.relative_low);
     add("estimatedRelativeMSEHigh", error.relative_high);
     if (error.is_unsure()) add("unsureError", std::string("few bright samples determine the error"));
+    if (error.may_miss_light()) add("missingByChance", error.missing_share(default_confidence));
   }
   if (const auto& target = rendering.target) {
     add("targetError", to_text(target->request.error));
@@ -90,6 +91,8 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
   for (int c = 0; c < rgb_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
     if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
+    if (const double light = rendering.error.chance_light[std::size_t(c)]; has_error_bar && light > 0)
+      add(fmt::format("meanChanceLight{}", "RGB"[c]), light);
   }
   // A file that must be the same in every run carries no times.
   if (auto date = date_attribute())
@@ -145,7 +148,9 @@ Rendering rendering_of(SavedFilm film) {
 
 std::optional<Interval> Rendering::interval_of_mean(int channel, double confidence) const {
   if (!has_error_bar()) return std::nullopt;
-  return confidence_interval(image.mean[channel], image.standard_error[channel], image.passes, confidence);
+  return interval_with_missing(
+      confidence_interval(image.mean[channel], image.standard_error[channel], image.passes, confidence),
+      error.chance_light[std::size_t(channel)], confidence);
 }
 
 }  // namespace montelux

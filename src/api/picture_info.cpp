@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "api/images.h"
+#include "film/picture_error.h"
 
 namespace montelux {
 
@@ -83,9 +84,11 @@ std::optional<MeanOfFile> mean_of(const Header& header, double confidence) {
   MeanOfFile known{*mean, header.rgb("meanStandardError"), {}};
   const std::optional<double> passes = header.number("passes");
   if (!known.standard_error || !passes || *passes < 2) return known;
+  const auto chance_light = header.rgb("meanChanceLight").value_or(std::array<double, 3>{});
   known.interval.emplace();
   for (std::size_t c = 0; c < 3; ++c)
-    (*known.interval)[c] = confidence_interval((*mean)[c], (*known.standard_error)[c], *passes, confidence);
+    (*known.interval)[c] = interval_with_missing(
+        confidence_interval((*mean)[c], (*known.standard_error)[c], *passes, confidence), chance_light[c], confidence);
   return known;
 }
 
@@ -108,6 +111,7 @@ RenderFacts facts_of(const Header& header, double confidence) {
   const std::optional<double> low = header.number("estimatedRelativeMSELow");
   const std::optional<double> high = header.number("estimatedRelativeMSEHigh");
   if (error && low && high) facts.error = RelativeErrorOfFile{*error, *low, *high, !header.text("unsureError").empty()};
+  facts.missing_by_chance = header.number("missingByChance");
   facts.denoised_relative_mse = header.number("denoisedRelativeMSE");
   return facts;
 }

@@ -46,6 +46,7 @@ struct RenderFacts {
   std::optional<MeanOfFile> mean;
   std::optional<BiasOfFile> bias;
   std::optional<RelativeErrorOfFile> error;
+  std::optional<double> missing_by_chance;  // over the mean, where it may be much
   std::optional<double> denoised_relative_mse;
 };
 

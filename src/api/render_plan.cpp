@@ -138,6 +138,7 @@ Status plan_image(const PictureSettings& picture, const RenderOptions& options, 
     return Failure{fmt::format("sampler {} uses the same points in every pass, but {} needs different ones",
                                name_of(image.sampler), options.budget ? "a time budget" : chosen.name)};
   note_sampler(chosen, image.sampler);
+  image.max_chance_radiance = chosen.max_chance_radiance;
   image.width = picture.width, image.height = picture.height;
   image.bounds = options.crop.value_or(picture.crop);
   const PixelBounds& b = image.bounds;
@@ -310,7 +311,8 @@ PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, c
           parts.info.states_exposure,
           settings.image.layers,
           plan.target,
-          plan.choice};
+          plan.choice,
+          settings.image.max_chance_radiance};
 }
 
 }  // namespace montelux

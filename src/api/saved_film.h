@@ -21,6 +21,7 @@ struct PictureFacts {
   std::optional<LayerPlan> layers;
   std::optional<TargetRequest> target{};
   std::optional<AutomaticChoice> choice{};
+  Rgb max_chance_radiance{};  // as Film has it
 };
 
 // What decides the passes of a film, besides its scene. Films can only be continued or merged where all of it agrees.

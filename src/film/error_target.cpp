@@ -218,6 +218,19 @@ void judge_mean(const ErrorTarget& target, const FilmPlanes& planes, const Image
   state.work = predicted.work, state.work_low = predicted.work_low, state.work_high = predicted.work_high;
 }
 
+// Light that may be missing falls like the number of samples, the rest of a bound like its root: work w for both, where
+// the rest requires `work` alone, is the solution of work / w + missing^2 / (target w)^2 = 1.
+double work_with_missing(double work, double missing_over_target) {
+  return (work + std::sqrt(work * work + 4 * missing_over_target * missing_over_target)) / 2;
+}
+
+void add_missing_light(const ErrorTarget& target, double missing, TargetState& state) {
+  if (missing <= 0) return;
+  for (double* work : {&state.work, &state.work_low, &state.work_high})
+    *work = work_with_missing(*work, missing / target.error);
+  state.bound = std::hypot(state.bound, missing);
+}
+
 }  // namespace
 
 TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const ErrorEstimate& error,
@@ -237,6 +250,7 @@ TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const Err
       judge_mean(target, planes, image, state);
       break;
   }
+  add_missing_light(target, error.missing_share(target.confidence), state);
   return state;
 }
 

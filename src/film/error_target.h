@@ -52,6 +52,7 @@ struct TargetState {
 // - mean: Student's t over the passes. Here looks spend nothing: they see only the spread of the passes, which is
 //   independent of their mean where they are normal (Chow and Robbins 1965), as long as they are few and the first one
 //   is at eight passes or more.
+// Light that paths meet by chance adds to each of them what may be missing of it (missing_samples()).
 TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const ErrorEstimate& error,
                   const ImageEstimate& image, double spent);
 

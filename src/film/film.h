@@ -145,6 +145,10 @@ class Film {
   const PixelGrid& grid() const { return grid_; }
   // The layers, if the film was made with a plan of them. The pass means are then computed from their exact sums.
   const std::optional<LayerFilm>& layers() const { return layers_; }
+  // By channel, the brightest sample that may come from lights that are met by chance alone, so that it may be missing
+  // although no noise shows it; black: there are no such lights.
+  const Rgb& max_chance_radiance() const { return max_chance_radiance_; }
+  void set_max_chance_radiance(const Rgb& radiance) { max_chance_radiance_ = radiance; }
 
   // Names a tile, which counts cells of the grid. Tiles may not overlap. add_pass() names a tile that has no name
   // yet, but tiles must be named before threads add passes to them.
@@ -214,6 +218,7 @@ class Film {
   std::vector<HalfSums> halves_;  // empty, or by pixel
   FilmTiles tiles_;
   std::optional<LayerFilm> layers_;
+  Rgb max_chance_radiance_{};
 };
 
 }  // namespace montelux

@@ -27,6 +27,7 @@ FilmPlanes::FilmPlanes(const PixelBounds& b) : bounds(b) {
 }
 
 void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
+  max_chance_radiance = film.max_chance_radiance();
   for (int y = part.y0; y < part.y1; ++y)
     for (int x = part.x0; x < part.x1; ++x) {
       const PixelEstimate& pixel = film.pixel(x, y);

@@ -24,6 +24,7 @@ struct FilmPlanes {
   }
 
   PixelBounds bounds;
+  Rgb max_chance_radiance{};           // as Film has it
   ColorPlanes mean, variance;          // over passes; of the mean
   ColorPlanes albedo;                  // mean over samples, as in the following planes
   std::array<Plane, 3> normal;         // world space

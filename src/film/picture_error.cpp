@@ -50,6 +50,21 @@ double tail_deviation(double index, double equal_pixels) {
   return of_tail * tail * std::min(few_pixels / equal_pixels, 1.0);
 }
 
+void add_chance_light(const FilmPlanes& p, ErrorEstimate& error) {
+  double of_one = 0, mean = 0, added = 0;
+  for (std::size_t i = 0; i < p.passes.size(); ++i) {
+    if (p.passes[i] < 2) continue;
+    of_one += 1 / std::max(double(p.samples[i]), 1.0);
+    for (const Plane& channel : p.mean) mean += double(channel[i]) / rgb_size;
+  }
+  const double pixels = double(error.pixels);
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    error.chance_light[c] = double(p.max_chance_radiance.c[c]) * of_one / (pixels * pixels);
+    added += error.chance_light[c] / rgb_size;
+  }
+  error.chance_share = added > 0 ? added * pixels / std::abs(mean) : 0;
+}
+
 // Over the pixels that have two passes.
 Sums sum_pixels(const FilmPlanes& p) {
   const Reciprocals reciprocals(p);
@@ -61,6 +76,11 @@ Sums sum_pixels(const FilmPlanes& p) {
 }
 
 }  // namespace
+
+Interval interval_with_missing(const Interval& interval, double chance_light, double confidence) {
+  const double middle = (interval.low + interval.high) / 2;
+  return {interval.low, middle + std::hypot(interval.high - middle, missing_samples(confidence) * chance_light)};
+}
 
 ErrorEstimate estimate_error(const FilmPlanes& p) {
   ErrorEstimate error;
@@ -74,7 +94,10 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   const double equal_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
   error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, equal_pixels);
   const double factor = std::exp(1.96 * std::hypot(error.chance_deviation(), error.log_deviation));
-  error.relative_low = error.relative_mse / factor, error.relative_high = error.relative_mse * factor;
+  add_chance_light(p, error);
+  const double missing = error.missing_share(default_confidence);
+  error.relative_low = error.relative_mse / factor;
+  error.relative_high = error.relative_mse * factor + missing * missing;
   return error;
 }
 

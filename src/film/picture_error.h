@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "film/film_planes.h"
+#include "mc/confidence.h"
 
 namespace montelux {
 
@@ -14,6 +15,13 @@ inline constexpr double relative_epsilon = 0.01;
 // The standard deviation of the logarithm of a relative mean squared error because its divisors are estimates: images
 // of many scenes state 0.8 to 1.25 of the true error in their mean, which is taken as an interval of 95 %.
 inline constexpr double divisor_deviation = 0.223 / 1.96;
+
+// The number of samples that may be missing of light that is met by chance, with this probability, while none shows it:
+// of a Poisson number that is 0 (the rule of three; Hanley and Lippman-Hand 1983).
+inline double missing_samples(double confidence) { return -std::log1p(-confidence); }
+
+// The interval of a mean, whose upper end leaves room for such light; `chance_light`: of one sample, in the mean.
+Interval interval_with_missing(const Interval& interval, double chance_light, double confidence);
 
 // Estimated mean squared errors: means over channels and over the pixels that have two passes.
 struct ErrorEstimate {
@@ -30,6 +38,10 @@ struct ErrorEstimate {
   // The standard deviation of the logarithm of relative_mse apart from chance: because divisors are estimates, and
   // because bright samples may be rarer than the image shows, by the tail index.
   double log_deviation = divisor_deviation;
+  // What one sample adds to the mean of the image if it is as bright as a sample by chance can be, by channel, and the
+  // mean of the channels over that of the image.
+  std::array<double, rgb_size> chance_light{};
+  double chance_share = 0;
   std::size_t pixels = 0;  // pixels that have two passes
   std::size_t all = 0;     // pixels that could have two: sampled, with a finite sample
 
@@ -43,6 +55,10 @@ struct ErrorEstimate {
     constexpr double few = 64;  // known to a factor of 1.4 at best
     return pixels > 0 && (tail_index < 1 || effective_pixels < std::min(few, double(pixels) / 8));
   }
+  // The light that may be missing because it is met by chance, over the mean of the image.
+  double missing_share(double confidence) const { return missing_samples(confidence) * chance_share; }
+  // Whether this is a tenth or more.
+  bool may_miss_light() const { return pixels > 0 && missing_share(default_confidence) >= 0.1; }
 };
 
 // Relative errors are products of variances and Reciprocals, with the correction of PartialCovers.

@@ -169,7 +169,10 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   result->search = entry->search_of(list), result->content = entry->content;
   result->abilities = entry->abilities_of(list);
   if (scene.pixel_centres && result->search == LightSearch::both_ends) result->search = LightSearch::any_length;
+  result->max_chance_radiance =
+      max_chance_radiance(result->chance_lights, result->search, scene, accel, request.width(), request.height());
   if (limit) {
+    for (float& radiance : result->max_chance_radiance.c) radiance = std::min(radiance, *limit);
     if (result->coupled)
       result->coupled = std::make_unique<ClampedCoupledIntegrator>(std::move(result->coupled), *limit);
     else

@@ -10,6 +10,7 @@
 
 #include "accel/accel.h"
 #include "image/display.h"
+#include "integrator/chance_light.h"
 #include "integrator/integrator.h"
 #include "integrator/path_classes.h"
 #include "parameter/choice.h"
@@ -47,7 +48,9 @@ struct ChosenIntegrator {
   std::vector<std::string> notes;               // the same for people, in sentences
   std::unique_ptr<CoupledIntegrator> coupled;   // of an integrator whose pixels share samples
   LightSearch search = LightSearch::any_length;
-  int chain_length = 0;                // of LightSearch::with_chains: specular events of a connection at most
+  int chain_length = 0;  // of LightSearch::with_chains: specular events of a connection at most
+  ChanceLights chance_lights = ChanceLights::specular;
+  Rgb max_chance_radiance{};           // of these lights: no sample that meets one by chance is brighter
   Content content = Content::light;    // what its pictures hold, and so how they are displayed
   std::vector<std::string> missing{};  // sorts of light in the scene that it cannot find; notes say why
   std::uint32_t abilities = 0;         // those of its row in the catalogue, and of its settings

@@ -46,6 +46,21 @@ LightSet LightSet::with(std::shared_ptr<const ClusterField> clusters) const {
   return lights;
 }
 
+bool LightSet::is_masked(LightId light) const {
+  return (rows<float>(std::uint32_t(light), true).bits(light_slot::flags) & light_masked) != 0;
+}
+
+Rgb LightSet::max_hit_radiance(LightId light) const {
+  Rgb largest = gray_rgb(0);
+  if (is_delta(kind(light))) return largest;
+  const LightRows<float> row = rows<float>(std::uint32_t(light), true);
+  const std::uint32_t image = row.bits(light_slot::image);
+  if (image == 0) return to_rgb(row.emission());
+  for (const Rgb& texel : tables_.images[image - 1]->texels)
+    for (int c = 0; c < rgb_size; ++c) largest.c[c] = std::max(largest.c[c], texel.c[c]);
+  return largest * to_rgb(row.emission());
+}
+
 std::optional<SkyLight> LightSet::sky_light() const {
   const auto infinite = std::span(unbounded_).first(std::size_t(infinite_count_));
   if (infinite.empty()) return std::nullopt;

@@ -18,6 +18,7 @@ struct ImageSettings {
   std::optional<Shutter> shutter;   // instead of the scene's
   std::optional<LayerPlan> layers;  // only for integrators that have layers
   bool halves = false;              // the film stores both halves of the passes
+  Rgb max_chance_radiance{};        // as Film has it
 
   PointSet points(int pass, int samples_per_pass) const {
     return {sampler, seed, std::uint32_t(pass), std::uint32_t(samples_per_pass)};

@@ -165,6 +165,7 @@ Film first_film(const RenderSettings& settings, int tile_side) {
   Film film = settings.begun
                   ? std::move(settings.begun->film)
                   : Film(settings.image.bounds, settings.image.layers, settings.plan.stride, settings.image.halves);
+  film.set_max_chance_radiance(settings.image.max_chance_radiance);
   if (film.tiles().empty())
     for (const PixelBounds& tile : tiles_of(film.grid().cells(), tile_side)) film.name_tile(tile);
   return film;

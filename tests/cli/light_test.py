@@ -1,5 +1,6 @@
 """Light that a picture lacks: named on stderr, in results, in the header and by info, and only where it is so."""
 import json
+import math
 import re
 import unittest
 
@@ -57,6 +58,45 @@ class Light(ProgramTest):
         self.assertIn("missing  light of point lights", text)
         self.assertIn("light of point lights", self.run_program("info", scene).stdout)
         self.assertEqual(len(json.loads(self.run_program("info", scene, "--json").stdout)["missing_light"]), 1)
+
+    def test_light_that_is_met_by_chance(self):
+        """What one sample of the brightest such lamp adds, times three: the rule of three, in every place that states it."""
+        missing = -math.log(0.05)  # samples
+        for scene, radiance, integrators in (("lde", 0, ("path", "bdpt", "sppm")), ("lsde", 5, ("path", "restir-pt", "metropolis")),
+                                             ("lsde", 0, ("bdpt", "vcm")), ("lsdse", None, ("path", "bdpt")),
+                                             ("lsdse", 0, ("vcm",))):
+            for integrator in integrators:
+                with self.subTest(scene=scene, integrator=integrator):
+                    stated, _, _ = self.rendered(CLASSES / f"{scene}.pbrt", "--integrator", integrator, "--spp", "16")
+                    if radiance is None:
+                        self.assertGreater(stated["missing_by_chance"], 0)
+                        continue
+                    expected = missing * radiance / stated["samples"] * 3 / sum(stated["mean"]) if radiance > 0 else 0
+                    self.assertAlmostEqual(stated["missing_by_chance"], expected, delta=1e-4 * expected)
+        stated, _, _ = self.rendered(CLASSES / "lde.pbrt", "--integrator", "naive", "--spp", "16")
+        self.assertGreater(stated["missing_by_chance"], 0)  # it finds all lamps by chance
+
+        # A lamp so bright and small that few samples meet it.
+        lamp = ('AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ 9e4 3e4 1e4 ]\nTranslate 0 4 0\n'
+                'Shape "sphere" "float radius" [ 0.01 ]\nAttributeEnd')
+        scene = self.scene(world=lamp)
+        result = self.run_program("render", scene, "--spp", "16", "--quiet", "--integrator", "path", "-o", "out.exr", "--checkpoint",
+                                  "out.film")
+        self.assertIn("may be missing: light that paths meet by chance", result.stdout)
+        self.assertIn("may be missing: light that paths meet by chance", self.run_program("info", "out.exr").stdout)
+        again = self.run_program("merge", "out.film", "-o", "again.exr", "--json")
+        rendered, _, _ = self.rendered(scene, "--spp", "16", "--integrator", "path", "--target-error", "mean:50%")
+        self.assertFalse(rendered["target"]["reached"])
+        rendered, _, _ = self.rendered(scene, "--spp", "16", "--integrator", "path")
+        for facts in json.loads(again.stdout), json.loads(self.run_program("info", "out.exr", "--json").stdout):
+            self.assertEqual(facts["interval_of_mean"]["low"], rendered["interval_of_mean"]["low"])
+            for high, expected, mean in zip(facts["interval_of_mean"]["high"], rendered["interval_of_mean"]["high"],
+                                            rendered["mean"]):
+                self.assertAlmostEqual(high, expected, delta=1e-5 * expected)
+                self.assertGreater(high, 2 * mean)
+        clamped, _, _ = self.rendered(scene, "--spp", "16", "--integrator", "path:maxcomponent=2")
+        self.assertAlmostEqual(clamped["missing_by_chance"],
+                               missing * 2 / clamped["samples"] * 3 / sum(clamped["mean"]), delta=1e-4)
 
     def test_kinds_of_lights_and_of_surfaces(self):
         lights = {

@@ -18,6 +18,7 @@ Result<ChosenIntegrator> make_path(const IntegratorRequest& r) {
   ChosenIntegrator chosen =
       chosen_integrator(naive ? "naive" : "path", std::make_unique<PathTracer>(r.scene, r.accel, *settings));
   chosen.chain_length = settings->manifold;
+  if (naive) chosen.chance_lights = ChanceLights::all;
   note_depth(chosen, r.max_depth);
   return chosen;
 }
