@@ -255,13 +255,32 @@ Plane emitters_around(const Spreads& s, const std::vector<std::uint8_t>& emitter
   return max_around(error, s.width, 1);
 }
 
-// At each pixel 1 if one of the 3 x 3 pixels around it shows a lamp, else 0: an emitter, or mostly what is beyond the
-// scene.
-Plane lamps_around(const FilmPlanes& planes, const std::vector<std::uint8_t>& emitters) {
-  Plane lamps(emitters.size());
+// The pixels of which it is known that lamps cover all of them or nothing: those to which an integrator that traces more
+// rays for lamps in view has given none.
+std::vector<std::uint8_t> known_covers_of(const FilmPlanes& planes) {
+  std::vector<std::uint8_t> known(planes.samples.size());
+  bool has_more_rays = false;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    known[i] = planes.emission_rays[i] <= planes.samples[i];
+    has_more_rays |= known[i] == 0;
+  }
+  if (!has_more_rays) known.assign(known.size(), 0);
+  return known;
+}
+
+// At each pixel 1 if one of the 3 x 3 pixels around it shows a lamp that may cover a part of it, else 0: an emitter, or
+// mostly what is beyond the scene.
+Plane lamps_around(const FilmPlanes& planes, const std::vector<std::uint8_t>& emitters,
+                   const std::vector<std::uint8_t>& known_covers) {
+  Plane lamps(emitters.size()), beyond(emitters.size());
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    beyond[i] = planes.passes[i] > 0 && planes.coverage[i] < 0.5f ? 1.0f : 0.0f;
+    lamps[i] = emitters[i] ? 1.0f : beyond[i];
+  }
+  lamps = max_around(lamps, planes.bounds.width(), 1), beyond = max_around(beyond, planes.bounds.width(), 1);
   for (std::size_t i = 0; i < lamps.size(); ++i)
-    lamps[i] = emitters[i] || (planes.passes[i] > 0 && planes.coverage[i] < 0.5f) ? 1.0f : 0.0f;
-  return max_around(lamps, planes.bounds.width(), 1);
+    if (known_covers[i]) lamps[i] = beyond[i];
+  return lamps;
 }
 
 // The difference between the brightest and the darkest of the 3 x 3 pixels around each pixel where `lamps` is 1, else
@@ -291,7 +310,8 @@ PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
   const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
-  const Plane lamps = lamps_around(planes, emitters);
+  const std::vector<std::uint8_t> known_covers = known_covers_of(planes);
+  const Plane lamps = lamps_around(planes, emitters, known_covers);
   ColorPlanes beside, contrast;
   for (std::size_t c = 0; c < rgb_size; ++c) {
     beside[c] = emitters_around(spreads, emitters, c);
@@ -316,7 +336,7 @@ PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
         if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);
-        around = std::max(around, double(beside_emitter * beside[c][i]));
+        if (!known_covers[i]) around = std::max(around, double(beside_emitter * beside[c][i]));
         const double variance = (prior * around * around + freedom * double(planes.variance[c][i])) / (prior + freedom);
         const double mean = double(planes.mean[c][i]);
         const double half_width = std::max(quantile * std::sqrt(variance), uncertain_cover * double(contrast[c][i]));

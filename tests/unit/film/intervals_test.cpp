@@ -22,6 +22,7 @@ struct Law {
   double probability = 0;
   std::uint32_t object = 1;
   bool emits = false;  // the bright samples are those of an emitter that the camera sees
+  std::uint32_t emission_rays = 1;
   double expectation() const { return double(base) + probability * double(bright); }
   // Of the mean over all passes of one sample.
   double standard_error() const {
@@ -44,6 +45,7 @@ Film film_of(LawOf law_of, std::uint32_t seed) {
       s.radiance = gray_rgb(law.base * (1 + law.spread * (2 * random.at(number + 1) - 1)) + (hit ? law.bright : 0.0f));
       s.features.coverage = 1, s.features.object = law.object;
       if (hit && law.emits) s.features.emission = gray_rgb(law.bright);
+      s.features.emission_rays = law.emission_rays;
       s.features.albedo = gray_rgb(law.object % 2 == 0 ? 0.9f : 0.2f);
     }
     film.add_pass(bounds, pass, 1, samples);
@@ -194,6 +196,21 @@ TEST(PixelIntervals, know_of_the_edge_of_a_lamp) {
 }
 
 // A sample of a thousand of a thousand times the light: the interval of a pixel that has none is not that of one.
+// Rays for lamps went to the pixels at the edge of a lamp alone, so that those beside them show nothing of it.
+TEST(PixelIntervals, are_not_widened_beside_a_lamp_whose_pixels_are_known) {
+  const auto lamp = [](int x, std::uint32_t rays_at_edge) {
+    const bool edge = x % 12 == 3 || x % 12 == 8, inside = x % 12 > 3 && x % 12 < 8;
+    return Law{0.05f, 0.3f, inside ? 30.0f : edge ? 15.0f : 0.0f, 1, 1, true, edge ? rays_at_edge : 1};
+  };
+  const auto beside_edge = [](int x, int) { return x % 12 == 2 || x % 12 == 9; };
+  const auto known = [&](int x, int) { return lamp(x, 8); };
+  const auto unknown = [&](int x, int) { return lamp(x, 1); };
+  const Coverage c = coverage_of(known, beside_edge);
+  EXPECT_GT(c.share, 0.93);
+  EXPECT_LT(c.width, 1.3);
+  EXPECT_GT(coverage_of(unknown, beside_edge).width, 10);
+}
+
 TEST(PixelIntervals, are_not_widened_by_what_hardly_any_pixel_has) {
   const auto fireflies = [](int, int) { return Law{0.2f, 0.3f, 200, 1e-4, 1}; };
   const Coverage c = coverage_of(fireflies, everywhere);
