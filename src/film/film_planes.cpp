@@ -52,4 +52,15 @@ void FilmPlanes::copy(const Film& film, const PixelBounds& part) {
     }
 }
 
+std::vector<std::uint8_t> known_covers_of(const FilmPlanes& planes) {
+  std::vector<std::uint8_t> known(planes.samples.size());
+  bool has_more_rays = false;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    known[i] = planes.emission_rays[i] <= planes.samples[i];
+    has_more_rays |= known[i] == 0;
+  }
+  if (!has_more_rays) known.assign(known.size(), 0);
+  return known;
+}
+
 }  // namespace montelux

@@ -38,4 +38,8 @@ struct FilmPlanes {
   std::vector<std::uint8_t> expected;  // 1: the pixel is sampled and has a finite sample
 };
 
+// 1 for pixels of which it is known that emitters in view cover all of them or nothing: those to which an integrator
+// that traces more rays for lamps has given none; else 0.
+std::vector<std::uint8_t> known_covers_of(const FilmPlanes& planes);
+
 }  // namespace montelux

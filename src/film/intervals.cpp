@@ -255,19 +255,6 @@ Plane emitters_around(const Spreads& s, const std::vector<std::uint8_t>& emitter
   return max_around(error, s.width, 1);
 }
 
-// The pixels of which it is known that lamps cover all of them or nothing: those to which an integrator that traces more
-// rays for lamps in view has given none.
-std::vector<std::uint8_t> known_covers_of(const FilmPlanes& planes) {
-  std::vector<std::uint8_t> known(planes.samples.size());
-  bool has_more_rays = false;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    known[i] = planes.emission_rays[i] <= planes.samples[i];
-    has_more_rays |= known[i] == 0;
-  }
-  if (!has_more_rays) known.assign(known.size(), 0);
-  return known;
-}
-
 // At each pixel 1 if one of the 3 x 3 pixels around it shows a lamp that may cover a part of it, else 0: an emitter, or
 // mostly what is beyond the scene.
 Plane lamps_around(const FilmPlanes& planes, const std::vector<std::uint8_t>& emitters,

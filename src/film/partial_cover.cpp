@@ -12,7 +12,8 @@ namespace montelux {
 
 namespace {
 
-// The pixels around count like so many samples at most.
+// The pixels around count like so many samples at most where something covers all of a pixel. What covers less at most
+// covers as much less of each pixel, so that they count for more.
 constexpr double max_prior_samples = 2;
 // Smaller parts count as none: filters end, and show nothing of what lies farther away.
 constexpr double min_part = 1e-3;
@@ -60,6 +61,12 @@ bool is_hit(double share, double samples) { return share * samples > 0.5; }
 
 double PartialCovers::Cover::brightness() const { return mean_of(bright); }
 
+double PartialCovers::Cover::prior_samples() const {
+  constexpr double uncertain = 3;  // hits
+  const double at_most = std::min(largest + uncertain / samples, 1.0);
+  return std::min(max_prior_samples / at_most, std::max(samples, max_prior_samples));
+}
+
 PartialCovers::PartialCovers(const FilmPlanes& planes)
     : planes_(planes), brightness_(planes.passes.size()), index_(planes.passes.size(), -1) {
   for (const Plane& channel : planes.mean)
@@ -82,7 +89,7 @@ std::optional<PartialCovers::PossibleParts> PartialCovers::possible_parts(const 
   const bool is_found = is_hit(c.share, c.samples);
   // The pixels around say nothing of an emitter that is smaller than a pixel; the agreement of halves knows it.
   if (c.of_emitter && is_found && 4 * c.around < c.share) return std::nullopt;
-  const double prior_samples = is_found ? overlap_ * max_prior_samples : max_prior_samples;
+  const double prior_samples = is_found ? overlap_ * c.prior_samples() : c.prior_samples();
   const PossibleParts parts{c.samples * c.share + prior_samples * c.around,
                             c.samples * (1 - c.share) + prior_samples * (1 - c.around), is_found ? 1 : overlap_};
   constexpr double least = 1e-6;
@@ -160,6 +167,7 @@ void PartialCovers::find_covers() {
   Plane open = planes_.coverage;
   for (float& share : open) share = 1 - share;
   open = max_around(open, width, 1);
+  const std::vector<std::uint8_t> known_covers = known_covers_of(planes_);
   std::size_t pixel = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x, ++pixel) {
@@ -168,6 +176,7 @@ void PartialCovers::find_covers() {
       Cover cover;
       cover.pixel = std::uint32_t(pixel), cover.samples = double(planes_.samples[pixel]);
       cover.of_emitter = emission[pixel] > 0 && covered_by_emitter(x, y, cover);
+      if (cover.of_emitter && known_covers[pixel]) continue;
       if (cover.of_emitter) cover.samples = double(planes_.emission_rays[pixel]);
       if (!cover.of_emitter && !(open[pixel] > 0 && covered_before_darkness(x, y, cover))) continue;
       index_[pixel] = std::int32_t(covers_.size());
@@ -199,8 +208,13 @@ bool PartialCovers::covered_by_emitter(int x, int y, Cover& cover) const {
   const auto share_of = [&](double value) { return std::clamp((value - dark) / (scale * (light - dark)), 0.0, 1.0); };
   cover.share = share_of(double(brightness_[cover.pixel])), cover.around = share_of(around / count);
   int half_covered = 0;
-  for_each_around(x, y, 1, [&](std::size_t i) { half_covered += share_of(double(brightness_[i])) >= 0.5; });
+  cover.largest = 0;
+  for_each_around(x, y, 1, [&](std::size_t i) {
+    const double share = share_of(double(brightness_[i]));
+    half_covered += share >= 0.5, cover.largest = std::max(cover.largest, share);
+  });
   cover.at_rim = half_covered >= 2;
+  if (cover.at_rim) cover.largest = 1;
   return true;
 }
 
@@ -266,7 +280,7 @@ void PartialCovers::measure_prior() {
   for (const Cover& c : covers_) {
     const double base = mean_of(c.base), light = c.brightness();
     const auto share_of = [&](float half) { return std::clamp((double(half) - base) / light, 0.0, 1.0); };
-    const double expected = max_prior_samples * c.around / (c.samples / 2 + max_prior_samples);
+    const double prior = c.prior_samples(), expected = prior * c.around / (c.samples / 2 + prior);
     const double first = share_of(planes_.first_half[c.pixel]), second = share_of(planes_.second_half[c.pixel]);
     for (const auto& [empty, other] : {std::pair{first, second}, std::pair{second, first}})
       if (!is_hit(empty, c.samples)) seen += c.around * other, foreseen += c.around * expected;

@@ -39,12 +39,15 @@ class PartialCovers {
     bool of_emitter = false;
     bool at_rim = false;  // of an emitter that covers at least half of two pixels near
     double samples = 0;
-    double share = 0;   // of the samples that are covered
-    double around = 0;  // the mean share of the pixels around
-    double noise = 0;   // h
+    double share = 0;    // of the samples that are covered
+    double around = 0;   // the mean share of the pixels around
+    double largest = 1;  // the largest share of these and of the pixel itself; 1 at a rim: more is not expected
+    double noise = 0;    // h
     std::array<double, rgb_size> base{}, bright{};
 
     double brightness() const;
+    // How many samples the pixels around count like at most.
+    double prior_samples() const;
     // The unbiased estimate of p (1 - p).
     double spread() const { return samples > 1 ? share * (1 - share) * samples / (samples - 1) : 0; }
   };

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace montelux {
 
@@ -58,8 +60,14 @@ constexpr float last = 0.999f;
 constexpr std::array<Vec2f, 9> lens_points{
     {{0.5f, 0.5f}, {0, 0}, {0.5f, 0}, {last, 0}, {0, 0.5f}, {last, 0.5f}, {0, last}, {0.5f, last}, {last, last}}};
 
-// Whether rays through the box, on a grid, meet an emitter: where none does it is behind something else.
-bool shows_emitter(const Scene& scene, const Accel& accel, const RasterBox& box) {
+// The corners of a quadrilateral of the picture, in order; two of them are the same in a triangle.
+using RasterQuad = std::array<Vec2f, 4>;
+RasterQuad quad_of(const RasterBox& box) {
+  return {box.low, Vec2f{box.high.x, box.low.y}, box.high, Vec2f{box.low.x, box.high.y}};
+}
+
+// Whether rays through the quadrilateral, on a grid, meet an emitter: where none does it is behind something else.
+bool shows_emitter(const Scene& scene, const Accel& accel, const RasterQuad& quad) {
   using F = NativeFloats;
   constexpr std::uint32_t side = 8;
   for (std::uint32_t first = 0; first < side * side; first += std::uint32_t(lanes_of<F>)) {
@@ -67,7 +75,11 @@ bool shows_emitter(const Scene& scene, const Accel& accel, const RasterBox& box)
     const Uint<F> i = (lane_index<F>() + Uint<F>(first)) * Uint<F>(29u);
     const F u = (to_float(i & Uint<F>(side - 1)) + 0.5f) * (1.0f / float(side)),
             v = (to_float((i >> 3) & Uint<F>(side - 1)) + 0.5f) * (1.0f / float(side));
-    const Vec2<F> raster{u * box.size().x + box.low.x, v * box.size().y + box.low.y};
+    const auto between = [&](float Vec2f::*c) {
+      const F low = u * (quad[1].*c - quad[0].*c) + quad[0].*c, high = u * (quad[2].*c - quad[3].*c) + quad[3].*c;
+      return v * (high - low) + low;
+    };
+    const Vec2<F> raster{between(&Vec2f::x), between(&Vec2f::y)};
     const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f), F(0.5f)}).ray;
     const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), F(0.0f)}, Mask<F>(true), RayUse::camera);
     if (any(meets_emitter<F>(scene, hit, found))) return true;
@@ -117,6 +129,84 @@ class PixelBoxes {
   bool is_empty_ = true;
 };
 
+// A convex polygon of the picture.
+using Outline = std::vector<Vec2f>;
+
+RasterBox box_of(const Outline& outline) {
+  RasterBox box{outline[0], outline[0]};
+  for (const Vec2f& p : outline) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+float cross(Vec2f a, Vec2f b) { return a.x * b.y - a.y * b.x; }
+float dot(Vec2f a, Vec2f b) { return a.x * b.x + a.y * b.y; }
+
+// A flat emitter as the picture shows it; none: it has another shape, or is not wholly before the camera.
+std::optional<Outline> outline_of(const Scene& scene, LightId light) {
+  const std::optional<LightPolygon> polygon = scene.lights.polygon(light);
+  if (!polygon) return std::nullopt;
+  Outline outline;
+  for (int i = 0; i < polygon->count; ++i) {
+    const LensConnection<float> at = scene.camera.toward(polygon->corners[std::size_t(i)], lens_points[0]);
+    if (!at.seen || !std::isfinite(at.raster.x) || !std::isfinite(at.raster.y)) return std::nullopt;
+    outline.push_back(at.raster);
+  }
+  return outline;
+}
+
+RasterQuad quad_of(const Outline& corners) { return {corners[0], corners[1], corners[2], corners.back()}; }
+
+// The smallest distance of two parallel lines that it is between.
+float width_of(const Outline& outline) {
+  float width = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2f edge = outline[(i + 1) % outline.size()] - outline[i];
+    const float length = std::sqrt(dot(edge, edge));
+    if (length <= 0) continue;
+    float farthest = 0;
+    for (const Vec2f& p : outline) farthest = std::max(farthest, std::abs(cross(edge, p - outline[i])) / length);
+    width = std::min(width, farthest);
+  }
+  return width;
+}
+
+// The part where dot(p, d) <= end (Sutherland and Hodgman 1974).
+Outline part_before(const Outline& outline, Vec2f d, float end) {
+  Outline part;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2f &p = outline[i], &next = outline[(i + 1) % outline.size()];
+    const float a = dot(p, d) - end, b = dot(next, d) - end;
+    if (a <= 0) part.push_back(p);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) part.push_back(p + (next - p) * (a / (a - b)));
+  }
+  return part;
+}
+
+// Boxes of the parts of an outline that is narrow and oblique, which its own box is much larger than.
+std::vector<RasterBox> boxes_along(const Outline& outline, float part_length) {
+  constexpr float max_parts = 256;
+  Vec2f axis{1, 0};
+  float longest = 0;
+  for (const Vec2f& p : outline)
+    for (const Vec2f& q : outline)
+      if (const float squared = dot(q - p, q - p); squared > longest) longest = squared, axis = q - p;
+  const Vec2f d = axis * (1 / std::sqrt(std::max(longest, 1e-12f)));
+  float first = dot(outline[0], d), end = first;
+  for (const Vec2f& p : outline) first = std::min(first, dot(p, d)), end = std::max(end, dot(p, d));
+  const int parts = int(std::clamp((end - first) / part_length, 1.0f, max_parts));
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < parts; ++i) {
+    const float from = first + (end - first) * float(i) / float(parts),
+                to = first + (end - first) * float(i + 1) / float(parts);
+    const Outline part = part_before(part_before(outline, d, to), d * -1.0f, -from);
+    if (!part.empty()) boxes.push_back(box_of(part));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 std::shared_ptr<const LampPixels> LampPixels::of(const Scene& scene, const Accel& accel, int width, int height) {
@@ -135,10 +225,20 @@ std::shared_ptr<const LampPixels> LampPixels::of(const Scene& scene, const Accel
                 seen = lens->open ? place_of(*bounds, scene.camera, lens_points) : sharp;
     if (!seen.in_view) continue;
     const RasterBox box = seen.known ? seen.box : RasterBox{{0, 0}, size};
-    if (!sharp.known || (sharp.box.size().x >= large && sharp.box.size().y >= large))
+    const std::optional<Outline> outline = lens->open ? std::nullopt : outline_of(scene, LightId(i));
+    if (!sharp.known || (sharp.box.size().x >= large && sharp.box.size().y >= large)) {
+      // Nine points miss what is narrow, and the tips of what is wide.
+      if (outline && width_of(*outline) < large) {
+        for (const RasterBox& part : boxes_along(*outline, large / 2))
+          if (shows_emitter(scene, accel, quad_of(part))) small_ones.add(part, radius);
+        continue;
+      }
+      if (outline)
+        for (const Vec2f& tip : *outline) small_ones.add({tip, tip}, radius);
       large_ones.add(box, radius);
-    else if (lens->open || shows_emitter(scene, accel, box))
+    } else if (lens->open || shows_emitter(scene, accel, outline ? quad_of(*outline) : quad_of(box))) {
       small_ones.add(box, radius);
+    }
   }
   if (large_ones.is_empty() && small_ones.is_empty()) return nullptr;
   large_ones.for_each([&](std::size_t i) { lamps->states_[i].set(unknown); });

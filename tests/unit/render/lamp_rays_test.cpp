@@ -115,6 +115,33 @@ TEST(LampRays, are_spent_where_pixels_show_lamps_in_part) {
   EXPECT_LE(pixels, 48);
 }
 
+// A lamp a tenth of a pixel wide, across the picture: all pixels that show it have rays, and few others.
+TEST(LampRays, are_spent_along_a_narrow_lamp) {
+  const double s = pixel_side, wide = 0.05;
+  const std::string tube = fmt::format(
+      R"(AttributeBegin
+AreaLightSource "diffuse" "rgb L" [9 9 9] "bool twosided" true
+Material "diffuse" "rgb reflectance" [0 0 0]
+Shape "trianglemesh" "point3 P" [{} {} 3 {} {} 3 {} {} 3 {} {} 3] "integer indices" [0 1 2 0 2 3]
+AttributeEnd
+)",
+      -8 * s, (-5 - wide) * s, 8 * s, (5 - wide) * s, 8 * s, (5 + wide) * s, -8 * s, (-5 + wide) * s);
+  std::string text = scene_text("");
+  text = text.substr(0, text.find("AttributeBegin")) + tube;
+  const TestScene scene{std::string_view(text)};
+  const Film shown = rendered(scene, "path:lamp-rays=0").film, film = rendered(scene, "path", 2).film;
+  int with_light = 0, with_rays = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const PixelFeatures f = film.features(x, y);
+      const bool light = shown.mean(x, y)[0] > 0, rays = f.emission_rays > f.samples;
+      with_light += light, with_rays += rays;
+      EXPECT_TRUE(rays || !light) << x << ' ' << y;
+    }
+  EXPECT_GE(with_light, 16);
+  EXPECT_LE(with_rays, 3 * with_light);
+}
+
 // Light by light: the layers of the two lamps sum to the image, and that of the large one has its closed form (its rim
 // alone makes noise, of less than a hundredth).
 TEST(LampRays, belong_to_the_layers_of_their_lamps) {
