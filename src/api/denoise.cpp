@@ -161,6 +161,8 @@ std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& n
         std::pair{"albedo.R", &red}, std::pair{"albedo.G", &green}, std::pair{"albedo.B", &blue}, std::pair{"N.X", &x},
         std::pair{"N.Y", &y}, std::pair{"N.Z", &z}})
     if (!read_plane(image, name, *plane)) return std::nullopt;
+  // Images of older versions have one for each sample.
+  if (!read_plane(image, emission_rays_layer, whole.emission_rays)) whole.emission_rays = whole.samples;
   whole.variance = noisy.variance;
   const auto& [a, b] = noisy.halves;
   for (std::size_t i = 0; i < noisy.pixels(); ++i) {

@@ -93,4 +93,7 @@ inline constexpr std::array<HalfLayerNames, 2> half_layer_names{
     {{"first_half", "first_half_emission", "first_half_albedo", "first_half_N", "first_half.share"},
      {"second_half", "second_half_emission", "second_half_albedo", "second_half_N", "second_half.share"}}};
 
+// The number of rays of both halves that show their emission.
+inline constexpr std::string_view emission_rays_layer = "emission_rays";
+
 }  // namespace montelux

@@ -133,7 +133,7 @@ void append_light(PixelBuffer& image, int first, const LayerFilm& film, const Pi
   }
 }
 
-// Appends both halves of the passes, for the rows from `first` on.
+// Appends both halves of the passes, and how many rays show their emission, for the rows from `first` on.
 void append_halves(PixelBuffer& image, int first, const Film& film) {
   PixelBuffer added = make_pixel_buffer(image.width, image.height, {});
   for (const HalfLayerNames& names : half_layer_names) {
@@ -142,6 +142,7 @@ void append_halves(PixelBuffer& image, int first, const Film& film) {
     for (const char* channel : {".X", ".Y", ".Z"}) added.channels.push_back(std::string(names.normal) + channel);
     added.channels.emplace_back(names.share);
   }
+  added.channels.emplace_back(emission_rays_layer);
   added.values.resize(added.pixel_count() * added.channels.size());
   const PixelGrid& grid = film.grid();
   fill_by_cells(grid, first, image.height, added.channel_count(), added.values.data(), [&](int x, int y, float* to) {
@@ -152,6 +153,7 @@ void append_halves(PixelBuffer& image, int first, const Film& film) {
       for (double channel : half.normal) *to++ = float(channel);
       *to++ = float(half.share);
     }
+    *to++ = float(film.features(grid.bounds.x0 + x, grid.bounds.y0 + y).emission_rays);
   });
   append_layer(image, "", added);
 }

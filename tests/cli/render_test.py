@@ -9,7 +9,7 @@ import signal
 import time
 import unittest
 
-from program import SCENE, SLOWNESS, ProgramTest, read_pfm
+from program import ROOT, SCENE, SLOWNESS, ProgramTest, read_pfm
 
 
 class Render(ProgramTest):
@@ -184,10 +184,23 @@ class Render(ProgramTest):
         self.assertEqual(written["passes"], 8)
         interval = written["interval_of_mean"]
         self.assertEqual(interval["confidence"], 0.95)
+        missing = []
         for channel in range(3):
             width = 2.364624 * written["standard_error"][channel]  # t(0.975) of 7 degrees of freedom
             self.assertAlmostEqual(interval["low"][channel], written["mean"][channel] - width, delta=1e-5 * width)
-            self.assertAlmostEqual(interval["high"][channel], written["mean"][channel] + width, delta=1e-5 * width)
+            high = interval["high"][channel] - written["mean"][channel]
+            self.assertGreaterEqual(high, (1 - 1e-5) * width)
+            missing.append(math.sqrt(max(high ** 2 - width ** 2, 0)))
+        # Above it has room for light that paths meet by chance: by the mirrors and the glass of this scene.
+        expected = written["missing_by_chance"] * sum(written["mean"]) / 3
+        self.assertGreater(expected, 0)
+        self.assertAlmostEqual(sum(missing) / 3, expected, delta=1e-3 * expected)
+        matt = json.loads(self.run_program("render", ROOT / "scenes" / "path-classes" / "lde.pbrt", "--spp", "16", "--json", "--quiet",
+                                           "-o", "matt.pfm").stdout)
+        self.assertEqual(matt["missing_by_chance"], 0)
+        for channel in range(3):
+            width = 2.364624 * matt["standard_error"][channel]
+            self.assertAlmostEqual(matt["interval_of_mean"]["high"][channel], matt["mean"][channel] + width, delta=1e-5 * width)
         self.assertIsNone(json.loads(self.render("--spp", "1", "--json").stdout)["interval_of_mean"])
         self.assertIn("95 %", self.render("--spp", "16").stdout)
 
