@@ -31,14 +31,16 @@ Status check_options(const RenderOptions& options, PointSetKind sampler) {
   return Done{};
 }
 
+// Whether a setting is of the choice itself; others are of all candidates.
+bool is_own(const Setting& setting) { return setting.first == "among" || setting.first == "share"; }
+
 // A candidate with the settings that were stated for all.
 ChoiceText with_common_settings(const std::string& text, const ChoiceText& automatic) {
   ChoiceText choice = parse_choice(text).value();
   for (const Setting& setting : automatic.settings) {
-    const bool is_own = setting.first == "among" || setting.first == "share";
     const bool is_stated =
         std::ranges::any_of(choice.settings, [&](const Setting& s) { return s.first == setting.first; });
-    if (!is_own && !is_stated) choice.settings.push_back(setting);
+    if (!is_own(setting) && !is_stated) choice.settings.push_back(setting);
   }
   return choice;
 }
@@ -137,7 +139,9 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
   const Stopwatch since_start;
   const AutomaticPlan automatic = *std::exchange(plan.automatic, std::nullopt);
   const IntegratorDefaults defaults = integrator_defaults(parts.picture);
-  const auto list = read_settings(automatic_spec(), automatic.choice.settings, "integrator");
+  ChoiceText own = automatic.choice;
+  std::erase_if(own.settings, [](const Setting& setting) { return !is_own(setting); });
+  const auto list = read_settings(automatic_spec(), own.settings, "integrator");
   const auto settings = automatic_settings(list.value());
 
   std::vector<std::string> among = settings->among;

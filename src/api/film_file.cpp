@@ -152,7 +152,12 @@ PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   // Films of older versions have none.
   if (const auto choice = j.find("choice"); choice != j.end() && !choice->is_null()) f.choice = choice_from(*choice);
   if (const auto radiance = j.find("max_chance_radiance"); radiance != j.end())
-    for (std::size_t c = 0; c < rgb_size; ++c) f.max_chance_radiance.c[c] = radiance->at(c);
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const double channel = radiance->at(c);
+      if (!(channel >= 0 && channel <= double(std::numeric_limits<float>::max())))
+        throw std::invalid_argument("the radiance that its paths meet by chance is damaged");
+      f.max_chance_radiance.c[c] = float(channel);
+    }
   return f;
 }
 

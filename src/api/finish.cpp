@@ -91,8 +91,8 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
   for (int c = 0; c < rgb_size; ++c) {
     add(fmt::format("mean{}", "RGB"[c]), image.mean[c]);
     if (has_error_bar) add(fmt::format("meanStandardError{}", "RGB"[c]), image.standard_error[c]);
-    if (const double light = rendering.error.chance_light[std::size_t(c)]; has_error_bar && light > 0)
-      add(fmt::format("meanChanceLight{}", "RGB"[c]), light);
+    if (has_error_bar && rendering.error.chance_share > 0)
+      add(fmt::format("meanChanceLight{}", "RGB"[c]), rendering.error.chance_light[std::size_t(c)]);
   }
   // A file that must be the same in every run carries no times.
   if (auto date = date_attribute())

@@ -50,6 +50,7 @@ double tail_deviation(double index, double equal_pixels) {
   return of_tail * tail * std::min(few_pixels / equal_pixels, 1.0);
 }
 
+// What one sample of light that is met by chance adds to the mean over the pixels that have two passes.
 void add_chance_light(const FilmPlanes& p, ErrorEstimate& error) {
   double of_one = 0, mean = 0, added = 0;
   for (std::size_t i = 0; i < p.passes.size(); ++i) {

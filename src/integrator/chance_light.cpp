@@ -1,6 +1,7 @@
 #include "integrator/chance_light.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "integrator/missing_light.h"
 #include "integrator/smooth_walks.h"
@@ -22,15 +23,11 @@ bool meets_all(ChanceLights lights, LightSearch search, const Scene& scene, cons
 
 Rgb max_chance_radiance(ChanceLights lights, LightSearch search, const Scene& scene, const Accel& accel, int width,
                         int height) {
-  Rgb largest = gray_rgb(0);
   const bool all = meets_all(lights, search, scene, accel, width, height);
-  if (!all && !scene.lights.has_masked()) return largest;
-  for (std::uint32_t i = 0; i < scene.lights.count(); ++i) {
-    if (!all && !scene.lights.is_masked(LightId(i))) continue;
-    const Rgb radiance = scene.lights.max_hit_radiance(LightId(i));
-    for (int c = 0; c < rgb_size; ++c) largest.c[c] = std::max(largest.c[c], radiance.c[c]);
-  }
-  return largest * scene.imaging_ratio;
+  if (!all && !scene.lights.has_masked()) return gray_rgb(0);
+  Rgb largest = scene.lights.max_hit_radiance(!all);
+  for (float& channel : largest.c) channel = std::min(channel * scene.imaging_ratio, std::numeric_limits<float>::max());
+  return largest;
 }
 
 }  // namespace montelux

@@ -46,19 +46,27 @@ LightSet LightSet::with(std::shared_ptr<const ClusterField> clusters) const {
   return lights;
 }
 
-bool LightSet::is_masked(LightId light) const {
-  return (rows<float>(std::uint32_t(light), true).bits(light_slot::flags) & light_masked) != 0;
-}
-
-Rgb LightSet::max_hit_radiance(LightId light) const {
+Rgb LightSet::max_hit_radiance(bool masked_alone) const {
+  const auto raise = [](Rgb& largest, const Rgb& other) {
+    for (int c = 0; c < rgb_size; ++c) largest.c[c] = std::max(largest.c[c], other.c[c]);
+  };
+  std::vector<std::optional<Rgb>> of_images(tables_.images.size());  // which many lights may share
   Rgb largest = gray_rgb(0);
-  if (is_delta(kind(light))) return largest;
-  const LightRows<float> row = rows<float>(std::uint32_t(light), true);
-  const std::uint32_t image = row.bits(light_slot::image);
-  if (image == 0) return to_rgb(row.emission());
-  for (const Rgb& texel : tables_.images[image - 1]->texels)
-    for (int c = 0; c < rgb_size; ++c) largest.c[c] = std::max(largest.c[c], texel.c[c]);
-  return largest * to_rgb(row.emission());
+  for (std::uint32_t i = 0; i < count(); ++i) {
+    const LightRows<float> row = rows<float>(i, true);
+    if (is_delta(kind(LightId(i))) || (masked_alone && !row.flag(light_masked))) continue;
+    Rgb radiance = to_rgb(row.emission());
+    if (const std::uint32_t image = row.bits(light_slot::image); image > 0) {
+      std::optional<Rgb>& texel = of_images[image - 1];
+      if (!texel) {
+        texel = gray_rgb(0);
+        for (const Rgb& other : tables_.images[image - 1]->texels) raise(*texel, other);
+      }
+      radiance = radiance * *texel;
+    }
+    raise(largest, radiance);
+  }
+  return largest;
 }
 
 std::optional<SkyLight> LightSet::sky_light() const {

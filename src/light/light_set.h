@@ -79,9 +79,8 @@ class LightSet {
   bool has_points() const { return has_points_; }
   // Whether there are lights with holes, which only rays find.
   bool has_masked() const { return has_masked_; }
-  bool is_masked(LightId light) const;
-  // The largest radiance that a ray meets there, by channel; black for a light that no ray hits.
-  Rgb max_hit_radiance(LightId light) const;
+  // The largest radiance that a ray meets at any light, or at those with holes alone, by channel.
+  Rgb max_hit_radiance(bool masked_alone) const;
 
   std::uint32_t placed_count() const { return count() - std::uint32_t(unbounded_.size()); }
   // Lights without a position: they emit from infinity, or everywhere.

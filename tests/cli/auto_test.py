@@ -48,6 +48,12 @@ class Auto(ProgramTest):
         self.assertIn("too short", result.stderr)
         self.assertIn("chosen   path: the render is too short for pilots\n", result.stdout)
 
+    def test_limits_are_those_of_all_candidates(self):
+        for setting in "maxcomponent=0.5", "maxdepth=2":
+            stated = self.stated("--set", setting, "--spp", 64, "--set", "share=0.01", "-o", "a.pfm")
+            self.assertIn(setting, stated["biased_options"])
+            self.assertIn("choice", stated)
+
     def test_candidates_can_do_what_options_require(self):
         for options in ["--layers", "bounces:1"], ["--adaptive", "on"]:
             with self.subTest(options=options):

@@ -94,6 +94,14 @@ class Light(ProgramTest):
                                             rendered["mean"]):
                 self.assertAlmostEqual(high, expected, delta=1e-5 * expected)
                 self.assertGreater(high, 2 * mean)
+        # A channel without light has no room, and leaves that of the others.
+        red = self.scene(name="red.pbrt", world=lamp.replace("3e4 1e4", "0 0"))
+        stated, _, _ = self.rendered(red, "--spp", "16", "--integrator", "path")
+        facts = json.loads(self.run_program("info", "out.exr", "--json").stdout)
+        for channel, high in enumerate(facts["interval_of_mean"]["high"]):
+            self.assertAlmostEqual(high, stated["interval_of_mean"]["high"][channel], delta=1e-5 * high)
+        self.assertGreater(facts["interval_of_mean"]["high"][0], 2 * stated["mean"][0])
+        self.assertLess(facts["interval_of_mean"]["high"][1], 1e-9)
         clamped, _, _ = self.rendered(scene, "--spp", "16", "--integrator", "path:maxcomponent=2")
         self.assertAlmostEqual(clamped["missing_by_chance"],
                                missing * 2 / clamped["samples"] * 3 / sum(clamped["mean"]), delta=1e-4)
