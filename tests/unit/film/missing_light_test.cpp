@@ -76,11 +76,11 @@ TEST(MissingLight, keeps_a_target_from_being_reached_and_says_how_much_more_it_t
     const TargetState state = state_of(film);
     EXPECT_FALSE(state.reaches(target));
     // Nothing else adds to the bound, which falls like the number of samples.
-    EXPECT_NEAR(state.bound, missing, 1e-4 * missing);
-    EXPECT_NEAR(state.work, missing / target.error, 0.002 * state.work);
+    EXPECT_NEAR(state.bound, missing, 1e-6 * missing);
+    EXPECT_NEAR(state.work, missing / target.error, 1e-6 * state.work);
   }
   EXPECT_TRUE(film.error().may_miss_light());
-  EXPECT_NEAR(film.error().missing_share(0.95), missing, 1e-4 * missing);
+  EXPECT_NEAR(film.error().missing_share(0.95), missing, 1e-6 * missing);
   EXPECT_FALSE(unknowing.error().may_miss_light());
 }
 
