@@ -285,6 +285,28 @@ TEST(PictureError, has_a_narrower_interval_where_many_pixels_have_a_tail) {
   EXPECT_GE(within, 0.95 * images);
 }
 
+// Nearly all pixels are without noise, and the errors of the others differ by powers of ten: a tail without a mean. The
+// image shows all that there is, so that the interval must not be wider than its few pixels make it.
+TEST(PictureError, has_an_interval_of_bounded_width_however_heavy_its_tail) {
+  constexpr int images = 200;
+  int within = 0;
+  double deviation = 0, index = 0;
+  for (std::uint32_t seed = 0; seed < images; ++seed) {
+    const Picture picture = picture_of(
+        [&](int x, int y) {
+          const bool is_noisy = x % 5 == 2 && y % 5 == 2;
+          return RareLight{0.2f, is_noisy ? 2 * std::exp2(-0.1f * float(x + y)) : 0.0f, 0.3, false};
+        },
+        seed);
+    const ErrorEstimate e = picture.film.error();
+    deviation += e.log_deviation / images, index += e.tail_index / images;
+    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
+  }
+  EXPECT_LT(index, 1);
+  EXPECT_LT(deviation, 0.65);
+  EXPECT_GE(within, 0.95 * images);
+}
+
 // The variance of the true error of images, by the binomial distribution of the hits of each pixel.
 template <class Law>
 double variance_of_true_error(Law law) {
