@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@
 namespace montelux {
 
 namespace {
+
+constexpr double many_samples = std::numeric_limits<double>::infinity();
 
 // The factor for the upper end of a squared error. Deviations of its logarithm: of the estimate, which decides at each
 // look whether the render ends; and those that do not depend on that decision, and so count for one look. Among these
@@ -46,7 +49,7 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
   };
   state.error = std::sqrt(error.relative_mse);
   state.bound = bound_with(error.log_deviation);
-  const double later = bound_with(divisor_deviation);
+  const double later = bound_with(divisor_deviation(many_samples));
   predict_work(target, of_estimate, later, state);
 }
 
@@ -182,7 +185,8 @@ void judge_pixels(const ErrorTarget& target, const FilmPlanes& planes, double pa
   const double share = 1 - target.share, count = std::max(share * double(by_intervals.squares.size()), 1.0);
   const double of_estimate = 1 / std::sqrt(count * (passes - 1)), of_image = 1 / std::sqrt(count);
   state.error = error_of(share);
-  state.bound = error_of(share / upper_factor(target, of_estimate, std::hypot(of_image, divisor_deviation), spent));
+  state.bound =
+      error_of(share / upper_factor(target, of_estimate, std::hypot(of_image, divisor_deviation(many_samples)), spent));
   predict_work(target, of_estimate, state.bound, state);
 }
 

@@ -18,6 +18,7 @@ struct Sums {
   double chance = 0;  // variance of the relative squared errors
   // Of the relative errors without the correction for partial covers; without the rims of emitters.
   double seen = 0, seen_squares = 0;
+  double samples = 0;
   LargestTerms largest;
 };
 
@@ -32,7 +33,7 @@ void add_pixel(const FilmPlanes& p, const Reciprocals& reciprocals, const Partia
   double relative = of_pixel_alone;
   for (double of_channel : covers.correction(i, reciprocal)) relative += of_channel / rgb_size;
   relative = std::max(relative, 0.0);
-  sums.squared += variance, sums.relative += relative;
+  sums.squared += variance, sums.relative += relative, sums.samples += double(p.samples[i]);
   if (!covers.is_at_rim(i)) {
     sums.seen += of_pixel_alone, sums.seen_squares += of_pixel_alone * of_pixel_alone;
     sums.largest.add(of_pixel_alone);
@@ -94,7 +95,8 @@ ErrorEstimate estimate_error(const FilmPlanes& p) {
   error.effective_pixels = sums.chance > 0 ? 2 * sums.relative * sums.relative / sums.chance : double(error.pixels);
   error.tail_index = hill_index(sums.largest.sorted());
   const double equal_pixels = sums.seen_squares > 0 ? sums.seen * sums.seen / sums.seen_squares : double(error.pixels);
-  error.log_deviation = divisor_deviation + tail_deviation(error.tail_index, equal_pixels);
+  error.log_deviation =
+      divisor_deviation(sums.samples / double(error.pixels)) + tail_deviation(error.tail_index, equal_pixels);
   const double factor = std::exp(1.96 * std::hypot(error.chance_deviation(), error.log_deviation));
   add_chance_light(p, error);
   const double missing = error.missing_share(default_confidence);
