@@ -266,26 +266,34 @@ TEST(PictureError, has_no_tail_at_the_rim_of_a_lamp) {
   EXPECT_GT(of_small_lamps, 0.1);
 }
 
+// Of images of a law(x, y, seed): how many of their intervals contain the true error, and means.
+struct Intervals {
+  int within = 0;
+  double deviation = 0, tail_index = 0;
+};
+template <class Law>
+Intervals intervals_of(int images, Law law) {
+  Intervals all;
+  for (int seed = 0; seed < images; ++seed) {
+    const auto number = std::uint32_t(seed);
+    const Picture picture = picture_of([&](int x, int y) { return law(x, y, number); }, number);
+    const ErrorEstimate e = picture.film.error();
+    all.within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
+    all.deviation += e.log_deviation / images, all.tail_index += e.tail_index / images;
+  }
+  return all;
+}
+
 // A tail hides the less the more pixels share in the error: this one would give a deviation of 0.5 to a few pixels.
 TEST(PictureError, has_a_narrower_interval_where_many_pixels_have_a_tail) {
   constexpr int images = 200;
-  int within = 0;
-  double deviation = 0, index = 0;
-  for (std::uint32_t seed = 0; seed < images; ++seed) {
-    const RandomStream<float> contrasts(seed, 6u);
-    const Picture picture = picture_of(
-        [&](int x, int y) {
-          const float u = contrasts.at(std::uint32_t(y * side + x));
-          return RareLight{0.2f, 2 * std::pow(std::max(u, 1e-4f), -0.35f), 0.1, false};
-        },
-        seed);
-    const ErrorEstimate e = picture.film.error();
-    deviation += e.log_deviation / images, index += e.tail_index / images;
-    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
-  }
-  EXPECT_LT(index, 2);
-  EXPECT_LT(deviation, 0.2);
-  EXPECT_GE(within, 0.95 * images);
+  const Intervals all = intervals_of(images, [](int x, int y, std::uint32_t seed) {
+    const float u = RandomStream<float>(seed, 6u).at(std::uint32_t(y * side + x));
+    return RareLight{0.2f, 2 * std::pow(std::max(u, 1e-4f), -0.35f), 0.1, false};
+  });
+  EXPECT_LT(all.tail_index, 2);
+  EXPECT_LT(all.deviation, 0.2);
+  EXPECT_GE(all.within, 0.95 * images);
 }
 
 // Of 128 samples the divisors are known, and of 4096 pixels the sum of squares.
@@ -311,22 +319,13 @@ TEST(PictureError, has_a_narrow_interval_where_all_is_known) {
 // image shows all that there is, so that the interval must not be wider than its few pixels make it.
 TEST(PictureError, has_an_interval_of_bounded_width_however_heavy_its_tail) {
   constexpr int images = 200;
-  int within = 0;
-  double deviation = 0, index = 0;
-  for (std::uint32_t seed = 0; seed < images; ++seed) {
-    const Picture picture = picture_of(
-        [&](int x, int y) {
-          const bool is_noisy = x % 5 == 2 && y % 5 == 2;
-          return RareLight{0.2f, is_noisy ? 2 * std::exp2(-0.1f * float(x + y)) : 0.0f, 0.3, false};
-        },
-        seed);
-    const ErrorEstimate e = picture.film.error();
-    deviation += e.log_deviation / images, index += e.tail_index / images;
-    within += picture.true_error >= e.relative_low && picture.true_error <= e.relative_high;
-  }
-  EXPECT_LT(index, 1);
-  EXPECT_LT(deviation, 0.65);
-  EXPECT_GE(within, 0.95 * images);
+  const Intervals all = intervals_of(images, [](int x, int y, std::uint32_t) {
+    const bool is_noisy = x % 5 == 2 && y % 5 == 2;
+    return RareLight{0.2f, is_noisy ? 2 * std::exp2(-0.1f * float(x + y)) : 0.0f, 0.3, false};
+  });
+  EXPECT_LT(all.tail_index, 1);
+  EXPECT_LT(all.deviation, 0.65);
+  EXPECT_GE(all.within, 0.95 * images);
 }
 
 // The variance of the true error of images, by the binomial distribution of the hits of each pixel.
