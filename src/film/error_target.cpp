@@ -16,6 +16,7 @@ namespace montelux {
 
 namespace {
 
+// Of longer renders, and of pixels' calibrated intervals: what more samples do not take from divisor_deviation().
 constexpr double many_samples = std::numeric_limits<double>::infinity();
 
 // The factor for the upper end of a squared error. Deviations of its logarithm: of the estimate, which decides at each

@@ -18,7 +18,7 @@ struct Sums {
   double chance = 0;  // variance of the relative squared errors
   // Of the relative errors without the correction for partial covers; without the rims of emitters.
   double seen = 0, seen_squares = 0;
-  double samples = 0;
+  double samples = 0;  // of the pixels
   LargestTerms largest;
 };
 

@@ -75,7 +75,7 @@ TEST(MissingLight, keeps_a_target_from_being_reached_and_says_how_much_more_it_t
     EXPECT_TRUE(state_of(unknowing).reaches(target));
     const TargetState state = state_of(film);
     EXPECT_FALSE(state.reaches(target));
-    // Nothing else adds to the bound, which falls like the number of samples.
+    // Nothing else adds to the bound, which falls like the number of samples. Planes are floats: the rest is rounding.
     EXPECT_NEAR(state.bound, missing, 1e-6 * missing);
     EXPECT_NEAR(state.work, missing / target.error, 1e-6 * state.work);
   }
