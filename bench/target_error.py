@@ -89,8 +89,9 @@ def main():
             of_reference = sum(reference["standard_error"]) / sum(reference["mean"])
             over = "-"
             if arguments.shortest and reached:
+                filtered = ["--denoise"] if target.measure == "denoised" else []
                 shortest = shortest_run(lambda spp, seed: target.true_error(
-                    run(scene, 2000000 + seed, "--spp", spp)[1], true, reference["relative_mse"]), target.error, mean, pool)
+                    run(scene, 2000000 + seed, "--spp", spp, *filtered)[1], true, reference["relative_mse"]), target.error, mean, pool)
                 over = f"{mean / shortest:.2f}"
             print(f"| {scene.stem} | {100 * len(reached) / len(runs):.0f} % | {100 * within / max(len(reached), 1):.1f} % ({within}/{len(reached)}) "
                   f"| {sum(errors) / len(errors) / target.error:.3f} | {mean:.0f} | {over} "

@@ -77,8 +77,8 @@ void add_target_options(CLI::App& verb, RenderArguments& arguments) {
       verb,
       {"--target-error", "ERROR",
        "end when the error is below this with the probability --confidence: 2% (root of the mean squared relative "
-       "error), pixels:5%@95% (95 % of the pixels within 5 %) or mean:0.1% (of the mean of the image); --time or "
-       "--spp limit the render"},
+       "error), pixels:5%@95% (95 % of the pixels within 5 %), mean:0.1% (of the mean of the image) or denoised:2% "
+       "(as 2%, of the image after its noise is removed: with --denoise); --time or --spp limit the render"},
       into(arguments.target, parse_target));
   add_option(verb, {"--confidence", "P", "probability that the true error is below the requested one (default 0.95)"},
              into(arguments.confidence, [](const std::string& t) { return parse_number(t, 0.5, 0.9999); }));

@@ -297,9 +297,9 @@ Result<DenoisedLayers> denoise_image(const NoisyImage& image, const DenoiseOptio
   const Stopwatch since_start;
   try {
     const DenoisedImage done = denoise(image, DenoiseSettings{options.threads, options.stop, others});
-    return DenoisedLayers{
-        buffer_of(done, options.layers, image.width, image.height),
-        {done.noisy_mse, done.noisy_relative_mse, done.mse, done.relative_mse, done.filtered, since_start.seconds()}};
+    return DenoisedLayers{buffer_of(done, options.layers, image.width, image.height),
+                          {done.noisy_mse, done.noisy_relative_mse, done.mse, done.relative_mse, done.unfiltered,
+                           done.relative_deviation, done.filtered, since_start.seconds()}};
   } catch (const std::exception& e) {
     return Failure{e.what()};
   }
@@ -344,6 +344,17 @@ DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threa
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
   return denoise_image(noisy_image(film, !options.layers.empty()), options);
+}
+
+TargetJudge judge_of(const ErrorTarget& target, int threads) {
+  if (target.measure != TargetMeasure::denoised) return TargetJudge(target);
+  return TargetJudge(target,
+                     [threads](const Film& film, const std::function<bool()>& stops) -> std::optional<FilteredError> {
+                       const Result<DenoisedLayers> denoised = denoise(film, {threads, stops});
+                       if (!denoised) return std::nullopt;
+                       const Denoising& estimate = denoised->estimate;
+                       return FilteredError{estimate.relative_mse, estimate.unfiltered, estimate.relative_deviation};
+                     });
 }
 
 Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBuffer& motion,

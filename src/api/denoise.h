@@ -12,6 +12,7 @@
 #include "denoise/reproject.h"
 #include "image/image_file.h"
 #include "math/result.h"
+#include "render/target_judge.h"
 
 namespace montelux {
 
@@ -36,6 +37,8 @@ DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threa
 struct Denoising {
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;  // bias included
+  double unfiltered = 0;             // of relative_mse, noise of pixels that the filter leaves as it is
+  double relative_deviation = 0;     // the standard deviation of relative_mse
   double filtered = 0;               // share of the pixels that changed
   double seconds = 0;
 };
@@ -50,6 +53,9 @@ struct DenoisedLayers {
 
 // Fails where the film has no halves, or no pixel with a pass in each of them, or where it was stopped.
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options = {});
+
+// Judges films, which have halves if the target is the error that is left.
+TargetJudge judge_of(const ErrorTarget& target, int threads);
 
 // The images of a sequence, whose noise is removed one after the other: the last few before an image help it, as
 // DenoiseOptions::before does. Their samples must be independent.

@@ -10,8 +10,9 @@ Status save_snapshot(const std::filesystem::path& file, const SavedFilm& film, c
 // Whether a render, which `now` describes without its film, may add to a saved film.
 Status check_continues(const SavedFilm& film, const SavedFilm& now);
 
-// The picture of a film, with its errors and its header.
-Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan);
+// The picture of a film, with its errors and its header. `judge`: of the requested error, if there is one.
+Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan,
+                       const std::optional<TargetJudge>& judge);
 
 // Adds the intervals of the pixels. Returns false where they are unknown.
 bool add_intervals(Rendering& rendering);

@@ -108,7 +108,8 @@ std::string sparse_text(int stride) {
   return fmt::format("one pixel of each {0} x {0} is sampled, the others repeat it", stride);
 }
 
-Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan) {
+Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& plan,
+                       const std::optional<TargetJudge>& judge) {
   const ImageEstimate image = result.film.image();
   const ErrorEstimate error = result.film.error();
   Rendering rendering{std::move(result), {}, facts.notes, plan, facts.layers, 0, {}, image, error};
@@ -116,8 +117,8 @@ Rendering rendering_of(PictureFacts facts, RenderResult result, const PassPlan& 
   rendering.measured_bias = estimate_bias(rendering.result.bias);
   if (facts.target) {
     const Film& film = rendering.result.film;
-    rendering.target = TargetResult{*facts.target, judge(facts.target->error, film, facts.target->unbiased),
-                                    samples_per_pixel(film), rendering.result.seconds};
+    rendering.target = TargetResult{*facts.target, judge->judge(film, facts.target->unbiased), samples_per_pixel(film),
+                                    rendering.result.seconds};
   }
   rendering.header = header_of(facts, rendering);
   rendering.choice = std::move(facts.choice);
@@ -141,7 +142,9 @@ Rendering rendering_of(SavedFilm film) {
   const PassPlan plan{film.settings.samples_per_pass, result.film.image().passes};
   film.facts.target = film.options.target;
   const Result<LayerRequest> layers = parse_layers(film.settings.layers);
-  Rendering rendering = rendering_of(std::move(film.facts), std::move(result), plan);
+  std::optional<TargetJudge> judge;
+  if (film.facts.target) judge = judge_of(film.facts.target->error, 0);
+  Rendering rendering = rendering_of(std::move(film.facts), std::move(result), plan, judge);
   if (layers && layers->intervals) add_intervals(rendering);
   return rendering;
 }

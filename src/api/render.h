@@ -64,6 +64,8 @@ struct RenderOptions {
   std::optional<FilmCheckpoint> checkpoint;
   SavedFilm* resume = nullptr;  // to be continued, with the options that take_options() gives; its film is moved from
 
+  // By request, or for the error that is requested.
+  bool removes_noise() const;
   // The layers, with those that other options need.
   std::optional<LayerRequest> all_layers() const;
 };

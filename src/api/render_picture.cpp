@@ -63,7 +63,7 @@ PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& sett
   const std::optional<int> stated = plan.samples_per_pass;
   if (stated && !target.unbiased) return {{*stated, (max_samples + *stated - 1) / *stated}, {}};
   const auto plan_by_pilot = target.unbiased ? plan_in_two_stages : plan_for_target;
-  PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, target.error, max_samples, observer);
+  PlanOfPilot planned = plan_by_pilot(plan.chosen.any(), settings, *settings.target, max_samples, observer);
   PassPlan passes = planned.plan;
   if (stated) passes = {*stated, (passes.samples() + *stated - 1) / *stated};
   return {passes, std::move(planned.pilot)};
@@ -121,15 +121,16 @@ std::optional<BegunFilm> begin_adaptive(const RenderPlan& plan, RenderSettings& 
   make_tiles_small(settings.plan);
   settings.unbiased = nullptr;
   const bool looks = plan.target && !is_unbiased(plan);
-  const std::optional<ErrorTarget> target = looks ? std::optional(plan.target->error) : std::nullopt;
+  const std::optional<TargetJudge> target = looks ? settings.target : std::nullopt;
   const int first = adaptive->first_passes;
   std::optional<BegunFilm> begun;
   if (adaptive->shares.empty()) {
     if (film) film->adaptive = adaptive, state_passes(plan, settings, *film);
     RenderSettings of_first = settings;
     of_first.plan.passes = std::min(first, settings.plan.passes), of_first.target.reset(), of_first.work = nullptr;
-    FirstPart part = render_first_part(plan.chosen.any(), of_first, target ? target->measure : TargetMeasure::relative,
-                                       passes ? double(first) / *passes : 0, observer);
+    FirstPart part =
+        render_first_part(plan.chosen.any(), of_first, target ? target->target().measure : TargetMeasure::relative,
+                          passes ? double(first) / *passes : 0, observer);
     begun = std::move(part.begun);
     if (!part.is_complete || of_first.plan.passes < first) return begun;
     adaptive->shares = std::move(part.shares);
@@ -250,7 +251,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
     settings.plan = {int(result.film.samples(b.x0, b.y0)) / passes, passes};
     plan.ending = result.ending;
   }
-  Rendering rendering = rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan);
+  Rendering rendering =
+      rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan, settings.target);
   if (plan.denoise && !plan.is_sequence)
     add_denoised(
         rendering, [&](const Film& of) { return denoise(of, denoise_options(rendering.layers, settings.threads)); },

@@ -254,8 +254,12 @@ Status plan_samples(const RenderOptions& options, int default_samples, RenderPla
   return Done{};
 }
 
+bool RenderOptions::removes_noise() const {
+  return denoise || (target && target->error.measure == TargetMeasure::denoised);
+}
+
 std::optional<LayerRequest> RenderOptions::all_layers() const {
-  if (!denoise) return layers;
+  if (!removes_noise()) return layers;
   LayerRequest all = layers.value_or(LayerRequest{});
   all.halves = true;
   return all;
@@ -273,7 +277,7 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   RenderPlan plan;
   if (Status good = plan_integrator(parts, options, *preset, plan); !good) return good.failure();
   plan.motion = options.layers && options.layers->motion;
-  plan.denoise = options.denoise;
+  plan.denoise = options.removes_noise();
   plan.intervals = options.layers && options.layers->intervals;
   const std::optional<LayerRequest> layers_and_halves = options.all_layers();
   plan.settings.image.halves = layers_and_halves && layers_and_halves->halves;
@@ -290,8 +294,8 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   plan.seconds = options.seconds, plan.budget = options.budget;
   plan.target = options.target, plan.adaptive = options.adaptive.value_or(false);
   if (plan.target) {
-    plan.settings.target = plan.target->error;
-    if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(plan.target->error);
+    plan.settings.target = judge_of(plan.target->error, options.threads);
+    if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(*plan.settings.target);
   }
   return plan;
 }

@@ -24,10 +24,11 @@ std::optional<double> percentage(std::string_view text) {
 }
 
 Failure invalid(const std::string& text) {
-  return {
-      fmt::format("takes an error in percent: 2% of the pixels (root of the mean square), pixels:5%@95% (95 % of the "
-                  "pixels within 5 %) or mean:0.1% (of the mean of the image); found \"{}\"",
-                  text)};
+  return {fmt::format(
+      "takes an error in percent: 2% of the pixels (root of the mean square), pixels:5%@95% (95 % of the "
+      "pixels within 5 %), mean:0.1% (of the mean of the image) or denoised:2% (as 2%, of the image without "
+      "noise); found \"{}\"",
+      text)};
 }
 
 }  // namespace
@@ -38,6 +39,9 @@ Result<ErrorTarget> parse_target(const std::string& text) {
   if (error.starts_with("mean:")) {
     target.measure = TargetMeasure::mean;
     error.remove_prefix(5);
+  } else if (error.starts_with("denoised:")) {
+    target.measure = TargetMeasure::denoised;
+    error.remove_prefix(9);
   } else if (error.starts_with("pixels:")) {
     target.measure = TargetMeasure::pixels;
     error.remove_prefix(7);
@@ -64,6 +68,8 @@ std::string to_text(const ErrorTarget& target) {
       return fmt::format("pixels:{}@{:.6g}%", error, 100 * target.share);
     case TargetMeasure::mean:
       return "mean:" + error;
+    case TargetMeasure::denoised:
+      return "denoised:" + error;
     default:
       return error;
   }

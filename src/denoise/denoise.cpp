@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -61,6 +62,9 @@ struct ErrorSums {
   double filtered = 0, filtered_relative = 0;
   double least = 0;  // what the difference of the halves shows, of `filtered`
   double measured = 0;
+  double unfiltered = 0;  // of `filtered_relative`, noise of pixels that is left as it is
+  // Of each pixel: what it adds to `filtered_relative` by itself, less the mean around it.
+  std::vector<double> apart;
 };
 
 class Denoiser {
@@ -90,6 +94,9 @@ class Denoiser {
     const double count = std::max(sums.measured, 1.0);
     result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
     result.mse = std::max(sums.filtered, sums.least) / count, result.relative_mse = sums.filtered_relative / count;
+    result.unfiltered = sums.unfiltered / count;
+    const double squares = std::inner_product(sums.apart.begin(), sums.apart.end(), sums.apart.begin(), 0.0);
+    result.relative_deviation = std::sqrt(squares) / count;
     add_layers(result);
     return result;
   }
@@ -276,6 +283,7 @@ class Denoiser {
   // The error of each pixel, and sums over all.
   ErrorSums estimate_error(const FilteredColors& colors, const RelativeScale& scale, ColorPlanes& errors) const {
     ErrorSums sums;
+    sums.apart.resize(image_.pixels());
     for (std::size_t c = 0; c < rgb_size; ++c)
       errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], sums);
     return sums;
@@ -303,14 +311,17 @@ class Denoiser {
       sums.filtered += squared, sums.least += noise;
       sums.noisy += noisy, sums.noisy_relative += noisy * relative;
       sums.measured += 1;
+      const double left = square(double(own_share(i)));
+      sums.unfiltered += left * noisy * relative;
       if (of_covers.empty()) continue;
       const double lack = std::max(double(of_covers[i]), -noisy * relative);  // no error is below 0
-      error[i] += square(own_share(i)) * float(lack), sums.noisy_relative += lack;
+      error[i] += float(left * lack), sums.noisy_relative += lack, sums.unfiltered += left * lack;
     }
     // Means of relative errors: those of bright pixels must not spread to dark ones.
     const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
     const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
     for (std::size_t i = 0; i < image_.pixels(); ++i) {
+      sums.apart[i] += double(error[i] - mean[i]);
       // The difference of the halves shows their noise alone: the error is not less.
       const float relative = std::max({mean[i], noise[i], 0.0f});
       error[i] = std::sqrt(relative / scale[i]);

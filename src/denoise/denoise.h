@@ -55,7 +55,9 @@ struct DenoisedImage {
   // square of the expectation plus relative_epsilon, as in ErrorEstimate.
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;
-  double filtered = 0;  // share of the pixels that the filter changes
+  double unfiltered = 0;          // of relative_mse, noise of pixels that the filter leaves as it is
+  double relative_deviation = 0;  // the standard deviation of relative_mse, by the spread of what pixels add to it
+  double filtered = 0;            // share of the pixels that the filter changes
   std::vector<DenoisedLayer> layers;
 };
 

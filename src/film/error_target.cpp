@@ -29,12 +29,19 @@ double upper_factor(const ErrorTarget& target, double of_estimate, double of_one
       std::hypot(normal_quantile(1 - wrong * spent) * of_estimate, normal_quantile(1 - wrong) * of_one_look));
 }
 
-// Work for an error that falls like the root of the number of samples. `deviation`: of the logarithm of the squared
-// error's estimate. `later`: the bound by what is in it however many samples there are; the rest may fall.
-void predict_work(const ErrorTarget& target, double deviation, double later, TargetState& state) {
-  constexpr double of_rate = 0.1;  // how well the errors of longer passes follow that law
-  const double factor = std::exp(std::hypot(1.96 * deviation, of_rate));
-  const auto work_of = [&](double bound) { return bound * bound / (target.error * target.error); };
+// How a squared error falls with the number of samples: like their `power`, the uncertainty of which is relative.
+struct Decay {
+  double power = 1, uncertainty = 0;
+};
+
+// `deviation`: of the logarithm of the squared error's estimate. `later`: the bound by what is in it however many
+// samples there are; the rest may fall.
+void predict_work(const ErrorTarget& target, double deviation, double later, TargetState& state,
+                  const Decay& decay = {}) {
+  constexpr double of_passes = 0.1;  // how well the errors of longer passes follow that law
+  const auto work_of = [&](double bound) { return std::pow(bound / target.error, 2 / decay.power); };
+  const double of_power = decay.uncertainty * std::log(std::max(work_of(state.bound), 1.0));
+  const double factor = std::exp(std::hypot(1.96 * deviation / decay.power, of_passes, of_power));
   const double now = work_of(state.bound), then = work_of(std::min(later, state.bound));
   // A little more at least, if the bound is not below the target yet.
   state.work = std::clamp(then, std::min(now, 1.1), now), state.work_low = then / factor,
@@ -52,6 +59,30 @@ void judge_relative(const ErrorTarget& target, const ErrorEstimate& error, doubl
   state.bound = bound_with(error.log_deviation);
   const double later = bound_with(divisor_deviation(many_samples));
   predict_work(target, of_estimate, later, state);
+}
+
+// The upper end of the squared error that a filter leaves: its estimate is a sum over pixels of terms of both signs, so
+// its deviation adds to it; what bright samples the image has not met yet multiplies it, as without the filter. At
+// worst the filter leaves all noise: no more samples are needed than without it.
+void judge_denoised(const ErrorTarget& target, const ErrorEstimate& error, const FilteredError& filtered, double passes,
+                    double spent, TargetState& state) {
+  constexpr double of_choice = 0.15;  // deviation of the logarithm: each pixel takes the least of several estimates
+  constexpr Decay decay{filtered_power, 0.25};
+  const double wrong = 1 - target.confidence;
+  const double of_estimate = std::hypot(filtered.deviation, filtered.unfiltered * error.chance_deviation(passes - 1));
+  const double of_image = filtered.unfiltered * error.chance_deviation();
+  const auto bound_with = [&](double log_deviation) {
+    const double factor = std::exp(normal_quantile(1 - wrong) * std::hypot(log_deviation, of_choice));
+    const double of_one_look = std::hypot(normal_quantile(1 - wrong) * of_image, filtered.relative_mse * (factor - 1));
+    return std::sqrt(filtered.relative_mse + std::hypot(normal_quantile(1 - wrong * spent) * of_estimate, of_one_look));
+  };
+  state.error = std::sqrt(filtered.relative_mse), state.bound = bound_with(error.log_deviation);
+  const double deviation = filtered.relative_mse > 0 ? of_estimate / filtered.relative_mse : 0;
+  predict_work(target, deviation, bound_with(divisor_deviation(many_samples)), state, decay);
+  TargetState noisy;
+  judge_relative(target, error, passes, spent, noisy);
+  state.work = std::min(state.work, noisy.work), state.work_low = std::min(state.work_low, noisy.work_low);
+  state.work_high = std::min(state.work_high, noisy.work_high);
 }
 
 // The relative errors of the pixels that have two passes.
@@ -239,10 +270,11 @@ void add_missing_light(const ErrorTarget& target, double missing, TargetState& s
 }  // namespace
 
 TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const ErrorEstimate& error,
-                  const ImageEstimate& image, double spent) {
+                  const ImageEstimate& image, double spent, const std::optional<FilteredError>& filtered) {
   TargetState state;
   const bool has_light = std::ranges::any_of(image.mean, [](double mean) { return mean != 0; });
   if (image.passes < 2 || !error.whole() || !has_light) return state;
+  if (target.measure == TargetMeasure::denoised && !filtered) return state;
   state.is_known = true;
   switch (target.measure) {
     case TargetMeasure::relative:
@@ -253,6 +285,9 @@ TargetState judge(const ErrorTarget& target, const FilmPlanes& planes, const Err
       break;
     case TargetMeasure::mean:
       judge_mean(target, planes, image, state);
+      break;
+    case TargetMeasure::denoised:
+      judge_denoised(target, error, *filtered, image.passes, spent, state);
       break;
   }
   add_missing_light(target, error.missing_share(target.confidence), state);

@@ -30,11 +30,11 @@ class FirstPartObserver final : public RenderObserver {
 
 }  // namespace
 
-AdaptivePlan::AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<ErrorTarget>& target)
+AdaptivePlan::AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<TargetJudge>& judge)
     : shares_(std::move(shares)),
       first_passes_(first_passes),
-      target_(target),
-      looks_(target.value_or(ErrorTarget{})) {}
+      judge_(judge),
+      looks_(judge ? judge->target().measure : TargetMeasure::relative) {}
 
 int AdaptivePlan::passes_at(int level, std::size_t tile) const {
   return std::max(std::min(level, first_passes_),
@@ -53,13 +53,14 @@ int AdaptivePlan::level_of(const Film& film, const PassPlan& passes) const {
   return low;
 }
 
-WorkRound AdaptivePlan::next_round(const Film& film, const PassPlan& passes) const {
+WorkRound AdaptivePlan::next_round(const Film& film, const PassPlan& passes, const std::function<bool()>& stops) const {
   const int level = level_of(film, passes);
   if (level >= passes.passes) return {};
   bool is_whole = true;
   std::size_t number = 0;
   for (const auto& [index, tile] : film.tiles()) is_whole &= int(tile.passes.size()) == passes_at(level, number++);
-  if (target_ && is_whole && looks_.is_look(level) && judge(*target_, film, false).reaches(*target_)) return {};
+  if (judge_ && is_whole && looks_.is_look(level) && judge_->judge(film, false, stops).reaches(judge_->target()))
+    return {};
   const int end = std::min(looks_.after(level), passes.passes);
   // Level by level, so that a render that is stopped has about the same shares.
   std::vector<WorkUnit> units;

@@ -15,8 +15,8 @@ namespace montelux {
 // plan's number of passes is the last level.
 class AdaptivePlan final : public WorkPlan {
  public:
-  AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<ErrorTarget>& target);
-  WorkRound next_round(const Film& film, const PassPlan& passes) const override;
+  AdaptivePlan(std::vector<double> shares, int first_passes, const std::optional<TargetJudge>& judge);
+  WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>& stops) const override;
   std::uint64_t expected_units(const Film& film, const PassPlan& passes) const override;
 
  private:
@@ -26,7 +26,7 @@ class AdaptivePlan final : public WorkPlan {
 
   std::vector<double> shares_;
   int first_passes_;
-  std::optional<ErrorTarget> target_;
+  std::optional<TargetJudge> judge_;
   Looks looks_;
 };
 

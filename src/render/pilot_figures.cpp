@@ -193,6 +193,7 @@ double samples_for_unit_error(const std::vector<WindowError>& errors, std::span<
   }
   switch (target.measure) {
     case TargetMeasure::relative:
+    case TargetMeasure::denoised:
       return sum.relative / sum.pixels;
     case TargetMeasure::mean:
       // The windows' errors are independent: of the sum over all windows it is that of these times a number, and the

@@ -62,7 +62,7 @@ class PixelWork final : public StagedWork {
   RenderResult run(RenderObserver& observer) {
     const bool requested = watch_.run(*this, observer);
     watch_.report_end(*this, observer);
-    const bool is_cut = requested && plan().next_round(film_, settings_.plan).count > 0;
+    const bool is_cut = requested && plan().next_round(film_, settings_.plan, {}).count > 0;
     RenderResult result{std::move(film_), rays_before_, watch_.seconds_before() + watch_.seconds(), is_cut};
     if (paired_) result.bias = paired_->bias();
     for (const TileState& tile : tiles_) result.rays += tile.traced, result.rays_of_tiles.push_back(tile.rays());
@@ -73,7 +73,8 @@ class PixelWork final : public StagedWork {
 
   std::optional<std::size_t> next_stage() override {
     if (watch_.stops()) return std::nullopt;
-    round_ = plan().next_round(film_, settings_.plan), units_before_round_ = units_done_;
+    round_ = plan().next_round(film_, settings_.plan, [this] { return watch_.stops(); }),
+    units_before_round_ = units_done_;
     if (round_.count == 0) return std::nullopt;
     return round_.count;
   }

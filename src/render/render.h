@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "film/error_target.h"
 #include "film/film.h"
 #include "integrator/integrator.h"
 #include "render/image_settings.h"
@@ -15,6 +14,7 @@
 #include "render/pass_plan.h"
 #include "render/stopping_rule.h"
 #include "render/stopwatch.h"
+#include "render/target_judge.h"
 #include "render/work_plan.h"
 
 namespace montelux {
@@ -24,7 +24,7 @@ struct RenderSettings {
   PassPlan plan;                              // with how many samples, in which passes
   std::shared_ptr<const WorkPlan> work;       // in which order; null: PassByPass. It ends series, too
   std::shared_ptr<const StoppingRule> stop;   // when it stops before the plan is done; null: never
-  std::optional<ErrorTarget> target;          // whose time left the progress shows; a rule or a plan ends the render
+  std::optional<TargetJudge> target;          // whose time left the progress shows; a rule or a plan ends the render
   BegunFilm* begun = nullptr;                 // the film to continue, of the same image; it is moved from
   FilmKeeping keeping;                        // where the film is saved; nowhere if `keep` is empty
   SequenceSettings sequence;                  // what series keep for the next image

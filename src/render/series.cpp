@@ -202,7 +202,8 @@ class SeriesWork final : public StagedWork {
   // Whether the film has what the plan of work requires.
   bool is_planned() const {
     if (pass_ == settings_.plan.passes) return true;
-    return settings_.work && settings_.work->next_round(film_, settings_.plan).count == 0;
+    return settings_.work &&
+           settings_.work->next_round(film_, settings_.plan, [this] { return watch_.stops(); }).count == 0;
   }
 
   // Skips the passes that the film has.

@@ -13,12 +13,6 @@ namespace {
 // Passes that the render itself never takes.
 constexpr int first_pilot_pass = 1 << 30;
 
-// Consecutive looks that spend alike, and what they spend together.
-struct SpentBlock {
-  int looks;
-  double share;
-};
-
 // Shows that the render has begun, without figures of the picture.
 class PilotObserver final : public RenderObserver {
  public:
@@ -56,37 +50,18 @@ int predicted_samples(double samples, double work, int max_samples) {
 }
 
 void clear_for_pilot(RenderSettings& settings) {
+  settings.image.layers.reset(), settings.image.halves = settings.target && settings.target->needs_halves();
   settings.work = nullptr, settings.stop = nullptr, settings.begun = nullptr, settings.target.reset();
   settings.keeping = {}, settings.sequence = {}, settings.unbiased = nullptr;
-  settings.image.layers.reset(), settings.image.halves = false;
 }
 
 }  // namespace
 
-int Looks::after(int passes) const {
-  if (passes < first_) return first_;
-  int look = first_;
-  while (look <= passes) look += std::max(look / 8, 1);
-  return look;
-}
-
-double Looks::spent(int passes) const {
-  int number = 0;
-  for (int look = first_; look < passes; look = after(look)) ++number;
-  constexpr std::array blocks = {SpentBlock{4, 0.16}, SpentBlock{8, 0.48}, SpentBlock{8, 0.24}};
-  double rest = 1;
-  for (const SpentBlock& block : blocks) {
-    if (number < block.looks) return block.share / block.looks;
-    number -= block.looks, rest -= block.share;
-  }
-  return rest / double((number + 1) * (number + 2));
-}
-
-WorkRound TargetPlan::next_round(const Film& film, const PassPlan& passes) const {
+WorkRound TargetPlan::next_round(const Film& film, const PassPlan& passes, const std::function<bool()>& stops) const {
   const PassesDone done = passes_of(film, passes);
   if (done.all >= passes.passes) return {};
   const bool is_whole = done.all == done.any;
-  if (is_whole && looks_.is_look(done.all) && judge(target_, film, false).reaches(target_)) return {};
+  if (is_whole && looks_.is_look(done.all) && judge_.judge(film, false, stops).reaches(judge_.target())) return {};
   // A round that was interrupted is completed first.
   const int end = std::min(looks_.after(is_whole ? done.all : done.any - 1), passes.passes);
   const std::size_t tiles = film.tiles().size();
@@ -99,17 +74,6 @@ std::uint64_t TargetPlan::expected_units(const Film& film, const PassPlan& passe
   return std::uint64_t(film.tiles().size()) * std::uint64_t(passes.passes);
 }
 
-TargetState judge(const ErrorTarget& target, const Film& film, bool single_look) {
-  const ImageEstimate image = film.image();
-  if (image.passes < 2 || film.grid().stride > 1) return {};
-  FilmPlanes planes(film.bounds());
-  planes.copy(film, film.bounds());
-  std::size_t max_passes = 0;
-  for (const auto& [index, tile] : film.tiles()) max_passes = std::max(max_passes, tile.passes.size());
-  const double spent = single_look ? 1 : Looks(target).spent(int(max_passes));
-  return judge(target, planes, estimate_error(planes), image, spent);
-}
-
 Pilot pilot_of(const AnyIntegrator& integrator, RenderSettings settings, int samples_per_pass, int passes,
                RenderObserver& observer) {
   clear_for_pilot(settings);
@@ -119,9 +83,11 @@ Pilot pilot_of(const AnyIntegrator& integrator, RenderSettings settings, int sam
   return {std::move(result.film), std::move(result.rays_of_tiles)};
 }
 
-PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings settings, const TargetJudge& judge,
                             int max_samples, RenderObserver& observer) {
-  constexpr int share = 16;  // at least so many times the samples of a pilot are predicted when it is replaced
+  // At least so many times the samples of a pilot are predicted when it is replaced. What is left without noise is less
+  // easily foreseen.
+  const int share = judge.target().measure == TargetMeasure::denoised ? 8 : 16;
   constexpr int growth = 4;
   clear_for_pilot(settings);
   PilotObserver silent(observer);
@@ -133,7 +99,7 @@ PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings sett
   for (;;) {
     pilot = render(integrator, settings, silent);
     const double samples = settings.plan.samples();
-    predicted = predicted_samples(samples, judge(target, pilot.film, true).work, max_samples);
+    predicted = predicted_samples(samples, judge.judge(pilot.film, true).work, max_samples);
     settings.plan.first_pass += settings.plan.passes;
     const int k = settings.plan.samples_per_pass * growth;
     if (pilot.interrupted || 2.0 * k * share > predicted || k > longest) break;
@@ -142,18 +108,17 @@ PlanOfPilot plan_for_target(const AnyIntegrator& integrator, RenderSettings sett
   PassPlan plan = plan_passes(integrator, predicted, sampler);
   // The error of the mean is known by the spread of the passes alone.
   constexpr int passes_for_mean = 24;
-  while (target.measure == TargetMeasure::mean && plan.samples_per_pass > 1 &&
+  while (judge.target().measure == TargetMeasure::mean && plan.samples_per_pass > 1 &&
          predicted / plan.samples_per_pass < passes_for_mean)
     plan.samples_per_pass /= 2;
   plan.passes = std::max((max_samples + plan.samples_per_pass - 1) / plan.samples_per_pass, 1);
   return {plan, {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }
 
-PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const ErrorTarget& target,
+PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings settings, const TargetJudge& judge,
                                int max_samples, RenderObserver& observer) {
   // Twice the error takes a quarter of the samples.
-  ErrorTarget of_pilot = target;
-  of_pilot.error *= 2;
+  const TargetJudge of_pilot = judge.with_error(2 * judge.target().error);
   settings.plan = plan_for_target(integrator, settings, of_pilot, std::max(max_samples / 4, 1), observer).plan;
   clear_for_pilot(settings);
   // After the passes of the first pilots.
@@ -163,7 +128,7 @@ PlanOfPilot plan_in_two_stages(const AnyIntegrator& integrator, RenderSettings s
   RenderResult pilot = render(integrator, settings, silent);
   const double samples = double(settings.plan.samples_per_pass) * std::max(pilot.film.image().passes, 1);
   // A little more than expected, so that most images reach it.
-  return {plan_passes(integrator, predicted_samples(samples, 1.1 * judge(target, pilot.film, true).work, max_samples),
+  return {plan_passes(integrator, predicted_samples(samples, 1.1 * judge.judge(pilot.film, true).work, max_samples),
                       settings.image.sampler),
           {std::move(pilot.film), std::move(pilot.rays_of_tiles)}};
 }

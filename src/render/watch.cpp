@@ -157,7 +157,7 @@ std::chrono::milliseconds RenderWatch::interval(StagedWork& work) const {
 FilmError error_of(const FilmPlanes& planes, const RenderSettings& settings,
                    const std::function<ImageEstimate()>& image) {
   FilmError error{estimate_error(planes), {}};
-  if (settings.target) error.target = judge(*settings.target, planes, error.error, image(), 1);
+  if (settings.target) error.target = settings.target->judge(planes, error.error, image());
   return error;
 }
 

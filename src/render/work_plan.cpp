@@ -4,7 +4,7 @@
 
 namespace montelux {
 
-WorkRound PassByPass::next_round(const Film& film, const PassPlan& passes) const {
+WorkRound PassByPass::next_round(const Film& film, const PassPlan& passes, const std::function<bool()>&) const {
   const std::uint64_t units = expected_units(film, passes);
   if (units_of(film, passes) == units) return {};
   const std::size_t tiles = film.tiles().size();

@@ -28,8 +28,9 @@ struct WorkRound {
 class WorkPlan {
  public:
   virtual ~WorkPlan() = default;
-  // The units to render next, at least one of which the film lacks; none: the render is done.
-  virtual WorkRound next_round(const Film& film, const PassPlan& passes) const = 0;
+  // The units to render next, at least one of which the film lacks; none: the render is done. A decision that takes
+  // long queries `stops`: true: the render ends, whatever is decided.
+  virtual WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>& stops) const = 0;
   // The expected number of units of all rounds, including those that the film has; for the progress.
   virtual std::uint64_t expected_units(const Film& film, const PassPlan& passes) const = 0;
 };
@@ -37,7 +38,7 @@ class WorkPlan {
 // Every tile gets every pass: one pass over all tiles after the other, in one round.
 class PassByPass final : public WorkPlan {
  public:
-  WorkRound next_round(const Film& film, const PassPlan& passes) const override;
+  WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>& stops) const override;
   std::uint64_t expected_units(const Film& film, const PassPlan& passes) const override;
 };
 

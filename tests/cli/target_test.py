@@ -10,7 +10,7 @@ class Target(ProgramTest):
         return json.loads(self.render("--json", "--quiet", *arguments, **options).stdout)
 
     def test_the_render_ends_at_the_error_with_the_same_bytes_for_any_number_of_threads(self):
-        for target in "12%", "pixels:25%@90%", "mean:0.5%":
+        for target in "12%", "pixels:25%@90%", "mean:0.5%", "denoised:12%":
             with self.subTest(target=target):
                 stated = [self.stated("--target-error", target, "--spp", 4096, "--threads", n, "-o", f"{n}.exr")
                         for n in (1, 2)]
@@ -54,6 +54,22 @@ class Target(ProgramTest):
         self.assertTrue(result["target"]["reached"])
         self.assertEqual(result["passes"], stated["passes"])
         self.assertEqual(read_pfm(self.folder / "whole.pfm"), read_pfm(self.folder / "b.pfm"))
+
+    def test_the_error_that_is_left_without_noise_takes_fewer_samples_and_continues(self):
+        noisy = self.stated("--target-error", "8%", "--spp", 4096, "-o", "noisy.pfm")
+        whole = self.stated("--target-error", "denoised:8%", "--spp", 4096, "-o", "whole.exr", "-o", "whole.pfm")
+        self.assertTrue(whole["target"]["reached"])
+        self.assertEqual(whole["target"]["error"] ** 2, whole["denoised"]["relative_mse"])
+        self.assertLess(whole["samples"], 0.7 * noisy["samples"])
+        self.assertIn(b"denoised.R", (self.folder / "whole.exr").read_bytes())
+        k = whole["samples_per_pass"]
+        self.stated("--target-error", "denoised:8%", "--spp", 5 * k, "--samples-per-pass", k, "--checkpoint", "a.film", "-o", "a.pfm")
+        again = json.loads(self.run_program("render", "--resume", "a.film", "--json", "--quiet", "-o", "b.pfm").stdout)
+        self.assertTrue(again["target"]["reached"])
+        self.assertEqual(read_pfm(self.folder / "whole.pfm"), read_pfm(self.folder / "b.pfm"))
+        self.stated("--target-error", "12%", "--spp", 4096, "--checkpoint", "other.film", "-o", "a.pfm")
+        result = self.run_program("render", "--resume", "other.film", "--target-error", "denoised:8%", "-o", "b.pfm", status=2)
+        self.assertIn("halves", result.stderr)
 
     def test_an_unbiased_render_has_other_samples_than_those_that_decide(self):
         stated = self.stated("--target-error", "12%", "--unbiased", "--spp", 4096, "--checkpoint", "a.film", "-o", "a.pfm")
@@ -107,6 +123,8 @@ class Target(ProgramTest):
                 (["--target-error", "pixels:5%"], "takes an error in percent"),
                 (["--target-error", "pixels:5%@100%"], "the share of the pixels"),
                 (["--target-error", "mean:5%@95%"], "takes an error in percent"),
+                (["--target-error", "denoised:5%@95%"], "takes an error in percent"),
+                (["--target-error", "denoized:5%"], "takes an error in percent"),
                 (["--target-error", "2%", "--confidence", "1.5"], "--confidence"),
                 (["--confidence", "0.9"], "--target-error"),
                 (["--unbiased"], "--target-error"),

@@ -64,13 +64,14 @@ TEST(MissingLightPlanted, that_nothing_is_known_of_or_a_third_of_it_is_found) {
 TEST(MissingLight, keeps_a_target_from_being_reached_and_says_how_much_more_it_takes) {
   const Film film = film_of(0, 1, bright), unknowing = film_of(0, 1, gray_rgb(0));
   const double mean = (3000.0 + 1000 + 200) / 3 / samples, missing = -std::log(0.05) * mean / base;
-  for (TargetMeasure measure : {TargetMeasure::mean, TargetMeasure::relative, TargetMeasure::pixels}) {
+  for (TargetMeasure measure :
+       {TargetMeasure::mean, TargetMeasure::relative, TargetMeasure::pixels, TargetMeasure::denoised}) {
     ErrorTarget target;
     target.measure = measure, target.error = 0.05;
     const auto state_of = [&](const Film& f) {
       FilmPlanes planes(bounds);
       planes.copy(f, bounds);
-      return judge(target, planes, f.error(), f.image(), 1);
+      return judge(target, planes, f.error(), f.image(), 1, FilteredError{});
     };
     EXPECT_TRUE(state_of(unknowing).reaches(target));
     const TargetState state = state_of(film);

@@ -144,21 +144,21 @@ TEST(AdaptivePlan, gives_the_same_bits_for_any_number_of_threads_and_after_a_sto
 
 TEST(AdaptivePlan, ends_at_an_error) {
   const RareLight light(5);
-  const ErrorTarget target{TargetMeasure::mean, 0.02};
+  const TargetJudge judge(ErrorTarget{TargetMeasure::mean, 0.02});
   FirstPart first = first_part_of(light, 2, 16);
   RenderSettings s = settings_for(2, 4000);
-  s.work = std::make_shared<AdaptivePlan>(first.shares, 4, target), s.target = target, s.begun = &first.begun;
+  s.work = std::make_shared<AdaptivePlan>(first.shares, 4, judge), s.target = judge, s.begun = &first.begun;
   RenderObserver silent;
   const RenderResult result = render(light, s, silent);
   EXPECT_LT(mean_passes(result.film), 1000);
-  EXPECT_TRUE(judge(target, result.film, false).reaches(target));
+  EXPECT_TRUE(judge.judge(result.film, false).reaches(judge.target()));
 }
 
 // An allocation that sees the samples that it weighs: after four passes of each tile, as many more as their error
 // requires.
 class SeesItsOwnSamples final : public WorkPlan {
  public:
-  WorkRound next_round(const Film& film, const PassPlan& passes) const override {
+  WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>&) const override {
     std::vector<WorkUnit> units;
     std::size_t number = 0;
     const bool is_pilot = film.passes(film.tiles().begin()->second.cells) < 4;

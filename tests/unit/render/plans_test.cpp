@@ -42,7 +42,7 @@ double variance_of(const Film& film, const FilmTile& tile) {
 class WhereNoisy final : public WorkPlan {
  public:
   explicit WhereNoisy(double goal) : goal_(goal) {}
-  WorkRound next_round(const Film& film, const PassPlan& passes) const override {
+  WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>&) const override {
     std::vector<WorkUnit> units;
     std::size_t number = 0;
     for (const auto& [index, tile] : film.tiles()) {
@@ -106,7 +106,7 @@ TEST(WorkPlan, continues_a_film_where_it_stopped) {
 TEST(WorkPlan, whose_round_has_no_new_pass_is_an_error) {
   class Repeats final : public WorkPlan {
    public:
-    WorkRound next_round(const Film&, const PassPlan&) const override {
+    WorkRound next_round(const Film&, const PassPlan&, const std::function<bool()>&) const override {
       return {1, [](std::size_t) { return WorkUnit{0, 0}; }};
     }
     std::uint64_t expected_units(const Film&, const PassPlan&) const override { return 1; }

@@ -99,7 +99,7 @@ RenderSettings settings_for(int threads) {
 RenderResult render_to(const AnyIntegrator& integrator, const ErrorTarget& target, RenderSettings s,
                        int passes = 4000) {
   s.plan = {1, passes};
-  s.work = std::make_shared<TargetPlan>(target), s.target = target;
+  s.work = std::make_shared<TargetPlan>(TargetJudge(target)), s.target = TargetJudge(target);
   RenderObserver silent;
   return render(integrator, s, silent);
 }
@@ -138,11 +138,11 @@ TEST(TargetPlan, ends_series) {
   const SeriesNoise noise(1);
   RenderSettings s = settings_for(2);
   s.plan = {2, 4000};
-  s.work = std::make_shared<TargetPlan>(relative), s.target = relative;
+  s.work = std::make_shared<TargetPlan>(TargetJudge(relative)), s.target = TargetJudge(relative);
   RenderObserver silent;
   const RenderResult result = render(noise, s, silent);
   EXPECT_FALSE(result.interrupted);
-  EXPECT_TRUE(judge(relative, result.film, false).reaches(relative));
+  EXPECT_TRUE(TargetJudge(relative).judge(result.film, false).reaches(relative));
   EXPECT_NEAR(2 * result.film.image().passes, render_to(Noise(1), relative, settings_for(1)).film.image().passes, 6);
 }
 
@@ -156,7 +156,7 @@ TEST(TargetPlan, does_not_end_without_light) {
   };
   const RenderResult result = render_to(Dark(), relative, settings_for(2), 100);
   EXPECT_EQ(result.film.image().passes, 100);
-  EXPECT_FALSE(judge(relative, result.film, false).is_known);
+  EXPECT_FALSE(TargetJudge(relative).judge(result.film, false).is_known);
 }
 
 // The end of the plan is the most that it may take: it is no time left to the error.
@@ -182,7 +182,7 @@ TEST(TargetPlan, shows_no_time_left_as_long_as_it_is_not_known) {
   for (const bool with_target : {true, false}) {
     RenderSettings s = settings_for(2);
     s.plan = {1, 40};
-    if (with_target) s.work = std::make_shared<TargetPlan>(relative), s.target = relative;
+    if (with_target) s.work = std::make_shared<TargetPlan>(TargetJudge(relative)), s.target = TargetJudge(relative);
     Watching observer;
     (void)render(SlowAndDark(), s, observer);
     EXPECT_GT(observer.looks, 0);
@@ -191,18 +191,20 @@ TEST(TargetPlan, shows_no_time_left_as_long_as_it_is_not_known) {
 }
 
 TEST(Looks, spend_all_of_the_probability_and_not_more) {
-  const Looks looks(relative);
-  double spent = 0;
-  int look = 0, number = 0;
-  while (number < 400) {
-    const int next = looks.after(look);
-    EXPECT_TRUE(looks.is_look(next));
-    for (int between = look + 1; between < next; ++between) EXPECT_FALSE(looks.is_look(between));
-    spent += looks.spent(next), look = next, ++number;
-    if (look > (1 << 20)) break;
+  for (TargetMeasure measure : {TargetMeasure::relative, TargetMeasure::denoised}) {
+    const Looks looks(measure);
+    double spent = 0;
+    int look = 0, number = 0;
+    while (number < 400) {
+      const int next = looks.after(look);
+      EXPECT_TRUE(looks.is_look(next));
+      for (int between = look + 1; between < next; ++between) EXPECT_FALSE(looks.is_look(between));
+      spent += looks.spent(next), look = next, ++number;
+      if (look > (1 << 20)) break;
+    }
+    EXPECT_LT(spent, 1);
+    EXPECT_GT(spent, 0.95);
   }
-  EXPECT_LT(spent, 1);
-  EXPECT_GT(spent, 0.95);
 }
 
 // Of many renders, the share whose true error is within the target.
@@ -264,7 +266,7 @@ double estimate_of_pixels(double share, MakeNoise noise_of, Expectation expectat
         errors.push_back(std::sqrt(square / (expected * expected + 0.01)));
       }
     std::ranges::sort(errors);
-    ratio += judge(target, film, true).error / errors[std::size_t(share * double(errors.size()))] / images;
+    ratio += TargetJudge(target).judge(film, true).error / errors[std::size_t(share * double(errors.size()))] / images;
   }
   return ratio;
 }
@@ -308,9 +310,9 @@ TEST(TargetState, knows_that_most_pixels_are_not_those_of_extreme_samples) {
 class LooksTooOften final : public WorkPlan {
  public:
   explicit LooksTooOften(const ErrorTarget& target) : target_(target) {}
-  WorkRound next_round(const Film& film, const PassPlan& passes) const override {
+  WorkRound next_round(const Film& film, const PassPlan& passes, const std::function<bool()>&) const override {
     const int done = film.image().passes;
-    const TargetState state = judge(target_, film, true);
+    const TargetState state = TargetJudge(target_).judge(film, true);
     const double factor = target_.measure == TargetMeasure::mean     ? 1.96
                           : target_.measure == TargetMeasure::pixels ? 1 / 1.06
                                                                      : 1;
